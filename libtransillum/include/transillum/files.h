@@ -1,0 +1,42 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "transillum/directions.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+#include "transillum/transfers.h"
+
+namespace transillum {
+
+// All writers write beside the target and rename: a file is there whole or not at all. Numbers
+// read back bit for bit. They throw std::runtime_error naming the file when it cannot be written.
+
+/// Writes `path` by way of a temporary neighbour; `write` fills the stream. When `write` throws,
+/// nothing is left behind.
+void write_file_whole(const std::filesystem::path& path,
+                      const std::function<void(std::ostream&)>& write);
+
+/// Writes the description as OBJ with its MTL beside it (same stem).
+void write_obj(const std::filesystem::path& path, const SceneDescription& description);
+
+/// @throws InputError unless `path` ends in .csv, .vtp, .ply or .obj. Call it before long work.
+void check_result_path(const std::filesystem::path& path);
+/// Writes a solution as the ending of `path` says (cli.md for the columns of CSV).
+void write_result(const std::filesystem::path& path, const Solution& solution);
+
+/// receiver,source,area; source -1: nothing above, or a back side.
+void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
+/// u,v,x,y,z
+void write_directions_csv(const std::filesystem::path& path,
+                          const std::vector<DirectionSample>& directions);
+/// The JSON of --stats.
+void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
+                      const Solution& solution);
+
+}  // namespace transillum

@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// A(i,j,omega) of eq. 14: the area, on the plane perpendicular to omega, where front-facing i
+/// sees back-facing j with nothing between; m², > 0.
+struct Transfer {
+  PatchId receiver;
+  PatchId source;
+  double area;
+};
+
+/// How much of a receiver's projection was accounted for, m².
+struct Coverage {
+  double projected = 0;  ///< area of the patch's projection, 0 where it does not receive
+  double covered = 0;    ///< of it, where some surface lies above, lit side or back
+};
+
+/// All that one direction tells, and the one currency between engines and solvers.
+///
+/// `exchanges` serves two directions: it lists A(i,j,omega), and A(j,i,-omega) is the same number.
+struct Transfers {
+  Vec3 direction;                   ///< omega: unit, from the receiver toward the source
+  std::vector<Transfer> exchanges;  ///< by receiver, then source; one entry a pair
+  std::vector<Coverage> forward;    ///< a patch: as receiver for omega
+  std::vector<Coverage> backward;   ///< a patch: as receiver for -omega
+  std::vector<double> back_seen;    ///< a patch: area of its back that receivers look at, both ways
+};
+
+/// What one direction's transfers leave open (method: closure), both ways taken together.
+struct ClosureDefect {
+  double relative = 0;  ///< largest |projected - covered| / projected, patches seen at >= 1e-6
+  double grazing = 0;   ///< the same over the patch's own area, patches seen at less
+  PatchId worst = no_patch;  ///< where `relative` is reached
+};
+ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);
+
+/// An engine: from a direction omega (unit) to its Transfers. Pure: no shared mutable state, so
+/// any number of threads may call one; the same omega gives the same bits.
+/// @throws Cancelled
+using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancellation&)>;
+
+/// The local visibility map of section 3.2. Keeps scene and tree alive.
+TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
+                                std::shared_ptr<const BspTree> tree);
+
+}  // namespace transillum

@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "transillum/transfers.h"
+
+namespace transillum {
+
+/// A point of the transillumination plane, metres along PlaneFrame::u and v.
+struct Vec2 {
+  double x = 0, y = 0;
+};
+
+/// The plane perpendicular to a direction. u, v and omega form a right-handed orthonormal frame.
+struct PlaneFrame {
+  Vec3 origin;
+  Vec3 u, v, omega;
+
+  Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+};
+/// The frame that the engines use for `omega`: the same bits each time.
+PlaneFrame plane_frame(const Scene& scene, const Vec3& omega);
+
+/// The history of one direction, as a table: every fragment of the visibility map once, with the
+/// step that made it and the step that consumed it. Step k processes order[k].
+///
+/// The map V after step k is the filter made <= k < consumed. The inside list of step k holds the
+/// rows made and consumed at k; the outside list those with a parent that were made at k and
+/// consumed later. So stepping back needs no undo.
+struct MapRecord {
+  static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t no_row = -1;
+
+  struct Row {
+    PatchId patch;          ///< whose surface it is
+    std::int32_t made;      ///< step
+    std::int32_t consumed;  ///< step, or `never`
+    std::int32_t parent;    ///< row it was cut from, or no_row for a polygon new at its step
+    bool front_facing;      ///< it receives for omega and shows its back to what lies below
+    std::uint32_t begin, end;  ///< in `corners`
+  };
+
+  PlaneFrame frame;
+  std::vector<FragmentId> order;     ///< BSP fragments, as processed
+  std::vector<PatchId> step_patch;   ///< the patch that step k processes
+  std::vector<Row> rows;
+  std::vector<Vec2> corners;
+
+  std::int32_t step_count() const { return static_cast<std::int32_t>(order.size()); }
+  std::span<const Vec2> outline(const Row& row) const {
+    return {corners.data() + row.begin, row.end - row.begin};
+  }
+  /// The numbers of the rows that make up V after step k (-1: before the first).
+  std::vector<std::int32_t> map_after(std::int32_t step) const;
+  /// The step after which V has the most rows: the fullest picture of the direction.
+  std::int32_t fullest_step() const;
+};
+
+/// Runs the local map engine on one direction and keeps its history. The transfers are the same
+/// bits as the engine's.
+/// @throws Cancelled
+struct RecordedDirection {
+  Transfers transfers;
+  MapRecord record;
+};
+RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
+                                   const Cancellation& cancellation = {});
+
+}  // namespace transillum
