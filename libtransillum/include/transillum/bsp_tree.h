@@ -29,6 +29,7 @@ class BspTree {
   struct Corner {
     PointId point;
     LineId line;
+    bool forward;  ///< the edge runs along its line from a to b
   };
   /// The line of an input edge or of a cut, through two points, a < b; shared by all edges on it
   /// that come from the same input edge. Clipping against a line recomputed from the end points
@@ -55,8 +56,15 @@ class BspTree {
   struct Node {
     Plane plane;
     std::int32_t front = no_node, back = no_node;  ///< toward and against plane.normal
-    FragmentId begin = 0, end = 0;                 ///< fragments that lie in the plane
+    /// Fragments that lie in the plane: lit on the side of plane.normal from begin to middle, on
+    /// the other from middle to end; in either part those that cover others come first.
+    FragmentId begin = 0, middle = 0, end = 0;
   };
+
+  /// Points nearer to a plane than this count as on it, metres: a little more than what the
+  /// coordinates' own rounding can do, so that beyond it the side is certain
+  /// (decisions/0001-sides-of-planes.md).
+  static double thickness(const Scene& scene);
 
   /// Builds the tree. `progress`, if given, hears the share done, in [0,1], now and then.
   /// @throws Cancelled
@@ -91,7 +99,6 @@ class BspTree {
   std::vector<Vec3> points_;
   std::vector<CutPoint> cut_points_;
   std::vector<Node> nodes_;
-  std::vector<Vec3> fragment_normals_;  ///< the lit side, by fragment
   int depth_ = 0;
 };
 

@@ -1,0 +1,252 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/bsp_builder.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "invariant.h"
+
+namespace transillum {
+namespace {
+
+std::uint64_t edge_key(PointId a, PointId b) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::min(a, b))) << 32 |
+         static_cast<std::uint32_t>(std::max(a, b));
+}
+
+}  // namespace
+
+BspBuilder::BspBuilder(const Scene& scene, BspTree& tree, const Cancellation& cancellation,
+                       const std::function<void(double)>& progress)
+    : scene_(scene),
+      tree_(tree),
+      cancellation_(cancellation),
+      progress_(progress),
+      thickness_(BspTree::thickness(scene)),
+      search_(thickness_) {}
+
+void BspBuilder::build() {
+  add_pieces();
+  std::vector<Task> open;
+  Task all{{}, BspTree::no_node, true, 1};
+  for (std::size_t p = 0; p < polygons_.size(); ++p) {
+    all.polygons.push_back(static_cast<std::int32_t>(p));
+  }
+  if (!all.polygons.empty()) open.push_back(std::move(all));
+
+  std::size_t heard = 0;
+  while (!open.empty()) {
+    cancellation_.throw_if_cancelled();
+    Task task = std::move(open.back());
+    open.pop_back();
+    split_node(std::move(task), open);
+    if (progress_ && tree_.fragments_.size() >= heard + 512) {
+      heard = tree_.fragments_.size();
+      progress_(std::min(1.0, static_cast<double>(heard) / static_cast<double>(polygons_.size())));
+    }
+  }
+}
+
+void BspBuilder::add_pieces() {
+  tree_.points_ = scene_.points();
+  piece_planes_.reserve(scene_.pieces().size());
+  for (const Piece& piece : scene_.pieces()) {
+    const auto points = scene_.corners(piece);
+    Polygon polygon{piece.patch, static_cast<std::int32_t>(piece_planes_.size()),
+                    static_cast<std::uint32_t>(corners_.size()), 0};
+    Vec3 twice_area, sum;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const PointId a = points[k];
+      const PointId b = points[(k + 1) % points.size()];
+      corners_.push_back({a, line_between(a, b), a < b});
+      twice_area = twice_area + cross(scene_.point(a) - scene_.point(points[0]),
+                                      scene_.point(b) - scene_.point(points[0]));
+      sum = sum + (scene_.point(a) - scene_.point(points[0]));
+    }
+    polygon.end = static_cast<std::uint32_t>(corners_.size());
+    polygons_.push_back(polygon);
+    const Vec3 normal = normalized(twice_area);
+    const Vec3 center = scene_.point(points[0]) + sum / static_cast<double>(points.size());
+    piece_planes_.push_back({normal, dot(normal, center)});
+  }
+}
+
+LineId BspBuilder::line_between(PointId a, PointId b) {
+  const auto [place, is_new] =
+      line_of_edge_.try_emplace(edge_key(a, b), static_cast<LineId>(tree_.lines_.size()));
+  if (is_new) tree_.lines_.push_back({std::min(a, b), std::max(a, b)});
+  return place->second;
+}
+
+void BspBuilder::split_node(Task task, std::vector<Task>& open) {
+  // Choose the plane that buys order with the fewest cuts.
+  search_.clear();
+  for (const std::int32_t p : task.polygons) {
+    const Polygon& polygon = polygons_[static_cast<std::size_t>(p)];
+    search_.add_polygon(piece_planes_[static_cast<std::size_t>(polygon.piece)]);
+    for (std::uint32_t c = polygon.begin; c < polygon.end; ++c) {
+      search_.add_point(tree_.points_[static_cast<std::size_t>(corners_[c].point)]);
+    }
+  }
+  const PlaneSearch::Choice choice = search_.best();
+  const std::int32_t own =
+      choice.polygon < 0 ? -1 : task.polygons[static_cast<std::size_t>(choice.polygon)];
+
+  // Deal the polygons out, cutting those that cross.
+  PolygonList coplanar, front, back;
+  cut_of_edge_.clear();
+  for (const std::int32_t p : task.polygons) {
+    const Side side =
+        p == own ? Side::coplanar : classify(polygons_[static_cast<std::size_t>(p)], choice.plane);
+    switch (side) {
+      case Side::coplanar: coplanar.push_back(p); break;
+      case Side::front: front.push_back(p); break;
+      case Side::back: back.push_back(p); break;
+      case Side::both: cut(p, front, back); break;
+    }
+  }
+  TRANSILLUM_INVARIANT(front.size() < task.polygons.size() && back.size() < task.polygons.size(),
+                       "a BSP node makes no progress");
+
+  // Hang the node in, and leave its sides for later.
+  const auto node_id = static_cast<std::int32_t>(tree_.nodes_.size());
+  BspTree::Node node;
+  node.plane = choice.plane;
+  keep_coplanar(std::move(coplanar), node);
+  tree_.nodes_.push_back(node);
+  tree_.depth_ = std::max(tree_.depth_, task.depth);
+  if (task.parent != BspTree::no_node) {
+    BspTree::Node& parent = tree_.nodes_[static_cast<std::size_t>(task.parent)];
+    (task.front ? parent.front : parent.back) = node_id;
+  }
+  if (!front.empty()) open.push_back({std::move(front), node_id, true, task.depth + 1});
+  if (!back.empty()) open.push_back({std::move(back), node_id, false, task.depth + 1});
+}
+
+BspBuilder::Side BspBuilder::classify(const Polygon& polygon, const BspTree::Plane& plane) {
+  distances_.clear();
+  bool any_front = false, any_back = false;
+  for (std::uint32_t c = polygon.begin; c < polygon.end; ++c) {
+    const Vec3& p = tree_.points_[static_cast<std::size_t>(corners_[c].point)];
+    double distance = dot(plane.normal, p) - plane.offset;
+    if (std::abs(distance) <= thickness_) distance = 0;
+    distances_.push_back(distance);
+    any_front |= distance > 0;
+    any_back |= distance < 0;
+  }
+  if (any_front && any_back) return Side::both;
+  if (any_front) return Side::front;
+  return any_back ? Side::back : Side::coplanar;
+}
+
+PointId BspBuilder::cut_edge(PointId a, PointId b, double distance_a, double distance_b) {
+  if (a > b) {
+    std::swap(a, b);
+    std::swap(distance_a, distance_b);
+  }
+  const auto next = static_cast<PointId>(tree_.points_.size());
+  const auto [place, is_new] = cut_of_edge_.try_emplace(edge_key(a, b), next);
+  if (is_new) {
+    const double t = distance_a / (distance_a - distance_b);
+    const Vec3& from = tree_.points_[static_cast<std::size_t>(a)];
+    const Vec3& to = tree_.points_[static_cast<std::size_t>(b)];
+    tree_.cut_points_.push_back({a, b, t});
+    tree_.points_.push_back(from + t * (to - from));
+  }
+  return place->second;
+}
+
+/// Splits a polygon that classify() has just found on both sides.
+///
+///        d>0   o-------x-------o  d<0      x: cut points, made once an edge and plane, so that
+///              | front : back  |              neighbours get the same
+///              o-------x-------o           : the new line, shared by both halves
+void BspBuilder::cut(std::int32_t polygon, PolygonList& front, PolygonList& back) {
+  const Polygon whole = polygons_[static_cast<std::size_t>(polygon)];
+  const std::size_t count = whole.end - whole.begin;
+  std::vector<BspTree::Corner> halves[2];
+  PointId leaving = -1, entering = -1;  // where the outline goes from front to back, and returns
+  std::size_t leaving_at[2] = {0, 0}, entering_at[2] = {0, 0};
+
+  for (std::size_t k = 0; k < count; ++k) {
+    const BspTree::Corner corner = corners_[whole.begin + k];
+    const std::size_t next_k = (k + 1) % count;
+    const PointId next = corners_[whole.begin + next_k].point;
+    const double here = distances_[k], there = distances_[next_k];
+    const double before = distances_[(k + count - 1) % count];
+    if (here >= 0) halves[0].push_back(corner);
+    if (here <= 0) halves[1].push_back(corner);
+    if (here == 0) {
+      // A corner on the plane: the outline may change sides right here.
+      if (there < 0 && before >= 0) {
+        leaving = corner.point;
+        leaving_at[0] = halves[0].size() - 1;
+      }
+      if (there > 0 && before <= 0) {
+        entering = corner.point;
+        entering_at[1] = halves[1].size() - 1;
+      }
+    } else if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+      const PointId x = cut_edge(corner.point, next, here, there);
+      halves[0].push_back({x, corner.line, corner.forward});
+      halves[1].push_back({x, corner.line, corner.forward});
+      if (here > 0) {
+        leaving = x;
+        leaving_at[0] = halves[0].size() - 1;
+      } else {
+        entering = x;
+        entering_at[1] = halves[1].size() - 1;
+      }
+    }
+  }
+  TRANSILLUM_INVARIANT(leaving >= 0 && entering >= 0 && leaving != entering,
+                       "the outline of a cut polygon crosses the plane twice");
+
+  // The front half closes from `leaving` to `entering`, the back half the other way.
+  const LineId line = line_between(leaving, entering);
+  const bool forward = leaving < entering;
+  BspTree::Corner& front_closes = halves[0][leaving_at[0]];
+  front_closes.line = line;
+  front_closes.forward = forward;
+  BspTree::Corner& back_closes = halves[1][entering_at[1]];
+  back_closes.line = line;
+  back_closes.forward = !forward;
+
+  for (int side = 0; side < 2; ++side) {
+    Polygon half{whole.patch, whole.piece, static_cast<std::uint32_t>(corners_.size()), 0};
+    corners_.insert(corners_.end(), halves[side].begin(), halves[side].end());
+    half.end = static_cast<std::uint32_t>(corners_.size());
+    (side == 0 ? front : back).push_back(static_cast<std::int32_t>(polygons_.size()));
+    polygons_.push_back(half);
+  }
+}
+
+void BspBuilder::keep_coplanar(PolygonList coplanar, BspTree::Node& node) {
+  const auto lit_along = [&](std::int32_t p) {
+    const auto piece = static_cast<std::size_t>(polygons_[static_cast<std::size_t>(p)].piece);
+    return dot(piece_planes_[piece].normal, node.plane.normal) >= 0;
+  };
+  // A light in its ceiling must shine, and so must what is smaller; the number settles the rest.
+  const auto rank = [&](std::int32_t p) {
+    const PatchId patch = polygons_[static_cast<std::size_t>(p)].patch;
+    return std::tuple(!lit_along(p), -max_abs(scene_.exitance(patch)), scene_.patch(patch).area,
+                      -patch, p);
+  };
+  std::sort(coplanar.begin(), coplanar.end(),
+            [&](std::int32_t a, std::int32_t b) { return rank(a) < rank(b); });
+
+  node.begin = node.middle = static_cast<FragmentId>(tree_.fragments_.size());
+  for (const std::int32_t p : coplanar) {
+    const Polygon& polygon = polygons_[static_cast<std::size_t>(p)];
+    const auto begin = static_cast<std::uint32_t>(tree_.corners_.size());
+    tree_.corners_.insert(tree_.corners_.end(), corners_.begin() + polygon.begin,
+                          corners_.begin() + polygon.end);
+    tree_.fragments_.push_back(
+        {polygon.patch, begin, static_cast<std::uint32_t>(tree_.corners_.size())});
+    if (lit_along(p)) ++node.middle;
+  }
+  node.end = static_cast<FragmentId>(tree_.fragments_.size());
+}
+
+}  // namespace transillum

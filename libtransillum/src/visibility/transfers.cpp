@@ -1,0 +1,30 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/transfers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace transillum {
+
+ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
+  // Below this share of its area a patch counts as grazing (method, oracle 1).
+  constexpr double grazing_share = 1e-6;
+  ClosureDefect defect;
+  for (const auto* side : {&transfers.forward, &transfers.backward}) {
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      const Coverage& coverage = (*side)[static_cast<std::size_t>(i)];
+      if (coverage.projected == 0) continue;
+      const double open = std::abs(coverage.projected - coverage.covered);
+      const double area = scene.patch(i).area;
+      if (coverage.projected < grazing_share * area) {
+        defect.grazing = std::max(defect.grazing, open / area);
+      } else if (open / coverage.projected > defect.relative) {
+        defect.relative = open / coverage.projected;
+        defect.worst = i;
+      }
+    }
+  }
+  return defect;
+}
+
+}  // namespace transillum
