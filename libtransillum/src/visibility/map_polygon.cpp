@@ -30,11 +30,19 @@ void MapClipper::measure_sides(const MapPolygon& polygon, const MapCorner& edge)
 
 /// Whether the line of some edge of `by` has all of `other` on its outer side.
 bool MapClipper::separated(const MapPolygon& by, const MapPolygon& other) {
-  for (const MapCorner& edge : by) {
-    measure_sides(other, edge);
-    if (std::all_of(sides_.begin(), sides_.end(), [](Real s) { return s <= 0; })) return true;
-  }
-  return false;
+  const auto inside_of = [&](const MapCorner& edge) {
+    const PlaneLine& line = projection_.lines[static_cast<std::size_t>(edge.line)];
+    const MapCorner* before = &other.back();
+    for (const MapCorner& corner : other) {
+      const bool on_line = corner.line == edge.line || before->line == edge.line;
+      before = &corner;
+      if (on_line) continue;
+      const Real side = line.side(corner.at);
+      if (edge.forward ? side > 0 : side < 0) return true;
+    }
+    return false;
+  };
+  return !std::all_of(by.begin(), by.end(), inside_of);
 }
 
 bool MapClipper::clip(const MapPolygon& subject, const MapPolygon& window) {

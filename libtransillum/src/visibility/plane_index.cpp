@@ -36,6 +36,7 @@ PlaneIndex::PlaneIndex(const PlaneBox& all, std::size_t expected)
   while (levels_ < most_levels && (std::size_t{1} << (2 * (levels_ - 1))) < expected) ++levels_;
   for (int level = 0; level < levels_; ++level) {
     level_begin_.push_back(begin);
+    cell_size_.push_back(std::ldexp(size_, -level));
     begin += std::size_t{1} << (2 * level);
   }
   cells_.resize(begin);
@@ -65,11 +66,8 @@ void PlaneIndex::insert(std::int32_t id, const PlaneBox& box) {
   entry.box = box;
   const double extent = std::max(box.x1 - box.x0, box.y1 - box.y0);
   int level = 0;
-  double cell_size = size_;
-  while (level + 1 < levels_ && extent <= 0.5 * cell_size) {
-    ++level;
-    cell_size *= 0.5;
-  }
+  while (level + 1 < levels_ && extent <= cell_size_[static_cast<std::size_t>(level) + 1]) ++level;
+  const double cell_size = cell_size_[static_cast<std::size_t>(level)];
   const int last = (1 << level) - 1;
   entry.level = level;
   entry.x = std::clamp(static_cast<int>((0.5 * (box.x0 + box.x1) - x0_) / cell_size), 0, last);
@@ -105,7 +103,7 @@ void PlaneIndex::query(const PlaneBox& box, std::vector<std::int32_t>& found) co
     const Visit visit = stack[--height];
     const Cell& here = cell(visit.level, visit.x, visit.y);
     if (here.below == 0) continue;
-    const double cell_size = std::ldexp(size_, -visit.level);
+    const double cell_size = cell_size_[static_cast<std::size_t>(visit.level)];
     const double x = x0_ + visit.x * cell_size, y = y0_ + visit.y * cell_size;
     const PlaneBox loose{x - 0.5 * cell_size, y - 0.5 * cell_size, x + 1.5 * cell_size,
                          y + 1.5 * cell_size};

@@ -48,6 +48,7 @@ class PlaneIndex {
   double x0_, y0_, size_;
   int levels_;
   std::vector<std::size_t> level_begin_;
+  std::vector<double> cell_size_;  ///< a level
   std::vector<Cell> cells_;
   std::vector<Entry> entries_;
 };

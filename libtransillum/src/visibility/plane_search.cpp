@@ -8,9 +8,10 @@
 namespace transillum {
 namespace {
 
-constexpr std::size_t largest_sample = 4096;
-constexpr std::size_t polygon_normals = 16;
-constexpr std::size_t line_normals = 16;
+constexpr std::size_t largest_sample = 1024;
+constexpr std::size_t polygon_normals = 8;
+constexpr std::size_t edge_normals = 8;
+constexpr std::size_t line_normals = 8;
 /// What a plane costs that cuts nothing, in cuts: keeps the tree from being a list of planes that
 /// split off one polygon each.
 constexpr double cost_of_a_node = 0.3;
@@ -69,6 +70,19 @@ void PlaneSearch::collect_normals() {
     normals_.push_back(planes_[static_cast<std::size_t>(sample_[k * n / own])].normal);
   }
   if (n <= 4) return;
+  // Planes along two edges: rings of corners, which part what is round or boxy without a cut.
+  const auto edge = [&](std::size_t of_sample, std::size_t number) {
+    const auto p = static_cast<std::size_t>(sample_[of_sample % n]);
+    const std::uint32_t count = begin_[p + 1] - begin_[p];
+    return points_[begin_[p] + (number + 1) % count] - points_[begin_[p] + number % count];
+  };
+  for (std::size_t k = 0; k < edge_normals; ++k) {
+    const std::size_t here = (2 * k + 1) * n / (2 * edge_normals);
+    const Vec3 a = edge(here, k);
+    const Vec3 b = edge(here + 1 + k % 3, k / 2);
+    const Vec3 across = cross(a, b);
+    if (norm(across) > 1e-3 * norm(a) * norm(b)) normals_.push_back(normalized(across));
+  }
   // Normals between places far apart in the list, which keeps neighbours together.
   for (std::size_t k = 0; k < line_normals; ++k) {
     const std::size_t a = k * n / line_normals;
@@ -90,6 +104,13 @@ void PlaneSearch::sweep(const Vec3& normal) {
       low = std::min(low, at);
       high = std::max(high, at);
     }
+    // What is on the plane within its thickness does not cross it.
+    if (high - low > 2 * thickness_) {
+      low += thickness_;
+      high -= thickness_;
+    } else {
+      low = high = 0.5 * (low + high);
+    }
     intervals_.push_back({low, high, p});
     ends_.push_back(high);
   }
@@ -103,9 +124,9 @@ void PlaneSearch::sweep(const Vec3& normal) {
   std::size_t ended = 0;
   for (std::size_t started = 1; started <= n; ++started) {
     const Interval& last = intervals_[started - 1];
-    if (last.high - last.low <= 2 * thickness_) {
+    if (last.high == last.low) {
       // A polygon across the normal: its own plane.
-      const double offset = 0.5 * (last.low + last.high);
+      const double offset = last.low;
       const auto below = static_cast<std::size_t>(
           std::upper_bound(ends_.begin(), ends_.end(), offset + thickness_) - ends_.begin());
       const auto above_from = static_cast<std::size_t>(
@@ -123,15 +144,14 @@ void PlaneSearch::sweep(const Vec3& normal) {
     }
     const double from = last.low;
     const double next_start = started < n ? intervals_[started].low : HUGE_VAL;
-    while (ended < n && ends_[ended] <= from + thickness_) ++ended;
+    while (ended < n && ends_[ended] <= from) ++ended;
     // The last end before the next start, where the fewest still cross.
     std::size_t ended_by_then = ended;
     while (ended_by_then < n && ends_[ended_by_then] <= next_start) ++ended_by_then;
     const double low = ended_by_then > 0 ? std::max(from, ends_[ended_by_then - 1]) : from;
     const double high = std::min(next_start, ended_by_then < n ? ends_[ended_by_then] : HUGE_VAL);
     if (high == HUGE_VAL) continue;
-    // A gap: halfway. No gap, as along a ring of shared corners: on the corners, which then count
-    // as on the plane.
+    // Halfway through the gap; along a ring of shared corners that is on the corners.
     const double offset = 0.5 * (low + high);
     offer(normal, offset, -1, static_cast<double>(ended_by_then), static_cast<double>(n - started),
           static_cast<double>(started - ended_by_then));

@@ -10,10 +10,11 @@ namespace transillum {
 
 /// Finds a plane that orders many polygons at the price of few cuts.
 ///
-/// Candidates are swept: for each of a few dozen normals (the axes, normals of polygons, lines
-/// between polygons) all offsets are scored at once from the sorted intervals that the polygons
-/// cover along it. So free planes in the gaps between groups and the planes of polygons compete
-/// on equal terms. Large sets are judged by a sample.
+/// Candidates are swept: for each of a few dozen normals (the axes, normals of polygons, normals
+/// to two edges, lines between polygons) all offsets are scored at once from the sorted intervals
+/// that the polygons cover along it. So free planes in the gaps between groups and the planes of
+/// polygons compete on equal terms. Large sets are judged by a sample
+/// (decisions/0004-choice-of-planes.md).
 class PlaneSearch {
  public:
   struct Choice {
