@@ -1,0 +1,90 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Oracles 1 and 2 of the method: what a closed scene's transfers must add up to.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+
+#include "support/scenes.h"
+#include "transillum/transfers.h"
+
+namespace transillum {
+namespace {
+
+using testing::test_directions;
+
+struct BuiltIn {
+  const char* spec;
+  double max_patch_area;
+};
+
+class Closure : public ::testing::TestWithParam<BuiltIn> {};
+
+TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
+  const auto scene = load_scene(GetParam().spec, {.max_patch_area = GetParam().max_patch_area});
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine engine = local_map_engine(scene, tree);
+  for (const Vec3& omega : test_directions(200, 7)) {
+    const Transfers transfers = engine(omega, {});
+    const ClosureDefect defect = closure_defect(transfers, *scene);
+    ASSERT_LE(defect.relative, 1e-10) << "patch " << defect.worst << ", omega " << omega.x << ", "
+                                      << omega.y << ", " << omega.z;
+    ASSERT_LE(defect.grazing, 1e-12);
+    // Something is seen at all, and no more than there is.
+    double projected = 0, exchanged = 0;
+    for (const Coverage& c : transfers.forward) projected += c.projected;
+    for (const Transfer& t : transfers.exchanges) {
+      ASSERT_GT(t.area, 0);
+      exchanged += t.area;
+    }
+    ASSERT_GT(exchanged, 0.1 * projected);
+    ASSERT_LE(exchanged, projected * (1 + 1e-10));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIns, Closure,
+                         ::testing::Values(BuiltIn{"sphere-flake", 0}, BuiltIn{"cornell-box", 0},
+                                           BuiltIn{"cornell-box", 0.01}, BuiltIn{"furnace", 0},
+                                           BuiltIn{"furnace", 0.02}, BuiltIn{"boards", 0},
+                                           BuiltIn{"boards", 0.01}, BuiltIn{"rooms", 0},
+                                           BuiltIn{"stars", 0}, BuiltIn{"stars", 0.1}));
+
+/// Projected areas against the normals, an independent road.
+TEST(Projection, AreasFollowTheCosine) {
+  const auto scene = load_scene("rooms");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine engine = local_map_engine(scene, tree);
+  for (const Vec3& omega : test_directions(20, 3)) {
+    const Transfers transfers = engine(omega, {});
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      const Patch& patch = scene->patch(i);
+      const double seen = patch.area * dot(patch.normal, omega);
+      const auto k = static_cast<std::size_t>(i);
+      EXPECT_NEAR(transfers.forward[k].projected, std::max(seen, 0.0), 1e-12 * patch.area);
+      EXPECT_NEAR(transfers.backward[k].projected, std::max(-seen, 0.0), 1e-12 * patch.area);
+    }
+  }
+}
+
+TEST(Reciprocity, OppositeDirectionsGiveTheSameAreas) {
+  for (const char* spec : {"cornell-box", "boards", "rooms"}) {
+    const auto scene = load_scene(spec);
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const TransferEngine engine = local_map_engine(scene, tree);
+    for (const Vec3& omega : test_directions(20, 11)) {
+      std::map<std::pair<PatchId, PatchId>, double> there;
+      for (const Transfer& t : engine(omega, {}).exchanges) there[{t.receiver, t.source}] = t.area;
+      for (const Transfer& t : engine(-omega, {}).exchanges) {
+        const double area = scene->patch(t.receiver).area;
+        EXPECT_NEAR((there[{t.source, t.receiver}]), t.area, 1e-11 * area) << spec;
+        there.erase({t.source, t.receiver});
+      }
+      for (const auto& [pair, area] : there) {
+        EXPECT_LT(area, 1e-11 * scene->patch(pair.first).area) << spec;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace transillum

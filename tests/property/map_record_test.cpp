@@ -1,0 +1,90 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The recorded history of a direction.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "support/scenes.h"
+#include "transillum/visibility_map.h"
+
+namespace transillum {
+namespace {
+
+double area_of(std::span<const Vec2> outline) {
+  double twice = 0;
+  for (std::size_t k = 2; k < outline.size(); ++k) {
+    twice += (outline[k - 1].x - outline[0].x) * (outline[k].y - outline[0].y) -
+             (outline[k - 1].y - outline[0].y) * (outline[k].x - outline[0].x);
+  }
+  return twice / 2;
+}
+
+TEST(MapRecord, GivesTheSameBitsAsTheUnrecordedRun) {
+  const auto scene = load_scene("rooms");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine engine = local_map_engine(scene, tree);
+  for (const Vec3& omega : testing::test_directions(12, 2)) {
+    const Transfers plain = engine(omega, {});
+    const Transfers recorded = record_local_map(*scene, *tree, omega).transfers;
+    ASSERT_EQ(plain.exchanges.size(), recorded.exchanges.size());
+    for (std::size_t k = 0; k < plain.exchanges.size(); ++k) {
+      EXPECT_EQ(plain.exchanges[k].receiver, recorded.exchanges[k].receiver);
+      EXPECT_EQ(plain.exchanges[k].source, recorded.exchanges[k].source);
+      EXPECT_EQ(plain.exchanges[k].area, recorded.exchanges[k].area);
+    }
+  }
+}
+
+/// V after step k = V before, less what step k cut out of it, and its polygon put in.
+TEST(MapRecord, AreaIsKeptAtEveryStep) {
+  const auto scene = load_scene("boards");
+  const BspTree tree(*scene);
+  for (const Vec3& omega : testing::test_directions(10, 4)) {
+    const MapRecord record = record_local_map(*scene, tree, omega).record;
+    double area_before = 0;
+    for (std::int32_t step = 0; step < record.step_count(); ++step) {
+      double area = 0;
+      for (const std::int32_t row : record.map_after(step)) {
+        area += area_of(record.outline(record.rows[static_cast<std::size_t>(row)]));
+      }
+      double taken = 0, put = 0;
+      for (const MapRecord::Row& row : record.rows) {
+        if (row.made != step) continue;
+        const double part = area_of(record.outline(row));
+        if (row.consumed == step) taken += part;
+        if (row.parent == MapRecord::no_row) put += part;
+      }
+      ASSERT_NEAR(area, area_before - taken + put, 1e-12) << "step " << step;
+      ASSERT_LE(taken, put + 1e-12) << "step " << step;
+      area_before = area;
+    }
+  }
+}
+
+TEST(MapRecord, RowsTellWhereTheyCameFrom) {
+  const auto scene = load_scene("cornell-box");
+  const BspTree tree(*scene);
+  const MapRecord record =
+      record_local_map(*scene, tree, testing::test_directions(9, 4).back()).record;
+  ASSERT_EQ(record.step_patch.size(), record.order.size());
+  int cut = 0;
+  for (const MapRecord::Row& row : record.rows) {
+    EXPECT_LE(row.made, row.consumed);
+    if (row.parent == MapRecord::no_row) {
+      EXPECT_EQ(row.patch, record.step_patch[static_cast<std::size_t>(row.made)]);
+    } else {
+      const MapRecord::Row& parent = record.rows[static_cast<std::size_t>(row.parent)];
+      EXPECT_EQ(row.patch, parent.patch);
+      EXPECT_EQ(row.made, parent.consumed);
+      ++cut;
+    }
+  }
+  EXPECT_GT(cut, 0);
+  const auto fullest = record.map_after(record.fullest_step()).size();
+  for (std::int32_t step = 0; step < record.step_count(); ++step) {
+    EXPECT_LE(record.map_after(step).size(), fullest);
+  }
+}
+
+}  // namespace
+}  // namespace transillum

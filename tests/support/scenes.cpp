@@ -1,0 +1,104 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "support/scenes.h"
+
+#include <utility>
+
+#include "transillum/directions.h"
+
+namespace transillum::testing {
+namespace {
+
+double uniform(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+int Sketch::material(double reflectance, double exitance) {
+  const auto number = static_cast<int>(description_.materials.size());
+  description_.materials.push_back({"m" + std::to_string(number),
+                                    {reflectance, reflectance, reflectance},
+                                    {exitance, exitance, exitance}});
+  return number;
+}
+
+Sketch& Sketch::face(const std::vector<Vec3>& outline, int material) {
+  std::vector<PointId> ids;
+  for (const Vec3& p : outline) {
+    ids.push_back(static_cast<PointId>(description_.points.size()));
+    description_.points.push_back(p);
+  }
+  description_.add_face(ids, material);
+  return *this;
+}
+
+Sketch& Sketch::box(const Vec3& a, const Vec3& b, bool inward, int material) {
+  std::vector<std::vector<Vec3>> faces{
+      {{a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}},
+      {{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}},
+      {{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}},
+      {{a.x, b.y, a.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}},
+      {{a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}},
+      {{b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}};
+  for (auto& outline : faces) {
+    if (inward) std::reverse(outline.begin(), outline.end());
+    face(outline, material);
+  }
+  return *this;
+}
+
+Sketch& Sketch::triangles(int count, double size, std::uint64_t seed, int material) {
+  std::mt19937_64 generator(seed);
+  for (int k = 0; k < count; ++k) {
+    const Vec3 at{uniform(generator), uniform(generator), uniform(generator)};
+    std::vector<Vec3> outline;
+    for (int corner = 0; corner < 3; ++corner) {
+      outline.push_back(at + size * Vec3{uniform(generator) - 0.5, uniform(generator) - 0.5,
+                                         uniform(generator) - 0.5});
+    }
+    face(outline, material);
+  }
+  return *this;
+}
+
+SceneDescription moved(const SceneDescription& description,
+                       const std::function<Vec3(const Vec3&)>& move) {
+  SceneDescription result = description;
+  for (Vec3& p : result.points) p = move(p);
+  return result;
+}
+
+SceneDescription reordered(const SceneDescription& description, const std::vector<int>& order) {
+  SceneDescription result;
+  result.name = description.name;
+  result.points = description.points;
+  result.materials = description.materials;
+  for (const int f : order) {
+    const auto face = static_cast<std::size_t>(f);
+    result.add_face(description.outline(face), description.face_material[face]);
+  }
+  return result;
+}
+
+std::function<Vec3(const Vec3&)> random_rotation(std::uint64_t seed) {
+  const auto two = make_directions(Sampling::random, 2, seed);
+  const Vec3 x = two[0].direction;
+  const Vec3 y = normalized(cross(two[1].direction, x));
+  const Vec3 z = cross(x, y);
+  return [=](const Vec3& p) { return p.x * x + p.y * y + p.z * z; };
+}
+
+std::vector<Vec3> test_directions(int count, std::uint64_t seed) {
+  std::vector<Vec3> directions{{0, 0, 1}, {1, 0, 0},  {0, 1, 0}, {0, 0, -1},
+                               {1, 1, 0}, {1, -1, 1}, {0, 1, 1}};
+  for (Vec3& d : directions) d = normalized(d);
+  directions.resize(static_cast<std::size_t>(std::min<int>(count, 7)));
+  if (count > 7) {
+    for (const auto& sample : make_directions(Sampling::random, count - 7, seed)) {
+      directions.push_back(sample.direction);
+    }
+  }
+  return directions;
+}
+
+}  // namespace transillum::testing

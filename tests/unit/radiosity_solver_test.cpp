@@ -1,0 +1,146 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <thread>
+
+#include "support/scenes.h"
+#include "transillum/radiosity.h"
+
+namespace transillum {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Sketch;
+using Until = RadiositySolver::Until;
+
+std::shared_ptr<const Scene> small_scene() { return load_scene("furnace"); }
+
+TEST(RadiositySolver, GoesByDirectionByIterationAndToTheEnd) {
+  RadiositySolver solver(small_scene(), {.directions = 5, .tolerance = 1e-8});
+  EXPECT_TRUE(solver.advance(Until::direction));
+  EXPECT_EQ(solver.progress().direction, 1);
+  EXPECT_EQ(solver.progress().iteration, 0);
+  EXPECT_EQ(solver.estimate_changes().size(), 1u);
+  EXPECT_TRUE(solver.advance(Until::iteration));
+  EXPECT_EQ(solver.progress().direction, 0);
+  EXPECT_EQ(solver.progress().iteration, 1);
+  EXPECT_FALSE(solver.advance(Until::finished));
+  EXPECT_TRUE(solver.progress().finished);
+  EXPECT_FALSE(solver.advance(Until::finished));
+  EXPECT_LE(solver.statistics().steps.back().change, 1e-8);
+}
+
+TEST(RadiositySolver, PassesByOneAndAllAtOnceGiveTheSameBits) {
+  const SolveOptions options{.directions = 9, .iterations = 3};
+  RadiositySolver stepped(small_scene(), options);
+  while (stepped.advance(Until::direction)) {
+  }
+  EXPECT_TRUE(stepped.radiosity() == solve(small_scene(), options).radiosity);
+}
+
+TEST(RadiositySolver, PausesWhereTheObserverSays) {
+  RadiositySolver solver(small_scene(), {.directions = 400, .threads = 2});
+  int heard = 0;
+  const bool more = solver.advance(Until::finished, [&](const RadiositySolver& s) {
+    ++heard;
+    EXPECT_EQ(s.progress().direction, heard);
+    return heard < 10;
+  });
+  EXPECT_TRUE(more);
+  // Passes under way are taken along, no more.
+  EXPECT_GE(solver.progress().direction, 10);
+  EXPECT_LE(solver.progress().direction, 10 + 4);
+  const Solution whole = solve(small_scene(), {.directions = 400, .threads = 2});
+  solver.advance(Until::finished);
+  EXPECT_TRUE(solver.radiosity() == whole.radiosity);
+}
+
+TEST(RadiositySolver, ACancelledSolveReturnsWhatThereIs) {
+  const Cancellation cancellation;
+  const Solution solution = solve(
+      load_scene("rooms"), {.directions = 5000},
+      [&](const RadiositySolver& s) {
+        if (s.progress().direction >= 20) cancellation.cancel();
+        return true;
+      },
+      cancellation);
+  EXPECT_FALSE(solution.complete);
+  EXPECT_EQ(solution.statistics.iterations, 0);
+  double lit = 0;
+  for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
+    lit += max_abs(solution.radiosity[i] -
+                   solution.scene->exitance(static_cast<PatchId>(i)));
+  }
+  EXPECT_GT(lit, 0);
+}
+
+TEST(RadiositySolver, CancellingIsQuick) {
+  const Cancellation cancellation;
+  const auto scene = load_scene("sphere-flake");
+  RadiositySolver solver(scene, {.directions = 100000}, nullptr, cancellation);
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    cancellation.cancel();
+  });
+  EXPECT_THROW(solver.advance(Until::finished), Cancelled);
+  later.join();
+}
+
+TEST(RadiositySolver, SaysWhenItDiverges) {
+  // One direction down on a lamp over a mirror-bright floor: rows sum to 4.
+  Sketch sketch;
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.99, 1));
+  try {
+    solve(sketch.scene(), {.directions = 1, .two_way = true});
+    FAIL() << "converged";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("does not converge"));
+    EXPECT_THAT(error.what(), HasSubstr("--normalize rows"));
+  }
+  EXPECT_NO_THROW(solve(sketch.scene(), {.directions = 1, .normalize = Normalization::rows}));
+}
+
+TEST(RadiositySolver, ADarkSceneIsDarkAtOnce) {
+  Sketch sketch;
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.5, 0));
+  const Solution solution = solve(sketch.scene(), {.directions = 8});
+  EXPECT_TRUE(solution.complete);
+  EXPECT_EQ(solution.statistics.iterations, 1);
+  for (const Rgb& b : solution.radiosity) EXPECT_EQ(max_abs(b), 0);
+}
+
+/// Eq. 25: changes shrink by rho_max times the largest row sum at most.
+TEST(RadiositySolver, ContractsAsPredicted) {
+  const Solution solution =
+      solve(load_scene("furnace"), {.directions = 300, .tolerance = 1e-10});
+  const double predicted = solution.statistics.predicted_contraction;
+  EXPECT_GT(predicted, 0.5);
+  EXPECT_LT(predicted, 0.55);
+  for (std::size_t k = 1; k < solution.statistics.steps.size(); ++k) {
+    EXPECT_LE(solution.statistics.steps[k].contraction, predicted);
+  }
+  EXPECT_LE(solution.statistics.iterations,
+            static_cast<int>(std::ceil(std::log(1e-10) / std::log(predicted))) + 1);
+}
+
+TEST(SolveOptions, NamesWhatIsOutOfRange) {
+  const auto message = [](const SolveOptions& options) {
+    try {
+      options.validate();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message({.directions = 0}), HasSubstr("directions: 0"));
+  EXPECT_THAT(message({.directions = -5}), HasSubstr("directions: -5"));
+  EXPECT_THAT(message({.iterations = -1}), HasSubstr("iterations: -1"));
+  EXPECT_THAT(message({.tolerance = 0}), HasSubstr("tolerance: 0"));
+  EXPECT_THAT(message({.tolerance = std::nan("")}), HasSubstr("tolerance"));
+  EXPECT_THAT(message({.threads = -1}), HasSubstr("threads: -1"));
+  EXPECT_EQ(message({}), "no error");
+}
+
+}  // namespace
+}  // namespace transillum

@@ -1,0 +1,187 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The parts of the engine by themselves.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "radiosity/exchange_sums.h"
+#include "support/scenes.h"
+#include "transillum/bsp_tree.h"
+#include "visibility/plane_index.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+
+double uniform(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1p-53;
+}
+
+TEST(PlaneIndex, FindsWhatOverlapsWhileThingsComeAndGo) {
+  std::mt19937_64 generator(1);
+  PlaneIndex index({-1, -1, 1, 1}, 300);
+  std::vector<PlaneBox> boxes(400);
+  std::vector<bool> present(400, false);
+  const auto random_box = [&] {
+    // Sizes over four decades: specks and sheets.
+    const double size = std::pow(10, -4 * uniform(generator));
+    const double x = 2 * uniform(generator) - 1, y = 2 * uniform(generator) - 1;
+    return PlaneBox{x, y, x + size * uniform(generator), y + size * uniform(generator)};
+  };
+  for (int round = 0; round < 3000; ++round) {
+    const auto id = static_cast<std::size_t>(generator() % boxes.size());
+    if (present[id]) {
+      index.erase(static_cast<std::int32_t>(id));
+    } else {
+      boxes[id] = random_box();
+      index.insert(static_cast<std::int32_t>(id), boxes[id]);
+    }
+    present[id] = !present[id];
+    if (round % 10 != 0) continue;
+    const PlaneBox asked = random_box();
+    std::vector<std::int32_t> found, expected;
+    index.query(asked, found);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      if (present[k] && boxes[k].x0 < asked.x1 && asked.x0 < boxes[k].x1 &&
+          boxes[k].y0 < asked.y1 && asked.y0 < boxes[k].y1) {
+        expected.push_back(static_cast<std::int32_t>(k));
+      }
+    }
+    EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(expected));
+  }
+}
+
+/// Area of a fragment in space.
+double area_of(const BspTree& tree, const BspTree::Fragment& fragment) {
+  const auto corners = tree.corners(fragment);
+  const auto at = [&](std::size_t k) {
+    return tree.points()[static_cast<std::size_t>(corners[k].point)];
+  };
+  Vec3 twice;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    twice = twice + cross(at(k - 1) - at(0), at(k) - at(0));
+  }
+  return norm(twice) / 2;
+}
+
+void expect_sound(const Scene& scene, const BspTree& tree) {
+  std::vector<double> areas(static_cast<std::size_t>(scene.patch_count()), 0.0);
+  for (const auto& fragment : tree.fragments()) {
+    areas[static_cast<std::size_t>(fragment.patch)] += area_of(tree, fragment);
+    for (const auto& corner : tree.corners(fragment)) {
+      // Every edge keeps a line that goes through both its ends.
+      const auto& line = tree.lines()[static_cast<std::size_t>(corner.line)];
+      const Vec3& a = tree.points()[static_cast<std::size_t>(line.a)];
+      const Vec3& b = tree.points()[static_cast<std::size_t>(line.b)];
+      const Vec3& p = tree.points()[static_cast<std::size_t>(corner.point)];
+      EXPECT_LE(norm(cross(normalized(b - a), p - a)), 1e-13 * scene.bounds().diagonal());
+    }
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    EXPECT_NEAR(areas[static_cast<std::size_t>(i)], scene.patch(i).area,
+                1e-12 * scene.patch(i).area);
+  }
+  // Each fragment comes once, from anywhere.
+  for (const Vec3& omega : testing::test_directions(10, 1)) {
+    auto order = tree.order(omega);
+    std::sort(order.begin(), order.end());
+    ASSERT_EQ(order.size(), tree.fragments().size());
+    for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(order[k], static_cast<FragmentId>(k));
+  }
+}
+
+TEST(BspTree, FragmentsMakeUpThePatches) {
+  for (const char* spec : {"cornell-box", "boards", "rooms", "stars", "furnace",
+                           "sphere-flake:levels=1"}) {
+    const auto scene = load_scene(spec);
+    expect_sound(*scene, BspTree(*scene));
+  }
+}
+
+TEST(BspTree, CutsInterpenetratingTriangles) {
+  Sketch sketch;
+  const auto scene = sketch.triangles(60, 1.5, 2, sketch.material(0.5, 1)).scene();
+  const BspTree tree(*scene);
+  EXPECT_GT(tree.fragments().size(), scene->pieces().size());
+  expect_sound(*scene, tree);
+}
+
+TEST(BspTree, HardlySplitsTheSphereFlake) {
+  const auto scene = load_scene("sphere-flake");
+  const BspTree tree(*scene);
+  EXPECT_LE(static_cast<double>(tree.fragments().size()), 1.15 * scene->patch_count());
+}
+
+TEST(BspTree, IsLeftWhenCancelled) {
+  const auto scene = load_scene("furnace");
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(BspTree(*scene, cancellation), Cancelled);
+}
+
+/// Of coincident faces, the receiving comes first in the light's way; a lamp covers its ceiling.
+TEST(BspTree, OrdersCoincidentFaces) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  const std::vector<Vec3> down{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
+  std::vector<Vec3> up(down.rbegin(), down.rend());
+  sketch.face(down, grey).face(down, lamp).face(up, grey);
+  const auto scene = sketch.scene();
+  const BspTree tree(*scene);
+  std::vector<PatchId> patches;
+  for (const FragmentId f : tree.order({0, 0, 1})) patches.push_back(tree.fragment(f).patch);
+  // From above: the upward face receives; then ceiling, then lamp emit downward, the lamp last.
+  EXPECT_THAT(patches, ::testing::ElementsAre(2, 0, 1));
+  patches.clear();
+  for (const FragmentId f : tree.order({0, 0, -1})) patches.push_back(tree.fragment(f).patch);
+  // Light from below: the lamp meets it first.
+  EXPECT_THAT(patches, ::testing::ElementsAre(1, 0, 2));
+}
+
+TEST(ExchangeSums, AddUpAndGatherBothWays) {
+  std::mt19937_64 generator(8);
+  for (const bool two_way : {false, true}) {
+    constexpr std::size_t n = 12;
+    ExchangeSums sums(two_way, 1 << 20);
+    double dense[n][n] = {};
+    for (int pass = 0; pass < 37; ++pass) {
+      std::vector<Transfer> exchanges;
+      for (PatchId i = 0; i < 12; ++i) {
+        for (PatchId j = 0; j < 12; ++j) {
+          if (i == j || uniform(generator) > 0.2) continue;
+          const double area = uniform(generator);
+          exchanges.push_back({i, j, area});
+          dense[i][j] += area;
+          if (two_way) dense[j][i] += area;
+        }
+      }
+      sums.add(ExchangeSums::make_run(exchanges, two_way));
+    }
+    sums.finish();
+    std::vector<Rgb> b(n), gathered(n);
+    for (auto& value : b) value = {uniform(generator), uniform(generator), uniform(generator)};
+    sums.gather(b, gathered);
+    for (std::size_t i = 0; i < n; ++i) {
+      Rgb expected;
+      for (std::size_t j = 0; j < n; ++j) expected += dense[i][j] * b[j];
+      EXPECT_LE(max_abs(gathered[i] - expected), 1e-12);
+    }
+    EXPECT_LE(sums.size(), n * (n - 1) / (two_way ? 2 : 1));
+    EXPECT_FALSE(sums.overrun());
+  }
+}
+
+TEST(ExchangeSums, LetGoOfEverythingBeyondTheBudget) {
+  ExchangeSums sums(true, 10 * sizeof(Transfer));
+  sums.add({{0, 1, 1.0}, {0, 2, 1.0}});
+  EXPECT_FALSE(sums.overrun());
+  sums.add({{0, 3, 1.0}, {0, 4, 1.0}, {0, 5, 1.0}, {0, 6, 1.0}});
+  EXPECT_TRUE(sums.overrun());
+  EXPECT_EQ(sums.size(), 0u);
+}
+
+}  // namespace
+}  // namespace transillum
