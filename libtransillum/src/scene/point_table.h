@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vector>
+
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// Distinct points by their exact coordinates; -0 counts as 0.
+class PointTable {
+ public:
+  /// The number of the point there, new or known.
+  /// @throws InputError when there are more points than PointId can number.
+  PointId id_of(const Vec3& position);
+  const std::vector<Vec3>& points() const { return points_; }
+  std::vector<Vec3> take() { return std::move(points_); }
+
+ private:
+  void grow();
+  std::size_t slot_of(const Vec3& position) const;
+
+  std::vector<Vec3> points_;
+  std::vector<PointId> slots_;  // open addressing; -1: free
+};
+
+}  // namespace transillum

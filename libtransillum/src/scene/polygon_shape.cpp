@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/polygon_shape.h"
+
+#include <cmath>
+
+namespace transillum {
+namespace {
+
+constexpr double epsilon = 0x1p-52;
+
+Vec3 centroid(std::span<const Vec3> points, std::span<const PointId> outline, const Vec3& normal) {
+  const Vec3 origin = points[static_cast<std::size_t>(outline[0])];
+  Vec3 moment;
+  double total = 0;
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    const Vec3 a = points[static_cast<std::size_t>(outline[i])] - origin;
+    const Vec3 b = points[static_cast<std::size_t>(outline[i + 1])] - origin;
+    const double weight = dot(normal, cross(a, b));
+    moment = moment + weight * (a + b);
+    total += weight;
+  }
+  return origin + moment / (3 * total);
+}
+
+}  // namespace
+
+PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outline) {
+  PolygonShape shape;
+  if (outline.empty()) return shape;
+  const auto at = [&](std::size_t i) -> const Vec3& {
+    return points[static_cast<std::size_t>(outline[i])];
+  };
+  const std::size_t n = outline.size();
+  const Vec3 origin = at(0);
+  Bounds box;
+  Vec3 mean;  // relative to the first corner, so that a far origin costs no digits
+  Vec3 doubled;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 p = at(i);
+    box.add(p);
+    shape.max_coordinate = std::max(shape.max_coordinate, max_abs(p));
+    mean = mean + (p - origin) / static_cast<double>(n);
+    doubled = doubled + cross(p - origin, at((i + 1) % n) - origin);
+  }
+  shape.diameter = box.diagonal();
+  shape.area = 0.5 * norm(doubled);
+  shape.degenerate = n < 3 || !(shape.area > 4 * epsilon * shape.max_coordinate * shape.diameter);
+  if (shape.degenerate) return shape;
+  shape.normal = normalized(doubled);
+  shape.center = centroid(points, outline, shape.normal);
+  for (std::size_t i = 0; i < n && n > 3; ++i) {
+    const double distance = std::abs(dot(shape.normal, (at(i) - origin) - mean));
+    shape.deviation = std::max(shape.deviation, distance);
+  }
+  return shape;
+}
+
+std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,
+                                  const Vec3& normal) {
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  std::vector<PlanePoint> plane;
+  plane.reserve(outline.size());
+  for (const PointId id : outline) {
+    const Vec3& p = points[static_cast<std::size_t>(id)];
+    // Exchanging the two axes that are left turns the outline round where it faces away.
+    if (z >= x && z >= y) {
+      plane.push_back(normal.z > 0 ? PlanePoint{p.x, p.y} : PlanePoint{p.y, p.x});
+    } else if (x >= y) {
+      plane.push_back(normal.x > 0 ? PlanePoint{p.y, p.z} : PlanePoint{p.z, p.y});
+    } else {
+      plane.push_back(normal.y > 0 ? PlanePoint{p.z, p.x} : PlanePoint{p.x, p.z});
+    }
+  }
+  return plane;
+}
+
+}  // namespace transillum
