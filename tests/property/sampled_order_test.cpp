@@ -73,6 +73,7 @@ std::map<std::pair<PatchId, PatchId>, double> sampled_transfers(const Scene& sce
 
 TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
   constexpr int resolution = 300;
+  double total = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Sketch sketch;
     const auto scene = sketch.triangles(14, 1.2, seed, sketch.material(0.5, 1)).scene();
@@ -87,7 +88,6 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
     const double cell = 2 * radius / resolution;
     auto pairs = exact;
     pairs.insert(sampled.begin(), sampled.end());
-    double total = 0;
     for (const auto& [pair, ignored] : pairs) {
       const double a = exact.contains(pair) ? exact.at(pair) : 0.0;
       const double b = sampled.contains(pair) ? sampled.at(pair) : 0.0;
@@ -96,8 +96,8 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
       EXPECT_NEAR(a, b, 60 * cell * cell) << seed << ": " << pair.first << " sees " << pair.second;
       total += a;
     }
-    EXPECT_GT(total, 0.05);
   }
+  EXPECT_GT(total, 1);
 }
 
 TEST(SampledOrder, TreeOrderIsTheOrderOfHeights) {
