@@ -1,0 +1,157 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "color_controls.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStackedWidget>
+#include <QToolButton>
+#include <algorithm>
+#include <cmath>
+
+#include "theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
+constexpr int slider_steps_per_ev = 10;
+
+QLabel* label_for(QWidget* control, const QString& text) {
+  auto* label = new QLabel(text);
+  label->setBuddy(control);
+  return label;
+}
+
+}  // namespace
+
+ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), colors_(colors) {
+  mode_ = new QComboBox;
+  mode_->setObjectName("color_mode");
+  mode_->addItems({tr("True colour"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
+                   tr("Blue channel")});
+  pages_ = new QStackedWidget;
+  pages_->addWidget(make_true_color_page());
+  pages_->addWidget(make_map_page());
+  pages_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+  direction_ = new QCheckBox(tr("Direction"));
+  direction_->setObjectName("show_direction");
+  direction_->setChecked(true);
+  direction_->setToolTip(tr("Draw the latest direction as an arrow with its plane (D)"));
+  auto* reset = new QToolButton;
+  reset->setText(tr("Reset view"));
+  reset->setIcon(theme::icon(theme::Icon::frame));
+  reset->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  reset->setToolTip(tr("Look at the scene as at first (Home)"));
+
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(10, 5, 10, 5);
+  layout->setSpacing(8);
+  layout->addWidget(label_for(mode_, tr("Colour")));
+  layout->addWidget(mode_);
+  layout->addSpacing(8);
+  layout->addWidget(pages_);
+  layout->addStretch(1);
+  layout->addWidget(direction_);
+  layout->addWidget(reset);
+
+  connect(mode_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this](int index) { colors_.set_mode(static_cast<ColorMode>(index)); });
+  connect(direction_, &QCheckBox::toggled, this, &ColorControls::direction_toggled);
+  connect(reset, &QToolButton::clicked, this, &ColorControls::reset_view_clicked);
+  connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
+  connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
+  show_choice();
+}
+
+QWidget* ColorControls::make_true_color_page() {
+  exposure_slider_ = new QSlider(Qt::Horizontal);
+  exposure_slider_->setRange(static_cast<int>(lowest_exposure) * slider_steps_per_ev,
+                             static_cast<int>(highest_exposure) * slider_steps_per_ev);
+  exposure_slider_->setFixedWidth(120);
+  exposure_ = new QDoubleSpinBox;
+  exposure_->setObjectName("exposure");
+  exposure_->setRange(lowest_exposure, highest_exposure);
+  exposure_->setSingleStep(0.25);
+  exposure_->setDecimals(2);
+  exposure_->setSuffix(tr(" EV"));
+  exposure_->setToolTip(tr("Shown is 2 to the power of the exposure, times B"));
+  automatic_ = new QCheckBox(tr("Auto"));
+  automatic_->setToolTip(tr("Expose for what is lit, anew for every picture"));
+  gamma_ = new QDoubleSpinBox;
+  gamma_->setRange(1.0, 3.0);
+  gamma_->setSingleStep(0.1);
+  gamma_->setDecimals(1);
+
+  auto* page = new QWidget;
+  auto* layout = new QHBoxLayout(page);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  layout->addWidget(label_for(exposure_, tr("Exposure")));
+  layout->addWidget(exposure_slider_);
+  layout->addWidget(exposure_);
+  layout->addWidget(automatic_);
+  layout->addSpacing(8);
+  layout->addWidget(label_for(gamma_, tr("Gamma")));
+  layout->addWidget(gamma_);
+
+  connect(exposure_slider_, &QSlider::valueChanged, this, [this](int value) {
+    colors_.set_exposure(static_cast<double>(value) / slider_steps_per_ev);
+  });
+  connect(exposure_, qOverload<double>(&QDoubleSpinBox::valueChanged), &colors_,
+          &ColorChoice::set_exposure);
+  connect(automatic_, &QCheckBox::toggled, &colors_, &ColorChoice::set_automatic_exposure);
+  connect(gamma_, qOverload<double>(&QDoubleSpinBox::valueChanged), &colors_,
+          &ColorChoice::set_gamma);
+  return page;
+}
+
+QWidget* ColorControls::make_map_page() {
+  map_ = new QComboBox;
+  for (const std::string& name : color_map_names()) map_->addItem(QString::fromStdString(name));
+  logarithmic_ = new QCheckBox(tr("Logarithmic"));
+  logarithmic_->setObjectName("logarithmic");
+
+  auto* page = new QWidget;
+  auto* layout = new QHBoxLayout(page);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  layout->addWidget(label_for(map_, tr("Map")));
+  layout->addWidget(map_);
+  layout->addWidget(logarithmic_);
+  layout->addStretch(1);
+
+  connect(map_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this](int index) { colors_.set_map(static_cast<ColorMap>(index)); });
+  connect(logarithmic_, &QCheckBox::toggled, &colors_, &ColorChoice::set_logarithmic);
+  return page;
+}
+
+void ColorControls::toggle_direction() { direction_->toggle(); }
+
+void ColorControls::show_choice() {
+  const ColorScale& scale = colors_.scale();
+  const QSignalBlocker quiet[] = {QSignalBlocker(exposure_slider_),
+                                  QSignalBlocker(exposure_),
+                                  QSignalBlocker(automatic_),
+                                  QSignalBlocker(gamma_),
+                                  QSignalBlocker(map_),
+                                  QSignalBlocker(logarithmic_),
+                                  QSignalBlocker(mode_)};
+  mode_->setCurrentIndex(static_cast<int>(scale.mode));
+  pages_->setCurrentIndex(scale.mode == ColorMode::true_color ? 0 : 1);
+  exposure_slider_->setValue(static_cast<int>(std::lround(scale.exposure * slider_steps_per_ev)));
+  exposure_->setValue(scale.exposure);
+  automatic_->setChecked(colors_.exposure_is_automatic());
+  gamma_->setValue(scale.gamma);
+  map_->setCurrentIndex(static_cast<int>(scale.map));
+  logarithmic_->setChecked(scale.logarithmic);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,46 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "color_choice.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QSlider;
+class QStackedWidget;
+
+namespace transillum::viewer {
+
+/// The strip above the 3-D view: how radiosity becomes colour, and what else is drawn.
+class ColorControls : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ColorControls(ColorChoice& colors, QWidget* parent = nullptr);
+
+  void toggle_direction();
+
+ signals:
+  void direction_toggled(bool shown);
+  void reset_view_clicked();
+
+ private:
+  QWidget* make_true_color_page();
+  QWidget* make_map_page();
+  void show_choice();
+
+  ColorChoice& colors_;
+  QComboBox* mode_;
+  QStackedWidget* pages_;
+  QSlider* exposure_slider_;
+  QDoubleSpinBox* exposure_;
+  QCheckBox* automatic_;
+  QDoubleSpinBox* gamma_;
+  QComboBox* map_;
+  QCheckBox* logarithmic_;
+  QCheckBox* direction_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,163 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "color_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+// A table in place of pow(): the window recolours every patch many times a second.
+class GammaTable {
+ public:
+  explicit GammaTable(double gamma) {
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+      shown_[i] = static_cast<std::uint8_t>(
+          std::lround(255 * std::pow(static_cast<double>(i) / steps, 1 / gamma)));
+  }
+  std::uint8_t operator()(double linear) const {
+    return shown_[static_cast<std::size_t>(std::lround(linear * steps))];
+  }
+
+ private:
+  static constexpr int steps = 8192;
+  std::array<std::uint8_t, steps + 1> shown_;
+};
+
+Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
+  // Too bright a patch is dimmed as a whole, which keeps its hue.
+  const Rgb exposed = factor * radiosity;
+  const double largest = max_abs(exposed);
+  if (!std::isfinite(largest)) return {255, 255, 255};
+  const double dim = largest > 1 ? 1 / largest : 1;
+  const auto channel = [&](double x) { return gamma(std::clamp(dim * x, 0.0, 1.0)); };
+  return {channel(exposed.r), channel(exposed.g), channel(exposed.b)};
+}
+
+// Steps of 1, 2 or 5 times a power of ten: about `count` of them over `width`.
+double round_step(double width, int count) {
+  const double rough = width / count;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double lead = rough / power;
+  return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+}
+
+}  // namespace
+
+double ColorScale::value(const Rgb& b) const {
+  switch (mode) {
+    case ColorMode::red:
+      return b.r;
+    case ColorMode::green:
+      return b.g;
+    case ColorMode::blue:
+      return b.b;
+    case ColorMode::true_color:
+    case ColorMode::luminance:
+      break;
+  }
+  return 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b;
+}
+
+double ColorScale::position(double v) const {
+  if (!logarithmic) return (v - low) / (high - low);
+  return v > 0 ? std::log(v / low) / std::log(high / low) : 0.0;
+}
+
+double ColorScale::value_at(double t) const {
+  return logarithmic ? low * std::pow(high / low, t) : low + t * (high - low);
+}
+
+Color8 ColorScale::color(const Rgb& radiosity) const {
+  std::vector<Color8> colors;
+  color(std::span(&radiosity, 1), colors);
+  return colors.front();
+}
+
+void ColorScale::color(std::span<const Rgb> radiosity, std::vector<Color8>& colors) const {
+  colors.resize(radiosity.size());
+  if (mode == ColorMode::true_color) {
+    const GammaTable table(gamma);
+    const double factor = std::exp2(exposure);
+    std::transform(radiosity.begin(), radiosity.end(), colors.begin(),
+                   [&](const Rgb& b) { return expose(b, factor, table); });
+  } else {
+    std::transform(radiosity.begin(), radiosity.end(), colors.begin(),
+                   [&](const Rgb& b) { return color_of(map, position(value(b))); });
+  }
+}
+
+std::vector<double> ColorScale::ticks() const {
+  std::vector<double> values;
+  if (!(high > low)) return values;
+  if (logarithmic) {
+    const double decades = std::log10(high / low);
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
+    const auto first = static_cast<int>(std::floor(std::log10(low)));
+    const auto last = static_cast<int>(std::ceil(std::log10(high)));
+    for (int e = first; e <= last; e += every)
+      for (const double lead : {1.0, 2.0, 5.0}) {
+        if (lead != 1 && decades > 3) continue;
+        const double v = lead * std::pow(10.0, e);
+        if (v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9)) values.push_back(v);
+      }
+  } else {
+    const double step = round_step(high - low, 6);
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+      values.push_back(k * step);
+  }
+  return values;
+}
+
+void ColorScale::fit_range(std::span<const Rgb> radiosity) {
+  double smallest = HUGE_VAL, largest = 0;
+  for (const Rgb& b : radiosity) {
+    const double v = value(b);
+    if (!std::isfinite(v)) continue;
+    largest = std::max(largest, v);
+    if (v > 0) smallest = std::min(smallest, v);
+  }
+  if (!(largest > 0)) {  // darkness
+    low = logarithmic ? 1e-3 : 0;
+    high = 1;
+    return;
+  }
+  high = largest;
+  // More than six decades below the brightest all is black.
+  low = logarithmic ? std::max(smallest, 1e-6 * largest) : 0;
+  if (logarithmic && !(high > 1.01 * low)) {
+    low = high / 2;
+    high = high * 2;
+  }
+}
+
+void ColorScale::fit_exposure(const Scene& scene, std::span<const Rgb> radiosity) {
+  std::vector<std::pair<double, double>> brightness_area;
+  double area = 0;
+  for (const bool count_emitters : {false, true}) {
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      const double brightness = max_abs(radiosity[static_cast<std::size_t>(i)]);
+      const bool counts = count_emitters || max_abs(scene.exitance(i)) == 0;
+      if (!counts || !(brightness > 0) || !std::isfinite(brightness)) continue;
+      brightness_area.emplace_back(brightness, scene.patch(i).area);
+      area += scene.patch(i).area;
+    }
+    if (!brightness_area.empty()) break;
+  }
+  if (brightness_area.empty()) return;
+  std::sort(brightness_area.begin(), brightness_area.end());
+  double below = 0;
+  double white = brightness_area.back().first;
+  for (const auto& [brightness, patch_area] : brightness_area) {
+    below += patch_area;
+    if (below >= 0.95 * area) {
+      white = brightness;
+      break;
+    }
+  }
+  exposure = std::log2(0.85 / white);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,112 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <ostream>
+
+#include "transillum/errors.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// As the command line keeps them, before names become enumerators.
+struct Words {
+  std::string sampling, engine, normalize = "none";
+  bool one_way = false, two_way = false;
+};
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " | ") + name;
+  return text;
+}
+
+void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
+  SolveOptions& solve = line.solve_options;
+  app.add_option("-m,--directions", solve.directions, "passes an iteration step takes")
+      ->capture_default_str();
+  app.add_option("--sampling", words.sampling, joined(sampling_names()))->capture_default_str();
+  app.add_option("--seed", solve.seed, "for random directions")->capture_default_str();
+  app.add_option("--engine", words.engine, joined(engine_names()))->capture_default_str();
+  auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
+  app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")
+      ->excludes(one_way);
+  app.add_option("--normalize", words.normalize, "none | rows")->capture_default_str();
+  auto* iterations = app.add_option("--iterations", solve.iterations, "stop after so many steps")
+                         ->check(CLI::PositiveNumber);
+  app.add_option("--tolerance", solve.tolerance, "stop at this relative change")
+      ->capture_default_str()
+      ->excludes(iterations);
+  app.add_flag("--two-sided", line.scene_options.two_sided,
+               "every face lights and receives on both sides");
+  app.add_option("--max-patch-area", line.scene_options.max_patch_area,
+                 "refine faces into patches no larger than this, m²")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--memory", solve.memory, "what kept form factors may take, 2G or 800M")
+      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--threads", solve.threads, "default: all cores")->check(CLI::NonNegativeNumber);
+}
+
+void finish(CommandLine& line, const Words& words, const CLI::App& app) {
+  SolveOptions& solve = line.solve_options;
+  solve.sampling = sampling_from_name(words.sampling);
+  solve.engine = engine_from_name(words.engine);
+  solve.two_way = !words.one_way;
+  if (words.normalize == "rows")
+    solve.normalize = Normalization::rows;
+  else if (words.normalize != "none")
+    throw InputError("--normalize: \"" + words.normalize + "\" is none of none, rows");
+  solve.validate();
+  if (app.count("--screenshot") > 0) {
+    if (line.scene.empty()) throw InputError("--screenshot needs a SCENE");
+    const std::filesystem::path path(line.screenshot);
+    if (path.extension() != ".png")
+      throw InputError("--screenshot: \"" + line.screenshot + "\" does not end in .png");
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder))
+      throw InputError("--screenshot: there is no folder \"" + folder.string() + "\"");
+  }
+}
+
+}  // namespace
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
+                                     std::ostream& error) {
+  ParsedCommandLine parsed;
+  CommandLine& line = parsed.command_line;
+  Words words;
+  words.sampling = name_of(line.solve_options.sampling);
+  words.engine = name_of(line.solve_options.engine);
+
+  CLI::App app("Watch diffuse light settle in a scene, direction by direction.",
+               "transillum-viewer");
+  app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
+  app.add_option("SCENE", line.scene, "an .obj file or a built-in scene; solved at once");
+  add_solve_options(app, line, words);
+  auto* screenshot =
+      app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
+  app.add_option("--after", line.after,
+                 "directions to take before the screenshot (default: the first full iteration)")
+      ->needs(screenshot)
+      ->check(CLI::PositiveNumber);
+  try {
+    app.parse(argc, argv);
+    finish(line, words, app);
+  } catch (const CLI::Success& wish) {  // --help, --version
+    parsed.exit_now = true;
+    parsed.exit_status = app.exit(wish, out, error);
+  } catch (const CLI::ParseError& wrong) {
+    error << "transillum-viewer: " << wrong.what() << '\n';
+    parsed.exit_now = true;
+    parsed.exit_status = 2;
+  } catch (const InputError& wrong) {
+    error << "transillum-viewer: " << wrong.what() << '\n';
+    parsed.exit_now = true;
+    parsed.exit_status = 2;
+  }
+  return parsed;
+}
+
+}  // namespace transillum::viewer

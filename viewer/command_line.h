@@ -1,0 +1,32 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// What the user asked for.
+struct CommandLine {
+  std::string scene;  ///< empty: start without one
+  SceneOptions scene_options;
+  SolveOptions solve_options;
+  std::string screenshot;  ///< path of a PNG; empty: none
+  int after = 0;           ///< directions before the screenshot; 0: the first full iteration
+};
+
+/// Either a command line to obey, or the status to exit with at once.
+struct ParsedCommandLine {
+  CommandLine command_line;
+  bool exit_now = false;
+  int exit_status = 0;
+};
+
+/// Help goes to `out`; what is wrong goes to `error`, as one line, with status 2.
+ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
+                                     std::ostream& error);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,41 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "convergence_view.h"
+
+#include <QVBoxLayout>
+
+#include "log_chart.h"
+#include "number_text.h"
+#include "theme.h"
+
+namespace transillum::viewer {
+
+ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
+  steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Relative change of B"));
+  steps_->set_hint(tr("A point for every finished iteration"));
+  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative change of B"));
+  passes_->set_hint(tr("A point for every direction"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(1);
+  layout->addWidget(steps_);
+  layout->addWidget(passes_);
+}
+
+void ConvergenceView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  std::vector<double> changes;
+  for (const IterationRecord& step : snapshot->statistics.steps) changes.push_back(step.change);
+  std::vector<LogChart::Level> levels;
+  if (snapshot->options.iterations == 0)
+    levels.push_back({tr("tolerance %1").arg(number_text(snapshot->options.tolerance)), theme::warm,
+                      snapshot->options.tolerance});
+  steps_->show_lines({{tr("step against the last"), theme::accent, std::move(changes), true}},
+                     std::move(levels), std::max(snapshot->options.iterations, 8));
+
+  passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot->estimate_iteration + 1)));
+  const int passes = snapshot->progress.passes;
+  passes_->show_lines(
+      {{tr("running estimate against the last"), theme::accent, snapshot->estimate_changes, false}},
+      {}, passes);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "initial_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace transillum::viewer {
+
+namespace {
+
+// How each built-in shows best: the way from the target to the eye, and which way is up.
+struct Pose {
+  const char* scene;
+  Vec3 toward_eye, up;
+  double radius_share;  ///< of half the diagonal: what matters may be small in its enclosure
+};
+constexpr Pose poses[] = {
+    {"sphere-flake", {0.55, -0.75, 0.38}, {0, 0, 1}, 0.40},
+    {"cornell-box", {0, -1, 0}, {0, 0, 1}, 1},
+    {"furnace", {0.45, -0.8, 0.45}, {0, 0, 1}, 1},
+    {"boards", {0.3, -0.9, 0.5}, {0, 0, 1}, 1},
+    {"rooms", {0.35, -0.65, 0.8}, {0, 0, 1}, 1},
+    {"stars", {0.35, -0.9, 0.4}, {0, 0, 1}, 1},
+};
+// OBJ files mostly have y up.
+constexpr Pose file_pose{"", {0.5, 0.45, 0.75}, {0, 1, 0}, 1};
+
+const Pose& pose_of(const Scene& scene) {
+  const std::string name = scene.name().substr(0, scene.name().find(':'));
+  const auto* found = std::find_if(std::begin(poses), std::end(poses),
+                                   [&](const Pose& pose) { return pose.scene == name; });
+  return found == std::end(poses) ? file_pose : *found;
+}
+
+}  // namespace
+
+ViewPoint initial_view(const Scene& scene, double aspect) {
+  const Pose& pose = pose_of(scene);
+  ViewPoint view;
+  view.up = pose.up;
+  view.target = scene.bounds().center();
+  view.radius = std::max(0.5 * pose.radius_share * scene.bounds().diagonal(), 1e-9);
+
+  // Far enough for every corner of what matters to be within the picture, and no farther.
+  const Vec3 back = normalized(pose.toward_eye);
+  const Vec3 right = normalized(cross(pose.up, back));
+  const Vec3 up = cross(back, right);
+  const double tan_vertical = std::tan(view.view_angle / 2 * std::numbers::pi / 180);
+  const double tan_horizontal = tan_vertical * aspect;
+  constexpr double margin = 1.06;
+  double distance = 0;
+  if (pose.radius_share < 1) {
+    distance = margin * view.radius / std::sin(std::atan(std::min(tan_vertical, tan_horizontal)));
+  } else {
+    for (const Vec3& p : scene.points()) {
+      const Vec3 q = p - view.target;
+      const double needed =
+          std::max(std::abs(dot(q, right)) / tan_horizontal, std::abs(dot(q, up)) / tan_vertical);
+      distance = std::max(distance, dot(q, back) + margin * needed);
+    }
+  }
+  view.eye = view.target + distance * back;
+  return view;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,19 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// Where to look from, and what at.
+struct ViewPoint {
+  Vec3 eye, target, up;
+  double view_angle = 30;  ///< vertical, degrees
+  double radius = 1;       ///< of what is worth looking at, round `target`, metres
+};
+
+/// A first look at `scene`, `aspect` = width / height of the picture. Surfaces seen from behind are
+/// not drawn, so a closed room is looked into from outside, through its nearest wall.
+ViewPoint initial_view(const Scene& scene, double aspect);
+
+}  // namespace transillum::viewer

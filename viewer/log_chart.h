@@ -1,0 +1,68 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QColor>
+#include <QString>
+#include <QWidget>
+#include <vector>
+
+namespace transillum::viewer {
+
+/// A line chart with counts from 1 along x and a logarithmic y axis. Values that are not positive
+/// have no place on it: they leave a gap in the line, and the axis says how many there are.
+///
+/// Painted by Qt: sharp on every screen, and a dock may float without taking a GL context along.
+class LogChart : public QWidget {
+  Q_OBJECT
+
+ public:
+  struct Line {
+    QString name;
+    QColor color;
+    std::vector<double> values;  ///< values[k] stands at x = k + 1
+    bool dots = false;           ///< mark each value
+  };
+  /// A level drawn across, such as a tolerance.
+  struct Level {
+    QString name;
+    QColor color;
+    double value = 0;
+  };
+
+  LogChart(const QString& title, const QString& x_title, const QString& y_title,
+           QWidget* parent = nullptr);
+
+  void set_title(const QString& title);
+  /// @param x_max right end of the axis at least
+  void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
+  /// What to say where there is nothing to draw.
+  void set_hint(const QString& hint) { hint_ = hint; }
+
+  QSize sizeHint() const override { return {420, 210}; }
+  QSize minimumSizeHint() const override { return {240, 130}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  struct Frame;
+  Frame frame() const;
+  void draw_axes(QPainter& painter, const Frame& frame) const;
+  void draw_line(QPainter& painter, const Frame& frame, const Line& line) const;
+  void draw_legend(QPainter& painter, const Frame& frame) const;
+
+  QString title_, x_title_, y_title_, hint_;
+  std::vector<Line> lines_;
+  std::vector<Level> levels_;
+  int x_max_ = 1;
+};
+
+/// Decades [first, last] that hold all positive values, at least one decade apart; [-1, 0] for
+/// none.
+struct Decades {
+  int first = -1, last = 0;
+};
+Decades decades_of(const std::vector<LogChart::Line>& lines,
+                   const std::vector<LogChart::Level>& levels);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,398 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "main_window.h"
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QElapsedTimer>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QScrollArea>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "banner.h"
+#include "color_bar.h"
+#include "color_controls.h"
+#include "convergence_view.h"
+#include "map_canvas.h"
+#include "map_view.h"
+#include "number_text.h"
+#include "patch_inspector.h"
+#include "progress_line.h"
+#include "scene_view.h"
+#include "settings_panel.h"
+#include "solve_actions.h"
+#include "theme.h"
+#include "welcome_page.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// Raise it when docks come, go or change their names: an old layout is then laid out anew.
+constexpr int layout_version = 1;
+
+QString dropped_file(const QMimeData& data) {
+  const QList<QUrl> urls = data.urls();
+  return urls.size() == 1 && urls.front().isLocalFile() ? urls.front().toLocalFile() : QString();
+}
+
+QScrollArea* scrollable(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setWidget(content);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  return area;
+}
+
+}  // namespace
+
+MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), remember_(remember) {
+  setWindowTitle(tr("transillum"));
+  setAcceptDrops(true);
+  setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+  actions_ = new SolveActions(this);
+  setCentralWidget(make_center());
+  make_docks();
+  make_menus();
+  progress_ = new ProgressLine;
+  statusBar()->addWidget(progress_, 1);
+  statusBar()->setSizeGripEnabled(false);
+  connect_session();
+  restore_layout();
+}
+
+MainWindow::~MainWindow() = default;
+
+QWidget* MainWindow::make_center() {
+  banner_ = new Banner;
+  color_controls_ = new ColorControls(colors_);
+  scene_view_ = new SceneView(selection_, colors_);
+  scene_view_->setObjectName("scene_view");
+  auto* welcome = new WelcomePage;
+  connect(welcome, &WelcomePage::open_clicked, this, &MainWindow::choose_file);
+  connect(welcome, &WelcomePage::built_in_clicked, this,
+          [this](const QString& name) { open(name); });
+  connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
+          &SceneView::set_direction_shown);
+  connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
+
+  auto* scene_page = new QWidget;
+  auto* with_bar = new QHBoxLayout;
+  with_bar->setSpacing(0);
+  with_bar->addWidget(scene_view_, 1);
+  with_bar->addWidget(new ColorBar(colors_));
+  auto* scene_layout = new QVBoxLayout(scene_page);
+  scene_layout->setContentsMargins(0, 0, 0, 0);
+  scene_layout->setSpacing(0);
+  scene_layout->addWidget(color_controls_);
+  scene_layout->addLayout(with_bar, 1);
+  pages_ = new QStackedWidget;
+  pages_->addWidget(welcome);
+  pages_->addWidget(scene_page);
+
+  auto* center = new QWidget;
+  auto* layout = new QVBoxLayout(center);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(banner_);
+  layout->addWidget(pages_, 1);
+  return center;
+}
+
+QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidget* content) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName(QString::fromLatin1(name));
+  dock->setWidget(content);
+  return dock;
+}
+
+void MainWindow::make_docks() {
+  map_view_ = new MapView(selection_, colors_);
+  convergence_view_ = new ConvergenceView;
+  inspector_ = new PatchInspector(selection_, colors_);
+  settings_ = new SettingsPanel;
+  settings_dock_ = add_dock(tr("Solve settings"), "settings_dock", scrollable(settings_));
+  inspector_dock_ = add_dock(tr("Patch"), "inspector_dock", scrollable(inspector_));
+  map_dock_ = add_dock(tr("Visibility map"), "map_dock", map_view_);
+  convergence_dock_ = add_dock(tr("Convergence"), "convergence_dock", convergence_view_);
+  connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
+  connect(map_dock_, &QDockWidget::visibilityChanged, this, &MainWindow::request_map);
+}
+
+void MainWindow::make_menus() {
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  auto* open_file = new QAction(theme::icon(theme::Icon::open), tr("Open…"), this);
+  open_file->setShortcut(QKeySequence::Open);
+  open_file->setToolTip(tr("Open an OBJ file (Ctrl+O), or drop one onto the window"));
+  connect(open_file, &QAction::triggered, this, &MainWindow::choose_file);
+  file->addAction(open_file);
+  fill_open_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
+  file->addSeparator();
+  file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
+
+  actions_->add_to(*menuBar()->addMenu(tr("&Solve")));
+
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_})
+    view->addAction(dock->toggleViewAction());
+  view->addSeparator();
+  view->addAction(tr("Reset view"), scene_view_, &SceneView::reset_view,
+                  QKeySequence(Qt::Key_Home));
+  view->addAction(tr("Show or hide the direction"), color_controls_,
+                  &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
+  view->addAction(
+      tr("Select nothing"), this, [this] { selection_.select(no_patch); },
+      QKeySequence(Qt::Key_Escape));
+  view->addAction(tr("Reset layout"), this, &MainWindow::reset_layout);
+
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  help->addAction(tr("Keys and mouse"), this, &MainWindow::show_keys,
+                  QKeySequence(QKeySequence::HelpContents));
+  help->addAction(tr("About transillum"), this, &MainWindow::show_about);
+
+  auto* bar = new QToolBar(tr("Tools"));
+  bar->setObjectName("tool_bar");
+  bar->setMovable(false);
+  bar->setIconSize(QSize(20, 20));
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar->addAction(open_file);
+  bar->addSeparator();
+  actions_->add_to(*bar);
+  addToolBar(bar);
+}
+
+void MainWindow::fill_open_menu(QMenu& menu) {
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    const QString name = QString::fromStdString(scene.name);
+    menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(scene.summary)), this,
+                   [this, name] { open(name); });
+  }
+}
+
+void MainWindow::connect_session() {
+  connect(&session_, &SolverSession::state_changed, this, &MainWindow::show_state);
+  connect(&session_, &SolverSession::scene_loaded, this, &MainWindow::show_loaded);
+  connect(&session_, &SolverSession::snapshot_ready, this, &MainWindow::show_snapshot);
+  connect(&session_, &SolverSession::load_progressed, progress_, &ProgressLine::show_loading);
+  connect(&session_, &SolverSession::failed, this, [this](const QString& message, bool bad_input) {
+    show_failure(message);
+    emit failed(message, bad_input);
+  });
+  connect(&map_recorder_, &MapRecorder::recorded, map_view_, &MapView::show_map);
+  connect(&map_recorder_, &MapRecorder::failed, this, &MainWindow::show_failure);
+
+  connect(actions_, &SolveActions::run, this, &MainWindow::run);
+  connect(actions_, &SolveActions::pause, &session_, &SolverSession::pause);
+  connect(actions_, &SolveActions::one_direction, &session_, &SolverSession::advance_one_direction);
+  connect(actions_, &SolveActions::one_iteration, &session_, &SolverSession::advance_one_iteration);
+  connect(actions_, &SolveActions::stop, &session_, &SolverSession::stop);
+}
+
+void MainWindow::reset_layout() {
+  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_}) {
+    removeDockWidget(dock);
+    dock->setFloating(false);
+  }
+  addDockWidget(Qt::LeftDockWidgetArea, settings_dock_);
+  addDockWidget(Qt::LeftDockWidgetArea, inspector_dock_);
+  addDockWidget(Qt::RightDockWidgetArea, map_dock_);
+  addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
+  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_})
+    dock->show();
+  resizeDocks({settings_dock_, map_dock_}, {280, 440}, Qt::Horizontal);
+  resizeDocks({settings_dock_, inspector_dock_}, {450, 400}, Qt::Vertical);
+  resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
+}
+
+void MainWindow::restore_layout() {
+  resize(1600, 1000);
+  reset_layout();
+  if (!remember_) return;
+  const QSettings settings;
+  restoreGeometry(settings.value("window/geometry").toByteArray());
+  // After an update of Qt or of the docks the old state may not fit any more.
+  const QByteArray state = settings.value("window/state").toByteArray();
+  if (!state.isEmpty() && !restoreState(state, layout_version)) reset_layout();
+}
+
+void MainWindow::set_options(const SolveOptions& solve, const SceneOptions& scene) {
+  settings_->set_options(solve, scene);
+}
+
+void MainWindow::open(const QString& spec, Goal then) {
+  banner_->dismiss();
+  asked_spec_ = spec.toStdString();
+  asked_scene_options_ = settings_->scene_options();
+  session_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
+}
+
+void MainWindow::choose_file() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open a scene"), {},
+                                                    tr("Wavefront OBJ (*.obj);;All files (*)"));
+  if (!path.isEmpty()) open(path);
+}
+
+bool MainWindow::at_start() const {
+  return !snapshot_ || (snapshot_->progress.iteration == 0 && snapshot_->progress.direction == 0);
+}
+
+void MainWindow::run() {
+  // Before the first direction, the panel's settings still count.
+  if (at_start() && settings_->differ_from_effect())
+    solve_anew();
+  else
+    session_.run();
+}
+
+void MainWindow::solve_anew() {
+  if (!loaded_) return;
+  banner_->dismiss();
+  const SceneOptions scene = settings_->scene_options();
+  const bool same_scene = scene.two_sided == scene_options_.two_sided &&
+                          scene.max_patch_area == scene_options_.max_patch_area;
+  if (same_scene)
+    session_.restart(settings_->solve_options(), {Goal::Kind::finished});
+  else
+    open(QString::fromStdString(spec_));
+}
+
+void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
+  loaded_ = std::move(loaded);
+  snapshot_ = nullptr;
+  spec_ = asked_spec_;
+  scene_options_ = asked_scene_options_;
+  selection_.select(no_patch);
+  map_recorder_.clear();
+  map_view_->clear();
+  pages_->setCurrentIndex(1);
+  scene_view_->show_scene(loaded_);
+  progress_->show_scene(*loaded_);
+  const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
+  setWindowTitle(tr("%1 – transillum").arg(name));
+
+  QStringList warnings;
+  for (const std::string& warning : loaded_->scene->report().warnings)
+    warnings << QString::fromStdString(warning);
+  if (warnings.isEmpty())
+    banner_->dismiss();
+  else
+    banner_->say(Banner::Kind::warning,
+                 warnings.size() == 1
+                     ? warnings.front()
+                     : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1),
+                 warnings.join('\n'));
+}
+
+void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  if (snapshot->loaded != loaded_) return;
+  QElapsedTimer timer;
+  timer.start();
+  snapshot_ = std::move(snapshot);
+  settings_->set_in_effect(snapshot_->options, scene_options_);
+  colors_.fit(snapshot_);
+  scene_view_->show_snapshot(snapshot_);
+  map_view_->show_snapshot(snapshot_);
+  convergence_view_->show_snapshot(snapshot_);
+  inspector_->show_snapshot(snapshot_);
+  progress_->show_snapshot(snapshot_);
+  actions_->show_state(session_.state(), at_start());
+  request_map();
+  // A large scene is refreshed less often, so that the window has time for its user.
+  session_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
+}
+
+void MainWindow::show_state(SessionState state) {
+  progress_->show_state(state);
+  actions_->show_state(state, at_start());
+  settings_->set_restart_enabled(loaded_ && state != SessionState::loading);
+}
+
+void MainWindow::request_map() {
+  if (!snapshot_ || map_dock_->isHidden()) return;
+  const SolveProgress& progress = snapshot_->progress;
+  if (norm(progress.last_direction) < 0.5) {
+    map_recorder_.clear();
+    map_view_->clear();
+    map_view_->show_snapshot(snapshot_);
+    return;
+  }
+  const auto shown = map_view_->map();
+  const bool same = shown && shown->loaded == loaded_ && shown->omega == progress.last_direction &&
+                    !map_recorder_.busy();
+  if (same) return;
+  const int direction = progress.direction > 0 ? progress.direction : progress.passes;
+  map_recorder_.request({loaded_, progress.last_direction, direction, progress.passes});
+}
+
+bool MainWindow::settled() const {
+  const bool resting =
+      session_.state() == SessionState::paused || session_.state() == SessionState::finished;
+  return resting && snapshot_ && !map_recorder_.busy() &&
+         (map_dock_->isHidden() || map_view_->up_to_date());
+}
+
+QString MainWindow::banner_text() const { return banner_->text(); }
+
+void MainWindow::show_failure(const QString& message) {
+  banner_->say(Banner::Kind::error, message);
+}
+
+void MainWindow::show_keys() {
+  QMessageBox::information(
+      this, tr("Keys and mouse"),
+      tr("<table cellspacing=6>"
+         "<tr><td><b>Scene</b></td><td>drag: turn &nbsp; Shift+drag or middle button: move &nbsp; "
+         "wheel: nearer &nbsp; click: select a patch</td></tr>"
+         "<tr><td><b>Map</b></td><td>drag: move &nbsp; wheel: enlarge &nbsp; double click: all "
+         "&nbsp; click: select a patch</td></tr>"
+         "<tr><td><b>F5 F6</b></td><td>run, pause</td></tr>"
+         "<tr><td><b>F7 F8</b></td><td>one direction, one iteration</td></tr>"
+         "<tr><td><b>Shift+F5</b></td><td>stop: back to the first direction</td></tr>"
+         "<tr><td><b>Home</b></td><td>reset the view</td></tr>"
+         "<tr><td><b>D</b></td><td>show or hide the direction</td></tr>"
+         "<tr><td><b>Esc</b></td><td>select nothing</td></tr>"
+         "<tr><td><b>Ctrl+O Ctrl+Q</b></td><td>open, quit</td></tr></table>"));
+}
+
+void MainWindow::show_about() {
+  QMessageBox::about(
+      this, tr("About transillum"),
+      tr("<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
+         "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
+          .arg(QStringLiteral(TRANSILLUM_VERSION)));
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (!dropped_file(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const QString file = dropped_file(*event->mimeData());
+  if (file.isEmpty()) return;
+  event->acceptProposedAction();
+  open(file);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (remember_) {
+    QSettings settings;
+    settings.setValue("window/geometry", saveGeometry());
+    settings.setValue("window/state", saveState(layout_version));
+  }
+  QMainWindow::closeEvent(event);
+}
+
+}  // namespace transillum::viewer

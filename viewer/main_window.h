@@ -1,0 +1,101 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QMainWindow>
+#include <memory>
+#include <string>
+
+#include "color_choice.h"
+#include "map_recorder.h"
+#include "selection.h"
+#include "solver_session.h"
+
+class QDockWidget;
+class QMenu;
+class QStackedWidget;
+
+namespace transillum::viewer {
+
+class Banner;
+class ColorControls;
+class ConvergenceView;
+class MapView;
+class PatchInspector;
+class ProgressLine;
+class SceneView;
+class SettingsPanel;
+class SolveActions;
+
+/// The one window: lays out the views and carries snapshots to them.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  /// `remember`: take the layout from the last time, and keep it for the next.
+  explicit MainWindow(bool remember, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  void set_options(const SolveOptions& solve, const SceneOptions& scene);
+  void open(const QString& spec, Goal then = {Goal::Kind::finished});
+
+  /// Whether the worker rests and every view shows the newest there is.
+  bool settled() const;
+  SolverSession& session() { return session_; }
+  Selection& selection() { return selection_; }
+  ColorChoice& colors() { return colors_; }
+  std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
+  QString banner_text() const;
+
+ signals:
+  void failed(const QString& message, bool bad_input);
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  QWidget* make_center();
+  void make_docks();
+  void make_menus();
+  void fill_open_menu(QMenu& menu);
+  QDockWidget* add_dock(const QString& title, const char* name, QWidget* content);
+  void connect_session();
+  void reset_layout();
+  void restore_layout();
+  void choose_file();
+  void run();
+  void solve_anew();
+  void show_loaded(std::shared_ptr<const LoadedScene> loaded);
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void show_state(SessionState state);
+  void request_map();
+  void show_failure(const QString& message);
+  void show_keys();
+  void show_about();
+  bool at_start() const;
+
+  const bool remember_;
+  Selection selection_;
+  ColorChoice colors_;
+  SolverSession session_;
+  MapRecorder map_recorder_;
+  std::string asked_spec_, spec_;  // the scene asked for last, and the open one
+  SceneOptions asked_scene_options_, scene_options_;
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+
+  SolveActions* actions_;
+  Banner* banner_;
+  QStackedWidget* pages_;
+  ColorControls* color_controls_;
+  SceneView* scene_view_;
+  MapView* map_view_;
+  ConvergenceView* convergence_view_;
+  PatchInspector* inspector_;
+  SettingsPanel* settings_;
+  ProgressLine* progress_;
+  QDockWidget *map_dock_, *convergence_dock_, *inspector_dock_, *settings_dock_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,213 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map_canvas.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "number_text.h"
+#include "theme.h"
+#include "thread_priority.h"
+
+namespace transillum::viewer {
+
+MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
+    : QWidget(parent), selection_(selection) {
+  setMinimumSize(200, 160);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setToolTip(tr("Drag to move, wheel to enlarge, double click to see all, click to select"));
+  painter_pool_.setMaxThreadCount(1);
+  connect(&selection_, &Selection::changed, this, qOverload<>(&QWidget::update));
+}
+
+MapCanvas::~MapCanvas() { painter_pool_.waitForDone(); }
+
+void MapCanvas::show_map(std::shared_ptr<const RecordedMap> map, std::int32_t step,
+                         std::shared_ptr<const std::vector<Color8>> patch_colors) {
+  map_ = std::move(map);
+  step_ = step;
+  patch_colors_ = std::move(patch_colors);
+  repaint_map();
+}
+
+void MapCanvas::clear() {
+  map_ = nullptr;
+  picture_ = nullptr;
+  stale_ = false;
+  zoom_ = 1;
+  pan_ = {};
+  update();
+}
+
+void MapCanvas::fit() {
+  zoom_ = 1;
+  pan_ = {};
+  repaint_map();
+}
+
+MapTransform MapCanvas::transform() const {
+  MapTransform result = fit_map(*map_, size());
+  result.scale *= zoom_;
+  result.middle += pan_;
+  return result;
+}
+
+void MapCanvas::repaint_map() {
+  update();
+  if (!map_) return;
+  if (painting_) {
+    stale_ = true;  // newest wins: painted when the one under way is done
+    return;
+  }
+  painting_ = true;
+  stale_ = false;
+  const MapPictureRequest request{map_,        step_,  patch_colors_,
+                                  transform(), size(), devicePixelRatioF()};
+  painter_pool_.start([this, request] {
+    give_way_to_the_window();
+    auto picture = std::make_shared<const MapPicture>(paint_map(request));
+    QMetaObject::invokeMethod(
+        this, [this, picture] { take(picture); }, Qt::QueuedConnection);
+  });
+}
+
+void MapCanvas::take(std::shared_ptr<const MapPicture> picture) {
+  painting_ = false;
+  if (!map_) return;
+  picture_ = std::move(picture);
+  update();
+  if (stale_) repaint_map();
+  emit painted();
+}
+
+PatchId MapCanvas::patch_at(const QPointF& position) const {
+  if (!picture_) return no_patch;
+  const MapRecord& record = picture_->request.map->record;
+  const std::int32_t row =
+      row_at(record, picture_->rows, picture_->request.transform.to_metres(position));
+  return row == MapRecord::no_row ? no_patch : record.rows[static_cast<std::size_t>(row)].patch;
+}
+
+void MapCanvas::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme::scene_background);
+  if (!picture_ || !map_) {
+    painter.setPen(theme::on_dark_dim);
+    painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                     tr("The visibility map appears with the first direction"));
+    return;
+  }
+  // The picture may be of an older view: put its middle and scale where they are now.
+  const MapTransform& painted = picture_->request.transform;
+  const MapTransform now = picture_->request.map == map_ ? transform() : painted;
+  const double share = now.scale / painted.scale;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, share != 1);
+  const QPointF corner = now.middle - share * painted.middle;
+  painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  draw_selection(painter, now);
+  draw_scale_bar(painter, now.scale);
+  draw_axes(painter);
+}
+
+void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
+  const PatchId patch = selection_.patch();
+  if (patch == no_patch) return;
+  const MapRecord& record = picture_->request.map->record;
+  std::vector<QPolygonF> fragments;
+  for (const std::int32_t number : picture_->rows) {
+    const MapRecord::Row& row = record.rows[static_cast<std::size_t>(number)];
+    if (row.patch == patch) fragments.push_back(row_polygon(record, row, shown));
+  }
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(Qt::black, 4), QPen(theme::selection, 2)}) {
+    painter.setPen(pen);
+    for (const QPolygonF& fragment : fragments) painter.drawPolygon(fragment);
+  }
+}
+
+void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
+  // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
+  const double most = width() / 4.0 / scale;
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  const double lead = most / power;
+  const double metres = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+  const double length = metres * scale;
+  const QPointF left(14, height() - 14);
+  painter.setPen(QPen(theme::on_dark, 1.5));
+  painter.drawLine(left, left + QPointF(length, 0));
+  painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
+  painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
+  painter.drawText(left + QPointF(length + 8, 4), number_text(metres) + tr(" m"));
+}
+
+void MapCanvas::draw_axes(QPainter& painter) const {
+  const QPointF origin(width() - 18, height() - 16);
+  constexpr double length = 30;
+  painter.setPen(QPen(theme::on_dark, 1.5));
+  const auto arrow = [&](const QPointF& way, const QString& name, const QPointF& name_offset) {
+    const QPointF tip = origin + length * way;
+    const QPointF across(-way.y(), way.x());
+    painter.drawLine(origin, tip);
+    painter.drawLine(tip, tip - 6 * way + 3.5 * across);
+    painter.drawLine(tip, tip - 6 * way - 3.5 * across);
+    painter.drawText(tip + name_offset, name);
+  };
+  arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
+  arrow({0, -1}, QStringLiteral("v"), {-4, -6});
+}
+
+void MapCanvas::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  repaint_map();
+}
+
+void MapCanvas::wheelEvent(QWheelEvent* event) {
+  if (!map_) return;
+  const double factor = std::pow(1.0015, event->angleDelta().y());
+  const double zoom = std::clamp(zoom_ * factor, 0.5, 500.0);
+  // The point under the pointer stays where it is.
+  const QPointF fitted_middle = fit_map(*map_, size()).middle;
+  const QPointF arm = event->position() - fitted_middle - pan_;
+  pan_ += arm * (1 - zoom / zoom_);
+  zoom_ = zoom;
+  repaint_map();
+  event->accept();
+}
+
+void MapCanvas::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  press_position_ = last_position_ = event->pos();
+  dragging_ = false;
+}
+
+void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (!(event->buttons() & Qt::LeftButton) || !map_) return;
+  const QPointF position = event->pos();
+  const double way = (position - press_position_).manhattanLength();
+  if (!dragging_ && way < QApplication::startDragDistance()) return;
+  dragging_ = true;
+  setCursor(Qt::ClosedHandCursor);
+  pan_ += position - last_position_;
+  last_position_ = position;
+  repaint_map();
+}
+
+void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  unsetCursor();
+  if (!dragging_) selection_.select(patch_at(event->pos()));
+  dragging_ = false;
+}
+
+void MapCanvas::mouseDoubleClickEvent(QMouseEvent*) {
+  dragging_ = true;  // the release that follows selects nothing
+  fit();
+}
+
+}  // namespace transillum::viewer

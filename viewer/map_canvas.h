@@ -1,0 +1,72 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QThreadPool>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "map_painter.h"
+#include "selection.h"
+
+namespace transillum::viewer {
+
+/// The picture of a visibility map: drag moves it, the wheel enlarges it, a click selects a patch,
+/// a double click shows all of it.
+///
+/// A thread of its own paints; until the new picture is there the old one is moved and scaled.
+class MapCanvas : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
+  ~MapCanvas() override;
+
+  void show_map(std::shared_ptr<const RecordedMap> map, std::int32_t step,
+                std::shared_ptr<const std::vector<Color8>> patch_colors);
+  void clear();
+  void fit();
+  /// Whether the picture on the screen is the one that was asked for.
+  bool up_to_date() const { return !painting_ && !stale_; }
+  /// The patch drawn at a point, in logical pixels; no_patch for none.
+  PatchId patch_at(const QPointF& position) const;
+  std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
+
+  QSize sizeHint() const override { return {420, 380}; }
+
+ signals:
+  void painted();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+
+ private:
+  MapTransform transform() const;
+  void repaint_map();
+  void take(std::shared_ptr<const MapPicture> picture);
+  void draw_selection(QPainter& painter, const MapTransform& shown) const;
+  void draw_scale_bar(QPainter& painter, double scale) const;
+  void draw_axes(QPainter& painter) const;
+
+  Selection& selection_;
+  std::shared_ptr<const RecordedMap> map_;
+  std::int32_t step_ = 0;
+  std::shared_ptr<const std::vector<Color8>> patch_colors_;
+  double zoom_ = 1;  // times the scale that fits
+  QPointF pan_;      // pixels
+  QPointF press_position_, last_position_;
+  bool dragging_ = false;
+
+  std::shared_ptr<const MapPicture> picture_;
+  bool painting_ = false, stale_ = false;
+  QThreadPool painter_pool_;
+};
+
+}  // namespace transillum::viewer

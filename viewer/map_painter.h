@@ -1,0 +1,63 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QImage>
+#include <QPointF>
+#include <QPolygonF>
+#include <QSizeF>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "color_map.h"
+#include "map_recorder.h"
+
+namespace transillum::viewer {
+
+/// From metres on the transillumination plane to pixels. The map is seen along omega, so u points
+/// to the left and v up.
+struct MapTransform {
+  Vec2 center;       ///< metres; lies at `middle`
+  QPointF middle;    ///< pixels
+  double scale = 1;  ///< pixels a metre
+
+  QPointF to_pixels(const Vec2& p) const {
+    return {middle.x() - scale * (p.x - center.x), middle.y() - scale * (p.y - center.y)};
+  }
+  Vec2 to_metres(const QPointF& p) const {
+    return {center.x - (p.x() - middle.x()) / scale, center.y - (p.y() - middle.y()) / scale};
+  }
+  friend bool operator==(const MapTransform& a, const MapTransform& b) {
+    return a.center.x == b.center.x && a.center.y == b.center.y && a.middle == b.middle &&
+           a.scale == b.scale;
+  }
+};
+
+/// The whole scene in a picture of `size`, the same scale for all directions.
+MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
+
+/// What one picture of a map shows.
+struct MapPictureRequest {
+  std::shared_ptr<const RecordedMap> map;
+  std::int32_t step = 0;  ///< V after this step
+  std::shared_ptr<const std::vector<Color8>> patch_colors;
+  MapTransform transform;  ///< to logical pixels
+  QSizeF size;             ///< logical
+  double pixel_ratio = 1;
+};
+
+struct MapPicture {
+  MapPictureRequest request;
+  QImage image;
+  std::vector<std::int32_t> rows;  ///< of V
+};
+
+/// Lit sides in their patch's colour, back sides grey and hatched. Any thread.
+MapPicture paint_map(const MapPictureRequest& request);
+
+QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,
+                      const MapTransform& transform);
+/// The row of `rows` that covers `p`, or MapRecord::no_row.
+std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,104 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patch_inspector.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "number_text.h"
+#include "theme.h"
+
+namespace transillum::viewer {
+
+PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), selection_(selection), colors_(colors) {
+  hint_ = new QLabel(tr("Click a patch in the scene or in the map."));
+  hint_->setForegroundRole(QPalette::PlaceholderText);
+  hint_->setWordWrap(true);
+  values_ = new QWidget;
+  auto* grid = new QGridLayout(values_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(10);
+  grid->setVerticalSpacing(4);
+  grid->setColumnStretch(1, 1);
+  id_ = add_row(*grid, tr("Patch"), {});
+  id_->setObjectName("patch_id");
+  face_ = add_row(*grid, tr("Face"), {});
+  material_ = add_row(*grid, tr("Material"), {});
+  area_ = add_row(*grid, tr("Area"), tr("m²"));
+  center_ = add_row(*grid, tr("Centre"), tr("m"));
+  normal_ = add_row(*grid, tr("Normal"), {});
+  exitance_ = add_row(*grid, tr("E"), tr("W/m²"));
+  reflectance_ = add_row(*grid, tr("ρ"), {});
+  radiosity_ = add_row(*grid, tr("B"), tr("W/m²"));
+  radiosity_->setObjectName("patch_radiosity");
+  form_factor_sum_ = add_row(*grid, tr("Σ F"), {});
+  exitance_->setToolTip(tr("Emitted exitance: red, green, blue"));
+  reflectance_->setToolTip(tr("Diffuse reflectance: red, green, blue"));
+  radiosity_->setToolTip(tr("Radiosity, estimated so far: red, green, blue"));
+  form_factor_sum_->setToolTip(tr("Sum of the form factors so far; near 1 where enclosed"));
+  swatch_ = new QLabel;
+  swatch_->setFixedHeight(10);
+  swatch_->setToolTip(tr("B as the scene shows it"));
+  grid->addWidget(swatch_, grid->rowCount(), 0, 1, 3);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 8, 12, 10);
+  layout->addWidget(hint_);
+  layout->addWidget(values_);
+  layout->addStretch(1);
+  connect(&selection_, &Selection::changed, this, &PatchInspector::show_patch);
+  connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
+  show_patch();
+}
+
+QLabel* PatchInspector::add_row(QGridLayout& grid, const QString& name, const QString& unit) {
+  const int row = grid.rowCount();
+  auto* title = new QLabel(name);
+  title->setForegroundRole(QPalette::PlaceholderText);
+  auto* value = new QLabel;
+  value->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  value->setMinimumWidth(60);
+  grid.addWidget(title, row, 0);
+  grid.addWidget(value, row, 1);
+  if (!unit.isEmpty()) {
+    auto* unit_label = new QLabel(unit);
+    unit_label->setForegroundRole(QPalette::PlaceholderText);
+    grid.addWidget(unit_label, row, 2, Qt::AlignRight);
+  }
+  return value;
+}
+
+void PatchInspector::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  show_patch();
+}
+
+void PatchInspector::show_patch() {
+  const PatchId patch = selection_.patch();
+  const bool any = snapshot_ && patch >= 0 && patch < snapshot_->loaded->scene->patch_count();
+  hint_->setVisible(!any);
+  values_->setVisible(any);
+  if (!any) return;
+  const Scene& scene = *snapshot_->loaded->scene;
+  const Patch& p = scene.patch(patch);
+  const auto index = static_cast<std::size_t>(patch);
+  // Numbers are shown as the files have them, without thousands apart.
+  id_->setText(QString::number(patch));
+  face_->setText(QString::number(p.face));
+  material_->setText(QString::fromStdString(scene.material(patch).name));
+  area_->setText(number_text(p.area));
+  center_->setText(vector_text(p.center));
+  normal_->setText(vector_text(p.normal));
+  exitance_->setText(rgb_text(scene.exitance(patch)));
+  reflectance_->setText(rgb_text(scene.reflectance(patch)));
+  radiosity_->setText(rgb_text(snapshot_->radiosity[index]));
+  form_factor_sum_->setText(QString::number(snapshot_->form_factor_sums[index], 'f', 6));
+  const Color8 c = colors_.scale().color(snapshot_->radiosity[index]);
+  swatch_->setStyleSheet(
+      QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")
+          .arg(QColor(c[0], c[1], c[2]).name()));
+}
+
+}  // namespace transillum::viewer

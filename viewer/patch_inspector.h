@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "color_choice.h"
+#include "selection.h"
+#include "snapshot.h"
+
+class QGridLayout;
+class QLabel;
+
+namespace transillum::viewer {
+
+/// All there is to know of the selected patch.
+class PatchInspector : public QWidget {
+  Q_OBJECT
+
+ public:
+  PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+ private:
+  QLabel* add_row(QGridLayout& grid, const QString& name, const QString& unit);
+  void show_patch();
+
+  Selection& selection_;
+  const ColorChoice& colors_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  QLabel* hint_;
+  QWidget* values_;
+  QLabel *id_, *face_, *material_, *area_, *center_, *normal_, *exitance_, *reflectance_,
+      *radiosity_, *form_factor_sum_, *swatch_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,40 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticCellLocator.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "color_map.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// A scene as VTK draws it: one cell a convex piece, coloured by its patch.
+class SceneMesh {
+ public:
+  explicit SceneMesh(std::shared_ptr<const Scene> scene);
+
+  vtkPolyData* surface() const { return surface_; }
+  /// One colour a patch. Only the cells' colours change, never their shape.
+  void color(std::span<const Color8> colors);
+  /// The first patch that the line from `begin` to `end` meets with its lit side; no_patch if none.
+  /// Back sides are culled in the picture, so the line passes through them here.
+  PatchId first_front_hit(const Vec3& begin, const Vec3& end) const;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  vtkSmartPointer<vtkPolyData> surface_;
+  vtkSmartPointer<vtkUnsignedCharArray> colors_;
+  vtkSmartPointer<vtkStaticCellLocator> locator_;
+};
+
+/// The outline of a patch, `lift` metres in front of it.
+vtkSmartPointer<vtkPolyData> patch_outline(const Scene& scene, PatchId patch, double lift);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,210 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene_view.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QVBoxLayout>
+#include <array>
+#include <utility>
+
+#include <algorithm>
+
+#include "initial_view.h"
+#include "theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// VTK's own keys would end the program ("e", "q") or spoil the picture ("w", "3"): ours are menus.
+class CameraStyle : public vtkInteractorStyleTrackballCamera {
+ public:
+  static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
+  void OnChar() override {}
+};
+
+vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkPolyData> nothing;
+  mapper->SetInputData(nothing);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+  actor->VisibilityOff();
+  renderer.AddActor(actor);
+  return actor;
+}
+
+Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
+
+}  // namespace
+
+SceneView::SceneView(Selection& selection, const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), selection_(selection), colors_(colors) {
+  canvas_ = new QVTKOpenGLNativeWidget(this);
+  canvas_->setObjectName("scene_canvas");
+  canvas_->setMinimumSize(200, 150);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(canvas_);
+
+  window_->SetMultiSamples(0);
+  canvas_->setRenderWindow(window_);
+  window_->AddRenderer(renderer_);
+  const QColor& ground = theme::scene_background;
+  renderer_->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
+  renderer_->UseFXAAOn();
+  vtkNew<CameraStyle> style;
+  canvas_->interactor()->SetInteractorStyle(style);
+
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetScalarModeToUseCellData();
+  mapper->SetColorModeToDirectScalars();
+  surface_ = vtkSmartPointer<vtkActor>::New();
+  surface_->SetMapper(mapper);
+  surface_->GetProperty()->LightingOff();  // B is the light: nothing is to be added
+  surface_->GetProperty()->BackfaceCullingOn();
+  surface_->VisibilityOff();
+  renderer_->AddActor(surface_);
+  halo_ = line_actor(*renderer_, Qt::black);
+  outline_ = line_actor(*renderer_, theme::selection);
+  glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
+
+  canvas_->installEventFilter(this);
+  connect(&selection_, &Selection::changed, this, [this] {
+    show_selection();
+    render();
+  });
+  connect(&colors_, &ColorChoice::changed, this, [this] {
+    recolor();
+    render();
+  });
+}
+
+SceneView::~SceneView() = default;
+
+QWidget* SceneView::canvas() const { return canvas_; }
+
+void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
+  loaded_ = std::move(loaded);
+  snapshot_ = nullptr;
+  mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
+  vtkPolyDataMapper::SafeDownCast(surface_->GetMapper())->SetInputData(mesh_->surface());
+  surface_->VisibilityOn();
+  glyph_->hide();
+  show_selection();
+  reset_view();
+}
+
+void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  if (snapshot->loaded != loaded_) return;
+  snapshot_ = std::move(snapshot);
+  recolor();
+  show_direction();
+  render();
+}
+
+void SceneView::set_direction_shown(bool shown) {
+  direction_shown_ = shown;
+  show_direction();
+  render();
+}
+
+void SceneView::reset_view() {
+  if (!loaded_) return;
+  const double aspect = static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
+  const ViewPoint view = initial_view(*loaded_->scene, aspect);
+  focus_ = view.target;
+  radius_ = view.radius;
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
+  camera->SetFocalPoint(view.target.x, view.target.y, view.target.z);
+  camera->SetViewUp(view.up.x, view.up.y, view.up.z);
+  camera->SetViewAngle(view.view_angle);
+  show_direction();
+  render();
+}
+
+void SceneView::recolor() {
+  if (!mesh_ || !snapshot_) return;
+  colors_.scale().color(snapshot_->radiosity, patch_colors_);
+  mesh_->color(patch_colors_);
+}
+
+void SceneView::show_direction() {
+  const bool any = snapshot_ && norm(snapshot_->progress.last_direction) > 0.5;
+  if (!any || !direction_shown_) {
+    glyph_->hide();
+    return;
+  }
+  glyph_->show(snapshot_->progress.last_direction, snapshot_->options.two_way, focus_, radius_,
+               vec3(renderer_->GetActiveCamera()->GetPosition()));
+}
+
+void SceneView::show_selection() {
+  const PatchId patch = selection_.patch();
+  const bool any = loaded_ && patch >= 0 && patch < loaded_->scene->patch_count();
+  halo_->SetVisibility(any);
+  outline_->SetVisibility(any);
+  if (!any) return;
+  const double lift = 1e-3 * radius_;
+  const auto lines = patch_outline(*loaded_->scene, patch, lift);
+  vtkPolyDataMapper::SafeDownCast(outline_->GetMapper())
+      ->SetInputData(patch_outline(*loaded_->scene, patch, 1.5 * lift));
+  vtkPolyDataMapper::SafeDownCast(halo_->GetMapper())->SetInputData(lines);
+}
+
+void SceneView::render() {
+  const auto scale = static_cast<float>(canvas_->devicePixelRatioF());
+  halo_->GetProperty()->SetLineWidth(5 * scale);
+  outline_->GetProperty()->SetLineWidth(2.5F * scale);
+  glyph_->set_line_width(1.5 * scale);
+  renderer_->ResetCameraClippingRange();
+  if (canvas_->isVisible()) window_->Render();
+}
+
+PatchId SceneView::patch_at(const QPoint& position) const {
+  if (!mesh_) return no_patch;
+  // VTK counts device pixels from the bottom.
+  const double scale = canvas_->devicePixelRatioF();
+  const double x = (position.x() + 0.5) * scale;
+  const double y = (canvas_->height() - position.y() - 0.5) * scale;
+  const auto world = [&](double depth) {
+    renderer_->SetDisplayPoint(x, y, depth);
+    renderer_->DisplayToWorld();
+    const double* p = renderer_->GetWorldPoint();
+    return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
+  };
+  return mesh_->first_front_hit(world(0), world(1));
+}
+
+bool SceneView::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == canvas_) {
+    if (event->type() == QEvent::MouseButtonPress) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      pressed_ = mouse->button() == Qt::LeftButton;
+      press_position_ = mouse->pos();
+    } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
+      pressed_ = false;
+      const QPoint position = static_cast<QMouseEvent*>(event)->pos();
+      const int way = (position - press_position_).manhattanLength();
+      if (way < QApplication::startDragDistance()) selection_.select(patch_at(position));
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,71 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtkActor.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <QPoint>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "color_choice.h"
+#include "direction_glyph.h"
+#include "scene_mesh.h"
+#include "selection.h"
+#include "snapshot.h"
+
+class QVTKOpenGLNativeWidget;
+
+namespace transillum::viewer {
+
+/// The scene in space, coloured by radiosity. A click selects a patch, a drag turns the scene.
+class SceneView : public QWidget {
+  Q_OBJECT
+
+ public:
+  SceneView(Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+  ~SceneView() override;
+
+  void show_scene(std::shared_ptr<const LoadedScene> loaded);
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void set_direction_shown(bool shown);
+  void reset_view();
+
+  /// The patch drawn at a point of canvas(), in Qt's own (logical) pixels; no_patch for none.
+  PatchId patch_at(const QPoint& position) const;
+  QWidget* canvas() const;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void recolor();
+  void show_direction();
+  void show_selection();
+  void render();
+
+  Selection& selection_;
+  const ColorChoice& colors_;
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  std::unique_ptr<SceneMesh> mesh_;
+  std::vector<Color8> patch_colors_;
+  Vec3 focus_;
+  double radius_ = 1;
+  bool direction_shown_ = true;
+  QPoint press_position_;
+  bool pressed_ = false;
+
+  QVTKOpenGLNativeWidget* canvas_;
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkActor> surface_;
+  vtkSmartPointer<vtkActor> halo_, outline_;
+  std::unique_ptr<DirectionGlyph> glyph_;
+};
+
+}  // namespace transillum::viewer

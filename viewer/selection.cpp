@@ -1,0 +1,12 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "selection.h"
+
+namespace transillum::viewer {
+
+void Selection::select(PatchId patch) {
+  if (patch == patch_) return;
+  patch_ = patch;
+  emit changed(patch);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,190 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "settings_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QDoubleValidator>
+#include <QFormLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
+
+namespace transillum::viewer {
+
+namespace {
+
+bool same(const SolveOptions& a, const SolveOptions& b) {
+  return a.directions == b.directions && a.sampling == b.sampling && a.seed == b.seed &&
+         a.engine == b.engine && a.two_way == b.two_way && a.normalize == b.normalize &&
+         a.iterations == b.iterations && a.tolerance == b.tolerance;
+}
+
+bool same(const SceneOptions& a, const SceneOptions& b) {
+  return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
+}
+
+QString capitalized(const std::string& name) {
+  QString text = QString::fromStdString(name);
+  return text.isEmpty() ? text : text.left(1).toUpper() + text.mid(1);
+}
+
+}  // namespace
+
+SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
+  auto* form = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setHorizontalSpacing(10);
+  form->setVerticalSpacing(6);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  add_solve_rows(*form);
+  add_scene_rows(*form);
+  restart_ = new QPushButton(tr("Solve anew"));
+  restart_->setObjectName("restart");
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 10, 12, 10);
+  layout->setSpacing(10);
+  layout->addLayout(form);
+  layout->addWidget(restart_);
+  layout->addStretch(1);
+  connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
+  set_options({}, {});
+}
+
+void SettingsPanel::add_solve_rows(QFormLayout& form) {
+  directions_ = new QSpinBox;
+  directions_->setObjectName("directions");
+  directions_->setRange(1, 1 << 24);
+  directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  directions_->setGroupSeparatorShown(false);
+  directions_->setToolTip(tr("Passes an iteration step takes"));
+  sampling_ = new QComboBox;
+  for (const std::string& name : sampling_names()) sampling_->addItem(capitalized(name));
+  sampling_->setToolTip(tr("Where the directions come from (section 4 of the paper)"));
+  seed_ = new QSpinBox;
+  seed_->setRange(0, std::numeric_limits<int>::max());
+  seed_->setToolTip(tr("For random directions"));
+  engine_ = new QComboBox;
+  for (const std::string& name : engine_names()) engine_->addItem(capitalized(name));
+  engine_->setToolTip(tr("The algorithm that finds what sees what"));
+  ways_ = new QComboBox;
+  ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
+  ways_->setToolTip(tr("Both ways: a pass serves its direction and the opposite one"));
+  normalize_ = new QComboBox;
+  normalize_->addItems({tr("None, as the paper"), tr("Rows")});
+  normalize_->setToolTip(tr("Rows: divide by the quadrature of the cosine, patch by patch"));
+  stop_at_ = new QComboBox;
+  stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
+  tolerance_ = new QLineEdit;
+  auto* positive = new QDoubleValidator(0, 1, 15, tolerance_);
+  positive->setLocale(QLocale::c());
+  tolerance_->setValidator(positive);
+  tolerance_->setToolTip(tr("Relative change of B, largest of all patches, at which to stop"));
+  iterations_ = new QSpinBox;
+  iterations_->setRange(1, 1'000'000);
+
+  form.addRow(tr("Directions M"), directions_);
+  form.addRow(tr("Sampling"), sampling_);
+  form.addRow(tr("Seed"), seed_);
+  form.addRow(tr("Engine"), engine_);
+  form.addRow(tr("Light goes"), ways_);
+  form.addRow(tr("Normalize"), normalize_);
+  form.addRow(tr("Stop at"), stop_at_);
+  form.addRow(tr("Tolerance"), tolerance_);
+  form.addRow(tr("Iterations"), iterations_);
+  for (QComboBox* box : {sampling_, engine_, ways_, normalize_, stop_at_})
+    connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
+  for (QSpinBox* box : {directions_, seed_, iterations_})
+    connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
+  connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+}
+
+void SettingsPanel::add_scene_rows(QFormLayout& form) {
+  max_patch_area_ = new QDoubleSpinBox;
+  max_patch_area_->setDecimals(5);
+  max_patch_area_->setRange(0, 1e9);
+  max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
+  max_patch_area_->setSuffix(tr(" m²"));
+  max_patch_area_->setToolTip(tr("Cut faces into patches no larger than this"));
+  two_sided_ = new QCheckBox(tr("Two-sided faces"));
+  two_sided_->setToolTip(tr("Every face lights and receives on both sides"));
+  form.addRow(tr("Patch area"), max_patch_area_);
+  form.addRow(QString(), two_sided_);
+  connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &SettingsPanel::show_state);
+  connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
+}
+
+SolveOptions SettingsPanel::solve_options() const {
+  SolveOptions options = base_;
+  options.directions = directions_->value();
+  options.sampling = static_cast<Sampling>(sampling_->currentIndex());
+  // A seed beyond the box's range came from the command line; it stays until it is changed here.
+  const auto shown = static_cast<std::uint64_t>(seed_->value());
+  if (shown < static_cast<std::uint64_t>(seed_->maximum())) options.seed = shown;
+  options.engine = static_cast<Engine>(engine_->currentIndex());
+  options.two_way = ways_->currentIndex() == 0;
+  options.normalize = static_cast<Normalization>(normalize_->currentIndex());
+  options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
+  bool number = false;
+  const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
+  if (number && tolerance > 0) options.tolerance = tolerance;
+  return options;
+}
+
+SceneOptions SettingsPanel::scene_options() const {
+  return {two_sided_->isChecked(), max_patch_area_->value()};
+}
+
+void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
+  base_ = solve;
+  directions_->setValue(solve.directions);
+  sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
+  seed_->setValue(static_cast<int>(
+      std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
+  engine_->setCurrentIndex(static_cast<int>(solve.engine));
+  ways_->setCurrentIndex(solve.two_way ? 0 : 1);
+  normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
+  stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
+  iterations_->setValue(std::max(solve.iterations, 1));
+  tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
+  two_sided_->setChecked(scene.two_sided);
+  max_patch_area_->setValue(scene.max_patch_area);
+  show_state();
+}
+
+void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
+  solve_in_effect_ = solve;
+  scene_in_effect_ = scene;
+  show_state();
+}
+
+bool SettingsPanel::differ_from_effect() const {
+  return !same(solve_options(), solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+}
+
+void SettingsPanel::set_restart_enabled(bool enabled) {
+  enabled_ = enabled;
+  show_state();
+}
+
+void SettingsPanel::show_state() {
+  if (!restart_) return;  // still under construction
+  seed_->setEnabled(static_cast<Sampling>(sampling_->currentIndex()) == Sampling::random);
+  tolerance_->setEnabled(stop_at_->currentIndex() == 0);
+  iterations_->setEnabled(stop_at_->currentIndex() == 1);
+  const bool differs = differ_from_effect();
+  restart_->setEnabled(enabled_);
+  restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
+  restart_->setDefault(differs);
+  QFont font = restart_->font();
+  font.setBold(enabled_ && differs);
+  restart_->setFont(font);
+}
+
+}  // namespace transillum::viewer

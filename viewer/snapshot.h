@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// A scene with its order. Immutable, shared by all threads.
+struct LoadedScene {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const BspTree> tree;
+  double seconds_load = 0;
+  double seconds_bsp = 0;
+};
+
+/// Where a solve stands at one moment. Immutable: the worker makes it, the window shows it.
+struct SolverSnapshot {
+  std::shared_ptr<const LoadedScene> loaded;
+  SolveOptions options;
+  SolveProgress progress;
+  SolveStatistics statistics;
+  std::vector<Rgb> radiosity;            ///< running estimate, W/m², one a patch
+  std::vector<double> form_factor_sums;  ///< one a patch
+  std::vector<double> estimate_changes;  ///< of the newest step that has passes, one a pass
+  int estimate_iteration = 0;            ///< 0-based number of that step
+};
+
+/// What the session is doing.
+enum class SessionState { empty, loading, paused, running, finished };
+
+}  // namespace transillum::viewer

@@ -1,0 +1,314 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solver_session.h"
+
+#include <QMetaObject>
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "thread_priority.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
+      .count();
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+int passes_done(const SolveProgress& progress) {
+  return progress.iteration * progress.passes + progress.direction;
+}
+
+}  // namespace
+
+SolverSession::SolverSession(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
+
+SolverSession::~SolverSession() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+    interrupted_ = true;
+    cancellation_.cancel();
+  }
+  wake_.notify_one();
+  worker_.join();
+}
+
+void SolverSession::open(OpenRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    // A load under way is given up; a solve merely rests, and goes on should this load fail.
+    if (loading_) cancellation_.cancel();
+    open_request_ = std::move(request);
+    interrupted_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SolverSession::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (open_request_) {
+      open_request_.reset();
+      return;
+    }
+    cancellation_.cancel();
+    if (!loading_) restart_request_ = options_;
+    goal_ = {};
+    ++goal_number_;
+    interrupted_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SolverSession::restart(const SolveOptions& options, Goal then) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!loading_) cancellation_.cancel();
+    restart_request_ = options;
+    goal_ = then;
+    ++goal_number_;
+    interrupted_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SolverSession::aim(Goal goal) {
+  {
+    const std::lock_guard lock(mutex_);
+    goal_ = goal;
+    ++goal_number_;
+    interrupted_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SolverSession::work() {
+  give_way_to_the_window();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const auto anything = [this] {
+      return quit_ || open_request_ || restart_request_ || goal_.kind != Goal::Kind::rest;
+    };
+    if (!anything()) post_state(resting_state());
+    wake_.wait(lock, anything);
+    if (quit_) return;
+    interrupted_ = false;
+
+    if (open_request_) {
+      const OpenRequest request = *std::exchange(open_request_, std::nullopt);
+      cancellation_ = Cancellation();
+      loading_ = true;
+      lock.unlock();
+      load(request);
+      lock.lock();
+      loading_ = false;
+    } else if (restart_request_) {
+      options_ = *std::exchange(restart_request_, std::nullopt);
+      cancellation_ = Cancellation();
+      const SolveOptions options = options_;
+      lock.unlock();
+      begin_solve(options);
+      lock.lock();
+    } else {
+      const Goal goal = goal_;
+      const std::uint64_t number = goal_number_;
+      lock.unlock();
+      advance(goal);
+      lock.lock();
+      // A goal that was left for a load's sake is taken up again should that load fail.
+      if (number == goal_number_ && !open_request_) goal_ = {};
+    }
+  }
+}
+
+void SolverSession::load(const OpenRequest& request) {
+  post_state(SessionState::loading);
+  const QString name = QString::fromStdString(request.spec);
+  const auto report = [this](const QString& phase, double share) {
+    post([this, phase, share] { emit load_progressed(phase, share); });
+  };
+  try {
+    request.solve_options.validate();
+    const Cancellation cancellation = cancellation_;
+    const auto load_begin = Clock::now();
+    auto loaded = std::make_shared<LoadedScene>();
+    report(tr("Loading %1").arg(name), -1);
+    loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
+    loaded->seconds_load = seconds_since(load_begin);
+
+    const auto tree_begin = Clock::now();
+    auto last_report = tree_begin;
+    loaded->tree = std::make_shared<BspTree>(*loaded->scene, cancellation,
+                                             [this, &report, &last_report](double share) {
+                                               if (seconds_since(last_report) < 0.05) return;
+                                               last_report = Clock::now();
+                                               report(tr("Sorting patches"), share);
+                                             });
+    loaded->seconds_bsp = seconds_since(tree_begin);
+
+    auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.solve_options,
+                                                    loaded->tree, cancellation);
+    loaded_ = loaded;
+    solver_ = std::move(solver);
+    more_to_do_ = true;
+    {
+      const std::lock_guard lock(mutex_);
+      options_ = request.solve_options;
+      goal_ = request.then;
+      ++goal_number_;
+    }
+    post([this, loaded] { emit scene_loaded(loaded); });
+    post_snapshot();
+  } catch (const Cancelled&) {
+    // The user's wish: nothing to say.
+  } catch (const InputError& error) {
+    post_failure(QString::fromStdString(error.what()), true);
+  } catch (const std::bad_alloc&) {
+    post_failure(tr("%1 does not fit into memory").arg(name), false);
+  } catch (const std::exception& error) {
+    post_failure(QString::fromStdString(error.what()), false);
+  }
+}
+
+void SolverSession::begin_solve(const SolveOptions& options) {
+  if (!loaded_) return;
+  try {
+    solver_ =
+        std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree, cancellation_);
+    more_to_do_ = true;
+    post_snapshot();
+  } catch (const Cancelled&) {
+    // Another wish has come in the meantime; the loop sees to it.
+  } catch (const InputError& error) {
+    post_failure(QString::fromStdString(error.what()), true);
+  } catch (const std::exception& error) {
+    post_failure(QString::fromStdString(error.what()), false);
+  }
+}
+
+void SolverSession::advance(const Goal& goal) {
+  if (!solver_ || !more_to_do_) return;
+  if (goal.kind == Goal::Kind::passes && passes_done(solver_->progress()) >= goal.passes) return;
+  post_state(SessionState::running);
+  using Until = RadiositySolver::Until;
+  try {
+    if (goal.kind == Goal::Kind::passes) {
+      advance_exactly(goal.passes);
+    } else {
+      const Until until = goal.kind == Goal::Kind::direction   ? Until::direction
+                          : goal.kind == Goal::Kind::iteration ? Until::iteration
+                                                               : Until::finished;
+      more_to_do_ = solver_->advance(until, [this](const RadiositySolver& solver) {
+        on_pass(solver);
+        return !interrupted_.load(std::memory_order_relaxed);
+      });
+    }
+  } catch (const Cancelled&) {
+    return;
+  } catch (const std::exception& error) {
+    more_to_do_ = false;
+    post_failure(QString::fromStdString(error.what()), false);
+  }
+  post_snapshot();
+}
+
+void SolverSession::advance_exactly(int passes) {
+  // Passes under way on other threads are finished after a pause: leave room for them, then take
+  // the last ones one by one.
+  const int room = 2 * std::max(solver_->statistics().threads, 1);
+  const auto go_on = [this](int wanted) {
+    return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) &&
+           passes_done(solver_->progress()) < wanted;
+  };
+  if (go_on(passes - room))
+    more_to_do_ =
+        solver_->advance(RadiositySolver::Until::finished, [&](const RadiositySolver& solver) {
+          on_pass(solver);
+          return !interrupted_.load(std::memory_order_relaxed) &&
+                 passes_done(solver.progress()) < passes - room;
+        });
+  while (go_on(passes))
+    more_to_do_ =
+        solver_->advance(RadiositySolver::Until::direction, [this](const RadiositySolver& solver) {
+          on_pass(solver);
+          return true;
+        });
+}
+
+void SolverSession::on_pass(const RadiositySolver& solver) {
+  const SolveProgress progress = solver.progress();
+  if (progress.direction == progress.passes) {
+    // Finishing the step will clear them.
+    step_changes_ = solver.estimate_changes();
+    step_changes_iteration_ = progress.iteration;
+  }
+  // Making a snapshot may take a fifth of the solver's time at most.
+  const double interval_ms =
+      std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
+  if (static_cast<double>(now_ns() - last_snapshot_ns_) > 1e6 * interval_ms) post_snapshot();
+}
+
+void SolverSession::post_snapshot() {
+  const std::int64_t begin = now_ns();
+  auto snapshot = std::make_shared<SolverSnapshot>();
+  snapshot->loaded = loaded_;
+  snapshot->options = solver_->options();
+  snapshot->progress = solver_->progress();
+  snapshot->statistics = solver_->statistics();
+  snapshot->radiosity = solver_->running_estimate();
+  snapshot->form_factor_sums = solver_->form_factor_sums();
+  snapshot->estimate_changes = solver_->estimate_changes();
+  snapshot->estimate_iteration = snapshot->progress.iteration;
+  if (snapshot->estimate_changes.empty() && snapshot->progress.iteration > 0) {
+    snapshot->estimate_changes = step_changes_;
+    snapshot->estimate_iteration = step_changes_iteration_;
+  }
+  last_snapshot_ns_ = now_ns();
+  snapshot_cost_ms_ = static_cast<double>(last_snapshot_ns_ - begin) * 1e-6;
+  {
+    const std::lock_guard lock(mutex_);
+    const bool message_under_way = mailbox_ != nullptr;
+    mailbox_ = std::move(snapshot);
+    if (message_under_way) return;
+  }
+  post([this] {
+    std::shared_ptr<const SolverSnapshot> newest;
+    {
+      const std::lock_guard lock(mutex_);
+      newest = std::exchange(mailbox_, nullptr);
+    }
+    if (newest) emit snapshot_ready(newest);
+  });
+}
+
+SessionState SolverSession::resting_state() const {
+  if (!solver_) return SessionState::empty;
+  return more_to_do_ ? SessionState::paused : SessionState::finished;
+}
+
+void SolverSession::post_state(SessionState state) {
+  post([this, state] {
+    if (state == state_) return;
+    state_ = state;
+    emit state_changed(state);
+  });
+}
+
+void SolverSession::post_failure(const QString& message, bool bad_input) {
+  post([this, message, bad_input] { emit failed(message, bad_input); });
+}
+
+void SolverSession::post(std::function<void()> message) {
+  QMetaObject::invokeMethod(this, std::move(message), Qt::QueuedConnection);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,114 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "snapshot.h"
+#include "transillum/cancellation.h"
+
+namespace transillum::viewer {
+
+/// How far the worker shall go before it rests.
+struct Goal {
+  enum class Kind { rest, direction, iteration, passes, finished };
+  Kind kind = Kind::rest;
+  int passes = 0;  ///< for Kind::passes: all passes since the solve began
+};
+
+/// Loads and solves on a thread of its own; the window commands it and hears of it.
+///
+/// Threads: the public functions and all signals belong to the thread that made the session.
+/// Commands return at once; the newest one wins. Snapshots are immutable, and one that the window
+/// has not taken yet is replaced by its successor.
+class SolverSession : public QObject {
+  Q_OBJECT
+
+ public:
+  struct OpenRequest {
+    std::string spec;  ///< file or built-in
+    SceneOptions scene_options;
+    SolveOptions solve_options;
+    Goal then;  ///< what to do once it is open
+  };
+
+  explicit SolverSession(QObject* parent = nullptr);
+  ~SolverSession() override;
+
+  /// Loads; the old scene stays where loading fails or is stopped.
+  void open(OpenRequest request);
+  void run() { aim({Goal::Kind::finished}); }
+  void pause() { aim({Goal::Kind::rest}); }
+  void advance_one_direction() { aim({Goal::Kind::direction}); }
+  void advance_one_iteration() { aim({Goal::Kind::iteration}); }
+  /// Ends loading; or forgets the solve and goes back to the first direction.
+  void stop();
+  /// Solves the open scene anew.
+  void restart(const SolveOptions& options, Goal then);
+
+  SessionState state() const { return state_; }
+  /// Between two snapshots lie at least so many milliseconds.
+  void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
+
+ signals:
+  void state_changed(transillum::viewer::SessionState state);
+  void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
+  void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
+  /// `share` done in [0,1]; negative: not known.
+  void load_progressed(const QString& phase, double share);
+  /// `bad_input`: the user's to mend (exit status 2).
+  void failed(const QString& message, bool bad_input);
+
+ private:
+  void aim(Goal goal);
+  // The rest runs on the worker's thread.
+  void work();
+  void load(const OpenRequest& request);
+  void begin_solve(const SolveOptions& options);
+  void advance(const Goal& goal);
+  void advance_exactly(int passes);
+  void on_pass(const RadiositySolver& solver);
+  void post(std::function<void()> message);
+  void post_state(SessionState state);
+  void post_snapshot();
+  void post_failure(const QString& message, bool bad_input);
+  SessionState resting_state() const;
+
+  SessionState state_ = SessionState::empty;  // as the window knows it
+
+  std::mutex mutex_;  // guards all down to `mailbox_`
+  std::condition_variable wake_;
+  std::optional<OpenRequest> open_request_;
+  std::optional<SolveOptions> restart_request_;
+  Goal goal_;
+  std::uint64_t goal_number_ = 0;
+  bool quit_ = false;
+  bool loading_ = false;
+  SolveOptions options_;
+  Cancellation cancellation_;  // of what the worker does now
+  std::shared_ptr<const SolverSnapshot> mailbox_;
+
+  std::atomic<bool> interrupted_ = false;  // asks the solver to rest after the pass under way
+  std::atomic<int> refresh_interval_ = 66;
+
+  // The worker's own.
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::unique_ptr<RadiositySolver> solver_;
+  bool more_to_do_ = false;
+  std::int64_t last_snapshot_ns_ = 0;
+  double snapshot_cost_ms_ = 0;
+  std::vector<double> step_changes_;  // of the newest step that took all its passes
+  int step_changes_iteration_ = 0;
+
+  std::thread worker_;
+};
+
+}  // namespace transillum::viewer

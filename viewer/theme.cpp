@@ -1,0 +1,164 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "theme.h"
+
+#include <QApplication>
+#include <QFontDatabase>
+#include <QPainter>
+#include <QPainterPath>
+#include <QPalette>
+#include <QStyleFactory>
+#include <QtMath>
+
+namespace transillum::viewer::theme {
+
+namespace {
+
+QPolygonF triangle(double left, double right) {
+  return {{QPointF(left, 5), QPointF(right, 12), QPointF(left, 19)}};
+}
+
+// On a square of 24 by 24.
+void draw(QPainter& painter, Icon which, const QColor& color) {
+  const QPen line(color, 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  switch (which) {
+    case Icon::open: {
+      painter.setPen(line);
+      painter.setBrush(Qt::NoBrush);
+      painter.drawPolyline(QPolygonF({{3, 18}, {3, 6}, {9, 6}, {11, 8.5}, {19, 8.5}, {19, 11}}));
+      painter.drawPolygon(QPolygonF({{3, 18.5}, {6.5, 11.5}, {22, 11.5}, {18.5, 18.5}}));
+      break;
+    }
+    case Icon::run:
+      painter.drawPolygon(triangle(7, 19));
+      break;
+    case Icon::pause:
+      painter.drawRoundedRect(QRectF(6, 5, 4.2, 14), 1, 1);
+      painter.drawRoundedRect(QRectF(13.8, 5, 4.2, 14), 1, 1);
+      break;
+    case Icon::one_direction:
+      painter.drawPolygon(triangle(5, 15));
+      painter.drawRoundedRect(QRectF(16.5, 5, 3, 14), 1, 1);
+      break;
+    case Icon::one_iteration:
+      painter.drawPolygon(triangle(2, 9.5));
+      painter.drawPolygon(triangle(10, 17.5));
+      painter.drawRoundedRect(QRectF(18.7, 5, 3, 14), 1, 1);
+      break;
+    case Icon::stop:
+      painter.drawRoundedRect(QRectF(6, 6, 12, 12), 1.5, 1.5);
+      break;
+    case Icon::frame:
+      painter.setPen(line);
+      for (int corner = 0; corner < 4; ++corner) {
+        painter.drawLine(QPointF(4, 9), QPointF(4, 4));
+        painter.drawLine(QPointF(4, 4), QPointF(9, 4));
+        painter.translate(12, 12);
+        painter.rotate(90);
+        painter.translate(-12, -12);
+      }
+      painter.setPen(Qt::NoPen);
+      painter.drawEllipse(QPointF(12, 12), 2.6, 2.6);
+      break;
+    case Icon::warning:
+    case Icon::error:
+      painter.drawEllipse(QPointF(12, 12), 10, 10);
+      painter.setPen(QPen(Qt::white, 2.6, Qt::SolidLine, Qt::RoundCap));
+      painter.drawLine(QPointF(12, 6.8), QPointF(12, 12.6));
+      painter.drawPoint(QPointF(12, 17));
+      break;
+    case Icon::close:
+      painter.setPen(line);
+      painter.drawLine(QPointF(7, 7), QPointF(17, 17));
+      painter.drawLine(QPointF(17, 7), QPointF(7, 17));
+      break;
+    case Icon::scene: {
+      painter.setPen(QPen(color, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      painter.setBrush(Qt::NoBrush);
+      painter.drawPolygon(
+          QPolygonF({{12, 3}, {20, 7.5}, {20, 16.5}, {12, 21}, {4, 16.5}, {4, 7.5}}));
+      painter.drawPolyline(QPolygonF({{4, 7.5}, {12, 12}, {20, 7.5}}));
+      painter.drawLine(QPointF(12, 12), QPointF(12, 21));
+      break;
+    }
+  }
+}
+
+QColor color_of(Icon which) {
+  switch (which) {
+    case Icon::run:
+      return good;
+    case Icon::stop:
+    case Icon::error:
+      return {0xb9, 0x2d, 0x2d};
+    case Icon::warning:
+      return {0xb3, 0x6b, 0x00};
+    default:
+      return ink;
+  }
+}
+
+QPixmap pixmap(Icon which, int size, const QColor& color) {
+  QPixmap picture(size, size);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.scale(size / 24.0, size / 24.0);
+  draw(painter, which, color);
+  return picture;
+}
+
+}  // namespace
+
+QIcon icon(Icon which) {
+  QIcon result;
+  for (const int size : {16, 20, 24, 32, 40, 48, 64}) {
+    result.addPixmap(pixmap(which, size, color_of(which)), QIcon::Normal);
+    result.addPixmap(pixmap(which, size, {0xb4, 0xba, 0xc2}), QIcon::Disabled);
+  }
+  return result;
+}
+
+void apply(QApplication& application) {
+  application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  QPalette palette;
+  palette.setColor(QPalette::Window, window);
+  palette.setColor(QPalette::WindowText, ink);
+  palette.setColor(QPalette::Base, paper);
+  palette.setColor(QPalette::AlternateBase, window);
+  palette.setColor(QPalette::Text, ink);
+  palette.setColor(QPalette::PlaceholderText, ink_dim);
+  palette.setColor(QPalette::Button, QColor(0xfb, 0xfb, 0xfc));
+  palette.setColor(QPalette::ButtonText, ink);
+  palette.setColor(QPalette::ToolTipBase, paper);
+  palette.setColor(QPalette::ToolTipText, ink);
+  palette.setColor(QPalette::Highlight, accent);
+  palette.setColor(QPalette::HighlightedText, Qt::white);
+  palette.setColor(QPalette::Link, accent);
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    palette.setColor(QPalette::Disabled, role, QColor(0x9a, 0xa2, 0xac));
+  application.setPalette(palette);
+
+  QFont font = application.font();
+  if (QFontDatabase().families().contains(QStringLiteral("DejaVu Sans")))
+    font.setFamily(QStringLiteral("DejaVu Sans"));
+  font.setPixelSize(13);
+  application.setFont(font);
+
+  application.setStyleSheet(QStringLiteral(R"(
+    QToolBar { border: none; border-bottom: 1px solid #d3d8de; padding: 3px 6px; spacing: 4px; }
+    QToolBar QToolButton { padding: 4px 9px 4px 6px; border-radius: 4px; }
+    QToolBar QToolButton:hover:enabled { background: #e3e8ef; }
+    QToolBar QToolButton:pressed { background: #cfd8e4; }
+    QStatusBar { border-top: 1px solid #d3d8de; }
+    QStatusBar::item { border: none; }
+    QDockWidget { font-weight: bold; }
+    QDockWidget::title { background: #e6e9ee; padding: 6px 8px; }
+    QMainWindow::separator { background: #d3d8de; width: 4px; height: 4px; }
+    QMainWindow::separator:hover { background: #1f66c2; }
+    QToolTip { border: 1px solid #d3d8de; padding: 4px; }
+  )"));
+}
+
+}  // namespace transillum::viewer::theme
