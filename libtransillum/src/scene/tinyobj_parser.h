@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <functional>
+#include <istream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "transillum/vec3.h"
+
+namespace transillum {
+
+/// What tinyobjloader finds in an OBJ text, in the order of its lines. It reads decimal numbers
+/// with its own arithmetic, not to the nearest double (decisions of the reader: obj_reader.cpp
+/// takes the numbers itself), so positions are not passed on.
+struct ObjEvents {
+  std::function<void()> vertex;
+  std::function<void(std::span<const int>)> face;  ///< vertex indices as written
+  std::function<void(const std::string&)> material;
+};
+void parse_obj(std::istream& text, const ObjEvents& events);
+
+/// The names of the materials in an MTL text, in order.
+std::vector<std::string> parse_mtl(std::istream& text);
+
+}  // namespace transillum
