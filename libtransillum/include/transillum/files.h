@@ -25,14 +25,20 @@ void write_file_whole(const std::filesystem::path& path,
 /// Writes the description as OBJ with its MTL beside it (same stem).
 void write_obj(const std::filesystem::path& path, const SceneDescription& description);
 
-/// @throws InputError unless `path` ends in .csv, .vtp, .ply or .obj. Call it before long work.
+/// For use before long work.
+/// @throws InputError where `path` is a folder, or lies in one that is missing or not writable.
+void check_writable(const std::filesystem::path& path);
+
+/// check_writable, and @throws InputError unless `path` ends in .csv, .vtp, .ply or .obj.
 void check_result_path(const std::filesystem::path& path);
 /// Writes a solution as the ending of `path` says (cli.md for the columns of CSV).
 void write_result(const std::filesystem::path& path, const Solution& solution);
 
-/// receiver,source,area; source -1: nothing above, or a back side.
+/// receiver,source,area; source -1: nothing above, or a back side. Only the forward direction.
+void write_transfers_csv(std::ostream& out, const Transfers& transfers);
 void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
 /// u,v,x,y,z
+void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions);
 void write_directions_csv(const std::filesystem::path& path,
                           const std::vector<DirectionSample>& directions);
 /// The JSON of --stats.

@@ -1,0 +1,45 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ostream>
+
+#include "io/result_writers.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using ResultWriter = void (*)(std::ostream&, const Solution&);
+
+std::string lower_case_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+ResultWriter writer_for(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  if (ending == ".csv") return write_result_csv;
+  if (ending == ".vtp") return write_result_vtp;
+  if (ending == ".ply") return write_result_ply;
+  if (ending == ".obj") return write_result_obj;
+  throw InputError(fmt::format("{}: a result ends in .csv, .vtp, .ply or .obj", path.string()));
+}
+
+}  // namespace
+
+void check_result_path(const std::filesystem::path& path) {
+  writer_for(path);
+  check_writable(path);
+}
+
+void write_result(const std::filesystem::path& path, const Solution& solution) {
+  const ResultWriter write = writer_for(path);
+  write_file_whole(path, [&](std::ostream& out) { write(out, solution); });
+}
+
+}  // namespace transillum

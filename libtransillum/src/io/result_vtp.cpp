@@ -1,0 +1,134 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <ostream>
+#include <stdexcept>
+
+#include "io/result_writers.h"
+
+namespace transillum {
+namespace {
+
+template <typename ValueOf>
+void add_integers(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  for (PatchId i = 0; i < count; ++i) array->SetValue(i, value_of(i));
+  fields.AddArray(array);
+}
+
+template <typename ValueOf>
+void add_numbers(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  for (PatchId i = 0; i < count; ++i) array->SetValue(i, value_of(i));
+  fields.AddArray(array);
+}
+
+template <typename ValueOf>
+void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(count);
+  const char* const channels[] = {"r", "g", "b"};
+  for (int c = 0; c < 3; ++c) array->SetComponentName(c, channels[c]);
+  for (PatchId i = 0; i < count; ++i) {
+    const Rgb rgb = value_of(i);
+    array->SetTuple3(i, rgb.r, rgb.g, rgb.b);
+  }
+  fields.AddArray(array);
+}
+
+void add_field(vtkFieldData& fields, const char* name, double value) {
+  add_numbers(fields, name, 1, [&](PatchId) { return value; });
+}
+
+void add_field(vtkFieldData& fields, const char* name, const std::string& value) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fields.AddArray(array);
+}
+
+void add_geometry(vtkPolyData& mesh, const Scene& scene) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(scene.points().size()));
+  for (std::size_t p = 0; p < scene.points().size(); ++p) {
+    const Vec3& point = scene.points()[p];
+    points->SetPoint(static_cast<vtkIdType>(p), point.x, point.y, point.z);
+  }
+  vtkNew<vtkCellArray> polygons;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto outline = scene.outline(i);
+    polygons->InsertNextCell(static_cast<int>(outline.size()));
+    for (const PointId p : outline) polygons->InsertCellPoint(p);
+  }
+  mesh.SetPoints(points);
+  mesh.SetPolys(polygons);
+}
+
+void add_patch_values(vtkFieldData& fields, const Solution& solution) {
+  const Scene& scene = *solution.scene;
+  const PatchId count = scene.patch_count();
+  const auto at = [](const std::vector<Rgb>& values, PatchId i) {
+    return values[static_cast<std::size_t>(i)];
+  };
+  add_integers(fields, "face", count, [&](PatchId i) { return scene.patch(i).face; });
+  add_integers(fields, "patch", count, [](PatchId i) { return i; });
+  add_numbers(fields, "area", count, [&](PatchId i) { return scene.patch(i).area; });
+  add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
+  add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
+  add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
+  add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
+}
+
+/// What the viewer needs to say what it shows.
+void add_solve_values(vtkFieldData& fields, const Solution& solution) {
+  const SolveStatistics& statistics = solution.statistics;
+  add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
+  add_field(fields, "scene", solution.scene->name());
+  add_field(fields, "complete", solution.complete ? 1.0 : 0.0);
+  add_field(fields, "two_sided", solution.scene->options().two_sided ? 1.0 : 0.0);
+  add_field(fields, "max_patch_area", solution.scene->options().max_patch_area);
+  add_field(fields, "directions", statistics.directions);
+  add_field(fields, "passes", statistics.passes);
+  add_field(fields, "iterations", statistics.iterations);
+  add_field(fields, "closure_defect_max", statistics.closure_defect_max);
+  add_field(fields, "energy_defect", statistics.energy_defect);
+}
+
+}  // namespace
+
+void write_result_vtp(std::ostream& out, const Solution& solution) {
+  vtkNew<vtkPolyData> mesh;
+  add_geometry(*mesh, *solution.scene);
+  add_patch_values(*mesh->GetCellData(), solution);
+  mesh->GetCellData()->SetActiveScalars("B");
+  add_solve_values(*mesh->GetFieldData(), solution);
+
+  // Base64 keeps it well-formed XML, and every bit of the doubles.
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(mesh);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOn();
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0) throw std::runtime_error("VTK could not write the result");
+  const std::string text = writer->GetOutputString();
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+}  // namespace transillum

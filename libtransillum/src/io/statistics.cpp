@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const SolveOptions& options, const SceneOptions& scene_options) {
+  Json json;
+  json["directions"] = options.directions;
+  json["sampling"] = name_of(options.sampling);
+  json["seed"] = options.seed;
+  json["engine"] = name_of(options.engine);
+  json["two_way"] = options.two_way;
+  json["normalize"] = options.normalize == Normalization::rows ? "rows" : "none";
+  // One of them rules; the other is null.
+  json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
+  json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
+  json["memory"] = options.memory > 0 ? Json(options.memory) : Json();
+  json["threads"] = options.threads > 0 ? Json(options.threads) : Json();
+  json["two_sided"] = scene_options.two_sided;
+  json["max_patch_area"] =
+      scene_options.max_patch_area > 0 ? Json(scene_options.max_patch_area) : Json();
+  return json;
+}
+
+template <typename ValueOf>
+Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
+  Json list = Json::array();
+  for (const IterationRecord& step : steps) list.push_back(value_of(step));
+  return list;
+}
+
+/// The names of cli.md; what was never measured, for want of a finished step, is null.
+Json statistics_json(const SolveStatistics& statistics) {
+  const bool stepped = statistics.iterations > 0;
+  Json json;
+  json["patches"] = statistics.patches;
+  json["fragments"] = statistics.fragments;
+  json["directions"] = statistics.directions;
+  json["passes"] = statistics.passes;
+  json["iterations"] = statistics.iterations;
+  json["threads"] = statistics.threads;
+  json["transfers"] = statistics.transfers;
+  json["form_factors"] = statistics.form_factors;
+  json["kept_form_factors"] = statistics.kept_form_factors;
+  json["converged"] = statistics.converged;
+  json["closure_defect_max"] = statistics.closure_defect_max;
+  json["closure_defect_grazing"] = statistics.closure_defect_grazing;
+  json["escaped"] = statistics.escaped;
+  json["energy_defect"] = stepped ? Json(statistics.energy_defect) : Json();
+  json["energy_balance"] = stepped ? Json(statistics.energy_balance) : Json();
+  json["rho_max"] = statistics.rho_max;
+  json["predicted_contraction"] = statistics.predicted_contraction;
+  const auto& steps = statistics.steps;
+  json["change"] = list_of(steps, [](const IterationRecord& s) { return s.change; });
+  json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
+  json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
+  json["seconds"] = {{"load", statistics.seconds_load},
+                     {"bsp", statistics.seconds_bsp},
+                     {"transfers", statistics.seconds_transfers},
+                     {"iterate", statistics.seconds_iterate},
+                     {"total", statistics.seconds_total}};
+  return json;
+}
+
+}  // namespace
+
+void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
+                      const Solution& solution) {
+  Json json;
+  json["program"] = "transillum " TRANSILLUM_VERSION;
+  json["scene"] = solution.scene->name();
+  json["complete"] = solution.complete;
+  json["options"] = options_json(options, solution.scene->options());
+  json.update(statistics_json(solution.statistics));
+  // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
+  // A file name need not be UTF-8, but JSON must be.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+}  // namespace transillum
