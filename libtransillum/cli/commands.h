@@ -1,0 +1,22 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace transillum::cli {
+
+/// Exit statuses (cli.md).
+enum ExitStatus { success = 0, failure = 1, wrong_call = 2, interrupted = 130 };
+
+/// A command, once its options are parsed; returns the exit status.
+using Run = std::function<int()>;
+
+// Each adds a command with its options and help to the program.
+Run add_scene_command(CLI::App& program);
+Run add_solve_command(CLI::App& program);
+Run add_transfers_command(CLI::App& program);
+Run add_directions_command(CLI::App& program);
+Run add_info_command(CLI::App& program);
+
+}  // namespace transillum::cli

@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "interruption.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "commands.h"
+
+namespace transillum::cli {
+namespace {
+
+// Cancellation::cancel() is a store to a flag of this kind: allowed in a signal handler.
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+const Cancellation* cancelled_by_signals = nullptr;
+
+void on_signal(int) {
+  if (cancelled_by_signals->cancelled()) ::_exit(interrupted);
+  cancelled_by_signals->cancel();
+}
+
+}  // namespace
+
+const Cancellation& cancel_on_signals() {
+  static const Cancellation cancellation;
+  cancelled_by_signals = &cancellation;
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  return cancellation;
+}
+
+}  // namespace transillum::cli

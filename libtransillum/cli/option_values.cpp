@@ -1,0 +1,125 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "option_values.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "transillum/errors.h"
+
+namespace transillum::cli {
+namespace {
+
+/// Whether all of `text` is one number of the type, without overflow.
+template <typename Number>
+bool reads_as(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string_view without_plus(std::string_view text) {
+  return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
+[[noreturn]] void refuse(const std::string& option, std::string_view text,
+                         const std::string& wanted) {
+  throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, wanted));
+}
+
+}  // namespace
+
+std::int64_t parse_whole_number(const std::string& option, const std::string& text,
+                                std::int64_t low, std::int64_t high) {
+  std::int64_t number = 0;
+  if (!reads_as(without_plus(text), number) || number < low || number > high) {
+    refuse(option, text, fmt::format("a whole number from {} to {}", low, high));
+  }
+  return number;
+}
+
+std::uint64_t parse_seed(const std::string& option, const std::string& text) {
+  std::uint64_t number = 0;
+  if (!reads_as(without_plus(text), number)) {
+    refuse(option, text,
+           fmt::format("a whole number from 0 to {}", std::numeric_limits<std::uint64_t>::max()));
+  }
+  return number;
+}
+
+double parse_number(const std::string& option, const std::string& text) {
+  double number = 0;
+  if (!reads_as(without_plus(text), number) || !std::isfinite(number)) {
+    refuse(option, text, "a finite number");
+  }
+  return number;
+}
+
+Vec3 parse_direction(const std::string& option, const std::string& text) {
+  const auto wrong = [&] {
+    refuse(option, text, "three finite numbers X,Y,Z with commas between, not all 0");
+  };
+  std::array<double, 3> xyz{};
+  std::string_view rest = text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) wrong();
+    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) wrong();
+    if (k < 2) rest.remove_prefix(comma + 1);
+  }
+  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
+  const double largest = max_abs(direction);
+  if (largest == 0) wrong();
+  // Scaled first, or the squares of huge numbers overflow and those of tiny ones vanish; by a
+  // power of two, so that a unit vector keeps its bits.
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
+                         std::ldexp(xyz[2], -exponent)});
+}
+
+std::uint64_t parse_memory_size(const std::string& option, const std::string& text) {
+  const auto wrong = [&] { refuse(option, text, "a size such as 2G, 800M or a number of bytes"); };
+  std::string_view digits = text;
+  int shift = 0;
+  if (!digits.empty()) {
+    constexpr std::string_view upper = "KMGT", lower = "kmgt";
+    const char last = digits.back();
+    const std::size_t unit = std::min(upper.find(last), lower.find(last));
+    if (unit != std::string_view::npos) {
+      shift = 10 * static_cast<int>(unit + 1);
+      digits.remove_suffix(1);
+    }
+  }
+  double size = 0;
+  if (!reads_as(digits, size) || !(size >= 0)) wrong();
+  size = std::ldexp(size, shift);
+  if (!(size < 0x1p63)) wrong();
+  return static_cast<std::uint64_t>(size);
+}
+
+void add_scene_argument(CLI::App& command, std::string& scene) {
+  command
+      .add_option("SCENE", scene,
+                  "an .obj file (its .mtl: Kd = reflectance, Ke = emitted exitance in W/m2), or a "
+                  "built-in with parameters, such as sphere-flake:levels=1")
+      ->required()
+      ->type_name("");
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_flag("--two-sided", options.two_sided,
+                   "every face lights and receives on both sides: two opposite patches");
+  add_parsed_option(command, "--max-patch-area", "A",
+                    "refine faces into patches no larger than A m2 (default: leave them whole)",
+                    [&options](const std::string& text) {
+                      options.max_patch_area = parse_number("--max-patch-area", text);
+                      if (!(options.max_patch_area > 0)) {
+                        refuse("--max-patch-area", text, "larger than 0");
+                      }
+                    });
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,41 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "transillum/scene.h"
+
+namespace transillum::cli {
+
+// Texts of the command line to values. All throw InputError that names the option, the text and
+// what is allowed. `option` is what the message calls it, such as "--threads".
+
+std::int64_t parse_whole_number(const std::string& option, const std::string& text,
+                                std::int64_t low, std::int64_t high);
+std::uint64_t parse_seed(const std::string& option, const std::string& text);
+/// Finite.
+double parse_number(const std::string& option, const std::string& text);
+/// Three finite numbers with commas between, not all 0; returns the unit vector.
+Vec3 parse_direction(const std::string& option, const std::string& text);
+/// Bytes: a number with K, M, G or T (powers of 1024) behind it or nothing.
+std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
+
+// Options that several commands share.
+
+void add_scene_argument(CLI::App& command, std::string& scene);
+/// --two-sided and --max-patch-area
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// An option whose text goes through `parse` when it is met, so that the message is ours.
+template <typename Parse>
+CLI::Option* add_parsed_option(CLI::App& command, const std::string& names, const std::string& type,
+                               const std::string& help, Parse parse) {
+  return command
+      .add_option_function<std::string>(
+          names, [parse](const std::string& text) { parse(text); }, help)
+      ->type_name(type);
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,28 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "output_files.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum::cli {
+
+void check_output_files(const std::vector<std::string>& files, const std::string& scene) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    check_writable(file);
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, scene, ignored)) {
+      throw InputError(fmt::format("{}: the scene itself would be overwritten", file));
+    }
+    if (!seen.insert(std::filesystem::weakly_canonical(file)).second) {
+      throw InputError(fmt::format("{}: named twice as an output file", file));
+    }
+  }
+}
+
+}  // namespace transillum::cli

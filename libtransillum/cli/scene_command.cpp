@@ -1,0 +1,49 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "interruption.h"
+#include "messages.h"
+#include "option_values.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum::cli {
+namespace {
+
+struct SceneCall {
+  std::string scene;
+  std::string out;
+};
+
+int run(const SceneCall& call) {
+  const Cancellation& cancellation = cancel_on_signals();
+  const std::filesystem::path out = call.out;
+  if (out.extension() != ".obj") {
+    throw InputError(fmt::format("{}: a scene is written to a file that ends in .obj", call.out));
+  }
+  check_writable(out);
+  const SceneDescription description = describe_scene(call.scene, cancellation);
+  for (const std::string& note : description.notes) print_message("warning: " + note);
+  write_obj(out, description);
+  return success;
+}
+
+}  // namespace
+
+Run add_scene_command(CLI::App& program) {
+  auto call = std::make_shared<SceneCall>();
+  CLI::App& command =
+      *program.add_subcommand("scene", "Writes a scene as .obj and .mtl for others to load");
+  add_scene_argument(command, call->scene);
+  command.add_option("-o,--out", call->out, "the .obj file; its .mtl goes beside it")
+      ->type_name("FILE.obj")
+      ->required();
+  command.footer("Example: transillum scene sphere-flake:levels=1 --out flake.obj");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,28 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "sequence_options.h"
+
+#include <fmt/format.h>
+
+#include "option_values.h"
+
+namespace transillum::cli {
+
+void add_sequence_options(CLI::App& command, SequenceOptions& options) {
+  add_parsed_option(command, "-m,--directions", "M",
+                    fmt::format("directions taken from the sequence, one pass each an iteration "
+                                "step (default {})",
+                                options.directions),
+                    [&options](const std::string& text) {
+                      options.directions =
+                          static_cast<int>(parse_whole_number("--directions", text, 1, 1 << 24));
+                    });
+  add_parsed_option(
+      command, "--sampling", "NAME",
+      fmt::format("{} (default {})", fmt::join(sampling_names(), " | "), name_of(options.sampling)),
+      [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
+  add_parsed_option(
+      command, "--seed", "S", fmt::format("for random sampling (default {})", options.seed),
+      [&options](const std::string& text) { options.seed = parse_seed("--seed", text); });
+}
+
+}  // namespace transillum::cli

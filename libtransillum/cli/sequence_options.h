@@ -1,0 +1,21 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+#include "transillum/directions.h"
+
+namespace transillum::cli {
+
+/// Which directions, for all commands that sample them.
+struct SequenceOptions {
+  int directions = 1024;
+  Sampling sampling = Sampling::fibonacci;
+  std::uint64_t seed = 1;
+};
+
+/// -m, --sampling, --seed
+void add_sequence_options(CLI::App& command, SequenceOptions& options);
+
+}  // namespace transillum::cli

@@ -1,0 +1,228 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "interruption.h"
+#include "messages.h"
+#include "option_values.h"
+#include "output_files.h"
+#include "progress_display.h"
+#include "sequence_options.h"
+#include "solve_summary.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct SolveCall {
+  std::string scene;
+  SceneOptions scene_options;
+  SequenceOptions sequence;
+  SolveOptions options;
+  bool one_way = false, two_way = false;
+  std::vector<std::string> out;
+  std::string stats;
+  bool quiet = false;
+};
+
+void check_outputs(const SolveCall& call) {
+  for (const std::string& file : call.out) check_result_path(file);
+  std::vector<std::string> files = call.out;
+  if (!call.stats.empty()) files.push_back(call.stats);
+  check_output_files(files, call.scene);
+}
+
+SolveOptions solve_options(const SolveCall& call) {
+  SolveOptions options = call.options;
+  options.directions = call.sequence.directions;
+  options.sampling = call.sequence.sampling;
+  options.seed = call.sequence.seed;
+  options.two_way = !call.one_way;
+  options.validate();
+  return options;
+}
+
+void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
+  const SolveProgress progress = solver.progress();
+  if (progress.direction > 0) {
+    display.show(fmt::format("step {}, pass {}/{}", progress.iteration + 1, progress.direction,
+                             progress.passes),
+                 static_cast<double>(progress.direction) / progress.passes,
+                 fmt::format("{:.1f} passes/s, {} left", progress.passes_per_second,
+                             time_text(progress.seconds_left)));
+  } else if (progress.iteration > 0) {
+    const auto steps = solver.statistics().steps;
+    display.show(fmt::format("step {}", progress.iteration), -1,
+                 fmt::format("change {:.1e}", steps.back().change));
+  }
+}
+
+/// Runs the solver to its end, or to the signal.
+Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                       const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+  const auto start = Clock::now();
+  const auto tree = std::make_shared<const BspTree>(*scene, cancellation, [&](double share) {
+    if (!quiet) display.show("sorting", share);
+  });
+  const double seconds_bsp = seconds_since(start);
+  RadiositySolver solver(scene, options, tree, cancellation);
+  try {
+    solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+      if (!quiet) show_progress(display, watched);
+      return true;
+    });
+  } catch (const Cancelled&) {
+    const SolveProgress progress = solver.progress();
+    if (progress.direction == 0 && progress.iteration == 0) throw;  // there is nothing to save
+  }
+  const SolveProgress progress = solver.progress();
+  Solution solution;
+  solution.scene = scene;
+  solution.complete = progress.finished;
+  solution.radiosity = progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
+  solution.irradiance = solver.irradiance();
+  solution.statistics = solver.statistics();
+  solution.statistics.seconds_bsp = seconds_bsp;
+  return solution;
+}
+
+void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
+  for (const std::string& file : call.out) write_result(file, solution);
+  if (!call.stats.empty()) write_statistics(call.stats, options, solution);
+}
+
+int run(const SolveCall& call) {
+  const auto start = Clock::now();
+  check_outputs(call);
+  const SolveOptions options = solve_options(call);
+  const Cancellation& cancellation = cancel_on_signals();
+  ProgressDisplay display;
+  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  const double seconds_load = seconds_since(start);
+  print_warnings(*scene);
+
+  Solution solution = solve_watched(scene, options, cancellation, display, call.quiet);
+  display.clear();
+  solution.statistics.seconds_load = seconds_load;
+  solution.statistics.seconds_total = seconds_since(start);
+  write_outputs(call, options, solution);
+
+  const std::string summary = solve_summary(solution);
+  if (call.out.empty()) {
+    fmt::print("{}", summary);
+  } else if (!call.quiet) {
+    fmt::print(stderr, "{}", summary);
+  }
+  if (solution.complete) return success;
+  print_message(call.out.empty() && call.stats.empty()
+                    ? "interrupted; this is the estimate so far"
+                    : "interrupted; the results so far are saved");
+  return interrupted;
+}
+
+void add_stopping_rules(CLI::App& command, SolveOptions& options) {
+  auto* iterations = add_parsed_option(command, "--iterations", "K", "stop after K iteration steps",
+                                       [&options](const std::string& text) {
+                                         options.iterations = static_cast<int>(parse_whole_number(
+                                             "--iterations", text, 1, 1'000'000));
+                                       });
+  auto* tolerance = add_parsed_option(
+      command, "--tolerance", "T",
+      fmt::format("stop when no patch changes by more than T of the largest B (default {})",
+                  options.tolerance),
+      [&options](const std::string& text) {
+        options.tolerance = parse_number("--tolerance", text);
+        if (!(options.tolerance > 0 && options.tolerance < 1)) {
+          throw InputError(fmt::format("--tolerance: \"{}\" is not between 0 and 1", text));
+        }
+      });
+  iterations->excludes(tolerance);
+}
+
+void add_estimator(CLI::App& command, SolveCall& call) {
+  SolveOptions& options = call.options;
+  add_parsed_option(
+      command, "--engine", "NAME",
+      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(options.engine)),
+      [&options](const std::string& text) { options.engine = engine_from_name(text); });
+  auto* one_way =
+      command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
+  auto* two_way = command.add_flag("--two-way", call.two_way,
+                                   "use each direction and its opposite in one pass (default)");
+  one_way->excludes(two_way);
+  add_parsed_option(
+      command, "--normalize", "NAME",
+      "none | rows: the paper's estimator, or rows divided by their quadrature of "
+      "the cosine (default none)",
+      [&options](const std::string& text) {
+        if (text != "none" && text != "rows") {
+          throw InputError(fmt::format("--normalize: \"{}\" is not none or rows", text));
+        }
+        options.normalize = text == "rows" ? Normalization::rows : Normalization::none;
+      });
+}
+
+void add_machine_limits(CLI::App& command, SolveOptions& options) {
+  add_parsed_option(command, "--memory", "SIZE",
+                    "what kept form factors may take, such as 2G or 800M; beyond it they are "
+                    "computed again each step (default: a quarter of the machine's)",
+                    [&options](const std::string& text) {
+                      // 0 means the default to the library; here it means that nothing is kept.
+                      options.memory =
+                          std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
+                    });
+  add_parsed_option(
+      command, "--threads", "N", "default: all cores; the result does not depend on it",
+      [&options](const std::string& text) {
+        options.threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
+      });
+}
+
+void add_outputs(CLI::App& command, SolveCall& call) {
+  command
+      .add_option("-o,--out", call.out,
+                  ".csv, .vtp, .ply or .obj by its ending; may be given several times (default: a "
+                  "summary on standard output)")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--stats", call.stats,
+                  "counts, seconds a phase, convergence a step, closure and energy defects")
+      ->type_name("FILE.json");
+  command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
+}
+
+}  // namespace
+
+Run add_solve_command(CLI::App& program) {
+  auto call = std::make_shared<SolveCall>();
+  CLI::App& command = *program.add_subcommand("solve", "Computes the radiosity of every patch");
+  add_scene_argument(command, call->scene);
+  add_sequence_options(command, call->sequence);
+  add_estimator(command, *call);
+  add_stopping_rules(command, call->options);
+  add_scene_options(command, call->scene_options);
+  add_machine_limits(command, call->options);
+  add_outputs(command, *call);
+  command.footer(
+      "Results: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; areas in m2, exitance "
+      "E\n"
+      "and radiosity B in W/m2. Ctrl-C saves what there is and exits with 130; twice quits at "
+      "once.\n"
+      "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli

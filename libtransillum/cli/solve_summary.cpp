@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve_summary.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "progress_display.h"
+
+namespace transillum::cli {
+namespace {
+
+/// Smallest, area-weighted mean and largest B, over patches, a channel.
+struct RadiosityRange {
+  Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  Rgb mean;
+  Rgb high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
+
+RadiosityRange radiosity_range(const Solution& solution) {
+  RadiosityRange range;
+  double area = 0;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    const Rgb& b = solution.radiosity[static_cast<std::size_t>(i)];
+    range.low = {std::min(range.low.r, b.r), std::min(range.low.g, b.g),
+                 std::min(range.low.b, b.b)};
+    range.high = {std::max(range.high.r, b.r), std::max(range.high.g, b.g),
+                  std::max(range.high.b, b.b)};
+    range.mean += solution.scene->patch(i).area * b;
+    area += solution.scene->patch(i).area;
+  }
+  if (area > 0) range.mean = (1 / area) * range.mean;
+  return range;
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("{:<16} {}\n", name, value);
+}
+
+std::string color_text(const Rgb& b) { return fmt::format("{:.5g} {:.5g} {:.5g}", b.r, b.g, b.b); }
+
+std::string convergence_text(const SolveStatistics& statistics) {
+  if (statistics.steps.empty()) return "none finished";
+  return fmt::format("{}, last change {:.2e}{}", statistics.iterations,
+                     statistics.steps.back().change, statistics.converged ? ", converged" : "");
+}
+
+}  // namespace
+
+std::string solve_summary(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
+  const RadiosityRange b = radiosity_range(solution);
+  // Without kept form factors every step makes its passes anew.
+  const int rounds = s.kept_form_factors ? 1 : s.iterations;
+  std::string text = row("scene", solution.scene->name());
+  text += row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
+  text += row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
+                                    s.threads));
+  if (solution.complete && rounds > 0) {
+    text += row("time a pass",
+                fmt::format("{:.3g} ms", 1000 * s.seconds_transfers / s.passes / rounds));
+  }
+  text += row("iterations", convergence_text(s));
+  text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",
+                                            s.closure_defect_max, 100 * s.escaped));
+  if (!s.steps.empty()) text += row("energy defect", fmt::format("{:.1e}", s.energy_defect));
+  text += row("B min, W/m2", color_text(b.low));
+  text += row("B mean, W/m2", color_text(b.mean));
+  text += row("B max, W/m2", color_text(b.high));
+  text += row("time", fmt::format("{} (load {}, sorting {}, passes {}, iteration {})",
+                                  time_text(s.seconds_total), time_text(s.seconds_load),
+                                  time_text(s.seconds_bsp), time_text(s.seconds_transfers),
+                                  time_text(s.seconds_iterate)));
+  return text;
+}
+
+}  // namespace transillum::cli

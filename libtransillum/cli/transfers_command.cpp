@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "interruption.h"
+#include "messages.h"
+#include "option_values.h"
+#include "output_files.h"
+#include "progress_display.h"
+#include "transillum/bsp_tree.h"
+#include "transillum/files.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::cli {
+namespace {
+
+struct TransfersCall {
+  std::string scene;
+  SceneOptions scene_options;
+  Vec3 direction;
+  Engine engine = Engine::local;
+  std::string out;
+};
+
+int run(const TransfersCall& call) {
+  const Cancellation& cancellation = cancel_on_signals();
+  if (!call.out.empty()) check_output_files({call.out}, call.scene);
+  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  print_warnings(*scene);
+  ProgressDisplay progress;
+  const auto tree = std::make_shared<const BspTree>(
+      *scene, cancellation, [&](double share) { progress.show("sorting", share); });
+  const TransferEngine engine = local_map_engine(scene, tree);
+  const Transfers transfers = engine(call.direction, cancellation);
+  progress.clear();
+  if (call.out.empty()) {
+    write_transfers_csv(std::cout, transfers);
+  } else {
+    write_transfers_csv(call.out, transfers);
+  }
+  return success;
+}
+
+}  // namespace
+
+Run add_transfers_command(CLI::App& program) {
+  auto call = std::make_shared<TransfersCall>();
+  CLI::App& command =
+      *program.add_subcommand("transfers", "Writes one direction's areas A(i,j,omega)");
+  add_scene_argument(command, call->scene);
+  add_parsed_option(
+      command, "--direction", "X,Y,Z",
+      "omega, from the receivers toward the sources; of any length",
+      [call](const std::string& text) { call->direction = parse_direction("--direction", text); })
+      ->required();
+  add_parsed_option(
+      command, "--engine", "NAME",
+      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(call->engine)),
+      [call](const std::string& text) { call->engine = engine_from_name(text); });
+  add_scene_options(command, call->scene_options);
+  command
+      .add_option("-o,--out", call->out,
+                  "CSV: receiver,source,area in m2 (default: to standard output); source -1: "
+                  "nothing there, or a back side")
+      ->type_name("FILE.csv");
+  command.footer("Example: transillum transfers cornell-box --direction 0,0,1 --out up.csv");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli
