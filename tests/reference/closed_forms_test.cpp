@@ -133,11 +133,14 @@ TEST(Energy, WhatIsReceivedWasSent) {
   }
 }
 
-/// In a closed scene all that is emitted is absorbed, within eps(M)/pi; exactly with rows.
+/// In a closed scene where nobody looks at backs all that is emitted is absorbed, within
+/// eps(M)/pi. (Under the blocks of cornell-box the floor does look at backs, and loses by it.)
 TEST(Energy, WhatIsEmittedIsAbsorbed) {
-  for (const char* spec : {"cornell-box", "furnace", "rooms"}) {
-    const Solution solution = solve(load_scene(spec), {.directions = 1024, .tolerance = 1e-10});
-    EXPECT_NEAR(solution.statistics.energy_balance, 1, 5e-3) << spec;
+  for (const char* spec : {"furnace", "boards", "sphere-flake:levels=1"}) {
+    RadiositySolver solver(load_scene(spec), {.directions = 1024, .tolerance = 1e-10});
+    solver.advance(RadiositySolver::Until::finished);
+    for (const double seen : solver.back_seen_shares()) ASSERT_LE(seen, 1e-12) << spec;
+    EXPECT_NEAR(solver.statistics().energy_balance, 1, 2e-3) << spec;
   }
 }
 
