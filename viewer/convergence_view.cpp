@@ -34,8 +34,8 @@ void ConvergenceView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapsh
   passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot->estimate_iteration + 1)));
   const int passes = snapshot->progress.passes;
   passes_->show_lines(
-      {{tr("running estimate against the last"), theme::accent, snapshot->estimate_changes, false}},
-      {}, passes);
+      {{tr("estimate against the last"), theme::accent, snapshot->estimate_changes, false}}, {},
+      passes);
 }
 
 }  // namespace transillum::viewer

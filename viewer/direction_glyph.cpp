@@ -34,9 +34,9 @@ vtkSmartPointer<vtkActor> flat_actor(vtkPolyData* data, vtkRenderer& renderer) {
 
 vtkSmartPointer<vtkActor> arrow_actor(vtkRenderer& renderer) {
   vtkNew<vtkArrowSource> arrow;
-  arrow->SetTipLength(0.34);
-  arrow->SetTipRadius(0.085);
-  arrow->SetShaftRadius(0.022);
+  arrow->SetTipLength(0.38);
+  arrow->SetTipRadius(0.11);
+  arrow->SetShaftRadius(0.032);
   arrow->SetTipResolution(32);
   arrow->SetShaftResolution(24);
   arrow->Update();
@@ -84,7 +84,7 @@ DirectionGlyph::DirectionGlyph(vtkRenderer& renderer) {
 
   fill_ = flat_actor(quad_, renderer);
   // One translucent polygon alone needs no depth peeling.
-  fill_->GetProperty()->SetOpacity(0.10);
+  fill_->GetProperty()->SetOpacity(0.20);
   border_ = flat_actor(frame_, renderer);
   border_->GetProperty()->SetOpacity(0.85);
   forward_ = arrow_actor(renderer);
@@ -97,8 +97,8 @@ void DirectionGlyph::show(const Vec3& omega, bool two_way, const Vec3& center, d
   const Vec3 other = std::abs(omega.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalized(cross(other, omega));
   const Vec3 v = cross(omega, u);
-  const Vec3 middle = center + 1.02 * radius * side;
-  const double half = 0.38 * radius;
+  const Vec3 middle = center + 0.86 * radius * side;
+  const double half = 0.34 * radius;
   const Vec3 corners[4] = {middle - half * u - half * v, middle + half * u - half * v,
                            middle + half * u + half * v, middle - half * u + half * v};
   for (vtkIdType k = 0; k < 4; ++k)
@@ -107,7 +107,7 @@ void DirectionGlyph::show(const Vec3& omega, bool two_way, const Vec3& center, d
   quad_->Modified();
   frame_->Modified();
 
-  const double length = 0.42 * radius;
+  const double length = 0.26 * radius;
   forward_->SetUserMatrix(placed(middle, -omega, length));
   backward_->SetUserMatrix(placed(middle, omega, length));
   for (vtkActor* actor : {fill_.Get(), border_.Get(), forward_.Get()}) actor->VisibilityOn();

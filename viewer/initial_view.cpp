@@ -14,10 +14,11 @@ struct Pose {
   const char* scene;
   Vec3 toward_eye, up;
   double radius_share;  ///< of half the diagonal: what matters may be small in its enclosure
+  double view_angle = 30;
 };
 constexpr Pose poses[] = {
-    {"sphere-flake", {0.55, -0.75, 0.38}, {0, 0, 1}, 0.40},
-    {"cornell-box", {0, -1, 0}, {0, 0, 1}, 1},
+    {"sphere-flake", {0.55, -0.75, 0.38}, {0, 0, 1}, 0.37, 45},
+    {"cornell-box", {0, 0, -1}, {0, 1, 0}, 1},
     {"furnace", {0.45, -0.8, 0.45}, {0, 0, 1}, 1},
     {"boards", {0.3, -0.9, 0.5}, {0, 0, 1}, 1},
     {"rooms", {0.35, -0.65, 0.8}, {0, 0, 1}, 1},
@@ -39,6 +40,7 @@ ViewPoint initial_view(const Scene& scene, double aspect) {
   const Pose& pose = pose_of(scene);
   ViewPoint view;
   view.up = pose.up;
+  view.view_angle = pose.view_angle;
   view.target = scene.bounds().center();
   view.radius = std::max(0.5 * pose.radius_share * scene.bounds().diagonal(), 1e-9);
 
@@ -51,7 +53,7 @@ ViewPoint initial_view(const Scene& scene, double aspect) {
   constexpr double margin = 1.06;
   double distance = 0;
   if (pose.radius_share < 1) {
-    distance = margin * view.radius / std::sin(std::atan(std::min(tan_vertical, tan_horizontal)));
+    distance = view.radius / std::sin(std::atan(std::min(tan_vertical, tan_horizontal)));
   } else {
     for (const Vec3& p : scene.points()) {
       const Vec3 q = p - view.target;

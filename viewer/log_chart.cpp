@@ -36,8 +36,9 @@ Decades decades_of(const std::vector<LogChart::Line>& lines,
   };
   for (const auto& line : lines)
     for (const double value : line.values) count(value);
+  const bool any = high > 0;
   for (const auto& level : levels) count(level.value);
-  if (high == 0) return {};
+  if (!any) count(1);  // room for what will come, above a level that waits alone
   Decades decades{static_cast<int>(std::floor(std::log10(low))),
                   static_cast<int>(std::ceil(std::log10(high)))};
   if (decades.first == decades.last) --decades.first;
@@ -219,7 +220,7 @@ void LogChart::draw_legend(QPainter& painter, const Frame& f) const {
   for (const Line& l : lines_) {
     const auto gaps = std::count_if(l.values.begin(), l.values.end(),
                                     [](double value) { return !drawable(value); });
-    entry(gaps == 0 ? l.name : tr("%1 (%2 × 0 not shown)").arg(l.name).arg(gaps), QPen(l.color, 2));
+    entry(gaps == 0 ? l.name : tr("%1 (%2 zero)").arg(l.name, count_text(gaps)), QPen(l.color, 2));
   }
   for (const Level& level : levels_)
     if (drawable(level.value)) entry(level.name, QPen(level.color, 1.5, Qt::DashLine));

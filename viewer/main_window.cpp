@@ -16,6 +16,7 @@
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QStyle>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -33,6 +34,7 @@
 #include "scene_view.h"
 #include "settings_panel.h"
 #include "solve_actions.h"
+#include "solve_summary.h"
 #include "theme.h"
 #include "welcome_page.h"
 
@@ -54,6 +56,9 @@ QScrollArea* scrollable(QWidget* content) {
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  // Never so narrow that something is cut off at the right.
+  area->setMinimumWidth(content->minimumSizeHint().width() +
+                        area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
   return area;
 }
 
@@ -119,12 +124,18 @@ QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidge
   return dock;
 }
 
+QList<QDockWidget*> MainWindow::docks() const {
+  return {settings_dock_, inspector_dock_, summary_dock_, map_dock_, convergence_dock_};
+}
+
 void MainWindow::make_docks() {
   map_view_ = new MapView(selection_, colors_);
   convergence_view_ = new ConvergenceView;
   inspector_ = new PatchInspector(selection_, colors_);
   settings_ = new SettingsPanel;
   settings_dock_ = add_dock(tr("Solve settings"), "settings_dock", scrollable(settings_));
+  summary_ = new SolveSummary;
+  summary_dock_ = add_dock(tr("Figures"), "summary_dock", scrollable(summary_));
   inspector_dock_ = add_dock(tr("Patch"), "inspector_dock", scrollable(inspector_));
   map_dock_ = add_dock(tr("Visibility map"), "map_dock", map_view_);
   convergence_dock_ = add_dock(tr("Convergence"), "convergence_dock", convergence_view_);
@@ -146,8 +157,7 @@ void MainWindow::make_menus() {
   actions_->add_to(*menuBar()->addMenu(tr("&Solve")));
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
-  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_})
-    view->addAction(dock->toggleViewAction());
+  for (QDockWidget* dock : docks()) view->addAction(dock->toggleViewAction());
   view->addSeparator();
   view->addAction(tr("Reset view"), scene_view_, &SceneView::reset_view,
                   QKeySequence(Qt::Key_Home));
@@ -202,18 +212,18 @@ void MainWindow::connect_session() {
 }
 
 void MainWindow::reset_layout() {
-  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_}) {
+  for (QDockWidget* dock : docks()) {
     removeDockWidget(dock);
     dock->setFloating(false);
   }
   addDockWidget(Qt::LeftDockWidgetArea, settings_dock_);
   addDockWidget(Qt::LeftDockWidgetArea, inspector_dock_);
+  addDockWidget(Qt::LeftDockWidgetArea, summary_dock_);
   addDockWidget(Qt::RightDockWidgetArea, map_dock_);
   addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
-  for (QDockWidget* dock : {settings_dock_, inspector_dock_, map_dock_, convergence_dock_})
-    dock->show();
-  resizeDocks({settings_dock_, map_dock_}, {280, 440}, Qt::Horizontal);
-  resizeDocks({settings_dock_, inspector_dock_}, {450, 400}, Qt::Vertical);
+  for (QDockWidget* dock : docks()) dock->show();
+  resizeDocks({settings_dock_, map_dock_}, {285, 450}, Qt::Horizontal);
+  resizeDocks({settings_dock_, inspector_dock_, summary_dock_}, {385, 290, 225}, Qt::Vertical);
   resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
 }
 
@@ -307,6 +317,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   map_view_->show_snapshot(snapshot_);
   convergence_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
+  summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
   actions_->show_state(session_.state(), at_start());
   request_map();

@@ -25,6 +25,7 @@ class ProgressLine;
 class SceneView;
 class SettingsPanel;
 class SolveActions;
+class SolveSummary;
 
 /// The one window: lays out the views and carries snapshots to them.
 class MainWindow : public QMainWindow {
@@ -57,6 +58,7 @@ class MainWindow : public QMainWindow {
  private:
   QWidget* make_center();
   void make_docks();
+  QList<QDockWidget*> docks() const;
   void make_menus();
   void fill_open_menu(QMenu& menu);
   QDockWidget* add_dock(const QString& title, const char* name, QWidget* content);
@@ -94,8 +96,9 @@ class MainWindow : public QMainWindow {
   ConvergenceView* convergence_view_;
   PatchInspector* inspector_;
   SettingsPanel* settings_;
+  SolveSummary* summary_;
   ProgressLine* progress_;
-  QDockWidget *map_dock_, *convergence_dock_, *inspector_dock_, *settings_dock_;
+  QDockWidget *settings_dock_, *inspector_dock_, *summary_dock_, *map_dock_, *convergence_dock_;
 };
 
 }  // namespace transillum::viewer

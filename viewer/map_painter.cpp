@@ -19,6 +19,16 @@ bool outside(const QPolygonF& polygon, const QRectF& view) {
   return !polygon.boundingRect().intersects(view);
 }
 
+double area(const QPolygonF& polygon) {
+  double twice = 0;
+  for (int k = 0; k < polygon.size(); ++k) {
+    const QPointF& a = polygon[k];
+    const QPointF& b = polygon[(k + 1) % polygon.size()];
+    twice += a.x() * b.y() - b.x() * a.y();
+  }
+  return std::abs(twice) / 2;
+}
+
 // Diagonal lines in a tile: a pattern brush would be too coarse on a 2x screen.
 QBrush hatch_brush(double pixel_ratio) {
   const int size = static_cast<int>(std::lround(6 * pixel_ratio));
@@ -36,17 +46,22 @@ QBrush hatch_brush(double pixel_ratio) {
 }  // namespace
 
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
-  const Scene& scene = *map.loaded->scene;
-  const Vec3 middle = scene.bounds().center();
-  double radius = 0;
-  for (const Vec3& p : scene.points()) radius = std::max(radius, norm(p - middle));
+  double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL;
+  for (const Vec3& p : map.loaded->scene->points()) {
+    const Vec2 q = map.record.frame.project(p);
+    left = std::min(left, q.x);
+    right = std::max(right, q.x);
+    bottom = std::min(bottom, q.y);
+    top = std::max(top, q.y);
+  }
+  constexpr double margin = 14, scale_bar_room = 26;  // logical pixels
+  const double width = std::max(size.width() - 2 * margin, 10.0);
+  const double height = std::max(size.height() - 2 * margin - scale_bar_room, 10.0);
   MapTransform transform;
-  transform.center = map.record.frame.project(middle);
-  transform.middle = QPointF(size.width() / 2, size.height() / 2);
-  // The scale bar needs some room below.
-  const double room = std::min(size.width() - 16, size.height() - 44);
-  transform.middle.ry() -= 12;
-  transform.scale = std::max(room, 10.0) / (2 * std::max(radius, 1e-12));
+  transform.center = {(left + right) / 2, (bottom + top) / 2};
+  transform.middle = {margin + width / 2, margin + height / 2};
+  transform.scale =
+      std::min(width / std::max(right - left, 1e-12), height / std::max(top - bottom, 1e-12));
   return transform;
 }
 
@@ -88,12 +103,11 @@ MapPicture paint_map(const MapPictureRequest& request) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(row.front_facing ? hatch : QBrush(QColor(c[0], c[1], c[2])));
     painter.drawPolygon(polygon);
-    const QRectF box = polygon.boundingRect();
-    if (std::max(box.width(), box.height()) > 5 * ratio) outlines.push_back(polygon);
+    if (area(polygon) > 30 * ratio * ratio) outlines.push_back(polygon);
   }
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(QColor(0, 0, 0, 90), 0.7 * ratio));
+  painter.setPen(QPen(QColor(0, 0, 0, 80), 0.6 * ratio));
   for (const QPolygonF& polygon : outlines) painter.drawPolygon(polygon);
   painter.end();
   picture.image.setDevicePixelRatio(ratio);

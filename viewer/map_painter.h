@@ -33,7 +33,7 @@ struct MapTransform {
   }
 };
 
-/// The whole scene in a picture of `size`, the same scale for all directions.
+/// The whole scene in a picture of `size` (logical pixels).
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
 /// What one picture of a map shows.

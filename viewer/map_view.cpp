@@ -28,6 +28,9 @@ MapView::MapView(Selection& selection, const ColorChoice& colors, QWidget* paren
   title_ = new QLabel;
   step_text_ = new QLabel;
   step_text_->setForegroundRole(QPalette::PlaceholderText);
+  // Long words must not widen the window: they are cut off before that.
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   canvas_ = new MapCanvas(selection);
   canvas_->setObjectName("map_canvas");
   slider_ = new QSlider(Qt::Horizontal);
@@ -50,6 +53,7 @@ MapView::MapView(Selection& selection, const ColorChoice& colors, QWidget* paren
   words->addWidget(step_text_);
   auto* controls = new QHBoxLayout;
   controls->setContentsMargins(10, 6, 8, 6);
+  controls->setSpacing(8);
   controls->addWidget(new QLabel(tr("Step")));
   controls->addWidget(slider_, 1);
   controls->addWidget(fullest_);
@@ -127,10 +131,10 @@ void MapView::show_title() {
     step_text_->setText(tr("Seen along ω, toward the light that crosses the plane"));
     return;
   }
-  title_->setText(tr("Direction %1 of %2, seen along ω = %3")
+  title_->setText(tr("Direction %1 of %2, along ω = %3")
                       .arg(count_text(map_->direction), count_text(map_->passes),
                            vector_text(map_->record.frame.omega)));
-  step_text_->setText(tr("V after step %1 of %2: %3 fragments, hatched: back sides")
+  step_text_->setText(tr("V after step %1 of %2: %3 fragments; backs hatched")
                           .arg(count_text(step() + 1), count_text(map_->record.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
 }

@@ -16,8 +16,14 @@ QString count_text(std::int64_t value) {
 QString number_text(double value) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   const double size = std::abs(value);
+  if (size >= 1e4 && size < 1e7) return count_text(std::llround(value));
   QString text = QString::number(value, 'g', 4);
-  if (size >= 1e4 && size < 1e7) text = count_text(std::llround(value));
+  const auto exponent_at = text.indexOf(QLatin1Char('e'));
+  if (exponent_at >= 0) {
+    const QString power = power_of_ten_text(text.mid(exponent_at + 1).toInt());
+    const QString lead = text.left(exponent_at);
+    text = lead == QLatin1String("1") ? power : lead + QStringLiteral(" × ") + power;
+  }
   return text.replace(QLatin1Char('-'), QChar(0x2212));
 }
 

@@ -8,7 +8,7 @@
 
 namespace transillum::viewer {
 
-/// Up to four significant digits, with thousands apart: 0.01234, 1.234e-06, 19 976.
+/// Up to four significant digits, with thousands apart: 0.01234, 1.234 × 10⁻⁶, 19 976.
 QString number_text(double value);
 /// Thousands apart by a thin space: 19 976.
 QString count_text(std::int64_t value);

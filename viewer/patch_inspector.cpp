@@ -1,13 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "patch_inspector.h"
 
-#include <QGridLayout>
 #include <QLabel>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "number_text.h"
-#include "theme.h"
+#include "value_grid.h"
 
 namespace transillum::viewer {
 
@@ -16,24 +15,19 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   hint_ = new QLabel(tr("Click a patch in the scene or in the map."));
   hint_->setForegroundRole(QPalette::PlaceholderText);
   hint_->setWordWrap(true);
-  values_ = new QWidget;
-  auto* grid = new QGridLayout(values_);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(10);
-  grid->setVerticalSpacing(4);
-  grid->setColumnStretch(1, 1);
-  id_ = add_row(*grid, tr("Patch"), {});
+  values_ = new ValueGrid;
+  id_ = values_->add_row(tr("Patch"), {});
   id_->setObjectName("patch_id");
-  face_ = add_row(*grid, tr("Face"), {});
-  material_ = add_row(*grid, tr("Material"), {});
-  area_ = add_row(*grid, tr("Area"), tr("m²"));
-  center_ = add_row(*grid, tr("Centre"), tr("m"));
-  normal_ = add_row(*grid, tr("Normal"), {});
-  exitance_ = add_row(*grid, tr("E"), tr("W/m²"));
-  reflectance_ = add_row(*grid, tr("ρ"), {});
-  radiosity_ = add_row(*grid, tr("B"), tr("W/m²"));
+  face_ = values_->add_row(tr("Face"), {});
+  material_ = values_->add_row(tr("Material"), {});
+  area_ = values_->add_row(tr("Area"), tr("m²"));
+  center_ = values_->add_row(tr("Centre"), tr("m"));
+  normal_ = values_->add_row(tr("Normal"), {});
+  exitance_ = values_->add_row(tr("E"), tr("W/m²"));
+  reflectance_ = values_->add_row(tr("ρ"), {});
+  radiosity_ = values_->add_row(tr("B"), tr("W/m²"));
   radiosity_->setObjectName("patch_radiosity");
-  form_factor_sum_ = add_row(*grid, tr("Σ F"), {});
+  form_factor_sum_ = values_->add_row(tr("Σ F"), {});
   exitance_->setToolTip(tr("Emitted exitance: red, green, blue"));
   reflectance_->setToolTip(tr("Diffuse reflectance: red, green, blue"));
   radiosity_->setToolTip(tr("Radiosity, estimated so far: red, green, blue"));
@@ -41,7 +35,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
   swatch_->setToolTip(tr("B as the scene shows it"));
-  grid->addWidget(swatch_, grid->rowCount(), 0, 1, 3);
+  values_->add_wide(swatch_);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 8, 12, 10);
@@ -51,23 +45,6 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   connect(&selection_, &Selection::changed, this, &PatchInspector::show_patch);
   connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
   show_patch();
-}
-
-QLabel* PatchInspector::add_row(QGridLayout& grid, const QString& name, const QString& unit) {
-  const int row = grid.rowCount();
-  auto* title = new QLabel(name);
-  title->setForegroundRole(QPalette::PlaceholderText);
-  auto* value = new QLabel;
-  value->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  value->setMinimumWidth(60);
-  grid.addWidget(title, row, 0);
-  grid.addWidget(value, row, 1);
-  if (!unit.isEmpty()) {
-    auto* unit_label = new QLabel(unit);
-    unit_label->setForegroundRole(QPalette::PlaceholderText);
-    grid.addWidget(unit_label, row, 2, Qt::AlignRight);
-  }
-  return value;
 }
 
 void PatchInspector::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {

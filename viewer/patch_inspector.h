@@ -8,10 +8,11 @@
 #include "selection.h"
 #include "snapshot.h"
 
-class QGridLayout;
 class QLabel;
 
 namespace transillum::viewer {
+
+class ValueGrid;
 
 /// All there is to know of the selected patch.
 class PatchInspector : public QWidget {
@@ -23,14 +24,13 @@ class PatchInspector : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
-  QLabel* add_row(QGridLayout& grid, const QString& name, const QString& unit);
   void show_patch();
 
   Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
-  QWidget* values_;
+  ValueGrid* values_;
   QLabel *id_, *face_, *material_, *area_, *center_, *normal_, *exitance_, *reflectance_,
       *radiosity_, *form_factor_sum_, *swatch_;
 };

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "progress_line.h"
 
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -10,11 +11,21 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+QString iterations_text(int count) {
+  return count == 1 ? ProgressLine::tr("1 iteration")
+                    : ProgressLine::tr("%1 iterations").arg(count_text(count));
+}
+
+}  // namespace
+
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   scene_ = new QLabel;
   scene_->setObjectName("scene_summary");
   phase_ = new QLabel(tr("No scene"));
   phase_->setObjectName("phase");
+  phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   bar_ = new QProgressBar;
   bar_->setObjectName("progress");
   bar_->setFixedWidth(260);
@@ -43,7 +54,8 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
   QFont bold = font();
   bold.setBold(true);
   scene_->setFont(bold);
-  scene_->setText(tr("%1 patches").arg(count_text(loaded.scene->patch_count())));
+  const QString name = QFileInfo(QString::fromStdString(loaded.scene->name())).fileName();
+  scene_->setText(tr("%1, %2 patches").arg(name, count_text(loaded.scene->patch_count())));
   scene_->setToolTip(
       tr("%1: %2 fragments in the BSP tree, read in %3 s, sorted in %4 s")
           .arg(QString::fromStdString(loaded.scene->name()),
@@ -91,11 +103,11 @@ void ProgressLine::show_solve() {
                          ? tr("Iteration %1, direction %2 of %3")
                                .arg(count_text(progress.iteration + 1),
                                     count_text(progress.direction), count_text(progress.passes))
-                         : tr("%1 iterations done").arg(count_text(progress.iteration));
+                         : tr("%1 done").arg(iterations_text(progress.iteration));
   if (state_ == SessionState::finished)
-    phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1 iterations, %2 s")
-                                                     : tr("Done after %1 iterations, %2 s"))
-                        .arg(count_text(progress.iteration),
+    phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
+                                                     : tr("Done after %1, %2 s"))
+                        .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
   else if (progress.iteration == 0 && progress.direction == 0)
     phase_->setText(running ? tr("Starting") : tr("Ready: run, or take one direction"));

@@ -6,10 +6,12 @@
 #include <QDoubleSpinBox>
 #include <QDoubleValidator>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
@@ -83,6 +85,8 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   auto* positive = new QDoubleValidator(0, 1, 15, tolerance_);
   positive->setLocale(QLocale::c());
   tolerance_->setValidator(positive);
+  tolerance_->setMinimumWidth(60);
+  stop_at_->setMinimumWidth(60);
   tolerance_->setToolTip(tr("Relative change of B, largest of all patches, at which to stop"));
   iterations_ = new QSpinBox;
   iterations_->setRange(1, 1'000'000);
@@ -93,9 +97,14 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   form.addRow(tr("Engine"), engine_);
   form.addRow(tr("Light goes"), ways_);
   form.addRow(tr("Normalize"), normalize_);
-  form.addRow(tr("Stop at"), stop_at_);
-  form.addRow(tr("Tolerance"), tolerance_);
-  form.addRow(tr("Iterations"), iterations_);
+  stop_value_ = new QStackedWidget;
+  stop_value_->addWidget(tolerance_);
+  stop_value_->addWidget(iterations_);
+  auto* stop_row = new QHBoxLayout;
+  stop_row->setSpacing(6);
+  stop_row->addWidget(stop_at_, 1);
+  stop_row->addWidget(stop_value_, 1);
+  form.addRow(tr("Stop at"), stop_row);
   for (QComboBox* box : {sampling_, engine_, ways_, normalize_, stop_at_})
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
   for (QSpinBox* box : {directions_, seed_, iterations_})
@@ -105,7 +114,7 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
 
 void SettingsPanel::add_scene_rows(QFormLayout& form) {
   max_patch_area_ = new QDoubleSpinBox;
-  max_patch_area_->setDecimals(5);
+  max_patch_area_->setDecimals(6);
   max_patch_area_->setRange(0, 1e9);
   max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
@@ -176,8 +185,7 @@ void SettingsPanel::set_restart_enabled(bool enabled) {
 void SettingsPanel::show_state() {
   if (!restart_) return;  // still under construction
   seed_->setEnabled(static_cast<Sampling>(sampling_->currentIndex()) == Sampling::random);
-  tolerance_->setEnabled(stop_at_->currentIndex() == 0);
-  iterations_->setEnabled(stop_at_->currentIndex() == 1);
+  stop_value_->setCurrentIndex(stop_at_->currentIndex());
   const bool differs = differ_from_effect();
   restart_->setEnabled(enabled_);
   restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));

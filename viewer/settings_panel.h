@@ -12,6 +12,7 @@ class QFormLayout;
 class QLineEdit;
 class QPushButton;
 class QSpinBox;
+class QStackedWidget;
 
 namespace transillum::viewer {
 
@@ -50,6 +51,7 @@ class SettingsPanel : public QWidget {
   QComboBox* ways_;
   QComboBox* normalize_;
   QComboBox* stop_at_;
+  QStackedWidget* stop_value_;
   QLineEdit* tolerance_;
   QSpinBox* iterations_;
   QCheckBox* two_sided_;

@@ -1,0 +1,26 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+class QGridLayout;
+class QLabel;
+
+namespace transillum::viewer {
+
+/// Rows of a name, a value and a unit.
+class ValueGrid : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ValueGrid(QWidget* parent = nullptr);
+
+  /// Returns the value's label; the text of it can be selected and copied.
+  QLabel* add_row(const QString& name, const QString& unit, const QString& tip = {});
+  void add_wide(QWidget* widget);
+
+ private:
+  QGridLayout* grid_;
+};
+
+}  // namespace transillum::viewer
