@@ -3,15 +3,13 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Partition_traits_2.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/partition_2.h>
-#include <CGAL/property_map.h>
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "invariant.h"
@@ -96,6 +94,120 @@ void count_borders(Triangulation& triangulation, const EdgeWalks& walks) {
   }
 }
 
+/// The corners' vertices; corners at one place share theirs, which has the first one's number.
+/// All at once, in an order along a space-filling curve: one by one would take quadratic time on
+/// outlines that run to and fro.
+std::vector<Triangulation::Vertex_handle> insert_corners(Triangulation& triangulation,
+                                                         std::span<const PlanePoint> outline) {
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  CornerList sorted(n);
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return outline[a] != outline[b] ? outline[a] < outline[b] : a < b;
+  });
+  std::vector<std::uint32_t> first_there(n);
+  std::vector<std::pair<Point, std::uint32_t>> distinct;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const bool repeated = i > 0 && outline[sorted[i]] == outline[sorted[i - 1]];
+    first_there[sorted[i]] = repeated ? first_there[sorted[i - 1]] : sorted[i];
+    if (!repeated) distinct.emplace_back(to_point(outline[sorted[i]]), sorted[i]);
+  }
+  triangulation.insert(distinct.begin(), distinct.end());
+  std::vector<Triangulation::Vertex_handle> corners(n);
+  for (const auto vertex : triangulation.finite_vertex_handles()) {
+    corners[vertex->info()] = vertex;
+  }
+  for (std::uint32_t i = 0; i < n; ++i) corners[i] = corners[first_there[i]];
+  return corners;
+}
+
+/// Hertel and Mehlhorn's partition: diagonals of a triangulation are taken away as long as the
+/// polygons they part stay convex together.
+class TriangleMerge {
+ public:
+  TriangleMerge(std::span<const PlanePoint> outline,
+                const std::vector<std::array<std::uint32_t, 3>>& triangles)
+      : outline_(outline) {
+    for (const auto& t : triangles) {
+      const auto first = static_cast<std::uint32_t>(edges_.size());
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        edges_.push_back({t[i], first + (i + 1) % 3, first + (i + 2) % 3});
+      }
+    }
+  }
+
+  std::vector<CornerList> merged() {
+    for (const auto& [a, b] : twins()) {
+      if (stays_convex(a, b) && stays_convex(b, a)) take_away(a, b);
+    }
+    std::vector<CornerList> polygons;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!edges_[e].gone) polygons.push_back(take_polygon(e));
+    }
+    return polygons;
+  }
+
+ private:
+  struct Edge {
+    std::uint32_t from;
+    std::uint32_t next, previous;  // around its polygon
+    bool gone = false;
+  };
+  using Twins = std::pair<std::uint32_t, std::uint32_t>;
+
+  std::uint32_t to(const Edge& e) const { return edges_[e.next].from; }
+
+  /// The two sides of every diagonal, in an order that hangs on the corners' numbers only.
+  std::vector<Twins> twins() const {
+    std::vector<std::array<std::uint32_t, 3>> keyed;  // lower corner, higher corner, edge
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      const std::uint32_t a = edges_[e].from, b = to(edges_[e]);
+      keyed.push_back({std::min(a, b), std::max(a, b), e});
+    }
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<Twins> pairs;
+    for (std::size_t i = 1; i < keyed.size(); ++i) {
+      const auto& a = keyed[i - 1];
+      const auto& b = keyed[i];
+      if (a[0] == b[0] && a[1] == b[1]) pairs.emplace_back(a[2], b[2]);
+    }
+    return pairs;
+  }
+
+  /// Whether the corner where `edge` starts is convex once `edge` and `twin` are gone.
+  bool stays_convex(std::uint32_t edge, std::uint32_t twin) const {
+    const PlanePoint& before = outline_[edges_[edges_[edge].previous].from];
+    const PlanePoint& corner = outline_[edges_[edge].from];
+    const PlanePoint& after = outline_[to(edges_[edges_[twin].next])];
+    const int turn = exact_turn(before, corner, after);
+    // Straight on is convex, straight back is not.
+    return turn > 0 || (turn == 0 && (before < corner) == (corner < after));
+  }
+
+  void take_away(std::uint32_t a, std::uint32_t b) {
+    for (const auto& [gone, other] : {Twins{a, b}, Twins{b, a}}) {
+      const std::uint32_t before = edges_[gone].previous, after = edges_[other].next;
+      edges_[before].next = after;
+      edges_[after].previous = before;
+      edges_[gone].gone = true;
+    }
+  }
+
+  CornerList take_polygon(std::uint32_t first) {
+    CornerList corners;
+    std::uint32_t e = first;
+    do {
+      corners.push_back(edges_[e].from);
+      edges_[e].gone = true;
+      e = edges_[e].next;
+    } while (e != first);
+    return corners;
+  }
+
+  std::span<const PlanePoint> outline_;
+  std::vector<Edge> edges_;
+};
+
 }  // namespace
 
 int exact_turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
@@ -128,40 +240,13 @@ bool is_simple(std::span<const PlanePoint> outline) {
 }
 
 std::vector<CornerList> convex_partition(std::span<const PlanePoint> outline) {
-  const std::vector<Point> points = to_points(outline);
-  using Map = CGAL::Pointer_property_map<Point>::const_type;
-  using Traits = CGAL::Partition_traits_2<Kernel, Map>;
-  std::vector<std::uint32_t> numbers(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) numbers[i] = static_cast<std::uint32_t>(i);
-  const Traits traits{Map(points.data())};
-  std::vector<Traits::Polygon_2> polygons;
-  CGAL::approx_convex_partition_2(numbers.begin(), numbers.end(), std::back_inserter(polygons),
-                                  traits);
-  std::vector<CornerList> pieces;
-  pieces.reserve(polygons.size());
-  for (const Traits::Polygon_2& polygon : polygons) {
-    CornerList& piece = pieces.emplace_back();
-    for (const auto corner : polygon.container()) {
-      piece.push_back(static_cast<std::uint32_t>(corner));
-    }
-  }
-  return pieces;
+  return TriangleMerge(outline, triangulate(outline)).merged();
 }
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanePoint> outline) {
   Triangulation triangulation;
   EdgeWalks walks;
-  std::vector<Triangulation::Vertex_handle> corners;
-  Triangulation::Face_handle hint;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const auto before = triangulation.number_of_vertices();
-    const auto corner = triangulation.insert(to_point(outline[i]), hint);
-    if (triangulation.number_of_vertices() > before) {
-      corner->info() = static_cast<std::uint32_t>(i);
-    }
-    corners.push_back(corner);
-    hint = corner->face();
-  }
+  const std::vector<Triangulation::Vertex_handle> corners = insert_corners(triangulation, outline);
   const std::size_t n = corners.size();
   try {
     for (std::size_t i = 0; i < n; ++i) {

@@ -134,7 +134,8 @@ void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
 
 void PatchBuilder::add_part(std::size_t face, const Outline& outline, const PolygonShape& shape) {
   if (options_.max_patch_area > 0 && shape.area * (1 - 1e-9) > options_.max_patch_area) {
-    ++report.refined;
+    if (last_refined_ != face) ++report.refined;
+    last_refined_ = face;
     refine(face, outline, shape);
   } else {
     add_patch(face, outline, shape, convex_pieces(face, outline, shape));
@@ -232,21 +233,25 @@ std::vector<CornerList> PatchBuilder::convex_pieces(std::size_t face, const Outl
                                                     const PolygonShape& shape) const {
   if (outline.size() == 3) return {{0, 1, 2}};
   const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
-  if (is_flat(shape)) {
-    if (is_convex(plane)) return {all_corners(outline.size())};
-    if (is_simple(plane)) return convex_partition(plane);
-  }
-  return triangles_of(face, plane);
+  if (!is_flat(shape)) return triangles_of(face, plane);
+  if (is_convex(plane)) return {all_corners(outline.size())};
+  return checked(face, plane, convex_partition(plane));
 }
 
 std::vector<CornerList> PatchBuilder::triangles_of(std::size_t face,
                                                    const std::vector<PlanePoint>& plane) const {
   std::vector<CornerList> triangles;
   for (const auto& t : triangulate(plane)) triangles.emplace_back(t.begin(), t.end());
-  if (triangles.empty() || !same_area(plane, triangles)) {
+  return checked(face, plane, std::move(triangles));
+}
+
+std::vector<CornerList> PatchBuilder::checked(std::size_t face,
+                                              const std::vector<PlanePoint>& plane,
+                                              std::vector<CornerList> parts) const {
+  if (parts.empty() || !same_area(plane, parts)) {
     throw InputError(face_place(description_, face) + "its outline crosses itself");
   }
-  return triangles;
+  return parts;
 }
 
 void PatchBuilder::count_coincident() {

@@ -30,6 +30,7 @@ class PatchBuilder {
 
  private:
   using Outline = std::vector<PointId>;
+  static constexpr std::size_t no_face = static_cast<std::size_t>(-1);
 
   void add_face(std::size_t face);
   Outline welded_outline(std::size_t face);
@@ -52,6 +53,10 @@ class PatchBuilder {
   std::vector<CornerList> triangles_of(std::size_t face,
                                        const std::vector<PlanePoint>& plane) const;
 
+  /// The parts, if they are what the outline goes round.
+  std::vector<CornerList> checked(std::size_t face, const std::vector<PlanePoint>& plane,
+                                  std::vector<CornerList> parts) const;
+
   void count_coincident();
   void count_unused();
 
@@ -60,6 +65,7 @@ class PatchBuilder {
   const Cancellation& cancellation_;
   std::vector<PointId> welded_;  // a point of the description: its number in the table, or -1
   double flatness_ = 0;          // metres; within it a polygon counts as planar
+  std::size_t last_refined_ = no_face;
   Warnings warnings_;
 };
 

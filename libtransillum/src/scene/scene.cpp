@@ -26,7 +26,7 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   pieces_ = std::move(builder.pieces);
   piece_corners_ = std::move(builder.piece_corners);
   report_ = std::move(builder.report);
-  for (const Vec3& p : points_) bounds_.add(p);
+  for (const PointId p : outline_corners_) bounds_.add(point(p));
 }
 
 std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOptions& options,
