@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "commands.h"
+#include "help_format.h"
 #include "messages.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"
@@ -26,12 +27,21 @@ void occupy_closed_streams() {
   }
 }
 
-std::string program_footer() {
-  std::string text = "Built-in scenes (parameters follow a colon):\n";
-  for (const BuiltInScene& scene : built_in_scenes()) {
-    text += fmt::format("  {:<14} {}\n", scene.name, scene.summary);
-    if (!scene.parameters.empty()) text += fmt::format("  {:<14}   {}\n", "", scene.parameters);
+std::string built_in_text(const BuiltInScene& scene) {
+  constexpr std::size_t width = 80;
+  constexpr const char* indent = "\n                 ";
+  std::string text = scene.summary;
+  if (!scene.parameters.empty()) text += " Parameters: " + scene.parameters;
+  text = wrapped(text, width);
+  for (std::size_t end = 0; (end = text.find('\n', end)) != std::string::npos; ++end) {
+    text.replace(end, 1, indent);
   }
+  return fmt::format("  {:<14} {}\n", scene.name, text);
+}
+
+std::string program_footer() {
+  std::string text = "Built-in scenes (parameters follow a colon, as in rooms:n=50,seed=2):\n";
+  for (const BuiltInScene& scene : built_in_scenes()) text += built_in_text(scene);
   text +=
       "\nExit status: 0; 2 for a wrong call or bad input; 1 for any other failure; 130 when\n"
       "interrupted.\n"
@@ -47,7 +57,7 @@ struct Program {
     app.name("transillum");
     app.set_version_flag("--version", "transillum " TRANSILLUM_VERSION);
     app.require_subcommand(1);
-    app.get_formatter()->column_width(30);
+    app.formatter(std::make_shared<HelpFormat>());
     for (auto add : {add_scene_command, add_solve_command, add_transfers_command,
                      add_directions_command, add_info_command}) {
       Run run = add(app);
@@ -82,14 +92,25 @@ std::vector<std::string> joined_directions(int argc, char** argv) {
   return arguments;
 }
 
+/// `help` and `help solve` are what people try first.
+void turn_help_into_option(std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0] != "help") return;
+  arguments.erase(arguments.begin());
+  arguments.resize(std::min<std::size_t>(arguments.size(), 1));
+  arguments.emplace_back("--help");
+}
+
 /// CLI11 knows that a word was not expected; this says which was meant.
-void check_command_name(const Program& program, const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments[0].empty() || arguments[0][0] == '-') return;
-  const auto names = program.command_names();
-  if (std::find(names.begin(), names.end(), arguments[0]) != names.end()) return;
-  const std::string hint = did_you_mean(arguments[0], names);
+void check_first_word(const Program& program, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return;
+  const std::string& word = arguments[0];
+  const bool option = !word.empty() && word[0] == '-';
+  const std::vector<std::string> names =
+      option ? std::vector<std::string>{"-h", "--help", "--version"} : program.command_names();
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::string hint = did_you_mean(word, names);
   throw InputError(
-      fmt::format("unknown command \"{}\"{}", arguments[0],
+      fmt::format("unknown {} \"{}\"{}", option ? "option" : "command", word,
                   hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
 }
 
@@ -114,10 +135,9 @@ int report(const Program& program, const CLI::ParseError& error) {
   const auto* chosen = program.chosen();
   const CLI::App& command = chosen ? *chosen->first : program.app;
   const bool unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  const bool no_command = chosen == nullptr && !unexpected;
-  const std::string text = unexpected   ? unexpected_argument_text(command)
-                           : no_command ? std::string("which command?")
-                                        : std::string(error.what());
+  const std::string text = unexpected ? unexpected_argument_text(command)
+                           : !chosen  ? std::string("which command?")
+                                      : std::string(error.what());
   print_message(fmt::format("{} (transillum {}--help tells more)", text,
                             chosen ? command.get_name() + " " : std::string()));
   return wrong_call;
@@ -126,7 +146,8 @@ int report(const Program& program, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   Program program;
   std::vector<std::string> arguments = joined_directions(argc, argv);
-  check_command_name(program, arguments);
+  turn_help_into_option(arguments);
+  check_first_word(program, arguments);
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   try {
     program.app.parse(arguments);

@@ -19,7 +19,7 @@ void check_output_files(const std::vector<std::string>& files, const std::string
     if (std::filesystem::equivalent(file, scene, ignored)) {
       throw InputError(fmt::format("{}: the scene itself would be overwritten", file));
     }
-    if (!seen.insert(std::filesystem::weakly_canonical(file)).second) {
+    if (!seen.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second) {
       throw InputError(fmt::format("{}: named twice as an output file", file));
     }
   }

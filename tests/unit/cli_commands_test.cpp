@@ -1,0 +1,247 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+std::vector<std::vector<double>> numbers(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  const auto lines = split(csv, '\n');
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    rows.emplace_back();
+    for (const auto& cell : split(lines[k], ',')) {
+      rows.back().push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  }
+  return rows;
+}
+
+TEST(CliHelp, EveryCommandExplainsItself) {
+  const ProgramResult all = run_program({"--help"});
+  EXPECT_EQ(all.status, 0);
+  EXPECT_EQ(all.err, "");
+  for (const char* word : {"solve", "transfers", "directions", "info", "sphere-flake", "rooms"}) {
+    EXPECT_THAT(all.out, HasSubstr(word));
+  }
+  for (const char* command : {"scene", "solve", "transfers", "directions", "info"}) {
+    const ProgramResult result = run_program({command, "--help"});
+    EXPECT_EQ(result.status, 0) << command;
+    EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
+    EXPECT_EQ(run_program({"help", command}).out, result.out);
+    for (const std::string& line : split(result.out, '\n')) EXPECT_LE(line.size(), 100U) << line;
+  }
+  EXPECT_THAT(run_program({"solve", "--help"}).out, HasSubstr("(default 1024)"));
+}
+
+TEST(CliHelp, VersionIsOneLine) {
+  const ProgramResult result = run_program({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, ::testing::MatchesRegex("transillum [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(CliSolve, WritesEveryFormatAndNothingElse) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      {"solve", "furnace", "-m", "16", "--out", folder / "a.csv", "--out", folder / "a.vtp",
+       "--out", folder / "a.ply", "-o", folder / "a.obj", "--stats", folder / "a.json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("closure defect"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json", "a.obj", "a.ply", "a.vtp"));
+  EXPECT_EQ(split(read_file(folder / "a.csv"), '\n').front(),
+            "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b");
+}
+
+TEST(CliSolve, TheFurnaceIsAtTwo) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"solve", "furnace", "-m", "16", "--normalize", "rows", "--tolerance",
+                         "1e-12", "--quiet", "--out", folder / "a.csv"})
+                .status,
+            0);
+  for (const auto& row : numbers(read_file(folder / "a.csv"))) {
+    ASSERT_EQ(row.size(), 12U);
+    EXPECT_NEAR(row[9], 2, 1e-10);
+  }
+}
+
+TEST(CliSolve, WithoutOutTheSummaryIsTheResult) {
+  const ProgramResult result = run_program({"solve", "furnace", "-m", "8"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("energy defect"));
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(CliSolve, ThreadsAndMemoryDoNotChangeABit) {
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"solve", "boards", "-m",         "32", "--max-patch-area",
+                                       "0.5",   "--out",  folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_program(arguments).status, 0);
+    return read_file(folder / name);
+  };
+  const std::string one = solve("1.csv", {"--threads", "1"});
+  EXPECT_GT(line_count(one), 10U);
+  EXPECT_EQ(solve("2.csv", {"--threads", "2"}), one);
+  EXPECT_EQ(solve("7.csv", {"--threads", "7"}), one);
+  // Without kept form factors the sums come in another order: the same to rounding.
+  const auto kept = numbers(one), anew = numbers(solve("0.csv", {"--memory", "0"}));
+  ASSERT_EQ(kept.size(), anew.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t k = 9; k < 12; ++k) EXPECT_NEAR(kept[i][k], anew[i][k], 1e-5 * kept[i][k]);
+  }
+}
+
+TEST(CliSolve, StatisticsHaveTheNamesOfTheContract) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "16", "--iterations", "4", "--threads", "1",
+                         "--stats", folder / "s.json"})
+                .status,
+            0);
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  for (const char* name : {"patches", "fragments", "directions", "passes", "iterations", "threads",
+                           "transfers", "closure_defect_max", "energy_defect"}) {
+    EXPECT_TRUE(json.at(name).is_number()) << name;
+  }
+  EXPECT_EQ(json.at("passes"), 16);
+  EXPECT_EQ(json.at("directions"), 32);
+  EXPECT_EQ(json.at("iterations"), 4);
+  EXPECT_EQ(json.at("threads"), 1);
+  EXPECT_EQ(json.at("change").size(), 4U);
+  EXPECT_EQ(json.at("contraction").size(), 4U);
+  for (const char* phase : {"load", "bsp", "transfers", "iterate", "total"}) {
+    EXPECT_GE(json.at("seconds").at(phase).get<double>(), 0) << phase;
+  }
+  EXPECT_EQ(json.at("options").at("sampling"), "fibonacci");
+  EXPECT_TRUE(json.at("options").at("tolerance").is_null());
+  EXPECT_TRUE(json.at("complete"));
+}
+
+TEST(CliSolve, OneWayUsesHalfTheDirections) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"solve", "furnace", "-m", "16", "--one-way", "--sampling", "hammersley",
+                         "--stats", folder / "s.json"})
+                .status,
+            0);
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  EXPECT_EQ(json.at("directions"), 16);
+  EXPECT_EQ(json.at("options").at("sampling"), "hammersley");
+}
+
+TEST(CliSolve, TwoSidedFacesGiveTwoPatchesEach) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(
+      run_program({"solve", "furnace", "-m", "4", "--two-sided", "--out", folder / "a.csv"}).status,
+      0);
+  const auto rows = numbers(read_file(folder / "a.csv"));
+  ASSERT_EQ(rows.size() % 2, 0U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i][0], static_cast<double>(i / 2));
+    EXPECT_EQ(rows[i][1], static_cast<double>(i));
+  }
+}
+
+TEST(CliScene, WhatIsWrittenSolvesToTheSame) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"scene", "cornell-box", "--out", folder / "box.obj"}).status, 0);
+  EXPECT_THAT(folder.names(), ElementsAre("box.mtl", "box.obj"));
+  const auto solve = [&](const std::string& scene, const std::string& name) {
+    EXPECT_EQ(run_program({"solve", scene, "-m", "16", "--out", folder / name}).status, 0);
+    return read_file(folder / name);
+  };
+  EXPECT_EQ(solve(folder / "box.obj", "file.csv"), solve("cornell-box", "built-in.csv"));
+}
+
+TEST(CliTransfers, RowsOfAReceiverSumToItsProjectedArea) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "1", "--out", folder / "b.csv"}).status, 0);
+  const ProgramResult result = run_program({"transfers", "cornell-box", "--direction", "0,3,0"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(split(result.out, '\n').front(), "receiver,source,area");
+  const auto patches = numbers(read_file(folder / "b.csv"));
+  std::map<int, double> sums;
+  for (const auto& row : numbers(result.out)) {
+    EXPECT_GT(row[2], 0);
+    sums[static_cast<int>(row[0])] += row[2];
+  }
+  // The floor looks straight along the direction: its projection is all of its area.
+  double largest_match = 0;
+  for (const auto& [receiver, sum] : sums) {
+    const double area = patches.at(static_cast<std::size_t>(receiver))[2];
+    EXPECT_LE(sum, area * (1 + 1e-10));
+    if (std::abs(sum - area) < 1e-10 * area) largest_match = std::max(largest_match, area);
+  }
+  EXPECT_GT(largest_match, 0.25);
+}
+
+TEST(CliTransfers, LengthAndFormOfTheDirectionDoNotMatter) {
+  const auto transfers = [](const std::string& direction) {
+    const ProgramResult result = run_program({"transfers", "furnace", "--direction", direction});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  const std::string out = transfers("-.5,1,2");
+  EXPECT_EQ(transfers("-1,2,4"), out);
+  EXPECT_EQ(transfers("-1e300,2e300,4e300").size() > 20, true);
+  EXPECT_EQ(transfers("+1e-310,0,0"), transfers("1,0,0"));
+}
+
+TEST(CliDirections, ArePointsOfTheUnitSphere) {
+  const TemporaryFolder folder;
+  for (const char* sampling : {"hammersley", "random", "fibonacci"}) {
+    ASSERT_EQ(
+        run_program({"directions", "--sampling", sampling, "-m", "32", "--out", folder / "d.csv"})
+            .status,
+        0);
+    const std::string csv = read_file(folder / "d.csv");
+    EXPECT_EQ(split(csv, '\n').front(), "u,v,x,y,z");
+    const auto rows = numbers(csv);
+    ASSERT_EQ(rows.size(), 32U);
+    for (const auto& r : rows) {
+      EXPECT_NEAR(std::hypot(r[2], r[3], r[4]), 1, 1e-15);
+      EXPECT_NEAR(r[4], 1 - 2 * r[1], 1e-15);
+    }
+    EXPECT_EQ(run_program({"directions", "--sampling", sampling, "-m", "32"}).out, csv);
+  }
+}
+
+TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
+  const ProgramResult closed = run_program({"info", "furnace"});
+  EXPECT_EQ(closed.status, 0) << closed.err;
+  EXPECT_THAT(closed.out, ::testing::ContainsRegex("faces +12\n"));
+  EXPECT_THAT(closed.out, ::testing::ContainsRegex("closed +yes"));
+  EXPECT_THAT(closed.out, ::testing::ContainsRegex("seen from behind +no face"));
+
+  const TemporaryFolder folder;
+  write_text(folder / "one.mtl", "newmtl grey\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+  write_text(folder / "one.obj",
+             "mtllib one.mtl\nusemtl grey\n"
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+             "f 1 2 3 4\nf 5 6 7 8\n");  // both look up
+  const ProgramResult open = run_program({"info", folder / "one.obj"});
+  EXPECT_EQ(open.status, 0) << open.err;
+  EXPECT_THAT(open.out, ::testing::ContainsRegex("closed +no"));
+  EXPECT_THAT(open.out, ::testing::ContainsRegex("seen from behind +1 face:\n +face 1 "));
+}
+
+}  // namespace
+}  // namespace transillum::testing

@@ -1,0 +1,130 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+struct WrongCall {
+  std::vector<std::string> arguments;
+  std::string complaint;  ///< part of the message
+};
+
+/// Exit status 2, one line on stderr, nothing on stdout.
+void expect_refused(const std::vector<std::string>& arguments, const std::string& complaint) {
+  SCOPED_TRACE(::testing::PrintToString(arguments));
+  const ProgramResult result = run_program(arguments);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  EXPECT_THAT(result.err, StartsWith("transillum: "));
+  EXPECT_THAT(result.err, HasSubstr(complaint));
+}
+
+TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
+  const WrongCall calls[] = {
+      {{}, "which command?"},
+      {{"solv"}, "did you mean \"solve\"?"},
+      {{"factors"}, "unknown command \"factors\""},
+      {{"--versoin"}, "did you mean \"--version\"?"},
+      {{"--bogus"}, "unknown option \"--bogus\""},
+      {{"solve"}, "SCENE is required"},
+      {{"solve", "furnace", "extra"}, "unexpected argument \"extra\""},
+      {{"solve", "furnace", "--iteration", "3"}, "did you mean \"--iterations\"?"},
+      {{"solve", "furnace", "-m"}, "--directions"},
+      {{"solve", "furnace", "-m", "0"}, "--directions: \"0\""},
+      {{"solve", "furnace", "-m", "-5"}, "--directions: \"-5\""},
+      {{"solve", "furnace", "-m", "16777217"}, "from 1 to 16777216"},
+      {{"solve", "furnace", "-m", "99999999999999999999"}, "--directions"},
+      {{"solve", "furnace", "-m", "10x"}, "--directions: \"10x\""},
+      {{"solve", "furnace", "-m", "1e3"}, "--directions"},
+      {{"solve", "furnace", "--sampling", "fibonaci"}, "fibonacci"},
+      {{"solve", "furnace", "--seed", "-1"}, "--seed"},
+      {{"solve", "furnace", "--seed", "18446744073709551616"}, "--seed"},
+      {{"solve", "furnace", "--engine", "magic"}, "local"},
+      {{"solve", "furnace", "--one-way", "--two-way"}, "excludes"},
+      {{"solve", "furnace", "--iterations", "3", "--tolerance", "1e-3"}, "excludes"},
+      {{"solve", "furnace", "--iterations", "0"}, "--iterations"},
+      {{"solve", "furnace", "--tolerance", "0"}, "--tolerance"},
+      {{"solve", "furnace", "--tolerance", "nan"}, "--tolerance"},
+      {{"solve", "furnace", "--tolerance", "1"}, "--tolerance"},
+      {{"solve", "furnace", "--normalize", "columns"}, "none or rows"},
+      {{"solve", "furnace", "--max-patch-area", "0"}, "--max-patch-area"},
+      {{"solve", "furnace", "--max-patch-area", "inf"}, "--max-patch-area"},
+      {{"solve", "furnace", "--memory", "2Q"}, "--memory: \"2Q\""},
+      {{"solve", "furnace", "--memory", "-1"}, "--memory"},
+      {{"solve", "furnace", "--memory", "99999999999T"}, "--memory"},
+      {{"solve", "furnace", "--memory", "nan"}, "--memory"},
+      {{"solve", "furnace", "--threads", "0"}, "--threads"},
+      {{"solve", "furnace", "--threads", "100000"}, "--threads"},
+      {{"solve", "furnace", "--out", "a.txt"}, ".csv, .vtp, .ply or .obj"},
+      {{"solve", "furnace", "--out", "/no/such/folder/a.csv"}, "/no/such/folder"},
+      {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "named twice"},
+      {{"solve", "furnace", "--stats", "/no/such/folder/a.json"}, "/no/such/folder"},
+      {{"solve", "no-such-scene.obj"}, "no-such-scene.obj"},
+      {{"solve", "cornel-box"}, "cornell-box"},
+      {{"solve", "rooms:m=3"}, "rooms"},
+      {{"solve", ""}, ""},
+      {{"info", "no-such-scene.obj"}, "no-such-scene.obj"},
+      {{"scene", "furnace"}, "--out is required"},
+      {{"scene", "furnace", "--out", "a.stl"}, ".obj"},
+      {{"transfers", "furnace"}, "--direction is required"},
+      {{"transfers", "furnace", "--direction", "0,0,0"}, "not all 0"},
+      {{"transfers", "furnace", "--direction", "1,2"}, "three finite numbers"},
+      {{"transfers", "furnace", "--direction", "1,2,3,4"}, "three finite numbers"},
+      {{"transfers", "furnace", "--direction", "1,,3"}, "three finite numbers"},
+      {{"transfers", "furnace", "--direction", "nan,0,1"}, "three finite numbers"},
+      {{"transfers", "furnace", "--direction", "1e999,0,1"}, "three finite numbers"},
+      {{"transfers", "furnace", "--direction", "-inf,0,1"}, "three finite numbers"},
+      {{"directions", "-m", "0"}, "--directions"},
+      {{"directions", "-m", "4", "--sampling", "sobl"}, "sampling"},
+  };
+  for (const WrongCall& call : calls) expect_refused(call.arguments, call.complaint);
+}
+
+TEST(CliErrors, BadScenesAreRefusedAndLeaveOutputsAlone) {
+  const TemporaryFolder folder;
+  const std::string result = folder / "result.csv";
+  const std::string scenes[] = {
+      "",                                        // no vertices
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\n",             // no faces
+      "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",  // not finite
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",    // no such vertex
+  };
+  for (const std::string& text : scenes) {
+    write_text(folder / "bad.obj", text);
+    write_text(result, "as it was");
+    expect_refused({"solve", folder / "bad.obj", "--out", result}, "bad.obj");
+    EXPECT_EQ(read_file(result), "as it was");
+    EXPECT_THAT(folder.names(), ::testing::ElementsAre("bad.obj", "result.csv"));
+  }
+}
+
+TEST(CliErrors, TheSceneItselfIsNotOverwritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "furnace.obj";
+  ASSERT_EQ(run_program({"scene", "furnace", "--out", scene}).status, 0);
+  const std::string before = read_file(scene);
+  expect_refused({"solve", scene, "--out", scene}, "the scene itself");
+  EXPECT_EQ(read_file(scene), before);
+}
+
+TEST(CliErrors, ControlCharactersDoNotBreakTheLine) {
+  expect_refused({"solve", "two\nlines\x1b[31m.obj"}, "two");
+}
+
+TEST(CliErrors, StandardOutputThatTakesNothingIsAFailure) {
+  const ProgramResult result = run_program({"directions", "-m", "4"}, "/dev/full");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("standard output"));
+  EXPECT_EQ(line_count(result.err), 1U);
+}
+
+}  // namespace
+}  // namespace transillum::testing

@@ -1,0 +1,61 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Hours of work on a scene that loads at once.
+std::vector<std::string> long_solve(const TemporaryFolder& folder) {
+  return {"solve", "rooms",          "-m",      "10000000",       "--max-patch-area", "0.2",
+          "--out", folder / "a.csv", "--stats", folder / "a.json"};
+}
+
+/// Until the first progress line, which is written once passes run.
+void wait_for_passes(const RunningProgram& program) {
+  for (int k = 0; k < 600 && program.err_so_far().find("passes/s") == std::string::npos; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+TEST(CliInterruption, SavesWhatThereIsAndExitsWith130) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    RunningProgram program(long_solve(folder));
+    wait_for_passes(program);
+    program.send(signal);
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.status, 130) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("interrupted; the results so far are saved"));
+    EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json"));
+    const auto json = nlohmann::json::parse(read_file(folder / "a.json"));
+    EXPECT_FALSE(json.at("complete"));
+    EXPECT_EQ(json.at("iterations"), 0);
+    EXPECT_TRUE(json.at("energy_defect").is_null());
+    EXPECT_EQ(line_count(read_file(folder / "a.csv")), 1 + json.at("patches").get<std::size_t>());
+  }
+}
+
+TEST(CliInterruption, BeforeTheFirstPassNothingIsWritten) {
+  const TemporaryFolder folder;
+  RunningProgram program({"solve", "sphere-flake:levels=3", "--out", folder / "a.csv"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted"));
+  EXPECT_THAT(folder.names(), ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace transillum::testing

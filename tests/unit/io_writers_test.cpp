@@ -1,0 +1,290 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+
+#include "program_run.h"
+#include "support/scenes.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+/// Three patches, one of them concave, with values that do not survive careless printing.
+Solution awkward_solution() {
+  Sketch sketch("awkward");
+  const int grey = sketch.material(1.0 / 3, 0.1);
+  sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, grey);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, grey);
+  sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, grey);
+  Solution solution;
+  solution.scene = sketch.scene();
+  solution.radiosity = {{0.1 + 0.2, 1.0 / 3, 1e-17}, {smallest, 1e300, 0}, {M_PI, 2, 1e22}};
+  solution.irradiance = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  solution.statistics.patches = 3;
+  solution.complete = true;
+  return solution;
+}
+
+std::vector<std::vector<std::string>> cells(const std::string& text, char separator) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, separator);) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+void expect_same_bits(const std::string& text, double value) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)),
+            std::bit_cast<std::uint64_t>(value))
+      << text;
+}
+
+/// Columns from `first`: area, E, rho, B of patch i.
+void expect_patch_values(const std::vector<std::string>& row, std::size_t first,
+                         const Solution& solution, PatchId i) {
+  ASSERT_EQ(row.size(), first + 10);
+  const Scene& scene = *solution.scene;
+  expect_same_bits(row[first], scene.patch(i).area);
+  std::size_t column = first + 1;
+  for (const Rgb& rgb :
+       {scene.exitance(i), scene.reflectance(i), solution.radiosity[static_cast<std::size_t>(i)]}) {
+    for (const double value : {rgb.r, rgb.g, rgb.b}) expect_same_bits(row[column++], value);
+  }
+}
+
+class IoWriters : public ::testing::Test {
+ protected:
+  std::string written(const std::string& name) {
+    write_result(folder_ / name, solution_);
+    EXPECT_THAT(folder_.names(), ElementsAre(name));
+    return read_file(folder_ / name);
+  }
+
+  TemporaryFolder folder_;
+  Solution solution_ = awkward_solution();
+};
+
+TEST_F(IoWriters, CsvReadsBackBitForBit) {
+  const auto rows = cells(written("a.csv"), ',');
+  ASSERT_EQ(rows.size(), 4U);
+  for (PatchId i = 0; i < 3; ++i) {
+    const auto& row = rows[static_cast<std::size_t>(i) + 1];
+    EXPECT_EQ(row[0], std::to_string(i));
+    EXPECT_EQ(row[1], std::to_string(i));
+    expect_patch_values(row, 2, solution_, i);
+  }
+}
+
+TEST_F(IoWriters, PlyReadsBackBitForBit) {
+  const std::string text = written("a.PLY");
+  EXPECT_EQ(text.rfind("ply\nformat ascii 1.0\n", 0), 0U);
+  const auto rows = cells(text.substr(text.find("end_header\n") + 11), ' ');
+  const auto& points = solution_.scene->points();
+  ASSERT_EQ(rows.size(), points.size() + 3);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    expect_same_bits(rows[p][0], points[p].x);
+    expect_same_bits(rows[p][1], points[p].y);
+    expect_same_bits(rows[p][2], points[p].z);
+  }
+  for (PatchId i = 0; i < 3; ++i) {
+    const auto& row = rows[points.size() + static_cast<std::size_t>(i)];
+    const auto outline = solution_.scene->outline(i);
+    ASSERT_EQ(row[0], std::to_string(outline.size()));
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      EXPECT_EQ(row[1 + k], std::to_string(outline[k]));
+    }
+    expect_patch_values(row, outline.size() + 3, solution_, i);
+  }
+}
+
+TEST_F(IoWriters, ObjCarriesRadiosityAtCornersOfItsOwn) {
+  const auto rows = cells(written("a.obj"), ' ');
+  std::size_t row = 1;  // after the comment
+  std::size_t corner = 0;
+  for (PatchId i = 0; i < 3; ++i) {
+    const Rgb& b = solution_.radiosity[static_cast<std::size_t>(i)];
+    for (const PointId p : solution_.scene->outline(i)) {
+      ASSERT_EQ(rows[row].size(), 7U);
+      EXPECT_EQ(rows[row][0], "v");
+      expect_same_bits(rows[row][1], solution_.scene->point(p).x);
+      expect_same_bits(rows[row][4], b.r);
+      expect_same_bits(rows[row][5], b.g);
+      expect_same_bits(rows[row++][6], b.b);
+    }
+    EXPECT_EQ(rows[row][0], "f");
+    EXPECT_EQ(rows[row].size(), solution_.scene->outline(i).size() + 1);
+    for (std::size_t k = 1; k < rows[row].size(); ++k) {
+      EXPECT_EQ(rows[row][k], std::to_string(++corner));
+    }
+    ++row;
+  }
+  EXPECT_EQ(row, rows.size());
+}
+
+TEST_F(IoWriters, VtpReadsBackBitForBit) {
+  written("a.vtp");
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "a.vtp").c_str());
+  reader->Update();
+  vtkPolyData& mesh = *reader->GetOutput();
+  ASSERT_EQ(mesh.GetNumberOfPolys(), 3);
+  vtkCellData& fields = *mesh.GetCellData();
+  for (const char* name : {"face", "patch", "area", "E", "rho", "B", "H"}) {
+    ASSERT_NE(fields.GetArray(name), nullptr) << name;
+  }
+  EXPECT_EQ(fields.GetArray("B")->GetDataType(), VTK_DOUBLE);
+  vtkNew<vtkIdList> corners;
+  for (PatchId i = 0; i < 3; ++i) {
+    const Rgb& b = solution_.radiosity[static_cast<std::size_t>(i)];
+    double read[3];
+    fields.GetArray("B")->GetTuple(i, read);
+    EXPECT_EQ(read[0], b.r);
+    EXPECT_EQ(read[1], b.g);
+    EXPECT_EQ(read[2], b.b);
+    EXPECT_EQ(fields.GetArray("area")->GetTuple1(i), solution_.scene->patch(i).area);
+    mesh.GetPolys()->GetCellAtId(i, corners);
+    const auto outline = solution_.scene->outline(i);
+    ASSERT_EQ(corners->GetNumberOfIds(), static_cast<vtkIdType>(outline.size()));
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      double point[3];
+      mesh.GetPoint(corners->GetId(static_cast<vtkIdType>(k)), point);
+      EXPECT_EQ((Vec3{point[0], point[1], point[2]}), solution_.scene->point(outline[k]));
+    }
+  }
+  EXPECT_NE(mesh.GetFieldData()->GetAbstractArray("scene"), nullptr);
+  EXPECT_EQ(mesh.GetFieldData()->GetArray("complete")->GetTuple1(0), 1);
+}
+
+TEST_F(IoWriters, StatisticsWriteNullForWhatIsNoNumber) {
+  solution_.statistics.iterations = 1;
+  solution_.statistics.energy_defect = std::nan("");
+  solution_.statistics.closure_defect_max = HUGE_VAL;
+  solution_.statistics.steps = {{0.1 + 0.2, 0, 1e-3}};
+  write_statistics(folder_ / "s.json", SolveOptions{}, solution_);
+  const auto json = nlohmann::json::parse(read_file(folder_ / "s.json"));
+  EXPECT_TRUE(json.at("energy_defect").is_null());
+  EXPECT_TRUE(json.at("closure_defect_max").is_null());
+  EXPECT_EQ(json.at("change").at(0).get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(json.at("scene"), "awkward");
+}
+
+TEST_F(IoWriters, TransfersFillUpTheProjectedArea) {
+  Transfers transfers;
+  transfers.exchanges = {{0, 1, 0.25}, {0, 2, 0.5}, {2, 1, 1.0 / 3}};
+  transfers.forward = {{1.0, 0.75}, {0, 0}, {1.0 / 3, 1.0 / 3}};
+  std::ostringstream out;
+  write_transfers_csv(out, transfers);
+  EXPECT_EQ(out.str(),
+            "receiver,source,area\n0,-1,0.25\n0,1,0.25\n0,2,0.5\n2,1,0.3333333333333333\n");
+}
+
+TEST(IoWholeFiles, NothingIsLeftBehindWhereWritingFails) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.csv";
+  const auto fail = [&] {
+    write_file_whole(path, [](std::ostream& out) {
+      out << "half";
+      throw std::runtime_error("no more");
+    });
+  };
+  EXPECT_THROW(fail(), std::runtime_error);
+  EXPECT_THAT(folder.names(), IsEmpty());
+
+  write_text(path, "as it was");
+  EXPECT_THROW(fail(), std::runtime_error);
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
+  EXPECT_EQ(read_file(path), "as it was");
+}
+
+TEST(IoWholeFiles, ReplacesAFileAndKeepsItsPermissions) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.csv";
+  write_text(path, "old");
+  ::chmod(path.c_str(), 0640);
+  write_file_whole(path, [](std::ostream& out) { out << "new"; });
+  EXPECT_EQ(read_file(path), "new");
+  struct stat status {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640U);
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
+}
+
+TEST(IoWholeFiles, ASymbolicLinkStaysOne) {
+  const TemporaryFolder folder;
+  write_text(folder / "target", "old");
+  std::filesystem::create_symlink("target", folder / "link");
+  write_file_whole(folder / "link", [](std::ostream& out) { out << "new"; });
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(read_file(folder / "target"), "new");
+}
+
+TEST(IoWholeFiles, LongNamesAreWritten) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file_whole(folder / name, [](std::ostream& out) { out << "x"; });
+  EXPECT_THAT(folder.names(), ElementsAre(name));
+}
+
+std::string failure_of(const std::string& path) {
+  try {
+    write_file_whole(path, [](std::ostream& out) { out << std::string(100000, 'x'); });
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(IoWholeFiles, FailuresNameTheFileAndTheReason) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(failure_of(folder / "none/a.csv"),
+              ::testing::AllOf(HasSubstr("none/a.csv"), HasSubstr("No such file")));
+  EXPECT_THAT(failure_of(folder.path().string()), HasSubstr("directory"));
+  EXPECT_THAT(failure_of("/dev/full"), HasSubstr("No space left"));
+}
+
+TEST(IoWholeFiles, PathsAreCheckedBeforeTheWork) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(check_result_path(folder / "a.csv"));
+  EXPECT_NO_THROW(check_result_path(folder / "A.VTP"));
+  EXPECT_THROW(check_result_path(folder / "a.png"), InputError);
+  EXPECT_THROW(check_result_path(folder / "csv"), InputError);
+  EXPECT_THROW(check_result_path(folder / "none/a.csv"), InputError);
+  std::filesystem::create_directory(folder / "b.csv");
+  EXPECT_THROW(check_result_path(folder / "b.csv"), InputError);
+  if (::geteuid() != 0) {
+    std::filesystem::create_directory(folder / "closed");
+    ::chmod((folder / "closed").c_str(), 0500);
+    EXPECT_THROW(check_result_path(folder / "closed/a.csv"), InputError);
+  }
+}
+
+}  // namespace
+}  // namespace transillum::testing
