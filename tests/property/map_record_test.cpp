@@ -2,6 +2,7 @@
 // The recorded history of a direction.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"
@@ -80,10 +81,15 @@ TEST(MapRecord, RowsTellWhereTheyCameFrom) {
     }
   }
   EXPECT_GT(cut, 0);
-  const auto fullest = record.map_after(record.fullest_step()).size();
-  for (std::int32_t step = 0; step < record.step_count(); ++step) {
-    EXPECT_LE(record.map_after(step).size(), fullest);
-  }
+  const auto shining = [&](std::int32_t step) {
+    const auto map = record.map_after(step);
+    return std::count_if(map.begin(), map.end(), [&](std::int32_t row) {
+      return !record.rows[static_cast<std::size_t>(row)].front_facing;
+    });
+  };
+  const auto most = shining(record.fullest_step());
+  EXPECT_GT(most, 0);
+  for (std::int32_t step = 0; step < record.step_count(); ++step) EXPECT_LE(shining(step), most);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
 std::int32_t MapRecord::fullest_step() const {
   std::vector<std::int32_t> change(static_cast<std::size_t>(step_count()) + 1, 0);
   for (const Row& row : rows) {
+    if (row.front_facing) continue;
     ++change[static_cast<std::size_t>(row.made)];
     if (row.consumed != never) --change[static_cast<std::size_t>(row.consumed)];
   }
