@@ -113,6 +113,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   draw_selection(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
+  draw_legend(painter);
 }
 
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
@@ -160,6 +161,15 @@ void MapCanvas::draw_axes(QPainter& painter) const {
   };
   arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
   arrow({0, -1}, QStringLiteral("v"), {-4, -6});
+}
+
+void MapCanvas::draw_legend(QPainter& painter) const {
+  const QRectF box(width() / 2.0 - 8, height() - 23, 16, 12);
+  painter.setPen(QPen(theme::on_dark_dim, 1));
+  painter.setBrush(back_side_brush(1));
+  painter.drawRect(box);
+  painter.setPen(theme::on_dark);
+  painter.drawText(box.bottomRight() + QPointF(8, -1), tr("back side"));
 }
 
 void MapCanvas::resizeEvent(QResizeEvent* event) {

@@ -54,6 +54,7 @@ class MapCanvas : public QWidget {
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
+  void draw_legend(QPainter& painter) const;
 
   Selection& selection_;
   std::shared_ptr<const RecordedMap> map_;

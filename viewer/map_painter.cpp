@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map_painter.h"
 
-#include <QBrush>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
@@ -29,8 +28,10 @@ double area(const QPolygonF& polygon) {
   return std::abs(twice) / 2;
 }
 
+}  // namespace
+
 // Diagonal lines in a tile: a pattern brush would be too coarse on a 2x screen.
-QBrush hatch_brush(double pixel_ratio) {
+QBrush back_side_brush(double pixel_ratio) {
   const int size = static_cast<int>(std::lround(6 * pixel_ratio));
   QImage tile(size, size, QImage::Format_RGB32);
   tile.fill(back_side);
@@ -42,8 +43,6 @@ QBrush hatch_brush(double pixel_ratio) {
   painter.end();
   return QBrush(tile);
 }
-
-}  // namespace
 
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
   double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL;
@@ -91,7 +90,7 @@ MapPicture paint_map(const MapPictureRequest& request) {
   const QRectF view(QPointF(0, 0), QSizeF(device_size));
 
   QPainter painter(&picture.image);
-  const QBrush hatch = hatch_brush(ratio);
+  const QBrush hatch = back_side_brush(ratio);
   // Polygons that share an edge are filled without antialiasing: no seams. Thin lines over the
   // edges, drawn afterwards where polygons are large enough to bear them, smooth the steps.
   std::vector<QPolygonF> outlines;

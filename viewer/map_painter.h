@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QBrush>
 #include <QImage>
 #include <QPointF>
 #include <QPolygonF>
@@ -51,6 +52,9 @@ struct MapPicture {
   QImage image;
   std::vector<std::int32_t> rows;  ///< of V
 };
+
+/// How a back side is filled.
+QBrush back_side_brush(double pixel_ratio);
 
 /// Lit sides in their patch's colour, back sides grey and hatched. Any thread.
 MapPicture paint_map(const MapPictureRequest& request);

@@ -131,10 +131,11 @@ void MapView::show_title() {
     step_text_->setText(tr("Seen along ω, toward the light that crosses the plane"));
     return;
   }
-  title_->setText(tr("Direction %1 of %2, along ω = %3")
-                      .arg(count_text(map_->direction), count_text(map_->passes),
-                           vector_text(map_->record.frame.omega)));
-  step_text_->setText(tr("V after step %1 of %2: %3 fragments; backs hatched")
+  title_->setText(tr("Direction %1 of %2, seen along ω")
+                      .arg(count_text(map_->direction), count_text(map_->passes)));
+  title_->setToolTip(
+      tr("ω = %1 points to where the light comes from").arg(vector_text(map_->record.frame.omega)));
+  step_text_->setText(tr("V after step %1 of %2: %3 fragments")
                           .arg(count_text(step() + 1), count_text(map_->record.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
 }

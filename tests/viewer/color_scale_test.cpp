@@ -1,0 +1,124 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "color_scale.h"
+
+#include <QTest>
+#include <cmath>
+
+#include "log_chart.h"
+#include "number_text.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+double lightness(const Color8& c) {
+  const auto linear = [](std::uint8_t x) { return std::pow(x / 255.0, 2.2); };
+  return 0.2126 * linear(c[0]) + 0.7152 * linear(c[1]) + 0.0722 * linear(c[2]);
+}
+
+}  // namespace
+
+class ColorScaleTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void maps_grow_lighter_all_the_way() {
+    for (const ColorMap map : {ColorMap::viridis, ColorMap::cividis, ColorMap::inferno}) {
+      double last = -1;
+      for (int k = 0; k <= 50; ++k) {
+        const double now = lightness(color_of(map, k / 50.0));
+        QVERIFY2(now > last, qPrintable(QString("map %1 at %2").arg(int(map)).arg(k)));
+        last = now;
+      }
+      QCOMPARE(color_of(map, -3), color_of(map, 0));
+      QCOMPARE(color_of(map, 7), color_of(map, 1));
+      QCOMPARE(color_of(map, NAN), color_of(map, 0));
+    }
+  }
+
+  void true_color_applies_exposure_then_gamma() {
+    ColorScale scale;
+    scale.exposure = -1;
+    scale.gamma = 2;
+    QCOMPARE(scale.color({0.5, 0, 2}), (Color8{128, 0, 255}));  // sqrt(1/4), 0, 1
+  }
+
+  void too_bright_a_patch_keeps_its_hue() {
+    ColorScale scale;
+    scale.gamma = 1;
+    QCOMPARE(scale.color({4, 2, 1}), (Color8{255, 128, 64}));
+  }
+
+  void position_and_value_are_inverse() {
+    for (const bool logarithmic : {false, true}) {
+      ColorScale scale;
+      scale.mode = ColorMode::luminance;
+      scale.logarithmic = logarithmic;
+      scale.low = 0.01;
+      scale.high = 100;
+      for (const double t : {0.0, 0.3, 1.0})
+        QVERIFY(std::abs(scale.position(scale.value_at(t)) - t) < 1e-12);
+      const auto ticks = scale.ticks();
+      QVERIFY(ticks.size() >= 3);
+      QVERIFY(std::is_sorted(ticks.begin(), ticks.end()));
+      QVERIFY(ticks.front() >= scale.low * (1 - 1e-9) && ticks.back() <= scale.high * (1 + 1e-9));
+    }
+  }
+
+  void darkness_does_not_break_the_logarithm() {
+    ColorScale scale;
+    scale.mode = ColorMode::red;
+    scale.logarithmic = true;
+    const std::vector<Rgb> dark(3);
+    scale.fit_range(dark);
+    QVERIFY(scale.low > 0 && scale.high > scale.low);
+    QCOMPARE(scale.color({0, 0, 0}), color_of(scale.map, 0));
+    const std::vector<Rgb> mixed{{0, 9, 9}, {2, 0, 0}, {50, 0, 0}};
+    scale.fit_range(mixed);
+    QCOMPARE(scale.low, 2.0);
+    QCOMPARE(scale.high, 50.0);
+    QVERIFY(scale.position(0) <= 0);
+  }
+
+  void channels_and_luminance() {
+    ColorScale scale;
+    scale.mode = ColorMode::green;
+    QCOMPARE(scale.value({1, 2, 3}), 2.0);
+    scale.mode = ColorMode::luminance;
+    QVERIFY(std::abs(scale.value({1, 1, 1}) - 1) < 1e-12);
+  }
+
+  void exposure_looks_at_what_does_not_emit() {
+    const auto scene = load_scene("cornell-box");
+    std::vector<Rgb> radiosity;
+    for (PatchId i = 0; i < scene->patch_count(); ++i)
+      radiosity.push_back(max_abs(scene->exitance(i)) > 0 ? Rgb{1000, 1000, 1000}
+                                                          : Rgb{0.25, 0.25, 0.25});
+    ColorScale scale;
+    scale.fit_exposure(*scene, radiosity);
+    QVERIFY(std::abs(std::exp2(scale.exposure) * 0.25 - 0.85) < 1e-9);
+  }
+
+  void decades_hold_all_positive_values() {
+    const LogChart::Line line{"a", {}, {0, -1, NAN, 3e-4, 0.2}, false};
+    const Decades decades = decades_of({line}, {{"level", {}, 1e-6}});
+    QCOMPARE(decades.first, -6);
+    QCOMPARE(decades.last, 0);
+    const Decades nothing = decades_of({}, {});
+    QVERIFY(nothing.first < nothing.last);
+  }
+
+  void numbers_read_well() {
+    QCOMPARE(number_text(0.000001), QString("10⁻⁶"));
+    QCOMPARE(number_text(1.5e-9), QString("1.5 × 10⁻⁹"));
+    QCOMPARE(number_text(-0.25), QString("−0.25"));
+    QCOMPARE(count_text(19976), QString("19\u2009976"));
+    QCOMPARE(count_text(-1000), QString("−1\u2009000"));
+    QCOMPARE(duration_text(59.2), QString("1 min 00 s"));
+    QCOMPARE(duration_text(4000), QString("1 h 06 min"));
+  }
+};
+
+QTEST_APPLESS_MAIN(ColorScaleTest)
+#include "color_scale_test.moc"

@@ -1,0 +1,120 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "command_line.h"
+
+#include <QTest>
+#include <algorithm>
+#include <sstream>
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+struct Outcome {
+  ParsedCommandLine parsed;
+  std::string out, error;
+};
+
+Outcome parse(std::vector<const char*> words) {
+  words.insert(words.begin(), "transillum-viewer");
+  std::ostringstream out, error;
+  Outcome outcome;
+  outcome.parsed = parse_command_line(static_cast<int>(words.size()), words.data(), out, error);
+  outcome.out = out.str();
+  outcome.error = error.str();
+  return outcome;
+}
+
+}  // namespace
+
+class CommandLineTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void defaults_are_those_of_solve() {
+    const Outcome outcome = parse({});
+    QVERIFY(!outcome.parsed.exit_now);
+    const SolveOptions solve;
+    QCOMPARE(outcome.parsed.command_line.solve_options.directions, solve.directions);
+    QCOMPARE(outcome.parsed.command_line.solve_options.tolerance, solve.tolerance);
+    QVERIFY(outcome.parsed.command_line.solve_options.two_way);
+    QVERIFY(outcome.parsed.command_line.scene.empty());
+  }
+
+  void options_of_solve() {
+    const Outcome outcome = parse({"room.obj",
+                                   "-m",
+                                   "77",
+                                   "--sampling",
+                                   "random",
+                                   "--seed",
+                                   "5",
+                                   "--one-way",
+                                   "--normalize",
+                                   "rows",
+                                   "--iterations",
+                                   "3",
+                                   "--two-sided",
+                                   "--max-patch-area",
+                                   "0.5",
+                                   "--memory",
+                                   "2G",
+                                   "--threads",
+                                   "2",
+                                   "--screenshot",
+                                   "a.png",
+                                   "--after",
+                                   "9"});
+    QCOMPARE(outcome.error, std::string());
+    const CommandLine& line = outcome.parsed.command_line;
+    QCOMPARE(line.scene, std::string("room.obj"));
+    QCOMPARE(line.solve_options.directions, 77);
+    QVERIFY(line.solve_options.sampling == Sampling::random);
+    QCOMPARE(line.solve_options.seed, std::uint64_t{5});
+    QVERIFY(!line.solve_options.two_way);
+    QVERIFY(line.solve_options.normalize == Normalization::rows);
+    QCOMPARE(line.solve_options.iterations, 3);
+    QCOMPARE(line.solve_options.memory, std::uint64_t{2} << 30);
+    QCOMPARE(line.solve_options.threads, 2);
+    QVERIFY(line.scene_options.two_sided);
+    QCOMPARE(line.scene_options.max_patch_area, 0.5);
+    QCOMPARE(line.screenshot, std::string("a.png"));
+    QCOMPARE(line.after, 9);
+  }
+
+  void wrong_calls_say_so_in_one_line_data() {
+    QTest::addColumn<QStringList>("words");
+    QTest::newRow("unknown option") << QStringList{"furnace", "--colour"};
+    QTest::newRow("no number") << QStringList{"furnace", "-m", "many"};
+    QTest::newRow("too few directions") << QStringList{"furnace", "-m", "0"};
+    QTest::newRow("unknown sampling") << QStringList{"furnace", "--sampling", "fibonaci"};
+    QTest::newRow("unknown normalization") << QStringList{"furnace", "--normalize", "columns"};
+    QTest::newRow("both ways and one") << QStringList{"furnace", "--one-way", "--two-way"};
+    QTest::newRow("two scenes") << QStringList{"furnace", "boards"};
+    QTest::newRow("screenshot of nothing") << QStringList{"--screenshot", "a.png"};
+    QTest::newRow("no picture") << QStringList{"furnace", "--screenshot", "a.txt"};
+    QTest::newRow("no such folder") << QStringList{"furnace", "--screenshot", "no/such/a.png"};
+    QTest::newRow("after without screenshot") << QStringList{"furnace", "--after", "3"};
+  }
+  void wrong_calls_say_so_in_one_line() {
+    QFETCH(QStringList, words);
+    std::vector<std::string> kept;
+    for (const QString& word : words) kept.push_back(word.toStdString());
+    std::vector<const char*> arguments;
+    for (const std::string& word : kept) arguments.push_back(word.c_str());
+    const Outcome outcome = parse(arguments);
+    QVERIFY(outcome.parsed.exit_now);
+    QCOMPARE(outcome.parsed.exit_status, 2);
+    QCOMPARE(std::count(outcome.error.begin(), outcome.error.end(), '\n'), std::ptrdiff_t{1});
+  }
+
+  void help_is_no_error() {
+    const Outcome outcome = parse({"--help"});
+    QVERIFY(outcome.parsed.exit_now);
+    QCOMPARE(outcome.parsed.exit_status, 0);
+    QVERIFY(outcome.out.find("--screenshot") != std::string::npos);
+  }
+};
+
+QTEST_APPLESS_MAIN(CommandLineTest)
+#include "command_line_test.moc"

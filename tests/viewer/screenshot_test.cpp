@@ -1,0 +1,62 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QDir>
+#include <QImage>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QTest>
+
+class ScreenshotTest : public QObject {
+  Q_OBJECT
+
+  struct Outcome {
+    int status = -1;
+    QByteArray error;
+  };
+  static Outcome run(const QStringList& arguments) {
+    QProcess process;
+    process.start(TRANSILLUM_VIEWER, arguments);
+    Outcome outcome;
+    if (!process.waitForFinished(90000) || process.exitStatus() != QProcess::NormalExit)
+      return outcome;
+    outcome.status = process.exitCode();
+    // Qt's own remark about a missing run-time folder is none of ours.
+    for (const QByteArray& line : process.readAllStandardError().split('\n'))
+      if (!line.isEmpty() && !line.contains("XDG_RUNTIME_DIR")) outcome.error += line + '\n';
+    return outcome;
+  }
+
+ private slots:
+  void writes_the_whole_window() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("window.png");
+    const Outcome outcome = run({"cornell-box", "-m", "32", "--screenshot", path, "--after", "5"});
+    QCOMPARE(outcome.status, 0);
+    QCOMPARE(outcome.error, QByteArray());
+    const QImage picture(path);
+    QCOMPARE(picture.size(), QSize(1600, 1000));
+    QSet<QRgb> colors;
+    for (int y = 0; y < picture.height(); y += 4)
+      for (int x = 0; x < picture.width(); x += 4) colors.insert(picture.pixel(x, y));
+    QVERIFY(colors.size() > 60);
+    // Nothing else is left behind.
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"window.png"});
+  }
+
+  void bad_input_is_told_in_one_line_and_leaves_nothing() {
+    const QTemporaryDir folder;
+    const Outcome outcome = run({"no-such-scene", "--screenshot", folder.filePath("window.png")});
+    QCOMPARE(outcome.status, 2);
+    QCOMPARE(outcome.error.count('\n'), 1);
+    QVERIFY2(outcome.error.contains("no-such-scene"), outcome.error.constData());
+    QVERIFY(QDir(folder.path()).entryList(QDir::Files).isEmpty());
+  }
+
+  void a_wrong_call_exits_with_2() {
+    const Outcome outcome = run({"--colour", "red"});
+    QCOMPARE(outcome.status, 2);
+    QCOMPARE(outcome.error.count('\n'), 1);
+  }
+};
+
+QTEST_GUILESS_MAIN(ScreenshotTest)
+#include "screenshot_test.moc"

@@ -1,0 +1,70 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QVTKOpenGLNativeWidget.h>
+
+#include <QApplication>
+#include <QImage>
+#include <QSet>
+#include <QStandardPaths>
+#include <QSurfaceFormat>
+#include <QTest>
+#include <functional>
+
+#include "main_window.h"
+#include "map_canvas.h"
+#include "map_view.h"
+#include "scene_view.h"
+#include "theme.h"
+
+namespace transillum::viewer::test {
+
+/// Lets the event loop run until `condition` holds.
+inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 30000) {
+  return QTest::qWaitFor(condition, milliseconds);
+}
+
+/// How many clearly different colours a picture has, up to 16 levels a channel.
+inline int color_count(const QImage& image) {
+  QSet<QRgb> colors;
+  for (int y = 0; y < image.height(); y += 2)
+    for (int x = 0; x < image.width(); x += 2) colors.insert(image.pixel(x, y) & 0xfff0f0f0);
+  return static_cast<int>(colors.size());
+}
+
+/// The share of pixels that are close to `color`.
+inline double share_of(const QImage& image, const QColor& color) {
+  qint64 close = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const QColor pixel = image.pixelColor(x, y);
+      close += std::abs(pixel.red() - color.red()) + std::abs(pixel.green() - color.green()) +
+                   std::abs(pixel.blue() - color.blue()) <
+               24;
+    }
+  return static_cast<double>(close) / (image.width() * image.height());
+}
+
+/// A window with small settings, so that a test takes no time.
+inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
+  auto window = std::make_unique<MainWindow>(false);
+  SolveOptions options;
+  options.directions = directions;
+  window->set_options(options, {});
+  window->show();
+  (void)QTest::qWaitForWindowExposed(window.get());
+  return window;
+}
+
+}  // namespace transillum::viewer::test
+
+/// As main.cpp sets Qt up.
+#define TRANSILLUM_VIEWER_TEST_MAIN(TestClass)                                 \
+  int main(int argc, char** argv) {                                            \
+    QStandardPaths::setTestModeEnabled(true);                                  \
+    QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); \
+    QApplication application(argc, argv);                                      \
+    transillum::viewer::theme::apply(application);                             \
+    TestClass test;                                                            \
+    return QTest::qExec(&test, argc, argv);                                    \
+  }

@@ -1,0 +1,251 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QAction>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QLabel>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSlider>
+#include <QTemporaryDir>
+#include <QToolBar>
+#include <QUrl>
+#include <set>
+
+#include "window_support.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+// A window with a scene whose first iteration is done and shown.
+struct Solved {
+  std::unique_ptr<MainWindow> window;
+  SceneView* scene_view = nullptr;
+  MapView* map_view = nullptr;
+
+  explicit Solved(const QString& scene) {
+    window = make_window();
+    scene_view = window->findChild<SceneView*>();
+    map_view = window->findChild<MapView*>();
+    window->open(scene, {Goal::Kind::iteration});
+    ready = wait_for([this] {
+      return window->snapshot() && window->snapshot()->progress.iteration == 1 && window->settled();
+    });
+    QTest::qWait(100);
+  }
+  bool ready = false;
+
+  QString text(const char* label) const { return window->findChild<QLabel*>(label)->text(); }
+  void trigger(const char* action) const { window->findChild<QAction*>(action)->trigger(); }
+
+  std::set<PatchId> patches_in_map() const {
+    const MapRecord& record = map_view->map()->record;
+    std::set<PatchId> patches;
+    for (const std::int32_t row : record.map_after(map_view->step()))
+      patches.insert(record.rows[static_cast<std::size_t>(row)].patch);
+    return patches;
+  }
+  // A place in the scene's picture where a click hits one of `wanted`.
+  QPoint place_of(const std::set<PatchId>& wanted) const {
+    const QSize size = scene_view->canvas()->size();
+    for (int y = 10; y < size.height(); y += 7)
+      for (int x = 10; x < size.width(); x += 7)
+        if (wanted.count(scene_view->patch_at({x, y})) > 0) return {x, y};
+    return {-1, -1};
+  }
+};
+
+QImage picture_of(QWidget* widget) { return widget->grab().toImage(); }
+
+}  // namespace
+
+class WindowTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void starts_with_scenes_to_choose_from() {
+    const auto window = make_window();
+    auto* button = window->findChild<QPushButton*>("built_in_furnace");
+    QVERIFY(button && button->isVisible());
+    QVERIFY(color_count(picture_of(window.get())) > 8);
+    QTest::mouseClick(button, Qt::LeftButton);
+    QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
+    QVERIFY(window->findChild<SceneView*>()->isVisible());
+  }
+
+  void pictures_are_neither_blank_nor_of_one_color() {
+    const Solved solved("cornell-box");
+    QVERIFY(solved.ready);
+    const QImage scene = picture_of(solved.scene_view->canvas());
+    QVERIFY2(color_count(scene) > 12, qPrintable(QString::number(color_count(scene))));
+    QVERIFY(share_of(scene, theme::scene_background) < 0.7);
+    const QImage map = picture_of(solved.map_view->canvas());
+    QVERIFY2(color_count(map) > 8, qPrintable(QString::number(color_count(map))));
+    QVERIFY(share_of(map, theme::scene_background) < 0.9);
+    const QImage whole = picture_of(solved.window.get());
+    QCOMPARE(whole.size(), solved.window->size() * solved.window->devicePixelRatioF());
+    QVERIFY(color_count(whole) > 40);
+  }
+
+  void a_color_map_brings_its_bar() {
+    const Solved solved("cornell-box");
+    QVERIFY(solved.ready);
+    const QImage before = picture_of(solved.scene_view->canvas());
+    solved.window->findChild<QComboBox*>("color_mode")->setCurrentIndex(1);
+    QTest::qWait(100);
+    const QImage after = picture_of(solved.scene_view->canvas());
+    QVERIFY(after != before);
+    const Color8 top = color_of(ColorMap::viridis, 1);
+    const QImage whole = picture_of(solved.window.get());
+    QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
+  }
+
+  void a_click_in_the_scene_selects_everywhere() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    const QPoint place = solved.place_of(solved.patches_in_map());
+    QVERIFY(place.x() >= 0);
+    const PatchId patch = solved.scene_view->patch_at(place);
+    const QImage scene_before = picture_of(solved.scene_view->canvas());
+    QCOMPARE(share_of(picture_of(solved.map_view->canvas()), theme::selection), 0.0);
+
+    QTest::mouseClick(solved.scene_view->canvas(), Qt::LeftButton, {}, place);
+    QCOMPARE(solved.window->selection().patch(), patch);
+    QCOMPARE(solved.text("patch_id"), QString::number(patch));
+    QVERIFY(!solved.text("patch_radiosity").isEmpty());
+    QTest::qWait(100);
+    QVERIFY(share_of(picture_of(solved.map_view->canvas()), theme::selection) > 0);
+    QVERIFY(picture_of(solved.scene_view->canvas()) != scene_before);
+    QVERIFY(share_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
+  }
+
+  void a_drag_turns_the_scene_and_selects_nothing() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    QWidget* canvas = solved.scene_view->canvas();
+    const QPoint from = canvas->rect().center();
+    const QImage before = picture_of(canvas);
+    QTest::mousePress(canvas, Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 10; ++k) QTest::mouseMove(canvas, from + QPoint(9 * k, 4 * k), 10);
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(90, 40));
+    QTest::qWait(100);
+    QCOMPARE(solved.window->selection().patch(), no_patch);
+    QVERIFY(picture_of(canvas) != before);
+  }
+
+  void what_a_click_hits_is_seen_from_its_front() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    // The picture is of a closed box: outside the culled near walls there is always a patch.
+    const QPoint middle = solved.scene_view->canvas()->rect().center();
+    const PatchId patch = solved.scene_view->patch_at(middle);
+    QVERIFY(patch != no_patch);
+  }
+
+  void a_click_in_the_map_selects() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    MapCanvas* canvas = solved.map_view->canvas();
+    const QPoint middle(canvas->width() / 2, canvas->height() / 2 - 12);
+    const PatchId patch = canvas->patch_at(middle);
+    QVERIFY(patch != no_patch);
+    QTest::mouseClick(canvas, Qt::LeftButton, {}, middle);
+    QCOMPARE(solved.window->selection().patch(), patch);
+    QCOMPARE(solved.text("patch_id"), QString::number(patch));
+  }
+
+  void the_map_steps_back_to_nothing() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    QVERIFY(solved.map_view->canvas()->fragment_count() > 0);
+    solved.window->findChild<QSlider*>("map_step")->setValue(0);
+    QVERIFY(wait_for([&] {
+      return solved.map_view->up_to_date() && solved.map_view->canvas()->fragment_count() == 0;
+    }));
+  }
+
+  void actions_drive_the_solve() {
+    const Solved solved("cornell-box");
+    QVERIFY(solved.ready);
+    // Starting anew with many directions.
+    solved.window->session().restart(
+        [] {
+          SolveOptions options;
+          options.directions = 100000;
+          return options;
+        }(),
+        {});
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.passes == 100000; }));
+    solved.trigger("one_direction");
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 1; }));
+    QVERIFY(wait_for([&] { return solved.window->session().state() == SessionState::paused; }));
+    solved.trigger("run");
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > 20; }));
+    solved.trigger("pause");
+    QVERIFY(wait_for([&] { return solved.window->session().state() == SessionState::paused; }));
+    const int at = solved.window->snapshot()->progress.direction;
+    QTest::qWait(300);
+    QCOMPARE(solved.window->snapshot()->progress.direction, at);
+    QVERIFY(solved.text("phase").startsWith("Paused"));
+    solved.trigger("stop");
+    QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 0; }));
+  }
+
+  void a_bad_file_is_told_in_words_and_the_old_scene_stays() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("broken.obj"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n");
+    file.close();
+    solved.window->open(file.fileName());
+    QVERIFY(wait_for([&] { return !solved.window->banner_text().isEmpty(); }));
+    QVERIFY2(solved.window->banner_text().contains("broken.obj"),
+             qPrintable(solved.window->banner_text()));
+    QVERIFY(solved.text("scene_summary").contains("furnace"));
+    QVERIFY(solved.scene_view->isVisible());
+  }
+
+  void a_dropped_file_opens() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("dropped.obj");
+    QFile materials(folder.filePath("dropped.mtl"));
+    QVERIFY(materials.open(QIODevice::WriteOnly));
+    materials.write("newmtl m\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    materials.close();
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(
+        "mtllib dropped.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\n"
+        "v 0 1 1\nusemtl m\nf 1 2 3 4\nf 8 7 6 5\n");
+    file.close();
+    const auto window = make_window();
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &drop);
+    QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
+    QCOMPARE(window->snapshot()->radiosity.size(), std::size_t{2});
+    QVERIFY(window->windowTitle().contains("dropped.obj"));
+  }
+
+  void panels_can_be_closed_and_come_back() {
+    const auto window = make_window();
+    auto* map = window->findChild<QDockWidget*>("map_dock");
+    map->close();
+    QVERIFY(!map->isVisible());
+    for (QAction* action : window->findChildren<QAction*>())
+      if (action->text() == "Reset layout") action->trigger();
+    QVERIFY(map->isVisible());
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(WindowTest)
+#include "window_test.moc"
