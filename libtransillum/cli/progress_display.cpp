@@ -60,7 +60,7 @@ void ProgressDisplay::redraw(const std::string& what, double share, const std::s
   std::string line = what;
   if (share >= 0) {
     const double shown = std::min(share, 1.0);
-    line += fmt::format(" {} {:3.0f} %", bar(shown, 24), 100 * shown);
+    line += fmt::format(" {} {:3.0f} %", bar(shown, 16), 100 * shown);
   }
   if (!detail.empty()) line += "  " + detail;
   // A line that wraps could not be redrawn in place.
