@@ -137,8 +137,14 @@ class TriangleMerge {
   }
 
   std::vector<CornerList> merged() {
-    for (const auto& [a, b] : twins()) {
-      if (stays_convex(a, b) && stays_convex(b, a)) take_away(a, b);
+    const std::vector<Twins> diagonals = twins();
+    // First where a real corner stays; what leaves a straight one may be better kept, as the
+    // diagonal through the notch of an L.
+    for (const int least_turn : {1, 0}) {
+      for (const auto& [a, b] : diagonals) {
+        if (edges_[a].gone) continue;
+        if (stays_convex(a, b, least_turn) && stays_convex(b, a, least_turn)) take_away(a, b);
+      }
     }
     std::vector<CornerList> polygons;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -175,13 +181,13 @@ class TriangleMerge {
   }
 
   /// Whether the corner where `edge` starts is convex once `edge` and `twin` are gone.
-  bool stays_convex(std::uint32_t edge, std::uint32_t twin) const {
+  bool stays_convex(std::uint32_t edge, std::uint32_t twin, int least_turn) const {
     const PlanePoint& before = outline_[edges_[edges_[edge].previous].from];
     const PlanePoint& corner = outline_[edges_[edge].from];
     const PlanePoint& after = outline_[to(edges_[edges_[twin].next])];
     const int turn = exact_turn(before, corner, after);
     // Straight on is convex, straight back is not.
-    return turn > 0 || (turn == 0 && (before < corner) == (corner < after));
+    return turn >= least_turn && (turn != 0 || (before < corner) == (corner < after));
   }
 
   void take_away(std::uint32_t a, std::uint32_t b) {

@@ -49,11 +49,30 @@ const std::vector<BuiltIn>& registry() {
   return all;
 }
 
+/// The ending in lower case, where the name ends like a file's: ".obj", but not "=2.5".
+std::string file_ending(const std::string& spec) {
+  std::string ending = std::filesystem::path(spec).extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c != '.' && (c < 'a' || c > 'z')) return {};
+  }
+  return ending.size() > 1 ? ending : std::string();
+}
+
 /// A path, rather than the name of a built-in.
 bool names_a_file(const std::string& spec) {
-  std::error_code error;
-  return spec.find('/') != std::string::npos || !std::filesystem::path(spec).extension().empty() ||
-         std::filesystem::exists(spec, error);
+  std::error_code ignored;
+  return spec.find('/') != std::string::npos || !file_ending(spec).empty() ||
+         std::filesystem::exists(spec, ignored);
+}
+
+SceneDescription read_file(const std::string& spec, const Cancellation& cancellation) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(spec, ignored)) throw InputError(spec + ": no such file");
+  if (file_ending(spec) != ".obj") {
+    throw InputError(spec + ": only files that end in .obj can be read");
+  }
+  return read_obj(spec, cancellation);
 }
 
 std::vector<std::string> built_in_names() {
@@ -88,7 +107,7 @@ SceneDescription describe_scene(const std::string& spec, const Cancellation& can
     if (b.name != name) continue;
     return make(b, spec, colon < spec.size() ? spec.substr(colon + 1) : "", cancellation);
   }
-  if (names_a_file(spec)) return read_obj(spec, cancellation);
+  if (names_a_file(spec)) return read_file(spec, cancellation);
   const std::vector<std::string> names = built_in_names();
   throw InputError(fmt::format(
       "{}: no such file, and no such built-in scene{} Built-in are {}.", spec,

@@ -34,9 +34,8 @@ std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
   std::vector<std::pair<std::uint64_t, std::size_t>> hashed;
   hashed.reserve(description.face_count());
   for (std::size_t f = 0; f < description.face_count(); ++f) {
-    if (description.outline(f).size() >= 3) {
-      hashed.emplace_back(hash_of(point_set(description, welded, f)), f);
-    }
+    const std::vector<PointId> set = point_set(description, welded, f);
+    if (set.size() >= 3) hashed.emplace_back(hash_of(set), f);
   }
   std::sort(hashed.begin(), hashed.end());
   std::vector<std::pair<std::size_t, std::size_t>> pairs;

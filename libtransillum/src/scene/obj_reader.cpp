@@ -146,28 +146,30 @@ class ObjReading {
   void read_libraries(std::string_view rest) {
     if (rest.empty()) fail("mtllib has no file name");
     // A name with blanks, or several names: the file system knows.
-    if (std::filesystem::exists(library_path(rest))) {
+    if (is_there(library_path(rest))) {
       library_.read(library_path(rest), notes_, cancellation_);
       return;
     }
     split_words(rest, words_);
     for (const std::string_view word : words_) {
       const std::filesystem::path path = library_path(word);
-      if (!std::filesystem::exists(path)) {
+      if (!is_there(path)) {
         fail(fmt::format("the MTL file {} is missing", in_quotes(word)));
       }
       library_.read(path, notes_, cancellation_);
     }
   }
   std::filesystem::path library_path(std::string_view name) const {
-    std::error_code error;
-    std::filesystem::path path = path_.parent_path() / name;
-    if (!std::filesystem::exists(path, error)) {
-      std::string slashes(name);
-      std::replace(slashes.begin(), slashes.end(), '\\', '/');
-      path = path_.parent_path() / slashes;
-    }
-    return path;
+    const std::filesystem::path path = path_.parent_path() / name;
+    if (is_there(path)) return path;
+    // Written on another system.
+    std::string slashes(name);
+    std::replace(slashes.begin(), slashes.end(), '\\', '/');
+    return path_.parent_path() / slashes;
+  }
+  static bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
   }
 
   void finish() {

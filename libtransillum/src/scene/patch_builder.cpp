@@ -86,6 +86,7 @@ void PatchBuilder::add_face(std::size_t face) {
   const Outline outline = welded_outline(face);
   const PolygonShape shape = measure(table.points(), outline);
   if (shape.degenerate) {
+    if (is_bow_tie(table.points(), outline)) refuse_crossing(face);
     drop(face);
   } else if (shape.deviation > largest_relative_deviation * shape.diameter) {
     add_triangles(face, outline, shape);
@@ -249,9 +250,13 @@ std::vector<CornerList> PatchBuilder::checked(std::size_t face,
                                               const std::vector<PlanePoint>& plane,
                                               std::vector<CornerList> parts) const {
   if (parts.empty() || !same_area(plane, parts)) {
-    throw InputError(face_place(description_, face) + "its outline crosses itself");
+    refuse_crossing(face);
   }
   return parts;
+}
+
+void PatchBuilder::refuse_crossing(std::size_t face) const {
+  throw InputError(face_place(description_, face) + "its outline crosses itself");
 }
 
 void PatchBuilder::count_coincident() {

@@ -57,6 +57,8 @@ class PatchBuilder {
   std::vector<CornerList> checked(std::size_t face, const std::vector<PlanePoint>& plane,
                                   std::vector<CornerList> parts) const;
 
+  [[noreturn]] void refuse_crossing(std::size_t face) const;
+
   void count_coincident();
   void count_unused();
 

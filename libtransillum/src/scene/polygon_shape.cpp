@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene/polygon_shape.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace transillum {
@@ -53,6 +55,26 @@ PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outl
     shape.deviation = std::max(shape.deviation, distance);
   }
   return shape;
+}
+
+bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline) {
+  std::vector<PointId> corners(outline.begin(), outline.end());
+  std::sort(corners.begin(), corners.end());
+  if (corners.size() < 4 || std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
+    return false;
+  }
+  PolygonShape largest;
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    const std::array<PointId, 3> triangle{outline[0], outline[i], outline[i + 1]};
+    const PolygonShape shape = measure(points, triangle);
+    if (!shape.degenerate && shape.area > largest.area) largest = shape;
+  }
+  if (largest.degenerate) return false;
+  const Vec3 origin = points[static_cast<std::size_t>(outline[0])];
+  return std::all_of(outline.begin(), outline.end(), [&](PointId p) {
+    const Vec3 offset = points[static_cast<std::size_t>(p)] - origin;
+    return std::abs(dot(largest.normal, offset)) <= 1e-6 * largest.diameter;
+  });
 }
 
 std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,

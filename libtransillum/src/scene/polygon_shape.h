@@ -22,6 +22,10 @@ struct PolygonShape {
 };
 PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outline);
 
+/// Whether an outline without area is that of a bow tie, whose loops cancel each other: planar,
+/// its corners all different, but not on one line.
+bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline);
+
 /// The outline in the plane, by leaving out the axis nearest to the normal: coordinates stay
 /// exact, and it turns counter-clockwise.
 std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,

@@ -1,0 +1,87 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "transillum/scene.h"
+
+namespace transillum::test {
+
+/// A folder of its own for one test, gone at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "transillum-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string write(const std::string& name, const std::string& content) const {
+    const std::filesystem::path file = path_ / name;
+    std::ofstream(file, std::ios::binary) << content;
+    return file.string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A description of faces over points, of one grey material.
+inline SceneDescription polygons(const std::vector<Vec3>& points,
+                                 const std::vector<std::vector<PointId>>& faces) {
+  SceneDescription description;
+  description.name = "test";
+  description.points = points;
+  description.materials = {{"grey", {0.5, 0.5, 0.5}, {}}};
+  for (const auto& face : faces) description.add_face(face, 0);
+  return description;
+}
+/// One face over all points.
+inline SceneDescription polygon(const std::vector<Vec3>& points) {
+  std::vector<PointId> outline;
+  for (std::size_t i = 0; i < points.size(); ++i) outline.push_back(static_cast<PointId>(i));
+  return polygons(points, {outline});
+}
+
+/// The sentence an input is refused with; empty where it is taken.
+template <typename Action>
+std::string refusal(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Newell's vector of an outline: twice its area along its normal.
+inline Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
+  Vec3 sum;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec3 origin = scene.point(outline[0]);
+    sum = sum + cross(scene.point(outline[i]) - origin,
+                      scene.point(outline[(i + 1) % outline.size()]) - origin);
+  }
+  return sum;
+}
+
+inline double total_area(const Scene& scene) {
+  double sum = 0;
+  for (const Patch& p : scene.patches()) sum += p.area;
+  return sum;
+}
+
+}  // namespace transillum::test
