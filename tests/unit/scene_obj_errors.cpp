@@ -62,6 +62,7 @@ std::vector<Row> rows() {
        "",
        {"s.obj:5: face 0: `1/1/1/1` is not a corner"}},
       {"CornerOnlySlash", square + "f / 2 3\n", "", {"s.obj:5: face 0: `/` is not a corner"}},
+      {"CornerWithFormFeed", square + "f 1 2 3\f9\n", "", {"s.obj:5: face 0: vertex index 9"}},
       {"ContinuedLine", square + "f 1 2 \\\n 3 9\n", "", {"s.obj:5: face 0: vertex index 9"}},
       {"SelfCrossing", square + "f 1 3 2 4\n", "", {"s.obj:5: face 0: its outline crosses itself"}},
       {"SelfCrossingWithArea",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
@@ -124,10 +125,13 @@ LineFeed::int_type LineFeed::underflow() {
     // Names may hold a #, as in "Material #25".
     if (!gives_name(line.keyword)) line.rest = trimmed(line.rest.substr(0, line.rest.find('#')));
     if (!look_(line)) continue;
-    // What the parser gets is the line as it was looked at: one blank, no comment.
+    // What the parser gets is the line as it was looked at: one blank, no comment, and no kind
+    // of blank that it takes for a part of a word.
     std::string handed(line.keyword);
     handed += ' ';
     handed += line.rest;
+    std::replace_if(
+        handed.begin(), handed.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
     handed += '\n';
     line_ = std::move(handed);
     setg(line_.data(), line_.data(), line_.data() + line_.size());
