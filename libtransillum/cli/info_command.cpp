@@ -159,7 +159,10 @@ Run add_info_command(CLI::App& program) {
   add_scene_options(command, call->scene_options);
   command.footer(fmt::format(
       "Whether the scene is closed and which faces are seen from behind is measured along {}\n"
-      "directions, both ways. Faces are numbered from 0 in the order of the file.\n"
+      "directions, both ways. Faces are numbered from 0 in the order of the file. Seen from "
+      "behind\n"
+      "are faces turned the wrong way, but also those of a box that stands on a floor without a\n"
+      "bottom of its own: the floor inside it looks at their backs.\n"
       "Example: transillum info rooms",
       probing_directions));
   return [call] { return run(*call); };

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <exception>
 #include <memory>
-#include <optional>
 
 #include "commands.h"
 #include "interruption.h"
@@ -97,9 +97,21 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
   return solution;
 }
 
+/// One file that cannot be written does not cost the others.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
-  for (const std::string& file : call.out) write_result(file, solution);
-  if (!call.stats.empty()) write_statistics(call.stats, options, solution);
+  std::exception_ptr first_failure;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception&) {
+      if (!first_failure) first_failure = std::current_exception();
+    }
+  };
+  for (const std::string& file : call.out) {
+    attempt([&] { write_result(file, solution); });
+  }
+  if (!call.stats.empty()) attempt([&] { write_statistics(call.stats, options, solution); });
+  if (first_failure) std::rethrow_exception(first_failure);
 }
 
 int run(const SolveCall& call) {

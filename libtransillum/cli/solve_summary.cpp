@@ -2,6 +2,7 @@
 #include "solve_summary.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <limits>
 
@@ -39,6 +40,12 @@ std::string row(const std::string& name, const std::string& value) {
 
 std::string color_text(const Rgb& b) { return fmt::format("{:.5g} {:.5g} {:.5g}", b.r, b.g, b.b); }
 
+double peak_memory_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 std::string convergence_text(const SolveStatistics& statistics) {
   if (statistics.steps.empty()) return "none finished";
   return fmt::format("{}, last change {:.2e}{}", statistics.iterations,
@@ -71,6 +78,7 @@ std::string solve_summary(const Solution& solution) {
                                   time_text(s.seconds_total), time_text(s.seconds_load),
                                   time_text(s.seconds_bsp), time_text(s.seconds_transfers),
                                   time_text(s.seconds_iterate)));
+  text += row("peak memory", fmt::format("{:.0f} MiB", peak_memory_megabytes()));
   return text;
 }
 
