@@ -75,7 +75,7 @@ TEST_P(Corpus, SurvivesDamage) {
   const test::TemporaryFolder folder;
   std::mt19937 random(12345);
   int loaded = 0, refused = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 100; ++round) {
     std::string text = content.str();
     for (unsigned k = 0; k < 1 + round % 4u; ++k) {
       const std::size_t at = random() % text.size();
@@ -101,7 +101,7 @@ TEST_P(Corpus, SurvivesDamage) {
       ++refused;
     }
   }
-  EXPECT_EQ(loaded + refused, 200);
+  EXPECT_EQ(loaded + refused, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scene, Corpus, testing::ValuesIn(entries()), [](const auto& entry) {
