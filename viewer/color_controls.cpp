@@ -44,10 +44,11 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   direction_->setObjectName("show_direction");
   direction_->setChecked(true);
   direction_->setToolTip(tr("Draw the latest direction as an arrow with its plane (D)"));
+  outlines_ = new QCheckBox(tr("Outlines"));
+  outlines_->setObjectName("show_outlines");
+  outlines_->setToolTip(tr("Draw the edges of the patches"));
   auto* reset = new QToolButton;
-  reset->setText(tr("Reset view"));
   reset->setIcon(theme::icon(theme::Icon::frame));
-  reset->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   reset->setToolTip(tr("Look at the scene as at first (Home)"));
 
   auto* layout = new QHBoxLayout(this);
@@ -58,12 +59,14 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   layout->addSpacing(8);
   layout->addWidget(pages_);
   layout->addStretch(1);
+  layout->addWidget(outlines_);
   layout->addWidget(direction_);
   layout->addWidget(reset);
 
   connect(mode_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [this](int index) { colors_.set_mode(static_cast<ColorMode>(index)); });
   connect(direction_, &QCheckBox::toggled, this, &ColorControls::direction_toggled);
+  connect(outlines_, &QCheckBox::toggled, this, &ColorControls::outlines_toggled);
   connect(reset, &QToolButton::clicked, this, &ColorControls::reset_view_clicked);
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
@@ -74,7 +77,8 @@ QWidget* ColorControls::make_true_color_page() {
   exposure_slider_ = new QSlider(Qt::Horizontal);
   exposure_slider_->setRange(static_cast<int>(lowest_exposure) * slider_steps_per_ev,
                              static_cast<int>(highest_exposure) * slider_steps_per_ev);
-  exposure_slider_->setFixedWidth(120);
+  exposure_slider_->setMinimumWidth(30);
+  exposure_slider_->setMaximumWidth(110);
   exposure_ = new QDoubleSpinBox;
   exposure_->setObjectName("exposure");
   exposure_->setRange(lowest_exposure, highest_exposure);
@@ -134,6 +138,8 @@ QWidget* ColorControls::make_map_page() {
 }
 
 void ColorControls::toggle_direction() { direction_->toggle(); }
+
+void ColorControls::set_outlines(bool shown) { outlines_->setChecked(shown); }
 
 void ColorControls::show_choice() {
   const ColorScale& scale = colors_.scale();

@@ -21,9 +21,11 @@ class ColorControls : public QWidget {
   explicit ColorControls(ColorChoice& colors, QWidget* parent = nullptr);
 
   void toggle_direction();
+  void set_outlines(bool shown);
 
  signals:
   void direction_toggled(bool shown);
+  void outlines_toggled(bool shown);
   void reset_view_clicked();
 
  private:
@@ -41,6 +43,7 @@ class ColorControls : public QWidget {
   QComboBox* map_;
   QCheckBox* logarithmic_;
   QCheckBox* direction_;
+  QCheckBox* outlines_;
 };
 
 }  // namespace transillum::viewer

@@ -112,22 +112,24 @@ std::vector<double> ColorScale::ticks() const {
 }
 
 void ColorScale::fit_range(std::span<const Rgb> radiosity) {
-  double smallest = HUGE_VAL, largest = 0;
+  std::vector<double> positive;
   for (const Rgb& b : radiosity) {
     const double v = value(b);
-    if (!std::isfinite(v)) continue;
-    largest = std::max(largest, v);
-    if (v > 0) smallest = std::min(smallest, v);
+    if (v > 0 && std::isfinite(v)) positive.push_back(v);
   }
-  if (!(largest > 0)) {  // darkness
+  if (positive.empty()) {  // darkness
     low = logarithmic ? 1e-3 : 0;
     high = 1;
     return;
   }
-  high = largest;
-  // More than six decades below the brightest all is black.
-  low = logarithmic ? std::max(smallest, 1e-6 * largest) : 0;
-  if (logarithmic && !(high > 1.01 * low)) {
+  high = *std::max_element(positive.begin(), positive.end());
+  low = 0;
+  if (!logarithmic) return;
+  // The darkest hundredth would stretch the scale over many decades with nothing in them.
+  const auto dark = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
+  std::nth_element(positive.begin(), dark, positive.end());
+  low = std::max(*dark, 1e-6 * high);
+  if (!(high > 1.01 * low)) {
     low = high / 2;
     high = high * 2;
   }

@@ -10,9 +10,9 @@
 namespace transillum::viewer {
 
 ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
-  steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Relative change of B"));
+  steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
   steps_->set_hint(tr("A point for every finished iteration"));
-  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative change of B"));
+  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Change of B"));
   passes_->set_hint(tr("A point for every direction"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -17,8 +17,10 @@ class DirectionGlyph {
   explicit DirectionGlyph(vtkRenderer& renderer);
 
   /// `omega` points toward the source: light travels along -omega, and both ways where `two_way`.
-  /// The plane stands on that side of the sphere round `center` that is nearer to `eye`.
-  void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, const Vec3& eye);
+  /// The plane stands `distance` from `center`, on the side that is nearer to `eye`; its size goes
+  /// with `radius`.
+  void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, double distance,
+            const Vec3& eye);
   void hide();
   void set_line_width(double pixels);
 

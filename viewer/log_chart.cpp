@@ -156,7 +156,9 @@ void LogChart::draw_axes(QPainter& painter, const Frame& f) const {
   painter.save();
   painter.translate(8 + line / 2.0, f.plot.center().y());
   painter.rotate(-90);
-  painter.drawText(QRectF(-height() / 2.0, -line / 2.0, height(), line), Qt::AlignCenter, y_title_);
+  const double room = f.plot.height() + 2 * line;
+  painter.drawText(QRectF(-room / 2, -line / 2.0, room, line), Qt::AlignCenter,
+                   fontMetrics().elidedText(y_title_, Qt::ElideRight, static_cast<int>(room)));
   painter.restore();
 }
 
@@ -209,7 +211,10 @@ void LogChart::draw_legend(QPainter& painter, const Frame& f) const {
   const int line = fontMetrics().height();
   const double y = f.plot.top() - line / 2.0 - 5;
   double x = f.plot.left();
-  const auto entry = [&](const QString& name, const QPen& pen) {
+  const auto entry = [&](const QString& full_name, const QPen& pen) {
+    const auto room = static_cast<int>(f.plot.right() - x) - 25;
+    if (room < 30) return;
+    const QString name = fontMetrics().elidedText(full_name, Qt::ElideRight, room);
     painter.setPen(pen);
     painter.drawLine(QPointF(x, y), QPointF(x + 20, y));
     painter.setPen(theme::ink);

@@ -12,6 +12,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScreen>
 #include <QScrollArea>
 #include <QSettings>
 #include <QStackedWidget>
@@ -44,6 +45,8 @@ namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
 constexpr int layout_version = 1;
+
+constexpr PatchId few_patches = 64;
 
 QString dropped_file(const QMimeData& data) {
   const QList<QUrl> urls = data.urls();
@@ -92,6 +95,8 @@ QWidget* MainWindow::make_center() {
           [this](const QString& name) { open(name); });
   connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
           &SceneView::set_direction_shown);
+  connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
+          &SceneView::set_outlines_shown);
   connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
 
   auto* scene_page = new QWidget;
@@ -228,7 +233,10 @@ void MainWindow::reset_layout() {
 }
 
 void MainWindow::restore_layout() {
-  resize(1600, 1000);
+  QSize size(1600, 1000);
+  // A picture for a script has its size whatever the screen's is.
+  if (remember_) size = size.boundedTo(screen()->availableSize());
+  resize(size);
   reset_layout();
   if (!remember_) return;
   const QSettings settings;
@@ -289,6 +297,8 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   map_view_->clear();
   pages_->setCurrentIndex(1);
   scene_view_->show_scene(loaded_);
+  // Few large patches of like brightness run into one another without outlines.
+  color_controls_->set_outlines(loaded_->scene->patch_count() <= few_patches);
   progress_->show_scene(*loaded_);
   const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
   setWindowTitle(tr("%1 – transillum").arg(name));
@@ -328,6 +338,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
 void MainWindow::show_state(SessionState state) {
   progress_->show_state(state);
   actions_->show_state(state, at_start());
+  scene_view_->set_smooth(state != SessionState::running);
   settings_->set_restart_enabled(loaded_ && state != SessionState::loading);
 }
 

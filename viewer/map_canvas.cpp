@@ -149,7 +149,7 @@ void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
 
 void MapCanvas::draw_axes(QPainter& painter) const {
   const QPointF origin(width() - 18, height() - 16);
-  constexpr double length = 30;
+  constexpr double length = 22;
   painter.setPen(QPen(theme::on_dark, 1.5));
   const auto arrow = [&](const QPointF& way, const QString& name, const QPointF& name_offset) {
     const QPointF tip = origin + length * way;
@@ -164,6 +164,7 @@ void MapCanvas::draw_axes(QPainter& painter) const {
 }
 
 void MapCanvas::draw_legend(QPainter& painter) const {
+  if (width() < 330) return;  // no room between scale bar and axes
   const QRectF box(width() / 2.0 - 8, height() - 23, 16, 12);
   painter.setPen(QPen(theme::on_dark_dim, 1));
   painter.setBrush(back_side_brush(1));

@@ -53,7 +53,7 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
     bottom = std::min(bottom, q.y);
     top = std::max(top, q.y);
   }
-  constexpr double margin = 14, scale_bar_room = 26;  // logical pixels
+  constexpr double margin = 14, scale_bar_room = 34;  // logical pixels
   const double width = std::max(size.width() - 2 * margin, 10.0);
   const double height = std::max(size.height() - 2 * margin - scale_bar_room, 10.0);
   MapTransform transform;

@@ -41,7 +41,7 @@ MapView::MapView(Selection& selection, const ColorChoice& colors, QWidget* paren
   fullest_->setText(tr("Fullest"));
   fullest_->setCheckable(true);
   fullest_->setChecked(true);
-  fullest_->setToolTip(tr("Show each direction after the step that leaves the most fragments"));
+  fullest_->setToolTip(tr("Show each direction after the step at which most of it shines"));
   auto* fit = new QToolButton;
   fit->setIcon(theme::icon(theme::Icon::frame));
   fit->setToolTip(tr("Show all of the map"));

@@ -23,6 +23,7 @@ QString iterations_text(int count) {
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   scene_ = new QLabel;
   scene_->setObjectName("scene_summary");
+  scene_->hide();
   phase_ = new QLabel(tr("No scene"));
   phase_->setObjectName("phase");
   phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -51,6 +52,7 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
 
 void ProgressLine::show_scene(const LoadedScene& loaded) {
   snapshot_ = nullptr;
+  scene_->show();
   QFont bold = font();
   bold.setBold(true);
   scene_->setFont(bold);

@@ -66,7 +66,6 @@ SceneView::SceneView(Selection& selection, const ColorChoice& colors, QWidget* p
   window_->AddRenderer(renderer_);
   const QColor& ground = theme::scene_background;
   renderer_->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
-  renderer_->UseFXAAOn();
   vtkNew<CameraStyle> style;
   canvas_->interactor()->SetInteractorStyle(style);
 
@@ -77,6 +76,7 @@ SceneView::SceneView(Selection& selection, const ColorChoice& colors, QWidget* p
   surface_->SetMapper(mapper);
   surface_->GetProperty()->LightingOff();  // B is the light: nothing is to be added
   surface_->GetProperty()->BackfaceCullingOn();
+  surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
   surface_->VisibilityOff();
   renderer_->AddActor(surface_);
   halo_ = line_actor(*renderer_, Qt::black);
@@ -123,6 +123,17 @@ void SceneView::set_direction_shown(bool shown) {
   render();
 }
 
+void SceneView::set_outlines_shown(bool shown) {
+  surface_->GetProperty()->SetEdgeVisibility(shown);
+  render();
+}
+
+void SceneView::set_smooth(bool smooth) {
+  if (smooth == smooth_) return;
+  smooth_ = smooth;
+  render();
+}
+
 void SceneView::reset_view() {
   if (!loaded_) return;
   const double aspect = static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
@@ -150,7 +161,13 @@ void SceneView::show_direction() {
     glyph_->hide();
     return;
   }
-  glyph_->show(snapshot_->progress.last_direction, snapshot_->options.two_way, focus_, radius_,
+  // Just outside of the scene, or of what is worth looking at in a large enclosure.
+  const Vec3& omega = snapshot_->progress.last_direction;
+  double reach = 0;
+  for (const Vec3& p : loaded_->scene->points())
+    reach = std::max(reach, std::abs(dot(p - focus_, omega)));
+  glyph_->show(omega, snapshot_->options.two_way, focus_, radius_,
+               std::min(0.86 * radius_, 1.06 * reach),
                vec3(renderer_->GetActiveCamera()->GetPosition()));
 }
 
@@ -172,6 +189,8 @@ void SceneView::render() {
   halo_->GetProperty()->SetLineWidth(5 * scale);
   outline_->GetProperty()->SetLineWidth(2.5F * scale);
   glyph_->set_line_width(1.5 * scale);
+  surface_->GetProperty()->SetLineWidth(scale);
+  renderer_->SetUseFXAA(smooth_ && !pressed_);
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) window_->Render();
 }
@@ -197,11 +216,13 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       pressed_ = mouse->button() == Qt::LeftButton;
       press_position_ = mouse->pos();
+      renderer_->UseFXAAOff();  // while it is turned
     } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
       pressed_ = false;
       const QPoint position = static_cast<QMouseEvent*>(event)->pos();
       const int way = (position - press_position_).manhattanLength();
       if (way < QApplication::startDragDistance()) selection_.select(patch_at(position));
+      render();
     }
   }
   return QWidget::eventFilter(watched, event);

@@ -33,6 +33,9 @@ class SceneView : public QWidget {
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void set_direction_shown(bool shown);
+  void set_outlines_shown(bool shown);
+  /// Smooths edges: for a scene at rest, since it doubles what a picture costs without a GPU.
+  void set_smooth(bool smooth);
   void reset_view();
 
   /// The patch drawn at a point of canvas(), in Qt's own (logical) pixels; no_patch for none.
@@ -57,6 +60,7 @@ class SceneView : public QWidget {
   Vec3 focus_;
   double radius_ = 1;
   bool direction_shown_ = true;
+  bool smooth_ = true;
   QPoint press_position_;
   bool pressed_ = false;
 

@@ -155,6 +155,12 @@ void apply(QApplication& application) {
     QStatusBar::item { border: none; }
     QDockWidget { font-weight: bold; }
     QDockWidget::title { background: #e6e9ee; padding: 6px 8px; }
+    QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: right center;
+      subcontrol-origin: padding; position: absolute; width: 16px; height: 16px; padding: 0;
+      border: none; background: transparent; icon-size: 12px; }
+    QDockWidget::close-button { right: 8px; }
+    QDockWidget::float-button { right: 30px; }
+    QDockWidget::close-button:hover, QDockWidget::float-button:hover { background: #cfd8e4; }
     QMainWindow::separator { background: #d3d8de; width: 4px; height: 4px; }
     QMainWindow::separator:hover { background: #1f66c2; }
     QToolTip { border: 1px solid #d3d8de; padding: 4px; }

@@ -5,11 +5,18 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "theme.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
+
+namespace {
+
+constexpr int margin = 32, button_width = 150, gap = 14;
+
+}  // namespace
 
 WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   setAutoFillBackground(true);
@@ -24,7 +31,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   or_built_in->setForegroundRole(QPalette::PlaceholderText);
 
   auto* grid = new QGridLayout;
-  grid->setHorizontalSpacing(14);
+  grid->setHorizontalSpacing(gap);
   grid->setVerticalSpacing(8);
   grid->setColumnStretch(1, 1);
   int row = 0;
@@ -33,30 +40,41 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
     auto* button = new QPushButton(theme::icon(theme::Icon::scene), name);
     button->setObjectName(QStringLiteral("built_in_") + name);
     button->setIconSize(QSize(20, 20));
-    button->setMinimumWidth(150);
+    button->setFixedWidth(button_width);
     button->setStyleSheet(QStringLiteral("text-align: left; padding: 5px 10px;"));
     auto* summary = new QLabel(QString::fromStdString(scene.summary));
     summary->setWordWrap(true);
     summary->setForegroundRole(QPalette::PlaceholderText);
-    grid->addWidget(button, row, 0);
+    summaries_.append(summary);
+    grid->addWidget(button, row, 0, Qt::AlignTop);
     grid->addWidget(summary, row++, 1);
     connect(button, &QPushButton::clicked, this, [this, name] { emit built_in_clicked(name); });
   }
 
-  auto* column = new QWidget;
-  column->setMaximumWidth(660);
-  auto* inner = new QVBoxLayout(column);
+  column_ = new QWidget;
+  auto* inner = new QVBoxLayout(column_);
+  inner->setContentsMargins(0, 0, 0, 0);
   inner->setSpacing(14);
   inner->addWidget(title);
   inner->addWidget(open, 0, Qt::AlignLeft);
   inner->addWidget(or_built_in);
   inner->addLayout(grid);
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(32, 24, 32, 24);
+  layout->setContentsMargins(margin, 24, margin, 24);
   layout->addStretch(2);
-  layout->addWidget(column, 0, Qt::AlignHCenter);
+  layout->addWidget(column_, 0, Qt::AlignHCenter);
   layout->addStretch(3);
   connect(open, &QPushButton::clicked, this, &WelcomePage::open_clicked);
+}
+
+void WelcomePage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  // A grid does not ask wrapped words for their height at the width they will get.
+  const int column_width = std::min(width() - 2 * margin, 760);
+  const int words_width = std::max(column_width - button_width - gap, 100);
+  column_->setFixedWidth(button_width + gap + words_width);
+  for (QLabel* summary : summaries_)
+    summary->setFixedHeight(std::max(summary->heightForWidth(words_width), 32));
 }
 
 }  // namespace transillum::viewer

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <QString>
+#include <QVector>
 #include <QWidget>
+
+class QLabel;
 
 namespace transillum::viewer {
 
@@ -16,6 +19,13 @@ class WelcomePage : public QWidget {
  signals:
   void open_clicked();
   void built_in_clicked(const QString& name);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  QWidget* column_;
+  QVector<QLabel*> summaries_;
 };
 
 }  // namespace transillum::viewer
