@@ -95,10 +95,11 @@ build() {
   [ ! -t 1 ] || printf '\r\033[K'
 }
 
-# A screen of its own, for programs that need one; gone when this script ends.
+# A screen of its own, for programs that need one; gone when this script ends. Without -noreset it
+# would start anew, and refuse programs meanwhile, whenever the last one leaves.
 start_display() {
   local number
-  exec 7< <(exec Xvfb -displayfd 1 -screen 0 1600x1000x24 +extension GLX -nolisten tcp 2>/dev/null)
+  exec 7< <(exec Xvfb -displayfd 1 -screen 0 1600x1000x24 +extension GLX -nolisten tcp -noreset 2>/dev/null)
   display_process=$!
   trap stop_display EXIT
   read -r -t 60 -u 7 number || stop "Xvfb did not start"
