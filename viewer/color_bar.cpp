@@ -63,13 +63,24 @@ void ColorBar::paintEvent(QPaintEvent*) {
   painter.setPen(theme::on_dark_dim);
   painter.drawText(QRect(0, 12 + line, width(), line), Qt::AlignHCenter, name_of_shown(scale.mode));
 
-  const QRectF bar(12, 12 + 2 * line + 14, 20, height() - (12 + 2 * line + 14) - 22);
+  const QRectF bar(12, 12 + 2 * line + 22, 20, height() - (12 + 2 * line + 22) - 22);
   if (bar.height() < 20) return;
   const double device_step = 1 / devicePixelRatioF();
   for (double y = 0; y < bar.height(); y += device_step) {
     const Color8 c = color_of(scale.map, 1 - y / bar.height());
     painter.fillRect(QRectF(bar.left(), bar.top() + y, bar.width(), device_step * 1.01),
                      QColor(c[0], c[1], c[2]));
+  }
+  if (scale.above) {
+    // A tip on the bar: there is more beyond its end.
+    const Color8 c = color_of(scale.map, 1);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(c[0], c[1], c[2]));
+    painter.drawPolygon(QPolygonF({bar.topLeft() - QPointF(0, 2), bar.topRight() - QPointF(0, 2),
+                                   QPointF(bar.center().x(), bar.top() - 12)}));
+    painter.setBrush(Qt::NoBrush);
+    painter.setRenderHint(QPainter::Antialiasing, false);
   }
   painter.setPen(QPen(theme::on_dark_dim, 1));
   painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));

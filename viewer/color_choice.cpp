@@ -54,7 +54,7 @@ void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
 void ColorChoice::refit() {
   if (!snapshot_) return;
   if (scale_.mode != ColorMode::true_color)
-    scale_.fit_range(snapshot_->radiosity);
+    scale_.fit_range(*snapshot_->loaded->scene, snapshot_->radiosity);
   else if (automatic_)
     scale_.fit_exposure(*snapshot_->loaded->scene, snapshot_->radiosity);
 }

@@ -111,20 +111,20 @@ std::vector<double> ColorScale::ticks() const {
   return values;
 }
 
-void ColorScale::fit_range(std::span<const Rgb> radiosity) {
+void ColorScale::fit_range(const Scene& scene, std::span<const Rgb> radiosity) {
   std::vector<double> positive;
-  for (const Rgb& b : radiosity) {
-    const double v = value(b);
-    if (v > 0 && std::isfinite(v)) positive.push_back(v);
+  double brightest_lit = 0, brightest = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const double v = value(radiosity[static_cast<std::size_t>(i)]);
+    if (!(v > 0) || !std::isfinite(v)) continue;
+    positive.push_back(v);
+    brightest = std::max(brightest, v);
+    if (max_abs(scene.exitance(i)) == 0) brightest_lit = std::max(brightest_lit, v);
   }
-  if (positive.empty()) {  // darkness
-    low = logarithmic ? 1e-3 : 0;
-    high = 1;
-    return;
-  }
-  high = *std::max_element(positive.begin(), positive.end());
-  low = 0;
-  if (!logarithmic) return;
+  high = !logarithmic && brightest_lit > 0 ? brightest_lit : brightest > 0 ? brightest : 1;
+  above = brightest > high;
+  low = logarithmic ? 1e-3 * high : 0;
+  if (!logarithmic || positive.empty()) return;
   // The darkest hundredth would stretch the scale over many decades with nothing in them.
   const auto dark = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
   std::nth_element(positive.begin(), dark, positive.end());

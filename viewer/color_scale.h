@@ -21,6 +21,7 @@ class ColorScale {
   bool logarithmic = false;
   double exposure = 0;       ///< EV: 2^exposure times B is shown as white where it reaches 1
   double gamma = 2.2;        ///< true colour: shown = (2^exposure B)^(1/gamma)
+  bool above = false;        ///< some patches are brighter than `high`
   double low = 0, high = 1;  ///< W/m², ends of the colour map; 0 < low < high where logarithmic
 
   Color8 color(const Rgb& radiosity) const;
@@ -36,8 +37,9 @@ class ColorScale {
   /// Values worth a label on the bar, ascending, within [low, high].
   std::vector<double> ticks() const;
 
-  /// Sets the ends of the colour map from what the scene shows.
-  void fit_range(std::span<const Rgb> radiosity);
+  /// Sets the ends of the colour map. Linear: from 0 to the brightest patch that does not emit,
+  /// for beside its sources a room is dark. Logarithmic: to the brightest of all.
+  void fit_range(const Scene& scene, std::span<const Rgb> radiosity);
   /// Sets the exposure such that what does not emit is well lit: the 95th percentile by area
   /// comes out nearly white. A scene where all patches emit counts them all.
   void fit_exposure(const Scene& scene, std::span<const Rgb> radiosity);

@@ -109,92 +109,93 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
-    for (QSpinBox* box : {directions_, seed_, iterations_})
-      connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
-    connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
   }
+  for (QSpinBox* box : {directions_, seed_, iterations_})
+    connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
+  connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+}
 
-  void SettingsPanel::add_scene_rows(QFormLayout & form) {
-    max_patch_area_ = new QDoubleSpinBox;
-    max_patch_area_->setDecimals(6);
-    max_patch_area_->setRange(0, 1e9);
-    max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
-    max_patch_area_->setSuffix(tr(" m²"));
-    max_patch_area_->setToolTip(tr("Cut faces into patches no larger than this"));
-    two_sided_ = new QCheckBox(tr("Two-sided faces"));
-    two_sided_->setToolTip(tr("Every face lights and receives on both sides"));
-    form.addRow(tr("Patch area"), max_patch_area_);
-    form.addRow(QString(), two_sided_);
-    connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-            &SettingsPanel::show_state);
-    connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
-  }
+void SettingsPanel::add_scene_rows(QFormLayout& form) {
+  max_patch_area_ = new QDoubleSpinBox;
+  max_patch_area_->setDecimals(6);
+  max_patch_area_->setRange(0, 1e9);
+  max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
+  max_patch_area_->setSuffix(tr(" m²"));
+  max_patch_area_->setToolTip(tr("Cut faces into patches no larger than this"));
+  two_sided_ = new QCheckBox(tr("Two-sided faces"));
+  two_sided_->setToolTip(tr("Every face lights and receives on both sides"));
+  form.addRow(tr("Patch area"), max_patch_area_);
+  form.addRow(QString(), two_sided_);
+  connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &SettingsPanel::show_state);
+  connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
+}
 
-  SolveOptions SettingsPanel::solve_options() const {
-    SolveOptions options = base_;
-    options.directions = directions_->value();
-    options.sampling = static_cast<Sampling>(sampling_->currentIndex());
-    // A seed beyond the box's range came from the command line; it stays until it is changed here.
-    const auto shown = static_cast<std::uint64_t>(seed_->value());
-    if (shown < static_cast<std::uint64_t>(seed_->maximum())) options.seed = shown;
-    options.engine = static_cast<Engine>(engine_->currentIndex());
-    options.two_way = ways_->currentIndex() == 0;
-    options.normalize = static_cast<Normalization>(normalize_->currentIndex());
-    options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
-    bool number = false;
-    const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
-    if (number && tolerance > 0) options.tolerance = tolerance;
-    return options;
-  }
+SolveOptions SettingsPanel::solve_options() const {
+  SolveOptions options = base_;
+  options.directions = directions_->value();
+  options.sampling = static_cast<Sampling>(sampling_->currentIndex());
+  // A seed beyond the box's range came from the command line; it stays until it is changed here.
+  const auto shown = static_cast<std::uint64_t>(seed_->value());
+  if (shown < static_cast<std::uint64_t>(seed_->maximum())) options.seed = shown;
+  options.engine = static_cast<Engine>(engine_->currentIndex());
+  options.two_way = ways_->currentIndex() == 0;
+  options.normalize = static_cast<Normalization>(normalize_->currentIndex());
+  options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
+  bool number = false;
+  const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
+  if (number && tolerance > 0) options.tolerance = tolerance;
+  return options;
+}
 
-  SceneOptions SettingsPanel::scene_options() const {
-    return {two_sided_->isChecked(), max_patch_area_->value()};
-  }
+SceneOptions SettingsPanel::scene_options() const {
+  return {two_sided_->isChecked(), max_patch_area_->value()};
+}
 
-  void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
-    base_ = solve;
-    directions_->setValue(solve.directions);
-    sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
-    seed_->setValue(static_cast<int>(
-        std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
-    engine_->setCurrentIndex(static_cast<int>(solve.engine));
-    ways_->setCurrentIndex(solve.two_way ? 0 : 1);
-    normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
-    stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
-    iterations_->setValue(std::max(solve.iterations, 1));
-    tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
-    two_sided_->setChecked(scene.two_sided);
-    max_patch_area_->setValue(scene.max_patch_area);
-    show_state();
-  }
+void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
+  base_ = solve;
+  directions_->setValue(solve.directions);
+  sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
+  seed_->setValue(static_cast<int>(
+      std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
+  engine_->setCurrentIndex(static_cast<int>(solve.engine));
+  ways_->setCurrentIndex(solve.two_way ? 0 : 1);
+  normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
+  stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
+  iterations_->setValue(std::max(solve.iterations, 1));
+  tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
+  two_sided_->setChecked(scene.two_sided);
+  max_patch_area_->setValue(scene.max_patch_area);
+  show_state();
+}
 
-  void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
-    solve_in_effect_ = solve;
-    scene_in_effect_ = scene;
-    show_state();
-  }
+void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
+  solve_in_effect_ = solve;
+  scene_in_effect_ = scene;
+  show_state();
+}
 
-  bool SettingsPanel::differ_from_effect() const {
-    return !same(solve_options(), solve_in_effect_) || !same(scene_options(), scene_in_effect_);
-  }
+bool SettingsPanel::differ_from_effect() const {
+  return !same(solve_options(), solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+}
 
-  void SettingsPanel::set_restart_enabled(bool enabled) {
-    enabled_ = enabled;
-    show_state();
-  }
+void SettingsPanel::set_restart_enabled(bool enabled) {
+  enabled_ = enabled;
+  show_state();
+}
 
-  void SettingsPanel::show_state() {
-    if (!restart_) return;  // still under construction
-    seed_->setEnabled(static_cast<Sampling>(sampling_->currentIndex()) == Sampling::random);
-    stop_value_->setCurrentIndex(stop_at_->currentIndex());
-    const bool differs = enabled_ && differ_from_effect();
-    restart_->setEnabled(enabled_);
-    restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
-    restart_->setDefault(differs);
-    QFont font = restart_->font();
-    font.setBold(differs);
-    restart_->setFont(font);
-  }
+void SettingsPanel::show_state() {
+  if (!restart_) return;  // still under construction
+  seed_->setEnabled(static_cast<Sampling>(sampling_->currentIndex()) == Sampling::random);
+  stop_value_->setCurrentIndex(stop_at_->currentIndex());
+  const bool differs = enabled_ && differ_from_effect();
+  restart_->setEnabled(enabled_);
+  restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
+  restart_->setDefault(differs);
+  QFont font = restart_->font();
+  font.setBold(differs);
+  restart_->setFont(font);
+}
 
 }  // namespace transillum::viewer

@@ -67,18 +67,34 @@ class ColorScaleTest : public QObject {
   }
 
   void darkness_does_not_break_the_logarithm() {
+    const auto scene = load_scene("cornell-box");
+    std::vector<Rgb> radiosity(static_cast<std::size_t>(scene->patch_count()));
     ColorScale scale;
     scale.mode = ColorMode::red;
     scale.logarithmic = true;
-    const std::vector<Rgb> dark(3);
-    scale.fit_range(dark);
+    scale.fit_range(*scene, radiosity);
     QVERIFY(scale.low > 0 && scale.high > scale.low);
     QCOMPARE(scale.color({0, 0, 0}), color_of(scale.map, 0));
-    const std::vector<Rgb> mixed{{0, 9, 9}, {2, 0, 0}, {50, 0, 0}};
-    scale.fit_range(mixed);
+    radiosity[1] = {0, 9, 9};
+    radiosity[2] = {2, 0, 0};
+    radiosity[3] = {50, 0, 0};
+    scale.fit_range(*scene, radiosity);
     QCOMPARE(scale.low, 2.0);
     QCOMPARE(scale.high, 50.0);
     QVERIFY(scale.position(0) <= 0);
+  }
+
+  void a_linear_range_ends_at_what_is_lit() {
+    const auto scene = load_scene("cornell-box");
+    std::vector<Rgb> radiosity;
+    for (PatchId i = 0; i < scene->patch_count(); ++i)
+      radiosity.push_back(max_abs(scene->exitance(i)) > 0 ? Rgb{40, 40, 40} : Rgb{3, 3, 3});
+    ColorScale scale;
+    scale.mode = ColorMode::red;
+    scale.fit_range(*scene, radiosity);
+    QCOMPARE(scale.low, 0.0);
+    QCOMPARE(scale.high, 3.0);
+    QVERIFY(scale.above);
   }
 
   void channels_and_luminance() {
