@@ -1,13 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <array>
+#include <vector>
 
 #include "scene/built_in_makers.h"
+#include "scene/footprint.h"
 
 namespace transillum {
 namespace {
 
 /// The published measurements are in millimetres: Cornell University Program of Computer
-/// Graphics, "The Cornell Box: Physical measurements".
+/// Graphics, "The Cornell Box: Physical measurements". There the red wall's corners lie up to 6 mm
+/// out of a plane; here the room is a true box.
 using Millimetres = std::array<double, 3>;
 
 class CornellBox {
@@ -20,34 +23,46 @@ class CornellBox {
         light_(maker.material("light", {0.78, 0.78, 0.78}, {53.4, 37.7, 12.6})) {}
 
   void add_room() {
-    add({{552.8, 0, 0}, {0, 0, 0}, {0, 0, 559.2}, {549.6, 0, 559.2}}, white_);
+    const std::vector<Millimetres> floor{
+        {width, 0, 0}, {0, 0, 0}, {0, 0, depth}, {width, 0, depth}};
+    for (const auto& part :
+         floor_around_all(metres(floor), {metres(short_foot), metres(tall_foot)}, {0, 1, 0})) {
+      maker_.face(part, white_);
+    }
     add_ceiling();
-    add({{549.6, 0, 559.2}, {0, 0, 559.2}, {0, 548.8, 559.2}, {556, 548.8, 559.2}}, white_);
-    add({{0, 0, 559.2}, {0, 0, 0}, {0, 548.8, 0}, {0, 548.8, 559.2}}, green_);
-    // The measured corners of the red wall are not in one plane.
-    add({{552.8, 0, 0}, {549.6, 0, 559.2}, {556, 548.8, 559.2}}, red_);
-    add({{552.8, 0, 0}, {556, 548.8, 559.2}, {556, 548.8, 0}}, red_);
+    add({{width, 0, depth}, {0, 0, depth}, {0, height, depth}, {width, height, depth}}, white_);
+    add({{0, 0, depth}, {0, 0, 0}, {0, height, 0}, {0, height, depth}}, green_);
+    add({{width, 0, 0}, {width, 0, depth}, {width, height, depth}, {width, height, 0}}, red_);
   }
   void add_front() {
     const int black = maker_.material("black", {});
-    add({{0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0}}, black);
+    add({{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}, black);
   }
   void add_blocks() {
-    add_block({{{130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}}}, 165);
-    add_block({{{423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}}}, 330);
+    add_block(short_foot, 165);
+    add_block(tall_foot, 330);
   }
 
  private:
-  void add(const std::vector<Millimetres>& outline, int material) {
+  static constexpr double width = 556, height = 548.8, depth = 559.2;
+  inline static const std::vector<Millimetres> short_foot{
+      {130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114}};
+  inline static const std::vector<Millimetres> tall_foot{
+      {423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406}};
+
+  static std::vector<Vec3> metres(const std::vector<Millimetres>& outline) {
     std::vector<Vec3> corners;
     for (const auto& [x, y, z] : outline) corners.push_back({x / 1000, y / 1000, z / 1000});
-    maker_.face(corners, material);
+    return corners;
+  }
+  void add(const std::vector<Millimetres>& outline, int material) {
+    maker_.face(metres(outline), material);
   }
   void add_ceiling() {
     const std::array<Millimetres, 4> room{
-        {{556, 548.8, 0}, {556, 548.8, 559.2}, {0, 548.8, 559.2}, {0, 548.8, 0}}};
+        {{width, height, 0}, {width, height, depth}, {0, height, depth}, {0, height, 0}}};
     const std::array<Millimetres, 4> lamp{
-        {{343, 548.8, 227}, {343, 548.8, 332}, {213, 548.8, 332}, {213, 548.8, 227}}};
+        {{343, height, 227}, {343, height, 332}, {213, height, 332}, {213, height, 227}}};
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t next = (i + 1) % 4;
       add({room[i], room[next], lamp[next], lamp[i]}, white_);
@@ -55,8 +70,8 @@ class CornellBox {
     add({lamp.begin(), lamp.end()}, light_);
   }
   /// It stands on the floor: no bottom.
-  void add_block(const std::array<Millimetres, 4>& foot, double height) {
-    const auto raised = [height](const Millimetres& p) { return Millimetres{p[0], height, p[2]}; };
+  void add_block(const std::vector<Millimetres>& foot, double top) {
+    const auto raised = [top](const Millimetres& p) { return Millimetres{p[0], top, p[2]}; };
     add({raised(foot[0]), raised(foot[1]), raised(foot[2]), raised(foot[3])}, white_);
     for (std::size_t i = 0; i < 4; ++i) {
       const Millimetres& a = foot[i];

@@ -52,7 +52,6 @@ std::vector<Vec3> floor_outline(double x0, double x1, bool door_at_x0, bool door
 void add_room(SceneMaker& maker, int room, int rooms, const Materials& m) {
   const double x0 = left_end(room), x1 = x0 + length;
   const bool first = room == 0, last = room == rooms - 1;
-  maker.face(floor_outline(x0, x1, !first, !last), m.floor);
   const double middle = (x0 + x1) / 2;
   maker.lit_ceiling({x0, x1, 0, width}, {middle - 0.5, middle + 0.5, 2, 3}, height, m.ceiling,
                     m.light);
@@ -90,19 +89,33 @@ SceneMaker::Block random_box(std::mt19937& random, const Vec3& middle, double ce
       middle - half_a * ahead - half_b * side, 2 * half_a * ahead, 2 * half_b * side, {0, 0, tall}};
 }
 
-/// Spreads `count` boxes over the floor of a room, in rows.
-void add_boxes(SceneMaker& maker, int room, int count, std::mt19937& random, const Materials& m) {
-  if (count == 0) return;
+/// The floor of a room and `count` boxes spread over it, in rows: each box on a cell of its own,
+/// so that the floor is cut around it alone.
+void add_floor(SceneMaker& maker, int room, int rooms, int count, std::mt19937& random,
+               const Materials& m) {
+  const double x0 = left_end(room);
+  if (count == 0) {
+    maker.face(floor_outline(x0, x0 + length, room > 0, room + 1 < rooms), m.floor);
+    return;
+  }
   const int columns = static_cast<int>(std::ceil(std::sqrt(count * length / width)));
   const int rows = (count + columns - 1) / columns;
   const double cell = std::min(length / columns, width / rows);
-  for (int i = 0; i < count; ++i) {
-    const Vec3 middle{left_end(room) + length * (i % columns + 0.5) / columns,
-                      width * (i / columns + 0.5) / rows, 0};
+  for (int i = 0; i < columns * rows; ++i) {
+    const int column = i % columns, row = i / columns;
+    const double left = x0 + length * column / columns,
+                 right = x0 + length * (column + 1) / columns;
+    const double near = width * row / rows, far = width * (row + 1) / rows;
+    const std::vector<Vec3> outline{
+        {left, near, 0}, {right, near, 0}, {right, far, 0}, {left, far, 0}};
+    if (i >= count) {
+      maker.face(outline, m.floor);
+      continue;
+    }
+    const auto box = random_box(random, {(left + right) / 2, (near + far) / 2, 0}, cell);
     const double dice = unit_random(random);
-    maker.standing_block(random_box(random, middle, cell), dice < 0.2   ? m.red
-                                                           : dice < 0.4 ? m.blue
-                                                                        : m.wall);
+    maker.floor(outline, {box}, m.floor);
+    maker.standing_block(box, dice < 0.2 ? m.red : dice < 0.4 ? m.blue : m.wall);
   }
 }
 
@@ -123,7 +136,7 @@ void make_rooms(SceneMaker& maker, const ParameterValues& values,
     cancellation.throw_if_cancelled();
     add_room(maker, room, rooms, m);
     if (room + 1 < rooms) add_passage(maker, room, m);
-    add_boxes(maker, room, boxes / rooms + (room < boxes % rooms ? 1 : 0), random, m);
+    add_floor(maker, room, rooms, boxes / rooms + (room < boxes % rooms ? 1 : 0), random, m);
   }
 }
 

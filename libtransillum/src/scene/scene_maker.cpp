@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/footprint.h"
+
 namespace transillum {
 
 SceneMaker::MaterialNumber SceneMaker::material(const std::string& name, const Rgb& reflectance,
@@ -30,6 +32,15 @@ void SceneMaker::walls(const Block& b, Facing facing, MaterialNumber material) {
     if (facing == Facing::inward) std::reverse(outline.begin(), outline.end());
     face(outline, material);
   }
+}
+
+void SceneMaker::floor(const std::vector<Vec3>& outline, const std::vector<Block>& standing,
+                       MaterialNumber material) {
+  std::vector<std::vector<Vec3>> footprints;
+  for (const Block& b : standing) {
+    footprints.push_back({b.at(0, 0, 0), b.at(1, 0, 0), b.at(1, 1, 0), b.at(0, 1, 0)});
+  }
+  for (const auto& part : floor_around_all(outline, footprints, {0, 0, 1})) face(part, material);
 }
 
 void SceneMaker::standing_block(const Block& b, MaterialNumber material) {

@@ -30,6 +30,9 @@ class SceneMaker {
   enum class Facing { outward, inward };
   /// The six sides of a block.
   void block(const Block& block, Facing facing, MaterialNumber material);
+  /// A floor that looks up (z), left out where blocks stand on it.
+  void floor(const std::vector<Vec3>& outline, const std::vector<Block>& standing,
+             MaterialNumber material);
   /// A block that stands on a floor: without its bottom, which nothing sees.
   void standing_block(const Block& block, MaterialNumber material);
   /// The four walls of a block.

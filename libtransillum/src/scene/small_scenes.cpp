@@ -76,10 +76,13 @@ void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancella
   const int white = maker.material("white", {0.6, 0.6, 0.6});
   const int blue = maker.material("blue", {0.2, 0.3, 0.5});
   const int star = maker.material("star", {0.1, 0.1, 0.1}, {400, 380, 320});
-  maker.block(upright({0, 0, 0}, {4, 4, 3}), SceneMaker::Facing::inward, white);
-  maker.standing_block(upright({0.75, 0.875, 0}, {0.5, 0.625, 1.25}), blue);
-  maker.standing_block(upright({2.5, 0.625, 0}, {0.875, 0.5, 0.75}), blue);
-  maker.standing_block(upright({1.875, 2.375, 0}, {0.625, 0.75, 1}), blue);
+  const std::vector<SceneMaker::Block> blocks{upright({0.75, 0.875, 0}, {0.5, 0.625, 1.25}),
+                                              upright({2.5, 0.625, 0}, {0.875, 0.5, 0.75}),
+                                              upright({1.875, 2.375, 0}, {0.625, 0.75, 1})};
+  maker.walls(upright({0, 0, 0}, {4, 4, 3}), SceneMaker::Facing::inward, white);
+  maker.face(std::vector<Vec3>{{0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3}}, white);
+  maker.floor({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, blocks, white);
+  for (const SceneMaker::Block& block : blocks) maker.standing_block(block, blue);
   const int n = values["n"];
   const double radius = std::min(0.02, 0.1 / std::cbrt(n));
   for (int i = 0; i < n; ++i) {
