@@ -1,15 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "direction_glyph.h"
 
-#include <vtkActor.h>
 #include <vtkArrowSource.h>
 #include <vtkCellArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
 
 #include <cmath>
 

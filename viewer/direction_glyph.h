@@ -3,11 +3,10 @@
 
 #include <vtkActor.h>
 #include <vtkPolyData.h>
+#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
 #include "transillum/vec3.h"
-
-class vtkRenderer;
 
 namespace transillum::viewer {
 

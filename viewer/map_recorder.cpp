@@ -80,7 +80,7 @@ void MapRecorder::work() {
   }
 }
 
-void MapRecorder::deliver(std::shared_ptr<const RecordedMap> map, const QString& error,
+void MapRecorder::deliver(const std::shared_ptr<const RecordedMap>& map, const QString& error,
                           quint64 number) {
   if (number <= delivered_) return;  // cleared since
   delivered_ = number;

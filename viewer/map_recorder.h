@@ -51,7 +51,7 @@ class MapRecorder : public QObject {
 
  private:
   void work();
-  void deliver(std::shared_ptr<const RecordedMap> map, const QString& error, quint64 number);
+  void deliver(const std::shared_ptr<const RecordedMap>& map, const QString& error, quint64 number);
 
   quint64 asked_ = 0, delivered_ = 0;  // the window's own
 

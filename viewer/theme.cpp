@@ -2,7 +2,7 @@
 #include "theme.h"
 
 #include <QApplication>
-#include <QFontDatabase>
+#include <QFontInfo>
 #include <QPainter>
 #include <QPainterPath>
 #include <QPalette>
@@ -141,8 +141,8 @@ void apply(QApplication& application) {
   application.setPalette(palette);
 
   QFont font = application.font();
-  if (QFontDatabase().families().contains(QStringLiteral("DejaVu Sans")))
-    font.setFamily(QStringLiteral("DejaVu Sans"));
+  const QFont wished(QStringLiteral("DejaVu Sans"));
+  if (QFontInfo(wished).family() == wished.family()) font.setFamily(wished.family());
   font.setPixelSize(13);
   application.setFont(font);
 
