@@ -10,7 +10,6 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
@@ -27,6 +26,7 @@
 #include "color_bar.h"
 #include "color_controls.h"
 #include "convergence_view.h"
+#include "help_dialogs.h"
 #include "map_canvas.h"
 #include "map_view.h"
 #include "number_text.h"
@@ -174,9 +174,10 @@ void MainWindow::make_menus() {
   view->addAction(tr("Reset layout"), this, &MainWindow::reset_layout);
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
-  help->addAction(tr("Keys and mouse"), this, &MainWindow::show_keys,
-                  QKeySequence(QKeySequence::HelpContents));
-  help->addAction(tr("About transillum"), this, &MainWindow::show_about);
+  help->addAction(
+      tr("Keys and mouse"), this, [this] { show_keys(this); },
+      QKeySequence(QKeySequence::HelpContents));
+  help->addAction(tr("About transillum"), this, [this] { show_about(this); });
 
   auto* bar = new QToolBar(tr("Tools"));
   bar->setObjectName("tool_bar");
@@ -370,31 +371,6 @@ QString MainWindow::banner_text() const { return banner_->text(); }
 
 void MainWindow::show_failure(const QString& message) {
   banner_->say(Banner::Kind::error, message);
-}
-
-void MainWindow::show_keys() {
-  QMessageBox::information(
-      this, tr("Keys and mouse"),
-      tr("<table cellspacing=6>"
-         "<tr><td><b>Scene</b></td><td>drag: turn &nbsp; Shift+drag or middle button: move &nbsp; "
-         "wheel: nearer &nbsp; click: select a patch</td></tr>"
-         "<tr><td><b>Map</b></td><td>drag: move &nbsp; wheel: enlarge &nbsp; double click: all "
-         "&nbsp; click: select a patch</td></tr>"
-         "<tr><td><b>F5 F6</b></td><td>run, pause</td></tr>"
-         "<tr><td><b>F7 F8</b></td><td>one direction, one iteration</td></tr>"
-         "<tr><td><b>Shift+F5</b></td><td>stop: back to the first direction</td></tr>"
-         "<tr><td><b>Home</b></td><td>reset the view</td></tr>"
-         "<tr><td><b>D</b></td><td>show or hide the direction</td></tr>"
-         "<tr><td><b>Esc</b></td><td>select nothing</td></tr>"
-         "<tr><td><b>Ctrl+O Ctrl+Q</b></td><td>open, quit</td></tr></table>"));
-}
-
-void MainWindow::show_about() {
-  QMessageBox::about(
-      this, tr("About transillum"),
-      tr("<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
-         "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
-          .arg(QStringLiteral(TRANSILLUM_VERSION)));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -73,8 +73,6 @@ class MainWindow : public QMainWindow {
   void show_state(SessionState state);
   void request_map();
   void show_failure(const QString& message);
-  void show_keys();
-  void show_about();
   bool at_start() const;
 
   const bool remember_;

@@ -14,7 +14,7 @@ void give_way_to_the_window() {
   // Linux keeps a nice value a thread, and new threads inherit it: so do the solver's workers.
   // If the system refuses, the window is merely less prompt.
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
-  (void)setpriority(PRIO_PROCESS, thread, 10);
+  (void)setpriority(PRIO_PROCESS, thread, 5);
 #endif
 }
 

@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "help_dialogs.h"
+
+#include <QMessageBox>
+
+#include "main_window.h"
+
+namespace transillum::viewer {
+
+void show_keys(QWidget* parent) {
+  QMessageBox::information(
+      parent, MainWindow::tr("Keys and mouse"),
+      MainWindow::tr(
+          "<table cellspacing=6>"
+          "<tr><td><b>Scene</b></td><td>drag: turn &nbsp; Shift+drag or middle button: move &nbsp; "
+          "wheel: nearer &nbsp; click: select a patch</td></tr>"
+          "<tr><td><b>Map</b></td><td>drag: move &nbsp; wheel: enlarge &nbsp; double click: all "
+          "&nbsp; click: select a patch</td></tr>"
+          "<tr><td><b>F5 F6</b></td><td>run, pause</td></tr>"
+          "<tr><td><b>F7 F8</b></td><td>one direction, one iteration</td></tr>"
+          "<tr><td><b>Shift+F5</b></td><td>stop: back to the first direction</td></tr>"
+          "<tr><td><b>Home</b></td><td>reset the view</td></tr>"
+          "<tr><td><b>D</b></td><td>show or hide the direction</td></tr>"
+          "<tr><td><b>Esc</b></td><td>select nothing</td></tr>"
+          "<tr><td><b>Ctrl+O Ctrl+Q</b></td><td>open, quit</td></tr></table>"));
+}
+
+void show_about(QWidget* parent) {
+  QMessageBox::about(
+      parent, MainWindow::tr("About transillum"),
+      MainWindow::tr(
+          "<p><b>transillum %1</b></p><p>Diffuse light by the transillumination method of "
+          "Szirmay-Kalos, Fóris, Neumann and Csébfalvi.</p><p>GPL-3.0-or-later.</p>")
+          .arg(QStringLiteral(TRANSILLUM_VERSION)));
+}
+
+}  // namespace transillum::viewer
