@@ -105,6 +105,12 @@ start_display() {
   read -r -t 60 -u 7 number || stop "Xvfb did not start"
   export DISPLAY=:$number
   unset WAYLAND_DISPLAY
+  # Qt talks about it where there is none.
+  if [ -z "${XDG_RUNTIME_DIR:-}" ]; then
+    export XDG_RUNTIME_DIR=$root/build/runtime
+    mkdir -p "$XDG_RUNTIME_DIR"
+    chmod 700 "$XDG_RUNTIME_DIR"
+  fi
 }
 
 stop_display() {
