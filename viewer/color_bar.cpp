@@ -65,11 +65,13 @@ void ColorBar::paintEvent(QPaintEvent*) {
 
   const QRectF bar(12, 12 + 2 * line + 22, 20, height() - (12 + 2 * line + 22) - 22);
   if (bar.height() < 20) return;
-  const double device_step = 1 / devicePixelRatioF();
-  for (double y = 0; y < bar.height(); y += device_step) {
-    const Color8 c = color_of(scale.map, 1 - y / bar.height());
-    painter.fillRect(QRectF(bar.left(), bar.top() + y, bar.width(), device_step * 1.01),
-                     QColor(c[0], c[1], c[2]));
+  const auto rows = static_cast<int>(bar.height() * devicePixelRatioF());
+  const double row_height = bar.height() / rows;
+  for (int row = 0; row < rows; ++row) {
+    const Color8 c = color_of(scale.map, 1 - (row + 0.5) / rows);
+    painter.fillRect(
+        QRectF(bar.left(), bar.top() + row * row_height, bar.width(), 1.01 * row_height),
+        QColor(c[0], c[1], c[2]));
   }
   if (scale.above) {
     // A tip on the bar: there is more beyond its end.

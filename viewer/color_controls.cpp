@@ -77,7 +77,7 @@ QWidget* ColorControls::make_true_color_page() {
   exposure_slider_ = new QSlider(Qt::Horizontal);
   exposure_slider_->setRange(static_cast<int>(lowest_exposure) * slider_steps_per_ev,
                              static_cast<int>(highest_exposure) * slider_steps_per_ev);
-  exposure_slider_->setMinimumWidth(30);
+  exposure_slider_->setMinimumWidth(70);
   exposure_slider_->setMaximumWidth(110);
   exposure_ = new QDoubleSpinBox;
   exposure_->setObjectName("exposure");

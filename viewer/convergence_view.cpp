@@ -21,20 +21,20 @@ ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
   layout->addWidget(passes_);
 }
 
-void ConvergenceView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   std::vector<double> changes;
-  for (const IterationRecord& step : snapshot->statistics.steps) changes.push_back(step.change);
+  for (const IterationRecord& step : snapshot.statistics.steps) changes.push_back(step.change);
   std::vector<LogChart::Level> levels;
-  if (snapshot->options.iterations == 0)
-    levels.push_back({tr("tolerance %1").arg(number_text(snapshot->options.tolerance)), theme::warm,
-                      snapshot->options.tolerance});
+  if (snapshot.options.iterations == 0)
+    levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
+                      snapshot.options.tolerance});
   steps_->show_lines({{tr("step against the last"), theme::accent, std::move(changes), true}},
-                     std::move(levels), std::max(snapshot->options.iterations, 8));
+                     std::move(levels), std::max(snapshot.options.iterations, 8));
 
-  passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot->estimate_iteration + 1)));
-  const int passes = snapshot->progress.passes;
+  passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
+  const int passes = snapshot.progress.passes;
   passes_->show_lines(
-      {{tr("estimate against the last"), theme::accent, snapshot->estimate_changes, false}}, {},
+      {{tr("estimate against the last"), theme::accent, snapshot.estimate_changes, false}}, {},
       passes);
 }
 

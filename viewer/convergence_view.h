@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QWidget>
-#include <memory>
 
 #include "snapshot.h"
 
@@ -17,7 +16,7 @@ class ConvergenceView : public QWidget {
  public:
   explicit ConvergenceView(QWidget* parent = nullptr);
 
-  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void show_snapshot(const SolverSnapshot& snapshot);
 
  private:
   LogChart* steps_;

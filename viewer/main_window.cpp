@@ -228,7 +228,7 @@ void MainWindow::reset_layout() {
   addDockWidget(Qt::RightDockWidgetArea, map_dock_);
   addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
   for (QDockWidget* dock : docks()) dock->show();
-  resizeDocks({settings_dock_, map_dock_}, {300, 480}, Qt::Horizontal);
+  resizeDocks({settings_dock_, map_dock_}, {290, 450}, Qt::Horizontal);
   resizeDocks({settings_dock_, inspector_dock_, summary_dock_}, {385, 290, 225}, Qt::Vertical);
   resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
 }
@@ -326,7 +326,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   colors_.fit(snapshot_);
   scene_view_->show_snapshot(snapshot_);
   map_view_->show_snapshot(snapshot_);
-  convergence_view_->show_snapshot(snapshot_);
+  convergence_view_->show_snapshot(*snapshot_);
   inspector_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
