@@ -27,8 +27,8 @@ TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
   for (const Vec3& omega : test_directions(200, 7)) {
     const Transfers transfers = engine(omega, {});
     const ClosureDefect defect = closure_defect(transfers, *scene);
-    ASSERT_LE(defect.relative, 1e-10) << "patch " << defect.worst << ", omega " << omega.x << ", "
-                                      << omega.y << ", " << omega.z;
+    ASSERT_LE(defect.relative, 1e-10)
+        << "patch " << defect.worst << ", omega " << omega.x << ", " << omega.y << ", " << omega.z;
     ASSERT_LE(defect.grazing, 1e-12);
     // Something is seen at all, and no more than there is.
     double projected = 0, exchanged = 0;

@@ -55,8 +55,10 @@ TEST(Invariance, RigidMotion) {
     const SceneDescription description = describe_scene(spec);
     const auto rotate = testing::random_rotation(4);
     const auto still = std::make_shared<const Scene>(description);
-    const auto turned = std::make_shared<const Scene>(
-        testing::moved(description, [&](const Vec3& p) { return rotate(p) + Vec3{3, -2, 1}; }));
+    const auto turned =
+        std::make_shared<const Scene>(testing::moved(description, [&](const Vec3& p) {
+          return rotate(p) + Vec3{3, -2, 1};
+        }));
     expect_same_transfers(still, turned, rotate, 1, identity(still->patch_count()));
   }
 }
@@ -68,8 +70,8 @@ TEST(Invariance, UniformScale) {
       const auto small = std::make_shared<const Scene>(description);
       const auto large = std::make_shared<const Scene>(
           testing::moved(description, [&](const Vec3& p) { return scale * p; }));
-      expect_same_transfers(small, large, [](const Vec3& d) { return d; }, scale,
-                            identity(small->patch_count()));
+      expect_same_transfers(
+          small, large, [](const Vec3& d) { return d; }, scale, identity(small->patch_count()));
     }
   }
 }
@@ -83,9 +85,10 @@ TEST(Invariance, OrderOfFaces) {
     for (std::size_t k = 0; k < order.size(); ++k) {
       place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
     }
-    expect_same_transfers(std::make_shared<const Scene>(description),
-                          std::make_shared<const Scene>(testing::reordered(description, order)),
-                          [](const Vec3& d) { return d; }, 1, place);
+    expect_same_transfers(
+        std::make_shared<const Scene>(description),
+        std::make_shared<const Scene>(testing::reordered(description, order)),
+        [](const Vec3& d) { return d; }, 1, place);
   }
 }
 

@@ -45,7 +45,8 @@ std::vector<Hit> hits_on_line(const Scene& scene, const PlaneFrame& frame, const
     if (!std::isnan(height)) hits.push_back({height, i});
   }
   // Downward, as light travels.
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.height > b.height; });
+  std::sort(hits.begin(), hits.end(),
+            [](const Hit& a, const Hit& b) { return a.height > b.height; });
   return hits;
 }
 

@@ -69,8 +69,7 @@ TEST(RadiositySolver, ACancelledSolveReturnsWhatThereIs) {
   EXPECT_EQ(solution.statistics.iterations, 0);
   double lit = 0;
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
-    lit += max_abs(solution.radiosity[i] -
-                   solution.scene->exitance(static_cast<PatchId>(i)));
+    lit += max_abs(solution.radiosity[i] - solution.scene->exitance(static_cast<PatchId>(i)));
   }
   EXPECT_GT(lit, 0);
 }
@@ -112,8 +111,7 @@ TEST(RadiositySolver, ADarkSceneIsDarkAtOnce) {
 
 /// Eq. 25: changes shrink by rho_max times the largest row sum at most.
 TEST(RadiositySolver, ContractsAsPredicted) {
-  const Solution solution =
-      solve(load_scene("furnace"), {.directions = 300, .tolerance = 1e-10});
+  const Solution solution = solve(load_scene("furnace"), {.directions = 300, .tolerance = 1e-10});
   const double predicted = solution.statistics.predicted_contraction;
   EXPECT_GT(predicted, 0.5);
   EXPECT_LT(predicted, 0.55);

@@ -94,8 +94,8 @@ void expect_sound(const Scene& scene, const BspTree& tree) {
 }
 
 TEST(BspTree, FragmentsMakeUpThePatches) {
-  for (const char* spec : {"cornell-box", "boards", "rooms", "stars", "furnace",
-                           "sphere-flake:levels=1"}) {
+  for (const char* spec :
+       {"cornell-box", "boards", "rooms", "stars", "furnace", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec);
     expect_sound(*scene, BspTree(*scene));
   }

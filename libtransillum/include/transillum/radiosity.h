@@ -37,8 +37,8 @@ struct SolveOptions {
   Engine engine = Engine::local;
   bool two_way = true;  ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;
-  int iterations = 0;       ///< stop after so many steps; 0: by tolerance
-  double tolerance = 1e-6;  ///< relative change of B in the maximum norm (eq. 25)
+  int iterations = 0;        ///< stop after so many steps; 0: by tolerance
+  double tolerance = 1e-6;   ///< relative change of B in the maximum norm (eq. 25)
   std::uint64_t memory = 0;  ///< bytes kept form factors may take; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
 
@@ -48,17 +48,18 @@ struct SolveOptions {
 
 /// One finished iteration step of eq. 11.
 struct IterationRecord {
-  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm
-  double contraction = 0;  ///< ratio of this step's absolute change to the last one's; 0 in the first
+  double change = 0;  ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm
+  double contraction =
+      0;  ///< ratio of this step's absolute change to the last one's; 0 in the first
   double seconds = 0;
 };
 
 /// Where a solver stands; cheap to copy but for the lists.
 struct SolveProgress {
-  int iteration = 0;      ///< finished steps
-  int direction = 0;      ///< passes done in the step under way
-  int passes = 0;         ///< passes a step takes: M
-  bool finished = false;  ///< converged, or all steps done
+  int iteration = 0;             ///< finished steps
+  int direction = 0;             ///< passes done in the step under way
+  int passes = 0;                ///< passes a step takes: M
+  bool finished = false;         ///< converged, or all steps done
   double seconds_transfers = 0;  ///< wall time of passes so far
   double passes_per_second = 0;  ///< of the step under way
   double seconds_left = 0;       ///< of the step under way, estimated
@@ -77,8 +78,8 @@ struct SolveStatistics {
   bool converged = false;
   double closure_defect_max = 0;      ///< over passes and patches seen at >= 1e-6 (oracle 1)
   double closure_defect_grazing = 0;  ///< patches seen at less, over the patch's area
-  double escaped = 0;        ///< share of all projected area with nothing above it; 0: closed
-  double energy_defect = 0;  ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter (oracle 4)
+  double escaped = 0;         ///< share of all projected area with nothing above it; 0: closed
+  double energy_defect = 0;   ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter (oracle 4)
   double energy_balance = 0;  ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
   double rho_max = 0;
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21

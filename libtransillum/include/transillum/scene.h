@@ -60,10 +60,10 @@ struct SceneOptions {
 
 /// A planar polygon of constant radiosity.
 struct Patch {
-  Vec3 normal;             ///< unit, on the lit side
-  double area = 0;         ///< m², > 0
-  Vec3 center;             ///< centroid of the outline's area
-  std::int32_t face = 0;   ///< 0-based order of its face in the file
+  Vec3 normal;            ///< unit, on the lit side
+  double area = 0;        ///< m², > 0
+  Vec3 center;            ///< centroid of the outline's area
+  std::int32_t face = 0;  ///< 0-based order of its face in the file
   std::int32_t material = 0;
   std::uint32_t outline_begin = 0, outline_end = 0;  ///< in the scene's outline corners
 };

@@ -38,8 +38,8 @@ struct Transfers {
 
 /// What one direction's transfers leave open (method: closure), both ways taken together.
 struct ClosureDefect {
-  double relative = 0;  ///< largest |projected - covered| / projected, patches seen at >= 1e-6
-  double grazing = 0;   ///< the same over the patch's own area, patches seen at less
+  double relative = 0;       ///< largest |projected - covered| / projected, patches seen at >= 1e-6
+  double grazing = 0;        ///< the same over the patch's own area, patches seen at less
   PatchId worst = no_patch;  ///< where `relative` is reached
 };
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);

@@ -36,17 +36,17 @@ struct MapRecord {
   static constexpr std::int32_t no_row = -1;
 
   struct Row {
-    PatchId patch;          ///< whose surface it is
-    std::int32_t made;      ///< step
-    std::int32_t consumed;  ///< step, or `never`
-    std::int32_t parent;    ///< row it was cut from, or no_row for a polygon new at its step
-    bool front_facing;      ///< it receives for omega and shows its back to what lies below
+    PatchId patch;             ///< whose surface it is
+    std::int32_t made;         ///< step
+    std::int32_t consumed;     ///< step, or `never`
+    std::int32_t parent;       ///< row it was cut from, or no_row for a polygon new at its step
+    bool front_facing;         ///< it receives for omega and shows its back to what lies below
     std::uint32_t begin, end;  ///< in `corners`
   };
 
   PlaneFrame frame;
-  std::vector<FragmentId> order;     ///< BSP fragments, as processed
-  std::vector<PatchId> step_patch;   ///< the patch that step k processes
+  std::vector<FragmentId> order;    ///< BSP fragments, as processed
+  std::vector<PatchId> step_patch;  ///< the patch that step k processes
   std::vector<Row> rows;
   std::vector<Vec2> corners;
 

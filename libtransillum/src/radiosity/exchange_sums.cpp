@@ -49,9 +49,8 @@ ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges,
   for (Transfer& t : sorted) {
     if (t.receiver > t.source) std::swap(t.receiver, t.source);
   }
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Transfer& a, const Transfer& b) {
-    return pair_of(a) < pair_of(b);
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Transfer& a, const Transfer& b) { return pair_of(a) < pair_of(b); });
   Run run;
   run.reserve(sorted.size());
   for (const Transfer& t : sorted) accumulate(run, t);

@@ -95,13 +95,13 @@ struct RadiositySolver::Impl {
   std::int64_t transfer_count = 0;
   double seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0;
 
-  Impl(std::shared_ptr<const Scene> scene_, const SolveOptions& options_,
-       std::shared_ptr<const BspTree> tree_, const Cancellation& cancellation_)
-      : scene(std::move(scene_)),
-        options(options_),
-        tree(std::move(tree_)),
-        cancellation(cancellation_),
-        sums(options_.two_way, options_.memory ? options_.memory : quarter_of_memory()) {
+  Impl(std::shared_ptr<const Scene> solved, const SolveOptions& how,
+       std::shared_ptr<const BspTree> ready_tree, const Cancellation& stop)
+      : scene(std::move(solved)),
+        options(how),
+        tree(std::move(ready_tree)),
+        cancellation(stop),
+        sums(how.two_way, how.memory ? how.memory : quarter_of_memory()) {
     options.validate();
     const auto samples = make_directions(options.sampling, options.directions, options.seed);
     for (const int k : progressive_order(options.directions)) {
@@ -204,8 +204,8 @@ struct RadiositySolver::Impl {
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
       const auto id = static_cast<PatchId>(i);
-      const Rgb value = scene->exitance(id) + scene->reflectance(id) *
-                                                  (row_scale(i, projected, done) * gathered[i]);
+      const Rgb value = scene->exitance(id) +
+                        scene->reflectance(id) * (row_scale(i, projected, done) * gathered[i]);
       change = std::max(change, max_abs(value - estimate[i]));
       largest = std::max(largest, max_abs(value));
       estimate[i] = value;
@@ -245,8 +245,8 @@ struct RadiositySolver::Impl {
     b = std::move(next);
     steps.push_back(record);
     converged = record.change <= options.tolerance;
-    finished = options.iterations > 0 ? static_cast<int>(steps.size()) >= options.iterations
-                                      : converged;
+    finished =
+        options.iterations > 0 ? static_cast<int>(steps.size()) >= options.iterations : converged;
     check_contraction();
     begin_step();
   }
@@ -421,8 +421,7 @@ SolveStatistics RadiositySolver::statistics() const {
   }
   statistics.energy_balance = share(absorbed, emitted);
   statistics.predicted_contraction =
-      statistics.rho_max *
-      (1 + quadrature_error_bound(statistics.directions) / std::numbers::pi);
+      statistics.rho_max * (1 + quadrature_error_bound(statistics.directions) / std::numbers::pi);
   statistics.steps = s.steps;
   statistics.seconds_bsp = s.seconds_bsp;
   statistics.seconds_transfers = s.seconds_transfers;
@@ -454,16 +453,17 @@ std::vector<double> RadiositySolver::form_factor_sums() const {
 std::vector<double> RadiositySolver::back_seen_shares() const {
   const Impl& s = *impl_;
   std::vector<double> shares(s.back_seen.size());
-  for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = share(s.back_seen[i], s.facing_area[i]);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    shares[i] = share(s.back_seen[i], s.facing_area[i]);
   return shares;
 }
 
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
   const auto start = Clock::now();
-  RadiositySolver solver(scene, options, nullptr, cancellation);
+  RadiositySolver solver(std::move(scene), options, nullptr, cancellation);
   Solution solution;
-  solution.scene = scene;
+  solution.scene = solver.shared_scene();
   try {
     while (solver.advance(RadiositySolver::Until::finished, observer)) {
       // A pause asked for by the observer of a plain solve is the end of it.
@@ -473,8 +473,7 @@ Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
   }
   const SolveProgress progress = solver.progress();
   solution.complete = progress.finished;
-  solution.radiosity =
-      progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
+  solution.radiosity = progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
   solution.irradiance = solver.irradiance();
   solution.statistics = solver.statistics();
   solution.statistics.seconds_total = seconds_since(start);

@@ -77,7 +77,7 @@ SceneDescription read_file(const std::string& spec, const Cancellation& cancella
 
 std::vector<std::string> built_in_names() {
   std::vector<std::string> names;
-  for (const BuiltIn& b : registry()) names.push_back(b.name);
+  for (const BuiltIn& b : registry()) names.emplace_back(b.name);
   return names;
 }
 

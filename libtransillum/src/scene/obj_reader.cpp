@@ -160,7 +160,7 @@ class ObjReading {
     }
   }
   std::filesystem::path library_path(std::string_view name) const {
-    const std::filesystem::path path = path_.parent_path() / name;
+    std::filesystem::path path = path_.parent_path() / name;
     if (is_there(path)) return path;
     // Written on another system.
     std::string slashes(name);

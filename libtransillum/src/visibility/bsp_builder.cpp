@@ -100,10 +100,18 @@ void BspBuilder::split_node(Task task, std::vector<Task>& open) {
     const Side side =
         p == own ? Side::coplanar : classify(polygons_[static_cast<std::size_t>(p)], choice.plane);
     switch (side) {
-      case Side::coplanar: coplanar.push_back(p); break;
-      case Side::front: front.push_back(p); break;
-      case Side::back: back.push_back(p); break;
-      case Side::both: cut(p, front, back); break;
+      case Side::coplanar:
+        coplanar.push_back(p);
+        break;
+      case Side::front:
+        front.push_back(p);
+        break;
+      case Side::back:
+        back.push_back(p);
+        break;
+      case Side::both:
+        cut(p, front, back);
+        break;
     }
   }
   TRANSILLUM_INVARIANT(front.size() < task.polygons.size() && back.size() < task.polygons.size(),

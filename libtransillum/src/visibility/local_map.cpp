@@ -237,8 +237,9 @@ class LocalMap {
                        std::int32_t parent, std::int32_t consumed) {
     if constexpr (RecorderType::records) {
       MapRecord& record = recorder_.record;
-      MapRecord::Row row{patch,        step_, consumed, parent,
-                         front_facing, static_cast<std::uint32_t>(record.corners.size()), 0};
+      MapRecord::Row row{patch,  step_,        consumed,
+                         parent, front_facing, static_cast<std::uint32_t>(record.corners.size()),
+                         0};
       for (const MapCorner& corner : outline) {
         record.corners.push_back(
             {static_cast<double>(corner.at.x), static_cast<double>(corner.at.y)});
@@ -279,8 +280,7 @@ TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
 RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
                                    const Cancellation& cancellation) {
   RecordedDirection result;
-  result.transfers =
-      LocalMap<Recorder>(scene, tree, omega, cancellation, {result.record}).run();
+  result.transfers = LocalMap<Recorder>(scene, tree, omega, cancellation, {result.record}).run();
   return result;
 }
 

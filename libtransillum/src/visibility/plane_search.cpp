@@ -134,7 +134,8 @@ void PlaneSearch::sweep(const Vec3& normal) {
                            [](const Interval& i, double at) { return i.low < at; }) -
           intervals_.begin());
       // Polygons in the plane were counted with both.
-      const double in_plane = static_cast<double>(below + (n - above_from)) - static_cast<double>(n);
+      const double in_plane =
+          static_cast<double>(below + (n - above_from)) - static_cast<double>(n);
       const double coplanar = std::max(1.0, in_plane);
       const double under = static_cast<double>(below) - coplanar;
       const double over = static_cast<double>(n - above_from) - coplanar;
@@ -161,8 +162,8 @@ void PlaneSearch::sweep(const Vec3& normal) {
 void PlaneSearch::offer(const Vec3& normal, double offset, std::int32_t polygon, double below,
                         double above, double crossing) {
   if (polygon < 0 && (below == 0 || above == 0)) return;
-  const double in_plane = polygon < 0 ? 0 : static_cast<double>(sample_.size()) - below - above -
-                                                crossing;
+  const double in_plane =
+      polygon < 0 ? 0 : static_cast<double>(sample_.size()) - below - above - crossing;
   const double scale = static_cast<double>(planes_.size()) / static_cast<double>(sample_.size());
   const double gain = bits(below + 0.5 * crossing, above + 0.5 * crossing + in_plane) +
                       in_plane;  // what lies in the plane is done with
