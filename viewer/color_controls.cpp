@@ -21,6 +21,7 @@ namespace {
 
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
+constexpr int spacing = 8;
 
 QLabel* label_for(QWidget* control, const QString& text) {
   auto* label = new QLabel(text);
@@ -53,8 +54,8 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
 
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 5, 10, 5);
-  layout->setSpacing(8);
-  layout->addWidget(label_for(mode_, tr("Colour")));
+  layout->setSpacing(spacing);
+  layout->addWidget(spare_.emplace_back(label_for(mode_, tr("Colour"))));
   layout->addWidget(mode_);
   layout->addSpacing(8);
   layout->addWidget(pages_);
@@ -71,6 +72,17 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
   show_choice();
+
+  roomy_width_ = sizeHint().width();
+  int narrowest = layout->minimumSize().width();
+  for (const QWidget* widget : spare_)
+    narrowest -= std::max(widget->minimumSizeHint().width(), widget->minimumWidth()) + spacing;
+  setMinimumWidth(narrowest);
+}
+
+void ColorControls::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  for (QWidget* widget : spare_) widget->setVisible(width() >= roomy_width_);
 }
 
 QWidget* ColorControls::make_true_color_page() {
@@ -92,17 +104,18 @@ QWidget* ColorControls::make_true_color_page() {
   gamma_->setRange(1.0, 3.0);
   gamma_->setSingleStep(0.1);
   gamma_->setDecimals(1);
+  gamma_->setToolTip(tr("Gamma of the screen"));
 
   auto* page = new QWidget;
   auto* layout = new QHBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(8);
-  layout->addWidget(label_for(exposure_, tr("Exposure")));
-  layout->addWidget(exposure_slider_);
+  layout->setSpacing(spacing);
+  layout->addWidget(spare_.emplace_back(label_for(exposure_, tr("Exposure"))));
+  layout->addWidget(spare_.emplace_back(exposure_slider_));
   layout->addWidget(exposure_);
   layout->addWidget(automatic_);
   layout->addSpacing(8);
-  layout->addWidget(label_for(gamma_, tr("Gamma")));
+  layout->addWidget(spare_.emplace_back(label_for(gamma_, tr("Gamma"))));
   layout->addWidget(gamma_);
 
   connect(exposure_slider_, &QSlider::valueChanged, this, [this](int value) {
@@ -125,7 +138,7 @@ QWidget* ColorControls::make_map_page() {
   auto* page = new QWidget;
   auto* layout = new QHBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(8);
+  layout->setSpacing(spacing);
   layout->addWidget(label_for(map_, tr("Map")));
   layout->addWidget(map_);
   layout->addWidget(logarithmic_);

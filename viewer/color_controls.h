@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <vector>
 
 #include "color_choice.h"
 
@@ -28,6 +29,9 @@ class ColorControls : public QWidget {
   void outlines_toggled(bool shown);
   void reset_view_clicked();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QWidget* make_true_color_page();
   QWidget* make_map_page();
@@ -44,6 +48,8 @@ class ColorControls : public QWidget {
   QCheckBox* logarithmic_;
   QCheckBox* direction_;
   QCheckBox* outlines_;
+  std::vector<QWidget*> spare_;  ///< left out where the strip is narrow, as on a projector
+  int roomy_width_ = 0;          ///< from here on nothing is left out
 };
 
 }  // namespace transillum::viewer

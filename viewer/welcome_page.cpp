@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int margin = 32, button_width = 150, gap = 14;
+constexpr int margin = 32, button_width = 150, gap = 14, narrowest_words = 100;
 
 }  // namespace
 
@@ -64,6 +64,9 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   layout->addStretch(2);
   layout->addWidget(column_, 0, Qt::AlignHCenter);
   layout->addStretch(3);
+  // The column follows the page's width, and must not hold the window to it.
+  layout->setSizeConstraint(QLayout::SetNoConstraint);
+  setMinimumWidth(2 * margin + button_width + gap + narrowest_words);
   connect(open, &QPushButton::clicked, this, &WelcomePage::open_clicked);
 }
 
@@ -71,7 +74,7 @@ void WelcomePage::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   // A grid does not ask wrapped words for their height at the width they will get.
   const int column_width = std::min(width() - 2 * margin, 760);
-  const int words_width = std::max(column_width - button_width - gap, 100);
+  const int words_width = std::max(column_width - button_width - gap, narrowest_words);
   column_->setFixedWidth(button_width + gap + words_width);
   for (QLabel* summary : summaries_)
     summary->setFixedHeight(std::max(summary->heightForWidth(words_width), 32));

@@ -236,6 +236,12 @@ class WindowTest : public QObject {
     QVERIFY(window->windowTitle().contains("dropped.obj"));
   }
 
+  void fits_a_projector() {
+    const auto window = make_window();
+    window->resize(1280, 720);
+    QVERIFY(wait_for([&] { return window->size() == QSize(1280, 720); }, 5000));
+  }
+
   void panels_can_be_closed_and_come_back() {
     const auto window = make_window();
     auto* map = window->findChild<QDockWidget*>("map_dock");

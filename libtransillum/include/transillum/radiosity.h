@@ -103,7 +103,8 @@ class RadiositySolver {
   RadiositySolver(RadiositySolver&&) noexcept;
   RadiositySolver& operator=(RadiositySolver&&) noexcept;
 
-  /// How far one call of advance() goes.
+  /// How far one call of advance() goes. Where a step comes from kept form factors there are no
+  /// directions left to stop at, and `direction` goes as far as `iteration`.
   enum class Until { direction, iteration, finished };
   /// Hears of every pass, in order, and of every finished step, on some thread but never on two
   /// at once; may read the solver; returns false to pause.
@@ -133,7 +134,7 @@ class RadiositySolver {
   /// A patch: share of its seen area, over all passes so far, at which receivers see its back.
   std::vector<double> back_seen_shares() const;
   /// Within the step under way: relative change (maximum norm) of the running estimate at each
-  /// pass against the one before; entry d belongs to pass d.
+  /// pass against the one before; entry d belongs to pass d. Empty between steps.
   const std::vector<double>& estimate_changes() const;
 
  private:
