@@ -16,11 +16,10 @@ class InvariantError : public std::logic_error {
 
 /// States what always holds. Checked in builds with TRANSILLUM_CHECKS (the whole test run).
 #ifdef TRANSILLUM_CHECKS
-#define TRANSILLUM_INVARIANT(condition, what)                                           \
-  do {                                                                                  \
-    if (!(condition))                                                                   \
-      throw ::transillum::InvariantError(std::string(__FILE__) + ": " #condition ": " + \
-                                         (what));                                       \
+#define TRANSILLUM_INVARIANT(condition, what)                                                    \
+  do {                                                                                           \
+    if (!(condition))                                                                            \
+      throw ::transillum::InvariantError(std::string(__FILE__) + ": " #condition ": " + (what)); \
   } while (false)
 #else
 #define TRANSILLUM_INVARIANT(condition, what) \
