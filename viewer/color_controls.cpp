@@ -73,8 +73,8 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
   show_choice();
 
-  roomy_width_ = sizeHint().width();
-  int narrowest = layout->minimumSize().width();
+  roomy_width_ = layout->minimumSize().width();
+  int narrowest = roomy_width_;
   for (const QWidget* widget : spare_)
     narrowest -= std::max(widget->minimumSizeHint().width(), widget->minimumWidth()) + spacing;
   setMinimumWidth(narrowest);
