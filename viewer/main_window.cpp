@@ -228,7 +228,7 @@ void MainWindow::reset_layout() {
   addDockWidget(Qt::RightDockWidgetArea, map_dock_);
   addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
   for (QDockWidget* dock : docks()) dock->show();
-  resizeDocks({settings_dock_, map_dock_}, {290, 450}, Qt::Horizontal);
+  resizeDocks({settings_dock_, map_dock_}, {290, 410}, Qt::Horizontal);
   resizeDocks({settings_dock_, inspector_dock_, summary_dock_}, {385, 290, 225}, Qt::Vertical);
   resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
 }
