@@ -56,8 +56,8 @@ struct MapRecord {
   }
   /// The numbers of the rows that make up V after step k (-1: before the first).
   std::vector<std::int32_t> map_after(std::int32_t step) const;
-  /// The step after which most rows of V shine down (are back facing): the fullest picture of the
-  /// direction, before what receives has covered it.
+  /// The step after which what shines down in V (is back facing) makes the most of a picture: the
+  /// largest product of its rows and its area. Later, what receives covers it more and more.
   std::int32_t fullest_step() const;
 };
 

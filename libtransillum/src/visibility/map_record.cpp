@@ -1,9 +1,22 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <span>
 #include <vector>
 
 #include "transillum/visibility_map.h"
 
 namespace transillum {
+namespace {
+
+double area_of(std::span<const Vec2> outline) {
+  double twice = 0;
+  for (std::size_t k = 2; k < outline.size(); ++k) {
+    const Vec2 &a = outline[0], &b = outline[k - 1], &c = outline[k];
+    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return twice / 2;
+}
+
+}  // namespace
 
 std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
   std::vector<std::int32_t> map;
@@ -15,17 +28,28 @@ std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
 }
 
 std::int32_t MapRecord::fullest_step() const {
-  std::vector<std::int32_t> change(static_cast<std::size_t>(step_count()) + 1, 0);
+  struct Change {
+    double rows = 0, area = 0;
+  };
+  std::vector<Change> changes(static_cast<std::size_t>(step_count()) + 1);
   for (const Row& row : rows) {
     if (row.front_facing) continue;
-    ++change[static_cast<std::size_t>(row.made)];
-    if (row.consumed != never) --change[static_cast<std::size_t>(row.consumed)];
+    const double area = area_of(outline(row));
+    Change& made = changes[static_cast<std::size_t>(row.made)];
+    made.rows += 1;
+    made.area += area;
+    if (row.consumed == never) continue;
+    Change& consumed = changes[static_cast<std::size_t>(row.consumed)];
+    consumed.rows -= 1;
+    consumed.area -= area;
   }
-  std::int32_t fullest = -1, size = 0, most = 0;
+  std::int32_t fullest = -1;
+  double row_count = 0, area = 0, most = 0;
   for (std::int32_t step = 0; step < step_count(); ++step) {
-    size += change[static_cast<std::size_t>(step)];
-    if (size > most) {
-      most = size;
+    row_count += changes[static_cast<std::size_t>(step)].rows;
+    area += changes[static_cast<std::size_t>(step)].area;
+    if (row_count * area > most) {
+      most = row_count * area;
       fullest = step;
     }
   }
