@@ -132,14 +132,12 @@ struct RadiositySolver::Impl {
   bool from_sums() const { return !in_first_step() && !sums.overrun(); }
   int ways() const { return options.two_way ? 2 : 1; }
 
-  /// A pure function of k: what may run on any thread.
-  Pass make_pass(int k) const {
+  /// A pure function of k and `first`, that is of what no pass changes: any thread may.
+  Pass make_pass(int k, bool first) const {
     Pass pass;
     pass.transfers = engine(directions[static_cast<std::size_t>(k)], cancellation);
-    if (in_first_step()) {
-      if (!sums.overrun()) {
-        pass.run = ExchangeSums::make_run(pass.transfers.exchanges, options.two_way);
-      }
+    if (first) {
+      pass.run = ExchangeSums::make_run(pass.transfers.exchanges, options.two_way);
       pass.closure = closure_defect(pass.transfers, *scene);
     }
     return pass;
@@ -279,7 +277,7 @@ struct RadiositySolver::Impl {
   /// One pass on this thread.
   bool advance_direction(const RadiositySolver& self, const Observer& observer) {
     const auto start = Clock::now();
-    Pass pass = make_pass(done);
+    Pass pass = make_pass(done, in_first_step());
     const double engine_seconds = seconds_since(start);
     seconds_transfers += engine_seconds;
     absorb(std::move(pass));
@@ -303,7 +301,8 @@ struct RadiositySolver::Impl {
       }
       return next++;
     };
-    const auto work = [&](int k) { return make_pass(k); };
+    const bool first = in_first_step();
+    const auto work = [&, first](int k) { return make_pass(k, first); };
     const auto sink = [&](Pass pass) {
       absorb(std::move(pass));
       const double now = seconds_since(last);
