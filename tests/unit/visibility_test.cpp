@@ -9,6 +9,7 @@
 #include "radiosity/exchange_sums.h"
 #include "support/scenes.h"
 #include "transillum/bsp_tree.h"
+#include "transillum/transfers.h"
 #include "visibility/plane_index.h"
 
 namespace transillum {
@@ -107,6 +108,38 @@ TEST(BspTree, CutsInterpenetratingTriangles) {
   const BspTree tree(*scene);
   EXPECT_GT(tree.fragments().size(), scene->pieces().size());
   expect_sound(*scene, tree);
+}
+
+/// Triangles whose planes nearly coincide: whole stretches of an outline count as on the plane,
+/// and must not go to both sides.
+TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
+  std::mt19937_64 generator(3);
+  for (const double spread : {1e-13, 1e-12, 1e-11, 1e-9}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    for (int k = 0; k < 40; ++k) {
+      std::vector<Vec3> outline;
+      for (int corner = 0; corner < 3; ++corner) {
+        outline.push_back(
+            {uniform(generator), uniform(generator), 0.5 + spread * uniform(generator)});
+      }
+      sketch.face(outline, grey);
+    }
+    sketch.box({-1, -1, -1}, {2, 2, 2}, true, grey);
+    const auto scene = sketch.scene();
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    std::vector<double> areas(static_cast<std::size_t>(scene->patch_count()), 0.0);
+    for (const auto& fragment : tree->fragments()) {
+      areas[static_cast<std::size_t>(fragment.patch)] += area_of(*tree, fragment);
+    }
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      EXPECT_NEAR(areas[static_cast<std::size_t>(i)], scene->patch(i).area, 1e-9) << spread;
+    }
+    const TransferEngine engine = local_map_engine(scene, tree);
+    for (const Vec3& omega : testing::test_directions(20, 2)) {
+      EXPECT_LE(closure_defect(engine(omega, {}), *scene).relative, 1e-6) << spread;
+    }
+  }
 }
 
 TEST(BspTree, HardlySplitsTheSphereFlake) {

@@ -59,15 +59,16 @@ ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges,
 
 void ExchangeSums::add(Run run) {
   if (overrun_) return;
-  levels_.push_back({std::move(run), 0});
-  while (levels_.size() >= 2 && levels_.back().rank == levels_[levels_.size() - 2].rank) {
-    merge_last_two();
-  }
   // While two runs merge, their sum exists beside them.
-  if (2 * size() * sizeof(Transfer) > budget_) {
+  if (2 * (size() + run.size()) * sizeof(Transfer) > budget_) {
     overrun_ = true;
     levels_.clear();
     levels_.shrink_to_fit();
+    return;
+  }
+  levels_.push_back({std::move(run), 0});
+  while (levels_.size() >= 2 && levels_.back().rank == levels_[levels_.size() - 2].rank) {
+    merge_last_two();
   }
 }
 

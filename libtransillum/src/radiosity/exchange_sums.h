@@ -20,7 +20,8 @@ class ExchangeSums {
   /// Puts a pass's exchanges into the order of the sums. Pure: any thread may.
   static Run make_run(const std::vector<Transfer>& exchanges, bool two_way);
 
-  /// @param budget bytes that may be taken, also while sums are merged.
+  /// @param budget bytes that the sums may take, also while they are merged; passes under way,
+  /// two a thread, come on top.
   ExchangeSums(bool two_way, std::uint64_t budget) : two_way_(two_way), budget_(budget) {}
 
   /// Adds a pass. The bits of the sums depend on the order of the passes only. Once the budget is

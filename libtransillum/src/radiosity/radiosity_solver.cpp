@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -113,7 +114,11 @@ struct RadiositySolver::Impl {
       tree = std::make_shared<const BspTree>(*scene, cancellation);
       seconds_bsp = seconds_since(start);
     }
-    engine = local_map_engine(scene, tree);
+    switch (options.engine) {
+      case Engine::local:
+        engine = local_map_engine(scene, tree);
+        break;
+    }
 
     const auto patches = static_cast<std::size_t>(scene->patch_count());
     for (PatchId i = 0; i < scene->patch_count(); ++i) b.push_back(scene->exitance(i));
@@ -245,8 +250,8 @@ struct RadiositySolver::Impl {
     converged = record.change <= options.tolerance;
     finished =
         options.iterations > 0 ? static_cast<int>(steps.size()) >= options.iterations : converged;
-    check_contraction();
     begin_step();
+    check_contraction();
   }
 
   /// Power received against power sent, before any scaling of rows (oracle 4).
@@ -315,6 +320,9 @@ struct RadiositySolver::Impl {
       absorbing += seconds_iterate;
       seconds_transfers += std::max(0.0, wall - absorbing / threads);
     };
+    // More threads than cores, where that is asked for, need the permission.
+    const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     try {
       arena.execute([&] {

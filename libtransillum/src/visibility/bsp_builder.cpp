@@ -52,6 +52,7 @@ void BspBuilder::add_pieces() {
   tree_.points_ = scene_.points();
   piece_planes_.reserve(scene_.pieces().size());
   for (const Piece& piece : scene_.pieces()) {
+    look_for_cancellation();
     const auto points = scene_.corners(piece);
     Polygon polygon{piece.patch, static_cast<std::int32_t>(piece_planes_.size()),
                     static_cast<std::uint32_t>(corners_.size()), 0};
@@ -72,6 +73,11 @@ void BspBuilder::add_pieces() {
   }
 }
 
+/// In loops over many polygons.
+void BspBuilder::look_for_cancellation() {
+  if (++polygons_since_look_ % 4096 == 0) cancellation_.throw_if_cancelled();
+}
+
 LineId BspBuilder::line_between(PointId a, PointId b) {
   const auto [place, is_new] =
       line_of_edge_.try_emplace(edge_key(a, b), static_cast<LineId>(tree_.lines_.size()));
@@ -83,6 +89,7 @@ void BspBuilder::split_node(Task task, std::vector<Task>& open) {
   // Choose the plane that buys order with the fewest cuts.
   search_.clear();
   for (const std::int32_t p : task.polygons) {
+    look_for_cancellation();
     const Polygon& polygon = polygons_[static_cast<std::size_t>(p)];
     search_.add_polygon(piece_planes_[static_cast<std::size_t>(polygon.piece)]);
     for (std::uint32_t c = polygon.begin; c < polygon.end; ++c) {
@@ -97,6 +104,7 @@ void BspBuilder::split_node(Task task, std::vector<Task>& open) {
   PolygonList coplanar, front, back;
   cut_of_edge_.clear();
   for (const std::int32_t p : task.polygons) {
+    look_for_cancellation();
     const Side side =
         p == own ? Side::coplanar : classify(polygons_[static_cast<std::size_t>(p)], choice.plane);
     switch (side) {
@@ -170,63 +178,59 @@ PointId BspBuilder::cut_edge(PointId a, PointId b, double distance_a, double dis
 ///        d>0   o-------x-------o  d<0      x: cut points, made once an edge and plane, so that
 ///              | front : back  |              neighbours get the same
 ///              o-------x-------o           : the new line, shared by both halves
+///
+/// The outline is walked from a corner off the plane. It changes sides at a cut point, or at the
+/// first of some corners on the plane; the others of these stay with the side it goes to, so that
+/// the halves share the new line and nothing else.
 void BspBuilder::cut(std::int32_t polygon, PolygonList& front, PolygonList& back) {
   const Polygon whole = polygons_[static_cast<std::size_t>(polygon)];
   const std::size_t count = whole.end - whole.begin;
-  std::vector<BspTree::Corner> halves[2];
-  PointId leaving = -1, entering = -1;  // where the outline goes from front to back, and returns
-  std::size_t leaving_at[2] = {0, 0}, entering_at[2] = {0, 0};
+  std::size_t start = 0;
+  while (distances_[start] == 0) ++start;
+  const auto side_of = [&](std::size_t k) { return distances_[k % count] > 0 ? 0 : 1; };
+  const auto next_side = [&](std::size_t k) {
+    while (distances_[k % count] == 0) ++k;
+    return side_of(k);
+  };
 
-  for (std::size_t k = 0; k < count; ++k) {
+  std::vector<BspTree::Corner> halves[2];
+  std::size_t closing[2] = {0, 0};  // where a half's outline runs along the new line
+  PointId turning[2] = {-1, -1};    // the corner there: the outline leaves that side
+  int side = side_of(start);
+  const auto change_sides = [&](const BspTree::Corner& corner) {
+    halves[side].push_back(corner);
+    closing[side] = halves[side].size() - 1;
+    turning[side] = corner.point;
+    side = 1 - side;
+    halves[side].push_back(corner);
+  };
+  for (std::size_t step = 0; step < count; ++step) {
+    const std::size_t k = (start + step) % count;
     const BspTree::Corner corner = corners_[whole.begin + k];
-    const std::size_t next_k = (k + 1) % count;
-    const PointId next = corners_[whole.begin + next_k].point;
-    const double here = distances_[k], there = distances_[next_k];
-    const double before = distances_[(k + count - 1) % count];
-    if (here >= 0) halves[0].push_back(corner);
-    if (here <= 0) halves[1].push_back(corner);
-    if (here == 0) {
-      // A corner on the plane: the outline may change sides right here.
-      if (there < 0 && before >= 0) {
-        leaving = corner.point;
-        leaving_at[0] = halves[0].size() - 1;
-      }
-      if (there > 0 && before <= 0) {
-        entering = corner.point;
-        entering_at[1] = halves[1].size() - 1;
-      }
-    } else if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
-      const PointId x = cut_edge(corner.point, next, here, there);
-      halves[0].push_back({x, corner.line, corner.forward});
-      halves[1].push_back({x, corner.line, corner.forward});
-      if (here > 0) {
-        leaving = x;
-        leaving_at[0] = halves[0].size() - 1;
-      } else {
-        entering = x;
-        entering_at[1] = halves[1].size() - 1;
-      }
+    const double here = distances_[k], there = distances_[(k + 1) % count];
+    if (here == 0 && next_side(k) != side) {
+      change_sides(corner);
+      continue;
+    }
+    halves[side].push_back(corner);
+    if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+      const PointId next = corners_[whole.begin + (k + 1) % count].point;
+      change_sides({cut_edge(corner.point, next, here, there), corner.line, corner.forward});
     }
   }
-  TRANSILLUM_INVARIANT(leaving >= 0 && entering >= 0 && leaving != entering,
+  TRANSILLUM_INVARIANT(turning[0] >= 0 && turning[1] >= 0 && turning[0] != turning[1],
                        "the outline of a cut polygon crosses the plane twice");
 
-  // The front half closes from `leaving` to `entering`, the back half the other way.
-  const LineId line = line_between(leaving, entering);
-  const bool forward = leaving < entering;
-  BspTree::Corner& front_closes = halves[0][leaving_at[0]];
-  front_closes.line = line;
-  front_closes.forward = forward;
-  BspTree::Corner& back_closes = halves[1][entering_at[1]];
-  back_closes.line = line;
-  back_closes.forward = !forward;
-
-  for (int side = 0; side < 2; ++side) {
-    Polygon half{whole.patch, whole.piece, static_cast<std::uint32_t>(corners_.size()), 0};
-    corners_.insert(corners_.end(), halves[side].begin(), halves[side].end());
-    half.end = static_cast<std::uint32_t>(corners_.size());
-    (side == 0 ? front : back).push_back(static_cast<std::int32_t>(polygons_.size()));
-    polygons_.push_back(half);
+  const LineId line = line_between(turning[0], turning[1]);
+  for (int half = 0; half < 2; ++half) {
+    BspTree::Corner& closes = halves[half][closing[half]];
+    closes.line = line;
+    closes.forward = turning[half] < turning[1 - half];
+    Polygon part{whole.patch, whole.piece, static_cast<std::uint32_t>(corners_.size()), 0};
+    corners_.insert(corners_.end(), halves[half].begin(), halves[half].end());
+    part.end = static_cast<std::uint32_t>(corners_.size());
+    (half == 0 ? front : back).push_back(static_cast<std::int32_t>(polygons_.size()));
+    polygons_.push_back(part);
   }
 }
 

@@ -36,6 +36,7 @@ class BspBuilder {
   enum class Side { coplanar, front, back, both };
 
   void add_pieces();
+  void look_for_cancellation();
   LineId line_between(PointId a, PointId b);
   void split_node(Task task, std::vector<Task>& open);
   Side classify(const Polygon& polygon, const BspTree::Plane& plane);
@@ -48,6 +49,7 @@ class BspBuilder {
   Cancellation cancellation_;
   const std::function<void(double)>& progress_;
   double thickness_;
+  std::uint32_t polygons_since_look_ = 0;
   std::vector<Polygon> polygons_;
   std::vector<BspTree::Corner> corners_;
   std::vector<BspTree::Plane> piece_planes_;
