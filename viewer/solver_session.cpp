@@ -36,7 +36,8 @@ SolverSession::~SolverSession() {
     const std::lock_guard lock(mutex_);
     quit_ = true;
     interrupted_ = true;
-    cancellation_.cancel();
+    load_cancellation_.cancel();
+    solve_cancellation_.cancel();
   }
   wake_.notify_one();
   worker_.join();
@@ -46,7 +47,7 @@ void SolverSession::open(OpenRequest request) {
   {
     const std::lock_guard lock(mutex_);
     // A load under way is given up; a solve merely rests, and goes on should this load fail.
-    if (loading_) cancellation_.cancel();
+    if (loading_) load_cancellation_.cancel();
     open_request_ = std::move(request);
     interrupted_ = true;
   }
@@ -57,11 +58,17 @@ void SolverSession::stop() {
   {
     const std::lock_guard lock(mutex_);
     if (open_request_) {
+      // The solve that was to make room goes on.
       open_request_.reset();
+      ++goal_number_;
       return;
     }
-    cancellation_.cancel();
-    if (!loading_) restart_request_ = options_;
+    if (loading_) {
+      load_cancellation_.cancel();
+    } else {
+      solve_cancellation_.cancel();
+      if (!restart_request_) restart_request_ = options_;
+    }
     goal_ = {};
     ++goal_number_;
     interrupted_ = true;
@@ -72,7 +79,7 @@ void SolverSession::stop() {
 void SolverSession::restart(const SolveOptions& options, Goal then) {
   {
     const std::lock_guard lock(mutex_);
-    if (!loading_) cancellation_.cancel();
+    if (!loading_) solve_cancellation_.cancel();
     restart_request_ = options;
     goal_ = then;
     ++goal_number_;
@@ -105,7 +112,7 @@ void SolverSession::work() {
 
     if (open_request_) {
       const OpenRequest request = *std::exchange(open_request_, std::nullopt);
-      cancellation_ = Cancellation();
+      load_cancellation_ = Cancellation();
       loading_ = true;
       lock.unlock();
       load(request);
@@ -113,7 +120,7 @@ void SolverSession::work() {
       loading_ = false;
     } else if (restart_request_) {
       options_ = *std::exchange(restart_request_, std::nullopt);
-      cancellation_ = Cancellation();
+      solve_cancellation_ = Cancellation();
       const SolveOptions options = options_;
       lock.unlock();
       begin_solve(options);
@@ -138,7 +145,7 @@ void SolverSession::load(const OpenRequest& request) {
   };
   try {
     request.solve_options.validate();
-    const Cancellation cancellation = cancellation_;
+    const Cancellation cancellation = load_cancellation_;
     const auto load_begin = Clock::now();
     auto loaded = std::make_shared<LoadedScene>();
     report(tr("Loading %1").arg(name), -1);
@@ -157,15 +164,19 @@ void SolverSession::load(const OpenRequest& request) {
 
     auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.solve_options,
                                                     loaded->tree, cancellation);
-    loaded_ = loaded;
-    solver_ = std::move(solver);
-    more_to_do_ = true;
     {
+      // From here on the scene is there: who stops now stops its solve.
       const std::lock_guard lock(mutex_);
+      cancellation.throw_if_cancelled();
+      solve_cancellation_ = cancellation;
+      loading_ = false;
       options_ = request.solve_options;
       goal_ = request.then;
       ++goal_number_;
     }
+    loaded_ = loaded;
+    solver_ = std::move(solver);
+    more_to_do_ = true;
     post([this, loaded] { emit scene_loaded(loaded); });
     post_snapshot();
   } catch (const Cancelled&) {
@@ -182,8 +193,8 @@ void SolverSession::load(const OpenRequest& request) {
 void SolverSession::begin_solve(const SolveOptions& options) {
   if (!loaded_) return;
   try {
-    solver_ =
-        std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree, cancellation_);
+    solver_ = std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
+                                                solve_cancellation_);
     more_to_do_ = true;
     post_snapshot();
   } catch (const Cancelled&) {
@@ -218,7 +229,11 @@ void SolverSession::advance(const Goal& goal) {
     more_to_do_ = false;
     post_failure(QString::fromStdString(error.what()), false);
   }
-  post_snapshot();
+  try {
+    post_snapshot();
+  } catch (const std::bad_alloc&) {
+    post_failure(tr("There is no memory left to show the result"), false);
+  }
 }
 
 void SolverSession::advance_exactly(int passes) {

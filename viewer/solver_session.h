@@ -93,7 +93,8 @@ class SolverSession : public QObject {
   bool quit_ = false;
   bool loading_ = false;
   SolveOptions options_;
-  Cancellation cancellation_;  // of what the worker does now
+  Cancellation load_cancellation_;   // of the load under way, or the last one
+  Cancellation solve_cancellation_;  // what solver_ was made with
   std::shared_ptr<const SolverSnapshot> mailbox_;
 
   std::atomic<bool> interrupted_ = false;  // asks the solver to rest after the pass under way

@@ -15,12 +15,13 @@ struct PlaneBox {
 };
 PlaneBox box_of(const MapPolygon& polygon);
 
-/// Which polygons may overlap a box: a loose quadtree over the plane, each level a full grid.
+/// Which polygons may overlap a box: a loose quadtree over the plane.
 ///
 /// A polygon hangs in one cell: on the finest level whose cells are no smaller than its box, in
 /// the cell of its centre. A cell's polygons thus stay within half a cell around it. Putting in
 /// and taking out cost O(levels); asking skips empty subtrees, so one huge polygon over many
-/// small ones costs what it finds.
+/// small ones costs what it finds. Cells are made where polygons are, some levels finer than an
+/// even spread would need: a detailed house on a wide plain is no worse than the house.
 class PlaneIndex {
  public:
   /// Covers `all`; made for about `expected` polygons at a time.
@@ -32,24 +33,24 @@ class PlaneIndex {
   void query(const PlaneBox& box, std::vector<std::int32_t>& found) const;
 
  private:
+  static constexpr std::int32_t none = -1;
   struct Entry {
     PlaneBox box;
-    std::int32_t level, x, y;
+    std::int32_t cell;
     std::int32_t next, previous;
   };
   struct Cell {
-    std::int32_t head = -1;
+    double x, y, size;
+    std::int32_t parent;
+    std::array<std::int32_t, 4> children{none, none, none, none};
+    std::int32_t head = none;
     std::int32_t below = 0;  ///< entries here and in all cells beneath
   };
-  Cell& cell(int level, int x, int y);
-  const Cell& cell(int level, int x, int y) const;
-  void count(const Entry& entry, std::int32_t change);
+  std::int32_t child_toward(std::int32_t cell, double x, double y);
+  void count(std::int32_t cell, std::int32_t change);
 
-  double x0_, y0_, size_;
   int levels_;
-  std::vector<std::size_t> level_begin_;
-  std::vector<double> cell_size_;  ///< a level
-  std::vector<Cell> cells_;
+  std::vector<Cell> cells_;  ///< the root first
   std::vector<Entry> entries_;
 };
 
