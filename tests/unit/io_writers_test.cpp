@@ -286,5 +286,18 @@ TEST(IoWholeFiles, PathsAreCheckedBeforeTheWork) {
   }
 }
 
+/// To open a pipe for writing waits for a reader, and no signal ends the wait.
+TEST(IoFiles, RefusesPipesBeforeTheLongWork) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe.csv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    check_writable(pipe);
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("it is a pipe"));
+  }
+}
+
 }  // namespace
 }  // namespace transillum::testing

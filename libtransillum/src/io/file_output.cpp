@@ -108,7 +108,7 @@ void write_file_whole(const std::filesystem::path& path,
   const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status)) fail(path, EISDIR);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    fill(target, path, write);  // a device or a pipe: nothing to rename
+    fill(target, path, write);  // a device: nothing to rename
     return;
   }
   TemporaryNeighbour neighbour(target);
@@ -122,6 +122,10 @@ void check_writable(const std::filesystem::path& path) {
   if (path.empty()) throw InputError("the name of an output file is empty");
   if (fs::is_directory(target, ignored)) {
     throw InputError(fmt::format("{}: cannot be written: it is a folder", path.string()));
+  }
+  // To open one waits for a reader, deaf to every signal.
+  if (fs::is_fifo(target, ignored)) {
+    throw InputError(fmt::format("{}: cannot be written: it is a pipe", path.string()));
   }
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return;
   const fs::path folder = folder_of(target);

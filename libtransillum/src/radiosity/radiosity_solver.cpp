@@ -273,8 +273,8 @@ struct RadiositySolver::Impl {
                                      [](const IterationRecord& s) { return s.contraction >= 1; });
     if (growing) {
       throw std::runtime_error(fmt::format(
-          "the iteration does not converge: changes grow by {:.3g} a step; take more directions "
-          "than {}, or --normalize rows",
+          "the iteration does not converge: each change is {:.3g} times the one before; take more "
+          "directions than {}, or --normalize rows",
           steps.back().contraction, options.directions));
     }
   }
