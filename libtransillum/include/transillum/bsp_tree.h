@@ -33,7 +33,8 @@ class BspTree {
   };
   /// The line of an input edge or of a cut, through two points, a < b; shared by all edges on it
   /// that come from the same input edge. Clipping against a line recomputed from the end points
-  /// of a vanishing edge would be noise: this one never vanishes.
+  /// of a vanishing edge would be noise: that of an input edge never vanishes. That of a cut may be
+  /// as short as the tip it cuts off.
   struct Line {
     PointId a, b;
   };
