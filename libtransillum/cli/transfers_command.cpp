@@ -11,8 +11,8 @@
 #include "output_files.h"
 #include "progress_display.h"
 #include "transillum/bsp_tree.h"
+#include "transillum/engine.h"
 #include "transillum/files.h"
-#include "transillum/radiosity.h"
 
 namespace transillum::cli {
 namespace {
@@ -21,7 +21,7 @@ struct TransfersCall {
   std::string scene;
   SceneOptions scene_options;
   Vec3 direction;
-  Engine engine = Engine::local;
+  Engine engine = Engine::fast;
   std::string out;
 };
 
@@ -33,7 +33,7 @@ int run(const TransfersCall& call) {
   ProgressDisplay progress;
   const auto tree = std::make_shared<const BspTree>(
       *scene, cancellation, [&](double share) { progress.show("sorting", share); });
-  const TransferEngine engine = local_map_engine(scene, tree);
+  const TransferEngine engine = make_engine(call.engine, scene, tree);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
   if (call.out.empty()) {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "support/scenes.h"
-#include "transillum/transfers.h"
+#include "transillum/engine.h"
 
 namespace transillum {
 namespace {
@@ -23,7 +23,7 @@ class Closure : public ::testing::TestWithParam<BuiltIn> {};
 TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
   const auto scene = load_scene(GetParam().spec, {.max_patch_area = GetParam().max_patch_area});
   const auto tree = std::make_shared<const BspTree>(*scene);
-  const TransferEngine engine = local_map_engine(scene, tree);
+  const TransferEngine engine = make_engine(Engine::local, scene, tree);
   for (const Vec3& omega : test_directions(200, 7)) {
     const Transfers transfers = engine(omega, {});
     const ClosureDefect defect = closure_defect(transfers, *scene);
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(BuiltIns, Closure,
 TEST(Projection, AreasFollowTheCosine) {
   const auto scene = load_scene("rooms");
   const auto tree = std::make_shared<const BspTree>(*scene);
-  const TransferEngine engine = local_map_engine(scene, tree);
+  const TransferEngine engine = make_engine(Engine::local, scene, tree);
   for (const Vec3& omega : test_directions(20, 3)) {
     const Transfers transfers = engine(omega, {});
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
@@ -70,7 +70,7 @@ TEST(Reciprocity, OppositeDirectionsGiveTheSameAreas) {
   for (const char* spec : {"cornell-box", "boards", "rooms"}) {
     const auto scene = load_scene(spec);
     const auto tree = std::make_shared<const BspTree>(*scene);
-    const TransferEngine engine = local_map_engine(scene, tree);
+    const TransferEngine engine = make_engine(Engine::local, scene, tree);
     for (const Vec3& omega : test_directions(20, 11)) {
       std::map<std::pair<PatchId, PatchId>, double> there;
       for (const Transfer& t : engine(omega, {}).exchanges) there[{t.receiver, t.source}] = t.area;

@@ -22,7 +22,7 @@ double area_of(std::span<const Vec2> outline) {
 TEST(MapRecord, GivesTheSameBitsAsTheUnrecordedRun) {
   const auto scene = load_scene("rooms");
   const auto tree = std::make_shared<const BspTree>(*scene);
-  const TransferEngine engine = local_map_engine(scene, tree);
+  const TransferEngine engine = make_engine(Engine::local, scene, tree);
   for (const Vec3& omega : testing::test_directions(12, 2)) {
     const Transfers plain = engine(omega, {});
     const Transfers recorded = record_local_map(*scene, *tree, omega).transfers;

@@ -79,7 +79,7 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
     Sketch sketch;
     const auto scene = sketch.triangles(14, 1.2, seed, sketch.material(0.5, 1)).scene();
     const auto tree = std::make_shared<const BspTree>(*scene);
-    const TransferEngine engine = local_map_engine(scene, tree);
+    const TransferEngine engine = make_engine(Engine::local, scene, tree);
     const Vec3 omega = test_directions(8, seed).back();
     const double radius = 0.51 * scene->bounds().diagonal();
     const auto sampled = sampled_transfers(*scene, plane_frame(*scene, omega), radius, resolution);

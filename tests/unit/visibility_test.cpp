@@ -9,7 +9,7 @@
 #include "radiosity/exchange_sums.h"
 #include "support/scenes.h"
 #include "transillum/bsp_tree.h"
-#include "transillum/transfers.h"
+#include "transillum/engine.h"
 #include "visibility/plane_index.h"
 
 namespace transillum {
@@ -135,7 +135,7 @@ TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       EXPECT_NEAR(areas[static_cast<std::size_t>(i)], scene->patch(i).area, 1e-9) << spread;
     }
-    const TransferEngine engine = local_map_engine(scene, tree);
+    const TransferEngine engine = make_engine(Engine::local, scene, tree);
     for (const Vec3& omega : testing::test_directions(20, 2)) {
       EXPECT_LE(closure_defect(engine(omega, {}), *scene).relative, 1e-6) << spread;
     }

@@ -11,6 +11,7 @@
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
+#include "transillum/engine.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 
@@ -22,19 +23,12 @@ enum class Normalization {
   rows,  ///< removes the error of section 5.1; the iteration contracts for every M
 };
 
-/// Which algorithm turns a direction into transfers.
-enum class Engine { local };
-const std::vector<std::string>& engine_names();
-/// @throws InputError naming the choices.
-Engine engine_from_name(const std::string& name);
-const std::string& name_of(Engine engine);
-
 /// Options of a solve; the defaults are the command line's.
 struct SolveOptions {
   int directions = 1024;  ///< M: passes an iteration step, 1 … 2^24
   Sampling sampling = Sampling::fibonacci;
   std::uint64_t seed = 1;
-  Engine engine = Engine::local;
+  Engine engine = Engine::fast;
   bool two_way = true;  ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;
   int iterations = 0;        ///< stop after so many steps; 0: by tolerance

@@ -1,12 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <vector>
 
-#include "transillum/bsp_tree.h"
-#include "transillum/cancellation.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -43,14 +39,5 @@ struct ClosureDefect {
   PatchId worst = no_patch;  ///< where `relative` is reached
 };
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);
-
-/// An engine: from a direction omega (unit) to its Transfers. Pure: no shared mutable state, so
-/// any number of threads may call one; the same omega gives the same bits.
-/// @throws Cancelled
-using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancellation&)>;
-
-/// The local visibility map of section 3.2. Keeps scene and tree alive.
-TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
-                                std::shared_ptr<const BspTree> tree);
 
 }  // namespace transillum

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "transillum/transfers.h"
+#include "transillum/engine.h"
 
 namespace transillum {
 

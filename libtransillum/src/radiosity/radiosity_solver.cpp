@@ -114,11 +114,7 @@ struct RadiositySolver::Impl {
       tree = std::make_shared<const BspTree>(*scene, cancellation);
       seconds_bsp = seconds_since(start);
     }
-    switch (options.engine) {
-      case Engine::local:
-        engine = local_map_engine(scene, tree);
-        break;
-    }
+    engine = make_engine(options.engine, scene, tree);
 
     const auto patches = static_cast<std::size_t>(scene->patch_count());
     for (PatchId i = 0; i < scene->patch_count(); ++i) b.push_back(scene->exitance(i));

@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "invariant.h"
-#include "transillum/transfers.h"
 #include "transillum/visibility_map.h"
+#include "visibility/engines.h"
 #include "visibility/map_polygon.h"
 #include "visibility/plane_index.h"
 

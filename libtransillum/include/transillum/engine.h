@@ -1,0 +1,47 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+#include "transillum/transfers.h"
+
+namespace transillum {
+
+/// Which algorithm turns a direction into transfers.
+enum class Engine {
+  fast,    ///< each receiver's polygon eaten up by what lies above it, nearest first
+  local,   ///< the local visibility map of section 3.2, the one that can be watched
+  global,  ///< the global visibility map of section 3.1, by CGAL's exact arrangement
+  exact,   ///< the local map in exact numbers: an oracle for small scenes
+  rays,    ///< parallel lines through the scene by Embree: statistical
+};
+const std::vector<std::string>& engine_names();
+/// @throws InputError naming the choices.
+Engine engine_from_name(const std::string& name);
+const std::string& name_of(Engine engine);
+
+/// An engine at work: from a direction omega (unit) to its Transfers. Pure: no shared mutable
+/// state, so any number of threads may call one; the same omega gives the same bits.
+/// @throws Cancelled
+using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancellation&)>;
+
+/// Options that only some engines read.
+struct EngineOptions {
+  double lines_per_patch = 100;  ///< rays: lines a direction, over the number of patches; > 0
+  bool gridded = true;           ///< rays: on a jittered grid; else anywhere at random
+  std::uint64_t seed = 1;        ///< rays
+};
+
+/// Keeps scene and tree alive. `tree` is `scene`'s.
+/// @throws InputError where the engine cannot take the scene or an option.
+TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
+                           std::shared_ptr<const BspTree> tree, const EngineOptions& options = {});
+
+}  // namespace transillum

@@ -1,0 +1,21 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+
+#include "transillum/engine.h"
+
+namespace transillum {
+
+// What make_engine() chooses from; one file each.
+
+TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree);
+TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
+                                std::shared_ptr<const BspTree> tree);
+TransferEngine global_map_engine(std::shared_ptr<const Scene> scene,
+                                 std::shared_ptr<const BspTree> tree);
+TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const BspTree> tree);
+TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
+
+}  // namespace transillum
