@@ -1,10 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <ostream>
 
+#include "io/file_ending.h"
 #include "io/result_writers.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -13,13 +12,6 @@ namespace transillum {
 namespace {
 
 using ResultWriter = void (*)(std::ostream&, const Solution&);
-
-std::string lower_case_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 ResultWriter writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_case_ending(path);

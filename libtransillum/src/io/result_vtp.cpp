@@ -2,39 +2,15 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
-
-#include <ostream>
-#include <stdexcept>
 
 #include "io/result_writers.h"
+#include "io/vtp_output.h"
 
 namespace transillum {
 namespace {
-
-template <typename ValueOf>
-void add_integers(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(count);
-  for (PatchId i = 0; i < count; ++i) array->SetValue(i, value_of(i));
-  fields.AddArray(array);
-}
-
-template <typename ValueOf>
-void add_numbers(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(count);
-  for (PatchId i = 0; i < count; ++i) array->SetValue(i, value_of(i));
-  fields.AddArray(array);
-}
 
 template <typename ValueOf>
 void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
@@ -48,17 +24,6 @@ void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf v
     const Rgb rgb = value_of(i);
     array->SetTuple3(i, rgb.r, rgb.g, rgb.b);
   }
-  fields.AddArray(array);
-}
-
-void add_field(vtkFieldData& fields, const char* name, double value) {
-  add_numbers(fields, name, 1, [&](PatchId) { return value; });
-}
-
-void add_field(vtkFieldData& fields, const char* name, const std::string& value) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
   fields.AddArray(array);
 }
 
@@ -119,16 +84,7 @@ void write_result_vtp(std::ostream& out, const Solution& solution) {
   mesh->GetCellData()->SetActiveScalars("B");
   add_solve_values(*mesh->GetFieldData(), solution);
 
-  // Base64 keeps it well-formed XML, and every bit of the doubles.
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(mesh);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOn();
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn();
-  if (writer->Write() == 0) throw std::runtime_error("VTK could not write the result");
-  const std::string text = writer->GetOutputString();
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  write_polygons(out, *mesh);
 }
 
 }  // namespace transillum

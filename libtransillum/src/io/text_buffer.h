@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <ostream>
+#include <utility>
+
+namespace transillum {
+
+/// Text on its way to a stream, handed over in large parts.
+class TextBuffer {
+ public:
+  explicit TextBuffer(std::ostream& out) : out_(out) {}
+  ~TextBuffer() { hand_over(); }
+  TextBuffer(const TextBuffer&) = delete;
+  TextBuffer& operator=(const TextBuffer&) = delete;
+
+  template <typename... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(buffer_), format, std::forward<Values>(values)...);
+    if (buffer_.size() > 1U << 16) hand_over();
+  }
+
+ private:
+  void hand_over() {
+    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+  }
+
+  std::ostream& out_;
+  fmt::memory_buffer buffer_;
+};
+
+}  // namespace transillum
