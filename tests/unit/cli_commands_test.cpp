@@ -39,10 +39,11 @@ TEST(CliHelp, EveryCommandExplainsItself) {
   const ProgramResult all = run_program({"--help"});
   EXPECT_EQ(all.status, 0);
   EXPECT_EQ(all.err, "");
-  for (const char* word : {"solve", "transfers", "directions", "info", "sphere-flake", "rooms"}) {
+  for (const char* word :
+       {"solve", "transfers", "map", "directions", "info", "sphere-flake", "rooms"}) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
-  for (const char* command : {"scene", "solve", "transfers", "directions", "info"}) {
+  for (const char* command : {"scene", "solve", "transfers", "map", "directions", "info"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
@@ -204,6 +205,58 @@ TEST(CliTransfers, LengthAndFormOfTheDirectionDoNotMatter) {
   EXPECT_EQ(transfers("-1,2,4"), out);
   EXPECT_EQ(transfers("-1e300,2e300,4e300").size() > 20, true);
   EXPECT_EQ(transfers("+1e-310,0,0"), transfers("1,0,0"));
+}
+
+TEST(CliMap, WritesEveryFormatAndNothingElse) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      {"map", "cornell-box", "--direction", "-1,2,3", "--out", folder / "a.svg", "--out",
+       folder / "a.png", "--size", "300", "-o", folder / "a.vtp", "--out", folder / "a.json"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(folder.names(), ElementsAre("a.json", "a.png", "a.svg", "a.vtp"));
+  EXPECT_THAT(read_file(folder / "a.svg"), HasSubstr("Visibility map of cornell-box"));
+}
+
+/// What the picture of a receiver holds is what `transfers` tells of it.
+TEST(CliMap, OfAReceiverIsItsRowOfTransfers) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> where{"rooms", "--direction", "0.4,-0.2,-1"};
+  const auto run = [&](const char* command, std::vector<std::string> more) {
+    std::vector<std::string> arguments{command};
+    arguments.insert(arguments.end(), where.begin(), where.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  std::map<int, std::map<int, double>> transfers;
+  for (const auto& row : numbers(run("transfers", {"--engine", "local"}))) {
+    if (row[1] >= 0) transfers[static_cast<int>(row[0])][static_cast<int>(row[1])] = row[2];
+  }
+  ASSERT_FALSE(transfers.empty());
+  const auto& [receiver, seen] = *transfers.begin();
+  run("map", {"--receiver", std::to_string(receiver), "--out", folder / "m.json"});
+  std::map<int, double> areas;
+  const auto json = nlohmann::json::parse(read_file(folder / "m.json"));
+  EXPECT_EQ(json.at("receiver").at("patch"), receiver);
+  for (const auto& polygon : json.at("polygons")) {
+    if (polygon.at("facing") == "back")
+      areas[polygon.at("patch")] += polygon.at("area").get<double>();
+  }
+  EXPECT_EQ(areas.size(), seen.size());
+  for (const auto& [source, area] : seen) EXPECT_NEAR(areas[source], area, 1e-12);
+}
+
+TEST(CliMap, SaysWhyAMapIsEmpty) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      {"map", "furnace", "--direction", "1,0,0", "--receiver", "0", "--out", folder / "m.svg"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, ::testing::AnyOf(HasSubstr("edge-on"), HasSubstr("turns its back")));
+  EXPECT_EQ(line_count(result.err), 1U);
+  EXPECT_THAT(folder.names(), ElementsAre("m.svg"));
 }
 
 TEST(CliDirections, ArePointsOfTheUnitSphere) {

@@ -54,6 +54,8 @@ struct MapRecord {
   std::span<const Vec2> outline(const Row& row) const {
     return {corners.data() + row.begin, row.end - row.begin};
   }
+  /// Of the row's polygon, m².
+  double area(const Row& row) const;
   /// The numbers of the rows that make up V after step k (-1: before the first).
   std::vector<std::int32_t> map_after(std::int32_t step) const;
   /// The step after which what shines down in V (is back facing) makes the most of a picture: the
@@ -70,5 +72,32 @@ struct RecordedDirection {
 };
 RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
                                    const Cancellation& cancellation = {});
+
+/// What is seen of a scene along one direction, upward: convex polygons of the transillumination
+/// plane that do not overlap (paper, section 3). For files and pictures; map_files.h writes it.
+struct VisibilityMap {
+  struct Polygon {
+    PatchId patch;             ///< whose surface it is
+    bool front_facing;         ///< it receives, and shows its back here; else it shines down
+    double area;               ///< m², >= 0
+    std::uint32_t begin, end;  ///< in `corners`
+  };
+
+  PlaneFrame frame;
+  PatchId receiver = no_patch;      ///< who looks up; no_patch: somebody below the whole scene
+  std::vector<Polygon> polygons;    ///< by patch, then in the order they were made
+  std::vector<Polygon> window;      ///< the receiver's own; outside `polygons` nothing is above it
+  std::vector<Vec2> corners;        ///< of polygons and window, counter-clockwise as u turns to v
+  std::vector<Transfer> exchanges;  ///< who sees whom along the direction, by receiver
+
+  std::span<const Vec2> outline(const Polygon& polygon) const {
+    return {corners.data() + polygon.begin, polygon.end - polygon.begin};
+  }
+};
+/// V after the last step: what is seen from below the scene.
+VisibilityMap map_from_below(const RecordedDirection& direction);
+/// What patch `receiver` of the scene sees: the inside lists of the steps that process it. Without
+/// a window, and empty, where it is edge-on or faces away.
+VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver);
 
 }  // namespace transillum

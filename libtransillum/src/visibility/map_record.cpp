@@ -5,18 +5,16 @@
 #include "transillum/visibility_map.h"
 
 namespace transillum {
-namespace {
 
-double area_of(std::span<const Vec2> outline) {
+double MapRecord::area(const Row& row) const {
+  const auto corner = outline(row);
   double twice = 0;
-  for (std::size_t k = 2; k < outline.size(); ++k) {
-    const Vec2 &a = outline[0], &b = outline[k - 1], &c = outline[k];
+  for (std::size_t k = 2; k < corner.size(); ++k) {
+    const Vec2 &a = corner[0], &b = corner[k - 1], &c = corner[k];
     twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
   return twice / 2;
 }
-
-}  // namespace
 
 std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
   std::vector<std::int32_t> map;
@@ -34,7 +32,7 @@ std::int32_t MapRecord::fullest_step() const {
   std::vector<Change> changes(static_cast<std::size_t>(step_count()) + 1);
   for (const Row& row : rows) {
     if (row.front_facing) continue;
-    const double area = area_of(outline(row));
+    const double area = this->area(row);
     Change& made = changes[static_cast<std::size_t>(row.made)];
     made.rows += 1;
     made.area += area;
