@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "transillum/scene.h"
@@ -21,6 +22,14 @@ struct Coverage {
   double covered = 0;    ///< of it, where some surface lies above, lit side or back
 };
 
+/// What a pass took, for statistics and tests; engines leave at 0 what does not apply.
+struct PassCounts {
+  std::int64_t pairs = 0;            ///< polygons compared edge by edge
+  std::int64_t cuts = 0;             ///< of a polygon by a line
+  std::int64_t decisions = 0;        ///< on which side of a line a corner lies
+  std::int64_t exact_decisions = 0;  ///< of them, those that took whole numbers
+};
+
 /// All that one direction tells, and the one currency between engines and solvers.
 ///
 /// `exchanges` serves two directions: it lists A(i,j,omega), and A(j,i,-omega) is the same number.
@@ -30,6 +39,7 @@ struct Transfers {
   std::vector<Coverage> forward;    ///< a patch: as receiver for omega
   std::vector<Coverage> backward;   ///< a patch: as receiver for -omega
   std::vector<double> back_seen;    ///< a patch: area of its back that receivers look at, both ways
+  PassCounts counts;
 };
 
 /// What one direction's transfers leave open (method: closure), both ways taken together.

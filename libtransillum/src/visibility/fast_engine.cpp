@@ -1,12 +1,264 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The fast engine. Each front-facing face looks toward the light: the faces above it, nearest
+// first, eat up its polygon, and once nothing is left no further one is looked at. What was eaten
+// is what it sees. The faces above come from bins over the plane.
+//
+// Light goes both ways along a line, so what front-facing faces see of back-facing ones is also
+// what these see of them. Only back-facing faces that are left with something open look
+// for themselves: in a scene of closed surfaces, none.
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "visibility/engines.h"
+#include "visibility/fast_bins.h"
+#include "visibility/fast_faces.h"
+#include "visibility/fast_view.h"
 
 namespace transillum {
+namespace {
 
-TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree) {
-  return local_map_engine(std::move(scene), std::move(tree));
+/// Faces in more bins than this look bin by bin.
+constexpr std::int32_t most_bins = 8;
+
+/// Whether two faces' boxes overlap, one of them given by the other's opposite ends.
+bool overlap(const FaceBox& box, const FaceBox& opposite) {
+#ifdef __SSE2__
+  const __m128 low = _mm_cmplt_ps(_mm_load_ps(box.ends.data()), _mm_load_ps(opposite.ends.data()));
+  const __m128 high =
+      _mm_cmplt_ps(_mm_load_ps(box.ends.data() + 4), _mm_load_ps(opposite.ends.data() + 4));
+  return _mm_movemask_ps(_mm_and_ps(low, high)) == 15;
+#else
+  bool all = true;
+  for (std::size_t d = 0; d < 8; ++d) all &= box.ends[d] < opposite.ends[d];
+  return all;
+#endif
+}
+
+FaceBox opposite_of(const FaceBox& box) {
+  FaceBox opposite;
+  for (std::size_t d = 0; d < 8; ++d) opposite.ends[d] = -box.ends[(d + 4) % 8];
+  return opposite;
+}
+
+class FastPass {
+ public:
+  FastPass(const Scene& scene, const BspTree& tree, const FastOutlines& outlines, const Vec3& omega,
+           const Cancellation& cancellation)
+      : cancellation_(cancellation),
+        faces_(scene, tree, outlines, omega),
+        bins_(faces_, cancellation),
+        view_(outlines, faces_, transfers_.counts),
+        wide_view_(outlines, faces_, transfers_.counts),
+        area_unit_(faces_.grid.step * faces_.grid.step) {
+    const auto patches = static_cast<std::size_t>(scene.patch_count());
+    transfers_.direction = omega;
+    transfers_.forward.resize(patches);
+    transfers_.backward.resize(patches);
+    transfers_.back_seen.resize(patches);
+    seen_from_front_.resize(faces_.faces.size());
+  }
+
+  Transfers run() {
+    for (const FastFaces::Face& face : faces_.faces) {
+      auto& side = face.front ? transfers_.forward : transfers_.backward;
+      side[static_cast<std::size_t>(face.patch)].projected += area_unit_ * face.area;
+    }
+    look_all<Way::up>();
+    look_all<Way::down>();
+    sort_exchanges();
+    return std::move(transfers_);
+  }
+
+ private:
+  enum class Way { up, down };
+  struct Sight {
+    std::int32_t face;
+    double area;
+  };
+  /// A place in the list of a bin: what is there overlaps by its box, or is the list's end.
+  struct Cursor {
+    FastBins::Entry entry;
+    std::int32_t face;
+  };
+
+  /// Bin by bin, so that what is looked at next is near.
+  template <Way way>
+  void look_all() {
+    std::int32_t looks = 0;
+    for (const FastBins::Bin& bin : bins_.bins()) {
+      for (FastBins::Entry e = bin.begin; e < bin.end; ++e) {
+        const std::int32_t face = bins_.face(e);
+        if (!has_to_look(way, face)) continue;
+        if (++looks % 256 == 0) cancellation_.throw_if_cancelled();
+        if (bins_.entry_count(face) > most_bins) {
+          look<way>(face, &bin, e);
+        } else if (bins_.entry_before(e) == FastBins::none) {
+          look<way>(face, nullptr, e);
+        }
+      }
+    }
+  }
+
+  bool has_to_look(Way way, std::int32_t k) const {
+    const FastFaces::Face& face = faces_.faces[static_cast<std::size_t>(k)];
+    if (way == Way::up) return face.front;
+    return !face.front &&
+           face.area - seen_from_front_[static_cast<std::size_t>(k)] > 0x1p-38 * face.area;
+  }
+
+  template <Way way>
+  void look(std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
+    const bool needle = faces_.faces[static_cast<std::size_t>(face)].needle;
+    if (needle || !look_with<way>(view_, face, bin, entry)) {
+      look_with<way>(wide_view_, face, bin, entry);
+    }
+    for (const Sight& sight : sights_) book<way>(face, sight);
+  }
+
+  /// Fills sights_. Returns false where what is seen is too thin for this view's numbers.
+  template <Way way, class View>
+  bool look_with(View& view, std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
+    sights_.clear();
+    if (!bin) {
+      view.look_from(face);
+    } else if (!view.look_from(face, *bin)) {
+      return true;
+    }
+    constexpr bool wide = std::is_same_v<View, FastView<long double>>;
+    const FaceBox opposite = opposite_of(faces_.boxes[static_cast<std::size_t>(face)]);
+    begin_search<way>(face, bin != nullptr, entry, opposite);
+    for (std::int32_t other = next<way>(opposite); other >= 0; other = next<way>(opposite)) {
+      const double area = view.show(other);
+      if (!(area > 0)) continue;
+      if (!wide && faces_.faces[static_cast<std::size_t>(other)].needle) return false;
+      sights_.push_back({other, area});
+      if (view.done()) break;
+    }
+    return true;
+  }
+
+  template <Way way>
+  void begin_search(std::int32_t face, bool in_one_bin, FastBins::Entry entry,
+                    const FaceBox& opposite) {
+    cursors_.clear();
+    if (in_one_bin) {
+      cursors_.push_back({entry, 0});
+    } else {
+      for (auto e = bins_.last_entry(face); e != FastBins::none; e = bins_.entry_before(e)) {
+        cursors_.push_back({e, 0});
+      }
+    }
+    for (Cursor& cursor : cursors_) move<way>(cursor, opposite);
+  }
+
+  template <Way way>
+  void move(Cursor& cursor, const FaceBox& opposite) const {
+    do {
+      cursor.entry += way == Way::up ? -1 : 1;
+    } while (!overlap(bins_.box(cursor.entry), opposite));
+    cursor.face = bins_.face(cursor.entry);
+  }
+
+  /// The next face that may be seen, or -1.
+  template <Way way>
+  std::int32_t next(const FaceBox& opposite) {
+    if (cursors_.size() == 1) {
+      const std::int32_t face = cursors_[0].face;
+      if (face >= 0) move<way>(cursors_[0], opposite);
+      return face;
+    }
+    std::int32_t nearest = -1;
+    for (const Cursor& cursor : cursors_) {
+      if (cursor.face < 0) continue;
+      if (nearest < 0 || (way == Way::up ? cursor.face > nearest : cursor.face < nearest)) {
+        nearest = cursor.face;
+      }
+    }
+    if (nearest < 0) return nearest;
+    for (Cursor& cursor : cursors_) {
+      if (cursor.face == nearest) move<way>(cursor, opposite);
+    }
+    return nearest;
+  }
+
+  template <Way way>
+  void book(std::int32_t looking, const Sight& sight) {
+    const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(looking)];
+    const FastFaces::Face& other = faces_.faces[static_cast<std::size_t>(sight.face)];
+    const double area = area_unit_ * sight.area;
+    const auto i = static_cast<std::size_t>(own.patch), j = static_cast<std::size_t>(other.patch);
+    if (way == Way::up) {
+      transfers_.forward[i].covered += area;
+      if (other.front) {
+        transfers_.back_seen[j] += area;
+      } else {
+        transfers_.backward[j].covered += area;
+        seen_from_front_[static_cast<std::size_t>(sight.face)] += sight.area;
+        transfers_.exchanges.push_back({own.patch, other.patch, area});
+      }
+    } else if (!other.front) {
+      transfers_.backward[i].covered += area;
+      transfers_.back_seen[j] += area;
+    }
+  }
+
+  /// By receiver, then source, one entry a pair; parts summed in the order they were found.
+  void sort_exchanges() {
+    const std::size_t patches = transfers_.forward.size();
+    std::vector<Transfer>& found = transfers_.exchanges;
+    std::vector<std::uint32_t> end(patches + 1, 0);
+    for (const Transfer& t : found) ++end[static_cast<std::size_t>(t.receiver) + 1];
+    for (std::size_t i = 0; i < patches; ++i) end[i + 1] += end[i];
+    std::vector<Transfer> sorted(found.size());
+    for (const Transfer& t : found) sorted[end[static_cast<std::size_t>(t.receiver)]++] = t;
+    std::size_t kept = 0, begin = 0;
+    for (std::size_t i = 0; i < patches; ++i) {
+      const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin);
+      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(end[i]);
+      std::stable_sort(first, last,
+                       [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
+      const std::size_t row = kept;
+      for (auto t = first; t != last; ++t) {
+        if (kept > row && sorted[kept - 1].source == t->source) {
+          sorted[kept - 1].area += t->area;
+        } else {
+          sorted[kept++] = *t;
+        }
+      }
+      begin = end[i];
+    }
+    sorted.resize(kept);
+    found.swap(sorted);
+  }
+
+  const Cancellation& cancellation_;
+  Transfers transfers_;
+  FastFaces faces_;
+  FastBins bins_;
+  FastView<double> view_;
+  FastView<long double> wide_view_;
+  double area_unit_;                     ///< m² a step squared
+  std::vector<double> seen_from_front_;  ///< a face: steps squared
+  std::vector<Sight> sights_;
+  std::vector<Cursor> cursors_;
+};
+
+}  // namespace
+
+TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
+                           std::shared_ptr<const BspTree> tree) {
+  auto outlines = std::make_shared<const FastOutlines>(*tree);
+  return [scene = std::move(scene), tree = std::move(tree), outlines = std::move(outlines)](
+             const Vec3& omega, const Cancellation& cancellation) {
+    return FastPass(*scene, *tree, *outlines, omega, cancellation).run();
+  };
 }
 
 }  // namespace transillum

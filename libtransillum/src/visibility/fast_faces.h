@@ -1,0 +1,69 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "visibility/grid_projection.h"
+
+namespace transillum {
+
+/// A convex face on the plane, as the fast engine keeps it: counter-clockwise.
+struct FaceCorner {
+  GridPoint at;
+  PointId point;
+  LineId line;   ///< of the edge to the next corner
+  bool forward;  ///< that edge runs along its line from a to b
+};
+
+/// The fragments of a tree as the fast engine takes them: with no more than most_corners corners,
+/// cut along diagonals where they have more. Made once a tree.
+struct FastOutlines {
+  static constexpr std::size_t most_corners = 16;
+  struct Outline {
+    PatchId patch;
+    std::uint32_t begin, end;  ///< in `corners`
+    bool plain;                ///< each edge's line runs through its own two corners
+  };
+  std::vector<BspTree::Line> lines;  ///< the tree's, then diagonals
+  std::vector<BspTree::Corner> corners;
+  std::vector<Outline> outlines;
+  std::vector<std::uint32_t> first;  ///< outline of a fragment; one more at the end
+
+  explicit FastOutlines(const BspTree& tree);
+
+ private:
+  void add(PatchId patch, std::vector<BspTree::Corner> corners);
+};
+
+/// What of a face is looked at first: how far it reaches along x, y, x + y and x - y, in steps
+/// of the grid, rounded outward: four lower ends, then the four upper ends negated.
+struct alignas(32) FaceBox {
+  std::array<float, 8> ends;
+};
+
+/// All fragments of a tree seen along one direction, farthest toward it first; those seen edge-on
+/// are left out.
+struct FastFaces {
+  struct Face {
+    std::uint32_t begin, end;  ///< in `corners`
+    PatchId patch;
+    bool front;   ///< it receives for omega
+    bool plain;   ///< each edge's line runs through its own two corners
+    bool needle;  ///< so thin that areas want more digits than a double has
+    double area;  ///< of the projection, in steps squared; > 0
+  };
+  GridProjection grid;
+  std::vector<FaceBox> boxes;
+  std::vector<Face> faces;
+  std::vector<FaceCorner> corners;
+
+  FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
+            const Vec3& omega);
+
+ private:
+  bool add(const FastOutlines& outlines, const FastOutlines::Outline& outline);
+};
+
+}  // namespace transillum

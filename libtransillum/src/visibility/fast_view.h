@@ -1,0 +1,121 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "transillum/transfers.h"
+#include "visibility/exact_side.h"
+#include "visibility/fast_bins.h"
+#include "visibility/fast_faces.h"
+
+namespace transillum {
+
+/// What one face, or a part of it, sees: its polygon is eaten up by the faces it is shown, the
+/// nearest first. Coordinates are relative to the face, where small differences keep their
+/// digits; `Real` is double, or long double where a needle is involved.
+///
+/// Whether a corner lies left of a line is the sign of a determinant: in Real where that is
+/// certain, and else in whole numbers from the grid points that corner and line come from.
+template <class Real>
+class FastView {
+ public:
+  FastView(const FastOutlines& outlines, const FastFaces& faces, PassCounts& counts)
+      : outlines_(outlines), faces_(faces), counts_(counts) {}
+
+  /// Looks from all of a face.
+  void look_from(std::int32_t face);
+  /// Looks from the part of a face that lies in a bin. Returns false where there is none.
+  bool look_from(std::int32_t face, const FastBins::Bin& bin);
+
+  /// Eats up what `face` covers of what is left, and returns its area, steps squared.
+  double show(std::int32_t face);
+
+  /// Whether nothing is left but for rounding.
+  bool done() const { return left_count_ == 0 || left_area_ <= Real{0x1p-40} * area_; }
+
+ private:
+  static constexpr std::size_t most_corners = 32;  ///< of a piece
+  static constexpr PointId made_by_cut = -1;
+  // Lines of a bin's square and of a piece cut in half, in place of LineIds.
+  static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving = -6;
+
+  /// A directed line. What an edge bounds lies on its left: dx y - dy x + c > 0.
+  struct Edge {
+    Real dx, dy, c;
+    Real length;  ///< |dx| + |dy|
+    Real reach;   ///< |x| + |y| of the point that c was made of
+    LineId line;
+    bool forward;  ///< it runs along its line from a to b
+  };
+  /// Index in edges_, doubled, and 1 more where the line is meant the other way round.
+  using EdgeRef = std::int32_t;
+
+  /// A convex polygon, counter-clockwise. xs and ys repeat the first corner behind the last, up to
+  /// a multiple of four.
+  struct Piece {
+    std::size_t count = 0;
+    Real error = 0;  ///< of corners made by cuts: along x or y at most
+    std::array<Real, most_corners> x, y;
+    std::array<EdgeRef, most_corners> edge;   ///< to the next corner
+    std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
+
+    Piece() = default;
+    Piece(const Piece& other) { *this = other; }
+    Piece& operator=(const Piece& other);
+    void add(Real at_x, Real at_y, EdgeRef leaving, PointId on_grid) {
+      x[count] = at_x;
+      y[count] = at_y;
+      edge[count] = leaving;
+      point[count++] = on_grid;
+    }
+    void fill_up() {
+      for (std::size_t k = count; k % 4 != 0; ++k) {
+        x[k] = x[0];
+        y[k] = y[0];
+      }
+    }
+  };
+  /// On which sides of a line corners lie, one bit a corner.
+  struct Sides {
+    std::uint32_t left, right;
+  };
+
+  void load(const FastFaces::Face& face, Piece& piece);
+  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, bool forward);
+  EdgeRef add_edge(const GridLine& through, LineId line, bool forward);
+  GridLine grid_line(LineId line, bool forward) const;
+  Edge edge_of(EdgeRef ref) const;
+
+  Sides sides_of(const Piece& piece, const Edge& edge);
+  Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge);
+  bool separates(const Piece& piece, const Piece& other);
+  Real eat(const Piece& piece);
+  void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
+  void add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by, Piece& inside,
+                    Piece& outside);
+  void keep(const Piece& piece);
+  static Real area_of(const Piece& piece);
+
+  const FastOutlines& outlines_;
+  const FastFaces& faces_;
+  PassCounts& counts_;
+
+  GridPoint origin_;
+  FastBins::Bin bin_{};
+  std::vector<Edge> edges_;
+  std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
+  Real area_ = 0, left_area_ = 0;
+  std::vector<Piece> left_, next_left_;  ///< left_count_ and next_count_ of them
+  std::size_t left_count_ = 0, next_count_ = 0;
+
+  Piece shown_, inside_, rest_;
+  std::vector<EdgeRef> cuts_;
+  std::array<Real, most_corners> sides_, side_errors_;  ///< of the corners sides_of() was given
+};
+
+extern template class FastView<double>;
+extern template class FastView<long double>;
+
+}  // namespace transillum
