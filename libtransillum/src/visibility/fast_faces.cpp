@@ -84,22 +84,27 @@ FastOutlines::FastOutlines(const BspTree& tree) : lines(tree.lines()) {
       rest.erase(rest.begin() + 1, rest.begin() + most_corners - 1);
       rest.front() = {a, line, a < b};
       part.back() = {b, line, b < a};
-      add(fragment.patch, std::move(part));
+      add(fragment.patch, part);
     }
-    add(fragment.patch, std::move(rest));
+    add(fragment.patch, rest);
   }
   first.push_back(static_cast<std::uint32_t>(outlines.size()));
 }
 
-void FastOutlines::add(PatchId patch, std::vector<BspTree::Corner> part) {
+void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) {
   Outline outline{patch, static_cast<std::uint32_t>(corners.size()), 0, true};
+  const auto runs_through = [this](LineId line, PointId point) {
+    const BspTree::Line& points = lines[static_cast<std::size_t>(line)];
+    return points.a == point || points.b == point;
+  };
   for (std::size_t k = 0; k < part.size(); ++k) {
-    const BspTree::Line& line = lines[static_cast<std::size_t>(part[k].line)];
-    const PointId here = part[k].point, next = part[k + 1 < part.size() ? k + 1 : 0].point;
-    outline.plain = outline.plain && line.a == std::min(here, next) &&
-                    line.b == std::max(here, next) && part[k].forward == (here < next);
+    const BspTree::Corner& corner = part[k];
+    const BspTree::Corner& before = part[k > 0 ? k - 1 : part.size() - 1];
+    const bool exact =
+        runs_through(corner.line, corner.point) && runs_through(before.line, corner.point);
+    outline.plain = outline.plain && exact && corner.line != before.line;
+    corners.push_back({corner.point, corner.line, corner.forward, exact});
   }
-  corners.insert(corners.end(), part.begin(), part.end());
   outline.end = static_cast<std::uint32_t>(corners.size());
   outlines.push_back(outline);
 }
@@ -124,9 +129,10 @@ FastFaces::FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines
 bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& outline) {
   const auto begin = static_cast<std::uint32_t>(corners.size());
   for (std::uint32_t k = outline.begin; k < outline.end; ++k) {
-    const BspTree::Corner& corner = outlines.corners[k];
-    corners.push_back({grid.points[static_cast<std::size_t>(corner.point)], corner.point,
-                       corner.line, corner.forward});
+    const FastOutlines::Corner& corner = outlines.corners[k];
+    corners.push_back({grid.points[static_cast<std::size_t>(corner.point)],
+                       corner.exact ? corner.point : FaceCorner::no_point, corner.line,
+                       corner.forward});
   }
   FaceCorner* const first = corners.data() + begin;
   const std::size_t count = corners.size() - begin;

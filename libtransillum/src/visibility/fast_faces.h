@@ -9,10 +9,12 @@
 
 namespace transillum {
 
-/// A convex face on the plane, as the fast engine keeps it: counter-clockwise.
+/// A corner of a convex face on the plane, counter-clockwise.
 struct FaceCorner {
-  GridPoint at;
-  PointId point;
+  static constexpr PointId no_point = -1;
+
+  GridPoint at;   ///< made by a cut of the tree: a step or two off its lines
+  PointId point;  ///< or no_point, where it is but the meeting of its edges' lines
   LineId line;   ///< of the edge to the next corner
   bool forward;  ///< that edge runs along its line from a to b
 };
@@ -26,15 +28,21 @@ struct FastOutlines {
     std::uint32_t begin, end;  ///< in `corners`
     bool plain;                ///< each edge's line runs through its own two corners
   };
+  struct Corner {
+    PointId point;
+    LineId line;
+    bool forward;
+    bool exact;  ///< both its edges' lines were made to run through it
+  };
   std::vector<BspTree::Line> lines;  ///< the tree's, then diagonals
-  std::vector<BspTree::Corner> corners;
+  std::vector<Corner> corners;
   std::vector<Outline> outlines;
   std::vector<std::uint32_t> first;  ///< outline of a fragment; one more at the end
 
   explicit FastOutlines(const BspTree& tree);
 
  private:
-  void add(PatchId patch, std::vector<BspTree::Corner> corners);
+  void add(PatchId patch, const std::vector<BspTree::Corner>& part);
 };
 
 /// What of a face is looked at first: how far it reaches along x, y, x + y and x - y, in steps

@@ -17,12 +17,19 @@ constexpr Real rounding = 8 * std::numeric_limits<Real>::epsilon();
 /// Corners of cut faces lie up to so many steps off the lines that they are on.
 constexpr int off_line = 2;
 
+/// Largest |x| + |y| in a box.
+template <class Box>
+auto reach_of(const Box& box) {
+  return std::max(-box.x0, box.x1) + std::max(-box.y0, box.y1);
+}
+
 }  // namespace
 
 template <class Real>
 typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& other) {
   count = other.count;
   error = other.error;
+  box = other.box;
   const auto filled = static_cast<std::ptrdiff_t>((count + 3) / 4 * 4);
   std::copy(other.x.begin(), other.x.begin() + filled, x.begin());
   std::copy(other.y.begin(), other.y.begin() + filled, y.begin());
@@ -31,15 +38,34 @@ typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& ot
   return *this;
 }
 
+/// To be called once all corners are there.
+template <class Real>
+void FastView<Real>::Piece::finish() {
+  for (std::size_t k = count; k % 4 != 0; ++k) {
+    x[k] = x[0];
+    y[k] = y[0];
+  }
+  box = {x[0], y[0], x[0], y[0]};
+  for (std::size_t k = 1; k < count; ++k) {
+    box.x0 = std::min(box.x0, x[k]);
+    box.y0 = std::min(box.y0, y[k]);
+    box.x1 = std::max(box.x1, x[k]);
+    box.y1 = std::max(box.y1, y[k]);
+  }
+}
+
 template <class Real>
 void FastView<Real>::look_from(std::int32_t face) {
   const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
   origin_ = faces_.corners[own.begin].at;
   edges_.clear();
   if (left_.empty()) left_.resize(1);
-  load(own, left_[0]);
-  left_count_ = 1;
+  Piece& piece = left_[0];
+  load_corners(own, piece);
+  reach_ = reach_of(piece.box);
+  load_edges(own, piece);
   kept_edges_ = edges_.size();
+  left_count_ = 1;
   left_area_ = area_ = static_cast<Real>(own.area);
 }
 
@@ -49,11 +75,13 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
   bin_ = bin;
   Piece& piece = left_[0];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
-    const EdgeRef edge = add_edge(grid_line(line, true), line, true);
-    const Sides sides = sides_of(piece, edge_of(edge));
+    const EdgeRef ref = add_edge(grid_line(line, true), line, true);
+    const Edge edge = edge_of(ref);
+    const Sides sides = sides_of(piece, edge, edge.bound);
     if (sides.left == 0) return false;
     if (sides.right == 0) continue;
-    split(piece, edge, sides, inside_, rest_);
+    measure(piece, edge, edge.bound);
+    split(piece, ref, sides, inside_, rest_);
     piece = inside_;
   }
   kept_edges_ = edges_.size();
@@ -62,16 +90,21 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
 }
 
 template <class Real>
-void FastView<Real>::load(const FastFaces::Face& face, Piece& piece) {
-  const FaceCorner* const corners = faces_.corners.data() + face.begin;
-  const std::size_t count = face.end - face.begin;
+void FastView<Real>::load_corners(const FastFaces::Face& face, Piece& piece) const {
   piece.count = 0;
   piece.error = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    piece.add(static_cast<Real>(corners[k].at.x - origin_.x),
-              static_cast<Real>(corners[k].at.y - origin_.y), 0, corners[k].point);
+  for (std::uint32_t k = face.begin; k < face.end; ++k) {
+    const FaceCorner& corner = faces_.corners[k];
+    piece.add(static_cast<Real>(corner.at.x - origin_.x),
+              static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
   }
-  piece.fill_up();
+  piece.finish();
+}
+
+template <class Real>
+void FastView<Real>::load_edges(const FastFaces::Face& face, Piece& piece) {
+  const FaceCorner* const corners = faces_.corners.data() + face.begin;
+  const std::size_t count = face.end - face.begin;
   for (std::size_t k = 0; k < count; ++k) {
     const FaceCorner& corner = corners[k];
     if (face.plain) {
@@ -79,7 +112,8 @@ void FastView<Real>::load(const FastFaces::Face& face, Piece& piece) {
       piece.edge[k] = add_edge(piece.x[k], piece.y[k], piece.x[next] - piece.x[k],
                                piece.y[next] - piece.y[k], corner.line, corner.forward);
     } else {
-      piece.edge[k] = add_edge(grid_line(corner.line, corner.forward), corner.line, corner.forward);
+      piece.edge[k] =
+          add_edge(grid_line(corner.line, corner.forward), corner.line, corner.forward);
     }
   }
 }
@@ -87,8 +121,10 @@ void FastView<Real>::load(const FastFaces::Face& face, Piece& piece) {
 template <class Real>
 typename FastView<Real>::EdgeRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy,
                                                           LineId line, bool forward) {
-  edges_.push_back({dx, dy, dy * x - dx * y, std::abs(dx) + std::abs(dy), std::abs(x) + std::abs(y),
-                    line, forward});
+  const Real length = std::abs(dx) + std::abs(dy);
+  const Real bound =
+      length * (rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line});
+  edges_.push_back({dx, dy, dy * x - dx * y, length, bound, line, forward});
   return static_cast<EdgeRef>(2 * (edges_.size() - 1));
 }
 
@@ -141,39 +177,52 @@ typename FastView<Real>::Edge FastView<Real>::edge_of(EdgeRef ref) const {
   return edge;
 }
 
-/// On which sides of the line of `edge` the corners of `piece` lie: those on it on neither. Leaves
-/// their determinants in sides_, and how far these may be wrong in side_errors_.
+/// On which sides of the line of `edge` the corners of `piece` lie; determinants within `bound` of
+/// 0 are not sure.
 template <class Real>
-typename FastView<Real>::Sides FastView<Real>::sides_of(const Piece& piece, const Edge& edge) {
+typename FastView<Real>::Sides FastView<Real>::sides_of(const Piece& piece, const Edge& edge,
+                                                        Real bound) const {
   Sides sides{0, 0};
-  std::uint32_t unsure = 0;
-  const std::size_t count = piece.count;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < piece.count; ++k) {
     const Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
-    const Real error =
-        edge.length * (rounding<Real> * (std::abs(piece.x[k]) + std::abs(piece.y[k]) + edge.reach) +
-                       piece.error + off_line);
-    sides_[k] = side;
-    side_errors_[k] = error;
-    sides.left |= static_cast<std::uint32_t>(side > error) << k;
-    sides.right |= static_cast<std::uint32_t>(side < -error) << k;
-    unsure |= static_cast<std::uint32_t>(std::abs(side) <= error) << k;
+    sides.left |= static_cast<std::uint32_t>(side > bound) << k;
+    sides.right |= static_cast<std::uint32_t>(side < -bound) << k;
   }
-  counts_.decisions += static_cast<std::int64_t>(count);
-  for (; unsure != 0; unsure &= unsure - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
-    sides_[k] = exact_side_of(piece, k, edge);
-    side_errors_[k] = rounding<Real> * std::abs(sides_[k]);
-    sides.left |= static_cast<std::uint32_t>(sides_[k] > 0) << k;
-    sides.right |= static_cast<std::uint32_t>(sides_[k] < 0) << k;
+  const std::uint32_t all = (std::uint32_t{1} << piece.count) - 1;
+  counts_.decisions += static_cast<std::int64_t>(piece.count);
+  return (sides.left | sides.right) == all ? sides : settled(piece, edge, sides);
+}
+
+/// The same with what was not sure settled.
+template <class Real>
+typename FastView<Real>::Sides FastView<Real>::settled(const Piece& piece, const Edge& edge,
+                                                       Sides sides) const {
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    if ((sides.left | sides.right) >> k & 1) continue;
+    const Real side = exact_side_of(piece, k, edge);
+    sides.left |= static_cast<std::uint32_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint32_t>(side < 0) << k;
   }
   return sides;
+}
+
+/// Leaves the determinants of the corners of `piece` and `edge` in sides_, their signs right, and
+/// how far they may be wrong in side_errors_.
+template <class Real>
+void FastView<Real>::measure(const Piece& piece, const Edge& edge, Real bound) {
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    sides_[k] = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+    side_errors_[k] = bound;
+    if (std::abs(sides_[k]) > bound) continue;
+    sides_[k] = exact_side_of(piece, k, edge);
+    side_errors_[k] = rounding<Real> * std::abs(sides_[k]);
+  }
 }
 
 /// The determinant of corner k of `piece` and the line of `edge` where it is too small for Real:
 /// its sign right, and its value too, which says where a cut goes.
 template <class Real>
-Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) {
+Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const {
   const std::size_t before = k > 0 ? k - 1 : piece.count - 1;
   const LineId leaving = edges_[static_cast<std::size_t>(piece.edge[k] >> 1)].line;
   const LineId arriving = edges_[static_cast<std::size_t>(piece.edge[before] >> 1)].line;
@@ -186,7 +235,7 @@ Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge
   }
   if (edge.line == halving ||
       (point == made_by_cut && (leaving == halving || arriving == halving))) {
-    return sides_[k];
+    return edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
   }
   ++counts_.exact_decisions;
   const GridLine line = grid_line(edge.line, edge.forward);
@@ -195,70 +244,89 @@ Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge
                            : exact_side(line, faces_.grid.points[static_cast<std::size_t>(point)]));
 }
 
-/// Whether an edge of `piece` has all of `other` on its outer side.
+/// Whether an edge of `piece` has all of `other`, which reaches so far, on its outer side.
 template <class Real>
-bool FastView<Real>::separates(const Piece& piece, const Piece& other) {
+bool FastView<Real>::separates(const Piece& piece, const Piece& other, Real reach) const {
   for (std::size_t k = 0; k < piece.count; ++k) {
-    if (sides_of(other, edge_of(piece.edge[k])).left == 0) return true;
+    const Edge edge = edge_of(piece.edge[k]);
+    const Real bound = edge.bound + edge.length * rounding<Real> * reach;
+    if (sides_of(other, edge, bound).left == 0) return true;
   }
   return false;
 }
 
 template <class Real>
 double FastView<Real>::show(std::int32_t face) {
+  const FastFaces::Face& shown = faces_.faces[static_cast<std::size_t>(face)];
+  load_corners(shown, shown_);
   edges_.resize(kept_edges_);
-  load(faces_.faces[static_cast<std::size_t>(face)], shown_);
-  next_count_ = 0;
   Real area = 0;
-  for (std::size_t p = 0; p < left_count_; ++p) area += eat(left_[p]);
-  left_.swap(next_left_);
-  left_count_ = next_count_;
-  left_area_ -= area;
+  // Parts that are put back at the end of the list lie outside of what is shown.
+  std::size_t end = left_count_;
+  for (std::size_t p = 0; p < end;) {
+    if (!left_[p].box.overlaps(shown_.box)) {
+      ++p;
+      continue;
+    }
+    if (edges_.size() == kept_edges_) {
+      load_edges(shown, shown_);
+      shown_reach_ = reach_of(shown_.box);
+    }
+    ++counts_.pairs;
+    if (!eat(p, area)) {
+      ++p;
+      continue;
+    }
+    // The last of those to be looked at takes its place, and the last of all that one's.
+    --end;
+    if (p != end) left_[p] = left_[end];
+    --left_count_;
+    if (end != left_count_) left_[end] = left_[left_count_];
+  }
+  if (area > 0) left_area_ -= area;
   return static_cast<double>(area);
 }
 
-/// Takes shown_ out of `piece`: keeps what lies outside, and returns the area inside.
+/// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside at the
+/// end of the list. Returns false where they share nothing.
 template <class Real>
-Real FastView<Real>::eat(const Piece& piece) {
-  ++counts_.pairs;
-  // Edges that leave out some of the piece, and whether one leaves out all.
-  const std::size_t kept = next_count_;
-  cuts_.clear();
-  for (std::size_t k = 0; k < shown_.count; ++k) {
-    const Sides sides = sides_of(piece, edge_of(shown_.edge[k]));
-    if (sides.left == 0) {
-      keep(piece);
-      return 0;
+bool FastView<Real>::eat(std::size_t place, Real& area) {
+  const std::size_t parts = left_count_;
+  std::uint32_t cuts = 0;
+  {
+    const Piece& piece = left_[place];
+    for (std::size_t k = 0; k < shown_.count; ++k) {
+      const Edge& edge = edges_[static_cast<std::size_t>(shown_.edge[k] >> 1)];
+      const Sides sides = sides_of(piece, edge, edge.bound + edge.length * piece.error);
+      if (sides.left == 0) return false;
+      cuts |= static_cast<std::uint32_t>(sides.right != 0) << k;
     }
-    if (sides.right != 0) cuts_.push_back(shown_.edge[k]);
+    if (cuts != 0 && separates(piece, shown_, shown_reach_)) return false;
+    if (cuts == 0) {
+      area += area_of(piece);
+      return true;
+    }
+    rest_ = piece;
   }
-  if (cuts_.empty()) return area_of(piece);
-  if (separates(piece, shown_)) {
-    keep(piece);
-    return 0;
-  }
-  rest_ = piece;
-  for (const EdgeRef edge : cuts_) {
-    const Sides sides = sides_of(rest_, edge_of(edge));
+  for (; cuts != 0; cuts &= cuts - 1) {
+    const EdgeRef ref = shown_.edge[static_cast<std::size_t>(std::countr_zero(cuts))];
+    const Edge edge = edge_of(ref);
+    const Real bound = edge.bound + edge.length * rest_.error;
+    const Sides sides = sides_of(rest_, edge, bound);
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
-      next_count_ = kept;
-      keep(piece);
-      return 0;
+      left_count_ = parts;
+      return false;
     }
     if (sides.right == 0) continue;
-    if (next_left_.size() <= next_count_) next_left_.resize(next_count_ + 1);
-    split(rest_, edge, sides, inside_, next_left_[next_count_++]);
+    measure(rest_, edge, bound);
+    if (left_.size() <= left_count_) left_.resize(left_count_ + 1);
+    split(rest_, ref, sides, inside_, left_[left_count_++]);
     std::swap(rest_, inside_);
   }
   kept_edges_ = edges_.size();
-  return area_of(rest_);
-}
-
-template <class Real>
-void FastView<Real>::keep(const Piece& piece) {
-  if (next_left_.size() <= next_count_) next_left_.resize(next_count_ + 1);
-  next_left_[next_count_++] = piece;
+  area += area_of(rest_);
+  return true;
 }
 
 /// Splits a piece along a line that has corners on both sides, as sides_of() has just found.
@@ -307,8 +375,18 @@ void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& i
   } else {
     add_crossing(piece, back, first, by, inside, outside);
   }
-  inside.fill_up();
-  outside.fill_up();
+  inside.finish();
+  outside.finish();
+}
+
+/// The point of the grid through which two lines both run by their making, if any.
+template <class Real>
+PointId FastView<Real>::common_point(LineId p, LineId q) const {
+  if (p < 0 || q < 0) return made_by_cut;
+  const BspTree::Line& a = outlines_.lines[static_cast<std::size_t>(p)];
+  const BspTree::Line& b = outlines_.lines[static_cast<std::size_t>(q)];
+  if (a.a == b.a || a.a == b.b) return a.a;
+  return a.b == b.a || a.b == b.b ? a.b : made_by_cut;
 }
 
 /// Adds the point where the edge from corner `from` to corner `to` crosses the line `by` to both
@@ -328,24 +406,30 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   Real error = piece.error + least_error + t_error * (std::abs(dx) + std::abs(dy));
   const Edge& edge = edges_[static_cast<std::size_t>(piece.edge[from] >> 1)];
   const Edge& cutting = edges_[static_cast<std::size_t>(by >> 1)];
-  if (error > 256 * least_error && edge.line != halving && cutting.line != halving) {
+  const PointId common = common_point(edge.line, cutting.line);
+  if (common != made_by_cut) {
+    const GridPoint& p = faces_.grid.points[static_cast<std::size_t>(common)];
+    x = static_cast<Real>(p.x - origin_.x);
+    y = static_cast<Real>(p.y - origin_.y);
+    error = 0;
+  } else if (error > 256 * least_error && edge.line != halving && cutting.line != halving) {
     // The lines meet at a flat angle.
     ++counts_.exact_decisions;
     const Meeting meeting =
         exact_meeting(grid_line(edge.line, true), grid_line(cutting.line, true), origin_);
     if (!meeting.parallel) {
-      // Corners of cut faces are not quite on their lines, so these may meet beyond the edge.
-      x = std::clamp(static_cast<Real>(meeting.x), std::min(piece.x[from], piece.x[to]),
-                     std::max(piece.x[from], piece.x[to]));
-      y = std::clamp(static_cast<Real>(meeting.y), std::min(piece.y[from], piece.y[to]),
-                     std::max(piece.y[from], piece.y[to]));
+      // Corners of cut faces lie a little off their lines: no farther than the edge goes.
+      const auto [x0, x1] = std::minmax(piece.x[from], piece.x[to]);
+      const auto [y0, y1] = std::minmax(piece.y[from], piece.y[to]);
+      x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
+      y = std::clamp(static_cast<Real>(meeting.y), y0, y1);
       error = least_error;
     }
   }
   // The outline goes on along the line where it leaves a part's own side.
   const bool leaves_inside = here > 0;
-  inside.add(x, y, leaves_inside ? by : piece.edge[from], made_by_cut);
-  outside.add(x, y, leaves_inside ? piece.edge[from] : by ^ 1, made_by_cut);
+  inside.add(x, y, leaves_inside ? by : piece.edge[from], common);
+  outside.add(x, y, leaves_inside ? piece.edge[from] : by ^ 1, common);
   inside.error = std::max(inside.error, error);
   outside.error = std::max(outside.error, error);
 }

@@ -37,7 +37,7 @@ class FastView {
 
  private:
   static constexpr std::size_t most_corners = 32;  ///< of a piece
-  static constexpr PointId made_by_cut = -1;
+  static constexpr PointId made_by_cut = FaceCorner::no_point;
   // Lines of a bin's square and of a piece cut in half, in place of LineIds.
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving = -6;
 
@@ -45,19 +45,26 @@ class FastView {
   struct Edge {
     Real dx, dy, c;
     Real length;  ///< |dx| + |dy|
-    Real reach;   ///< |x| + |y| of the point that c was made of
+    Real bound;   ///< how far rounding may take a determinant with a point of the looking polygon
     LineId line;
     bool forward;  ///< it runs along its line from a to b
   };
   /// Index in edges_, doubled, and 1 more where the line is meant the other way round.
   using EdgeRef = std::int32_t;
 
-  /// A convex polygon, counter-clockwise. xs and ys repeat the first corner behind the last, up to
-  /// a multiple of four.
+  struct Box {
+    Real x0, y0, x1, y1;
+    bool overlaps(const Box& other) const {
+      return (x0 < other.x1) & (other.x0 < x1) & (y0 < other.y1) & (other.y0 < y1);
+    }
+  };
+  /// A convex polygon, counter-clockwise. x and y repeat the first corner behind the last, up to a
+  /// multiple of four.
   struct Piece {
     std::size_t count = 0;
     Real error = 0;  ///< of corners made by cuts: along x or y at most
-    std::array<Real, most_corners> x, y;
+    Box box;
+    alignas(32) std::array<Real, most_corners> x, y;
     std::array<EdgeRef, most_corners> edge;   ///< to the next corner
     std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
 
@@ -70,32 +77,30 @@ class FastView {
       edge[count] = leaving;
       point[count++] = on_grid;
     }
-    void fill_up() {
-      for (std::size_t k = count; k % 4 != 0; ++k) {
-        x[k] = x[0];
-        y[k] = y[0];
-      }
-    }
+    void finish();
   };
-  /// On which sides of a line corners lie, one bit a corner.
+  /// On which sides of a line corners lie, one bit a corner; those on it on neither.
   struct Sides {
     std::uint32_t left, right;
   };
 
-  void load(const FastFaces::Face& face, Piece& piece);
+  void load_corners(const FastFaces::Face& face, Piece& piece) const;
+  void load_edges(const FastFaces::Face& face, Piece& piece);
   EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, bool forward);
   EdgeRef add_edge(const GridLine& through, LineId line, bool forward);
   GridLine grid_line(LineId line, bool forward) const;
   Edge edge_of(EdgeRef ref) const;
 
-  Sides sides_of(const Piece& piece, const Edge& edge);
-  Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge);
-  bool separates(const Piece& piece, const Piece& other);
-  Real eat(const Piece& piece);
+  Sides sides_of(const Piece& piece, const Edge& edge, Real bound) const;
+  Sides settled(const Piece& piece, const Edge& edge, Sides sides) const;
+  void measure(const Piece& piece, const Edge& edge, Real bound);
+  Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const;
+  bool separates(const Piece& piece, const Piece& other, Real reach) const;
+  bool eat(std::size_t place, Real& area);
   void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
+  PointId common_point(LineId p, LineId q) const;
   void add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by, Piece& inside,
                     Piece& outside);
-  void keep(const Piece& piece);
   static Real area_of(const Piece& piece);
 
   const FastOutlines& outlines_;
@@ -106,13 +111,14 @@ class FastView {
   FastBins::Bin bin_{};
   std::vector<Edge> edges_;
   std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
+  Real reach_ = 0;              ///< largest |x| + |y| of the looking polygon
   Real area_ = 0, left_area_ = 0;
-  std::vector<Piece> left_, next_left_;  ///< left_count_ and next_count_ of them
-  std::size_t left_count_ = 0, next_count_ = 0;
+  std::vector<Piece> left_;  ///< left_count_ of them, then places to be used again
+  std::size_t left_count_ = 0;
 
   Piece shown_, inside_, rest_;
-  std::vector<EdgeRef> cuts_;
-  std::array<Real, most_corners> sides_, side_errors_;  ///< of the corners sides_of() was given
+  Real shown_reach_ = 0;
+  std::array<Real, most_corners> sides_, side_errors_;  ///< of the corners measure() was given
 };
 
 extern template class FastView<double>;
