@@ -15,8 +15,8 @@ struct FaceCorner {
 
   GridPoint at;   ///< made by a cut of the tree: a step or two off its lines
   PointId point;  ///< or no_point, where it is but the meeting of its edges' lines
-  LineId line;   ///< of the edge to the next corner
-  bool forward;  ///< that edge runs along its line from a to b
+  LineId line;    ///< of the edge to the next corner
+  bool forward;   ///< that edge runs along its line from a to b
 };
 
 /// The fragments of a tree as the fast engine takes them: with no more than most_corners corners,

@@ -77,10 +77,10 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
     const EdgeRef ref = add_edge(grid_line(line, true), line, true);
     const Edge edge = edge_of(ref);
-    const Sides sides = sides_of(piece, edge, edge.bound);
+    const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
     if (sides.left == 0) return false;
     if (sides.right == 0) continue;
-    measure(piece, edge, edge.bound);
+    measure(piece, edge, edge.length * (edge.slack + piece.error));
     split(piece, ref, sides, inside_, rest_);
     piece = inside_;
   }
@@ -112,8 +112,7 @@ void FastView<Real>::load_edges(const FastFaces::Face& face, Piece& piece) {
       piece.edge[k] = add_edge(piece.x[k], piece.y[k], piece.x[next] - piece.x[k],
                                piece.y[next] - piece.y[k], corner.line, corner.forward);
     } else {
-      piece.edge[k] =
-          add_edge(grid_line(corner.line, corner.forward), corner.line, corner.forward);
+      piece.edge[k] = add_edge(grid_line(corner.line, corner.forward), corner.line, corner.forward);
     }
   }
 }
@@ -122,9 +121,8 @@ template <class Real>
 typename FastView<Real>::EdgeRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy,
                                                           LineId line, bool forward) {
   const Real length = std::abs(dx) + std::abs(dy);
-  const Real bound =
-      length * (rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line});
-  edges_.push_back({dx, dy, dy * x - dx * y, length, bound, line, forward});
+  const Real slack = rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line};
+  edges_.push_back({dx, dy, dy * x - dx * y, length, slack, line, forward});
   return static_cast<EdgeRef>(2 * (edges_.size() - 1));
 }
 
@@ -206,16 +204,12 @@ typename FastView<Real>::Sides FastView<Real>::settled(const Piece& piece, const
   return sides;
 }
 
-/// Leaves the determinants of the corners of `piece` and `edge` in sides_, their signs right, and
-/// how far they may be wrong in side_errors_.
+/// Leaves the determinants of the corners of `piece` and `edge` in sides_, their signs right.
 template <class Real>
 void FastView<Real>::measure(const Piece& piece, const Edge& edge, Real bound) {
   for (std::size_t k = 0; k < piece.count; ++k) {
     sides_[k] = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
-    side_errors_[k] = bound;
-    if (std::abs(sides_[k]) > bound) continue;
-    sides_[k] = exact_side_of(piece, k, edge);
-    side_errors_[k] = rounding<Real> * std::abs(sides_[k]);
+    if (std::abs(sides_[k]) <= bound) sides_[k] = exact_side_of(piece, k, edge);
   }
 }
 
@@ -249,7 +243,7 @@ template <class Real>
 bool FastView<Real>::separates(const Piece& piece, const Piece& other, Real reach) const {
   for (std::size_t k = 0; k < piece.count; ++k) {
     const Edge edge = edge_of(piece.edge[k]);
-    const Real bound = edge.bound + edge.length * rounding<Real> * reach;
+    const Real bound = edge.length * (edge.slack + rounding<Real> * reach);
     if (sides_of(other, edge, bound).left == 0) return true;
   }
   return false;
@@ -297,7 +291,7 @@ bool FastView<Real>::eat(std::size_t place, Real& area) {
     const Piece& piece = left_[place];
     for (std::size_t k = 0; k < shown_.count; ++k) {
       const Edge& edge = edges_[static_cast<std::size_t>(shown_.edge[k] >> 1)];
-      const Sides sides = sides_of(piece, edge, edge.bound + edge.length * piece.error);
+      const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
       if (sides.left == 0) return false;
       cuts |= static_cast<std::uint32_t>(sides.right != 0) << k;
     }
@@ -311,7 +305,7 @@ bool FastView<Real>::eat(std::size_t place, Real& area) {
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = shown_.edge[static_cast<std::size_t>(std::countr_zero(cuts))];
     const Edge edge = edge_of(ref);
-    const Real bound = edge.bound + edge.length * rest_.error;
+    const Real bound = edge.length * (edge.slack + rest_.error);
     const Sides sides = sides_of(rest_, edge, bound);
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
@@ -399,20 +393,21 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   const Real dx = piece.x[to] - piece.x[from], dy = piece.y[to] - piece.y[from];
   const Real t = here * across;
   Real x = piece.x[from] + t * dx, y = piece.y[from] + t * dy;
-  const Real t_error =
-      (side_errors_[from] * std::abs(there) + side_errors_[to] * std::abs(here)) * across * across;
-  const Real least_error =
-      rounding<Real> * (std::abs(x) + std::abs(y) + std::abs(dx) + std::abs(dy));
-  Real error = piece.error + least_error + t_error * (std::abs(dx) + std::abs(dy));
   const Edge& edge = edges_[static_cast<std::size_t>(piece.edge[from] >> 1)];
   const Edge& cutting = edges_[static_cast<std::size_t>(by >> 1)];
+  // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
+  // farther from where they meet.
+  const Real nearness = edge.slack + cutting.slack + rounding<Real> * (std::abs(x) + std::abs(y));
+  const Real flatness =
+      edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
+  Real error = nearness * flatness;
   const PointId common = common_point(edge.line, cutting.line);
   if (common != made_by_cut) {
     const GridPoint& p = faces_.grid.points[static_cast<std::size_t>(common)];
     x = static_cast<Real>(p.x - origin_.x);
     y = static_cast<Real>(p.y - origin_.y);
     error = 0;
-  } else if (error > 256 * least_error && edge.line != halving && cutting.line != halving) {
+  } else if (!(flatness < 0x1p16) && edge.line != halving && cutting.line != halving) {
     // The lines meet at a flat angle.
     ++counts_.exact_decisions;
     const Meeting meeting =
@@ -423,7 +418,7 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
       const auto [y0, y1] = std::minmax(piece.y[from], piece.y[to]);
       x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
       y = std::clamp(static_cast<Real>(meeting.y), y0, y1);
-      error = least_error;
+      error = nearness;
     }
   }
   // The outline goes on along the line where it leaves a part's own side.

@@ -45,7 +45,7 @@ class FastView {
   struct Edge {
     Real dx, dy, c;
     Real length;  ///< |dx| + |dy|
-    Real bound;   ///< how far rounding may take a determinant with a point of the looking polygon
+    Real slack;   ///< how far from the line a point of the looking polygon may seem by rounding
     LineId line;
     bool forward;  ///< it runs along its line from a to b
   };
@@ -118,7 +118,7 @@ class FastView {
 
   Piece shown_, inside_, rest_;
   Real shown_reach_ = 0;
-  std::array<Real, most_corners> sides_, side_errors_;  ///< of the corners measure() was given
+  std::array<Real, most_corners> sides_;  ///< of the corners measure() was given
 };
 
 extern template class FastView<double>;
