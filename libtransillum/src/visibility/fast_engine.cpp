@@ -7,10 +7,6 @@
 // Light goes both ways along a line, so what front-facing faces see of back-facing ones is also
 // what these see of them. Only back-facing faces that are left with something open look
 // for themselves: in a scene of closed surfaces, none.
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
 #include <algorithm>
 #include <memory>
 #include <type_traits>
@@ -26,26 +22,6 @@ namespace {
 
 /// Faces in more bins than this look bin by bin.
 constexpr std::int32_t most_bins = 8;
-
-/// Whether two faces' boxes overlap, one of them given by the other's opposite ends.
-bool overlap(const FaceBox& box, const FaceBox& opposite) {
-#ifdef __SSE2__
-  const __m128 low = _mm_cmplt_ps(_mm_load_ps(box.ends.data()), _mm_load_ps(opposite.ends.data()));
-  const __m128 high =
-      _mm_cmplt_ps(_mm_load_ps(box.ends.data() + 4), _mm_load_ps(opposite.ends.data() + 4));
-  return _mm_movemask_ps(_mm_and_ps(low, high)) == 15;
-#else
-  bool all = true;
-  for (std::size_t d = 0; d < 8; ++d) all &= box.ends[d] < opposite.ends[d];
-  return all;
-#endif
-}
-
-FaceBox opposite_of(const FaceBox& box) {
-  FaceBox opposite;
-  for (std::size_t d = 0; d < 8; ++d) opposite.ends[d] = -box.ends[(d + 4) % 8];
-  return opposite;
-}
 
 class FastPass {
  public:
@@ -132,10 +108,10 @@ class FastPass {
       return true;
     }
     constexpr bool wide = std::is_same_v<View, FastView<long double>>;
-    const FaceBox opposite = opposite_of(faces_.boxes[static_cast<std::size_t>(face)]);
-    begin_search<way>(face, bin != nullptr, entry, opposite);
-    for (std::int32_t other = next<way>(opposite); other >= 0; other = next<way>(opposite)) {
-      const double area = view.show(other);
+    begin_search<way>(face, bin != nullptr, entry, view.window());
+    for (std::int32_t other = next<way>(view.window()); other >= 0;
+         other = next<way>(view.window())) {
+      const double area = view.show(other, faces_.boxes[static_cast<std::size_t>(other)]);
       if (!(area > 0)) continue;
       if (!wide && faces_.faces[static_cast<std::size_t>(other)].needle) return false;
       sights_.push_back({other, area});
@@ -146,7 +122,7 @@ class FastPass {
 
   template <Way way>
   void begin_search(std::int32_t face, bool in_one_bin, FastBins::Entry entry,
-                    const FaceBox& opposite) {
+                    const FaceWindow& window) {
     cursors_.clear();
     if (in_one_bin) {
       cursors_.push_back({entry, 0});
@@ -155,23 +131,23 @@ class FastPass {
         cursors_.push_back({e, 0});
       }
     }
-    for (Cursor& cursor : cursors_) move<way>(cursor, opposite);
+    for (Cursor& cursor : cursors_) move<way>(cursor, window);
   }
 
   template <Way way>
-  void move(Cursor& cursor, const FaceBox& opposite) const {
+  void move(Cursor& cursor, const FaceWindow& window) const {
     do {
       cursor.entry += way == Way::up ? -1 : 1;
-    } while (!overlap(bins_.box(cursor.entry), opposite));
+    } while (!window.overlaps(bins_.box(cursor.entry)));
     cursor.face = bins_.face(cursor.entry);
   }
 
   /// The next face that may be seen, or -1.
   template <Way way>
-  std::int32_t next(const FaceBox& opposite) {
+  std::int32_t next(const FaceWindow& window) {
     if (cursors_.size() == 1) {
       const std::int32_t face = cursors_[0].face;
-      if (face >= 0) move<way>(cursors_[0], opposite);
+      if (face >= 0) move<way>(cursors_[0], window);
       return face;
     }
     std::int32_t nearest = -1;
@@ -183,7 +159,7 @@ class FastPass {
     }
     if (nearest < 0) return nearest;
     for (Cursor& cursor : cursors_) {
-      if (cursor.face == nearest) move<way>(cursor, opposite);
+      if (cursor.face == nearest) move<way>(cursor, window);
     }
     return nearest;
   }

@@ -30,9 +30,6 @@ bool is_convex(const FaceCorner* outline, std::size_t count) {
   return true;
 }
 
-/// A float that is no larger than `value`.
-float below(std::int64_t value) { return static_cast<float>(value - (std::abs(value) >> 23) - 1); }
-
 FaceBox box_of(const FaceCorner* outline, std::size_t count) {
   std::int64_t low[4], high[4];
   std::fill(low, low + 4, std::numeric_limits<std::int64_t>::max());
@@ -47,8 +44,8 @@ FaceBox box_of(const FaceCorner* outline, std::size_t count) {
   }
   FaceBox box;
   for (std::size_t d = 0; d < 4; ++d) {
-    box.ends[d] = below(low[d]);
-    box.ends[d + 4] = below(-high[d]);
+    box.ends[d] = rounded_down(static_cast<double>(low[d]));
+    box.ends[d + 4] = rounded_down(static_cast<double>(-high[d]));
   }
   return box;
 }

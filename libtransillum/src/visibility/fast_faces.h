@@ -1,7 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -45,11 +50,32 @@ struct FastOutlines {
   void add(PatchId patch, const std::vector<BspTree::Corner>& part);
 };
 
-/// What of a face is looked at first: how far it reaches along x, y, x + y and x - y, in steps
-/// of the grid, rounded outward: four lower ends, then the four upper ends negated.
-struct alignas(32) FaceBox {
+/// How far something reaches along x, y, x + y and x - y, in steps of the grid, rounded outward:
+/// four lower ends, then the four upper ends negated.
+struct alignas(16) FaceBox {
   std::array<float, 8> ends;
 };
+/// The same, upper ends first and the lower ends negated: what a FaceBox is compared with.
+struct alignas(16) FaceWindow {
+  std::array<float, 8> ends;
+
+  bool overlaps(const FaceBox& box) const {
+#ifdef __SSE2__
+    const __m128 low = _mm_cmplt_ps(_mm_load_ps(box.ends.data()), _mm_load_ps(ends.data()));
+    const __m128 high =
+        _mm_cmplt_ps(_mm_load_ps(box.ends.data() + 4), _mm_load_ps(ends.data() + 4));
+    return _mm_movemask_ps(_mm_and_ps(low, high)) == 15;
+#else
+    bool all = true;
+    for (std::size_t d = 0; d < 8; ++d) all &= box.ends[d] < ends[d];
+    return all;
+#endif
+  }
+};
+/// A float that is no larger than a number of steps.
+inline float rounded_down(double steps) {
+  return static_cast<float>(steps - 0x1p-23 * std::abs(steps) - 1);
+}
 
 /// All fragments of a tree seen along one direction, farthest toward it first; those seen edge-on
 /// are left out.

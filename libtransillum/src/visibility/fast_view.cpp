@@ -17,10 +17,50 @@ constexpr Real rounding = 8 * std::numeric_limits<Real>::epsilon();
 /// Corners of cut faces lie up to so many steps off the lines that they are on.
 constexpr int off_line = 2;
 
-/// Largest |x| + |y| in a box.
-template <class Box>
-auto reach_of(const Box& box) {
-  return std::max(-box.x0, box.x1) + std::max(-box.y0, box.y1);
+/// On which sides of a line corners lie, one bit a corner.
+struct SideBits {
+  std::uint32_t left = 0, right = 0;
+};
+
+template <class Real>
+SideBits side_bits(const Real* x, const Real* y, std::size_t count, Real dx, Real dy, Real c,
+                   Real bound) {
+  SideBits bits;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Real side = dx * y[k] - dy * x[k] + c;
+    bits.left |= static_cast<std::uint32_t>(side > bound) << k;
+    bits.right |= static_cast<std::uint32_t>(side < -bound) << k;
+  }
+  return bits;
+}
+
+#ifdef __SSE2__
+/// The same, by twos. What lies behind the last corner up to a multiple of two may be read.
+SideBits side_bits(const double* x, const double* y, std::size_t count, double dx, double dy,
+                   double c, double bound) {
+  SideBits bits;
+  const __m128d dxs = _mm_set1_pd(dx), dys = _mm_set1_pd(dy), cs = _mm_set1_pd(c);
+  const __m128d bounds = _mm_set1_pd(bound), minus_bounds = _mm_set1_pd(-bound);
+  for (std::size_t k = 0; k < count; k += 2) {
+    const __m128d side = _mm_add_pd(_mm_sub_pd(_mm_mul_pd(dxs, _mm_load_pd(y + k)),
+                                               _mm_mul_pd(dys, _mm_load_pd(x + k))),
+                                    cs);
+    bits.left |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(side, bounds))) << k;
+    bits.right |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(side, minus_bounds)))
+                  << k;
+  }
+  return bits;
+}
+#endif
+
+/// Largest |x| + |y| of some corners.
+template <class Polygon>
+auto reach_of(const Polygon& polygon) {
+  auto reach = std::abs(polygon.x[0]) + std::abs(polygon.y[0]);
+  for (std::size_t k = 1; k < polygon.count; ++k) {
+    reach = std::max(reach, std::abs(polygon.x[k]) + std::abs(polygon.y[k]));
+  }
+  return reach;
 }
 
 }  // namespace
@@ -29,7 +69,7 @@ template <class Real>
 typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& other) {
   count = other.count;
   error = other.error;
-  box = other.box;
+  window = other.window;
   const auto filled = static_cast<std::ptrdiff_t>((count + 3) / 4 * 4);
   std::copy(other.x.begin(), other.x.begin() + filled, x.begin());
   std::copy(other.y.begin(), other.y.begin() + filled, y.begin());
@@ -38,19 +78,30 @@ typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& ot
   return *this;
 }
 
-/// To be called once all corners are there.
 template <class Real>
-void FastView<Real>::Piece::finish() {
+void FastView<Real>::Piece::fill_up() {
   for (std::size_t k = count; k % 4 != 0; ++k) {
     x[k] = x[0];
     y[k] = y[0];
   }
-  box = {x[0], y[0], x[0], y[0]};
-  for (std::size_t k = 1; k < count; ++k) {
-    box.x0 = std::min(box.x0, x[k]);
-    box.y0 = std::min(box.y0, y[k]);
-    box.x1 = std::max(box.x1, x[k]);
-    box.y1 = std::max(box.y1, y[k]);
+}
+
+template <class Real>
+void FastView<Real>::find_window(Piece& piece) const {
+  const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
+  const std::array<double, 4> origin{x, y, x + y, x - y};
+  std::array<Real, 4> low, high;
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    const std::array<Real, 4> along{piece.x[k], piece.y[k], piece.x[k] + piece.y[k],
+                                    piece.x[k] - piece.y[k]};
+    for (std::size_t d = 0; d < 4; ++d) {
+      low[d] = k == 0 || along[d] < low[d] ? along[d] : low[d];
+      high[d] = k == 0 || along[d] > high[d] ? along[d] : high[d];
+    }
+  }
+  for (std::size_t d = 0; d < 4; ++d) {
+    piece.window.ends[d] = -rounded_down(-(origin[d] + static_cast<double>(high[d])));
+    piece.window.ends[d + 4] = -rounded_down(origin[d] + static_cast<double>(low[d]));
   }
 }
 
@@ -59,34 +110,49 @@ void FastView<Real>::look_from(std::int32_t face) {
   const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
   origin_ = faces_.corners[own.begin].at;
   edges_.clear();
-  if (left_.empty()) left_.resize(1);
-  Piece& piece = left_[0];
+  unused_.insert(unused_.end(), left_.begin(), left_.end());
+  left_.assign(1, new_piece());
+  Piece& piece = pieces_[left_[0]];
   load_corners(own, piece);
-  reach_ = reach_of(piece.box);
+  reach_ = reach_of(piece);
   load_edges(own, piece);
   kept_edges_ = edges_.size();
-  left_count_ = 1;
   left_area_ = area_ = static_cast<Real>(own.area);
+  find_window(piece);
+  window_ = piece.window;
 }
 
 template <class Real>
 bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
   look_from(face);
   bin_ = bin;
-  Piece& piece = left_[0];
+  Piece& piece = pieces_[left_[0]];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
     const EdgeRef ref = add_edge(grid_line(line, true), line, true);
     const Edge edge = edge_of(ref);
-    const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
+    const Sides sides = measure(piece, edge, edge.length * (edge.slack + piece.error));
     if (sides.left == 0) return false;
     if (sides.right == 0) continue;
-    measure(piece, edge, edge.length * (edge.slack + piece.error));
-    split(piece, ref, sides, inside_, rest_);
-    piece = inside_;
+    split(piece, ref, sides, rest_[0], rest_[1]);
+    piece = rest_[0];
   }
   kept_edges_ = edges_.size();
   left_area_ = area_ = area_of(piece);
+  find_window(piece);
+  window_ = piece.window;
   return area_ > 0;
+}
+
+/// A place for one more piece.
+template <class Real>
+std::uint32_t FastView<Real>::new_piece() {
+  if (unused_.empty()) {
+    pieces_.emplace_back();
+    return static_cast<std::uint32_t>(pieces_.size() - 1);
+  }
+  const std::uint32_t place = unused_.back();
+  unused_.pop_back();
+  return place;
 }
 
 template <class Real>
@@ -98,7 +164,7 @@ void FastView<Real>::load_corners(const FastFaces::Face& face, Piece& piece) con
     piece.add(static_cast<Real>(corner.at.x - origin_.x),
               static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
   }
-  piece.finish();
+  piece.fill_up();
 }
 
 template <class Real>
@@ -180,14 +246,12 @@ typename FastView<Real>::Edge FastView<Real>::edge_of(EdgeRef ref) const {
 template <class Real>
 typename FastView<Real>::Sides FastView<Real>::sides_of(const Piece& piece, const Edge& edge,
                                                         Real bound) const {
-  Sides sides{0, 0};
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    const Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
-    sides.left |= static_cast<std::uint32_t>(side > bound) << k;
-    sides.right |= static_cast<std::uint32_t>(side < -bound) << k;
-  }
-  const std::uint32_t all = (std::uint32_t{1} << piece.count) - 1;
-  counts_.decisions += static_cast<std::int64_t>(piece.count);
+  const std::size_t count = piece.count;
+  const std::uint32_t all = (std::uint32_t{1} << count) - 1;
+  const SideBits bits =
+      side_bits(piece.x.data(), piece.y.data(), count, edge.dx, edge.dy, edge.c, bound);
+  counts_.decisions += static_cast<std::int64_t>(count);
+  const Sides sides{bits.left & all, bits.right & all};
   return (sides.left | sides.right) == all ? sides : settled(piece, edge, sides);
 }
 
@@ -204,13 +268,20 @@ typename FastView<Real>::Sides FastView<Real>::settled(const Piece& piece, const
   return sides;
 }
 
-/// Leaves the determinants of the corners of `piece` and `edge` in sides_, their signs right.
+/// The same, and leaves the determinants in sides_, their signs right.
 template <class Real>
-void FastView<Real>::measure(const Piece& piece, const Edge& edge, Real bound) {
+typename FastView<Real>::Sides FastView<Real>::measure(const Piece& piece, const Edge& edge,
+                                                       Real bound) {
+  Sides sides{0, 0};
+  counts_.decisions += static_cast<std::int64_t>(piece.count);
   for (std::size_t k = 0; k < piece.count; ++k) {
-    sides_[k] = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
-    if (std::abs(sides_[k]) <= bound) sides_[k] = exact_side_of(piece, k, edge);
+    Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+    if (std::abs(side) <= bound) side = exact_side_of(piece, k, edge);
+    sides_[k] = side;
+    sides.left |= static_cast<std::uint32_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint32_t>(side < 0) << k;
   }
+  return sides;
 }
 
 /// The determinant of corner k of `piece` and the line of `edge` where it is too small for Real:
@@ -250,76 +321,94 @@ bool FastView<Real>::separates(const Piece& piece, const Piece& other, Real reac
 }
 
 template <class Real>
-double FastView<Real>::show(std::int32_t face) {
+double FastView<Real>::show(std::int32_t face, const FaceBox& box) {
   const FastFaces::Face& shown = faces_.faces[static_cast<std::size_t>(face)];
-  load_corners(shown, shown_);
-  edges_.resize(kept_edges_);
+  bool loaded = false;
   Real area = 0;
-  // Parts that are put back at the end of the list lie outside of what is shown.
-  std::size_t end = left_count_;
-  for (std::size_t p = 0; p < end;) {
-    if (!left_[p].box.overlaps(shown_.box)) {
+  parts_.clear();
+  for (std::size_t p = 0; p < left_.size();) {
+    const std::uint32_t place = left_[p];
+    if (!pieces_[place].window.overlaps(box)) {
       ++p;
       continue;
     }
-    if (edges_.size() == kept_edges_) {
+    if (!loaded) {
+      edges_.resize(kept_edges_);
+      load_corners(shown, shown_);
       load_edges(shown, shown_);
-      shown_reach_ = reach_of(shown_.box);
+      shown_reach_ = reach_of(shown_);
+      loaded = true;
     }
     ++counts_.pairs;
-    if (!eat(p, area)) {
+    if (!eat(place, area)) {
       ++p;
       continue;
     }
-    // The last of those to be looked at takes its place, and the last of all that one's.
-    --end;
-    if (p != end) left_[p] = left_[end];
-    --left_count_;
-    if (end != left_count_) left_[end] = left_[left_count_];
+    unused_.push_back(place);
+    left_[p] = left_.back();
+    left_.pop_back();
   }
-  if (area > 0) left_area_ -= area;
+  if (area > 0 || !parts_.empty()) {
+    left_.insert(left_.end(), parts_.begin(), parts_.end());
+    left_area_ -= area;
+    find_whole_window();
+  }
   return static_cast<double>(area);
 }
 
-/// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside at the
-/// end of the list. Returns false where they share nothing.
 template <class Real>
-bool FastView<Real>::eat(std::size_t place, Real& area) {
-  const std::size_t parts = left_count_;
-  std::uint32_t cuts = 0;
-  {
-    const Piece& piece = left_[place];
-    for (std::size_t k = 0; k < shown_.count; ++k) {
-      const Edge& edge = edges_[static_cast<std::size_t>(shown_.edge[k] >> 1)];
-      const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
-      if (sides.left == 0) return false;
-      cuts |= static_cast<std::uint32_t>(sides.right != 0) << k;
+void FastView<Real>::find_whole_window() {
+  for (std::size_t p = 0; p < left_.size(); ++p) {
+    const FaceWindow& window = pieces_[left_[p]].window;
+    for (std::size_t d = 0; d < 8; ++d) {
+      window_.ends[d] = p == 0 ? window.ends[d] : std::max(window_.ends[d], window.ends[d]);
     }
-    if (cuts != 0 && separates(piece, shown_, shown_reach_)) return false;
-    if (cuts == 0) {
-      area += area_of(piece);
-      return true;
-    }
-    rest_ = piece;
   }
+}
+
+/// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside into
+/// parts_. Returns false where they share nothing.
+template <class Real>
+bool FastView<Real>::eat(std::uint32_t place, Real& area) {
+  std::uint32_t cuts = 0;
+  for (std::size_t k = 0; k < shown_.count; ++k) {
+    const Piece& piece = pieces_[place];
+    const Edge& edge = edges_[static_cast<std::size_t>(shown_.edge[k] >> 1)];
+    const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
+    if (sides.left == 0) return false;
+    cuts |= static_cast<std::uint32_t>(sides.right != 0) << k;
+  }
+  if (cuts == 0) {
+    area += area_of(pieces_[place]);
+    return true;
+  }
+  if (separates(pieces_[place], shown_, shown_reach_)) return false;
+  const std::size_t parts = parts_.size();
+  std::size_t used = 0;
+  const Piece* rest = &pieces_[place];
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = shown_.edge[static_cast<std::size_t>(std::countr_zero(cuts))];
     const Edge edge = edge_of(ref);
-    const Real bound = edge.length * (edge.slack + rest_.error);
-    const Sides sides = sides_of(rest_, edge, bound);
+    const Sides sides = measure(*rest, edge, edge.length * (edge.slack + rest->error));
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
-      left_count_ = parts;
+      unused_.insert(unused_.end(), parts_.begin() + static_cast<std::ptrdiff_t>(parts),
+                     parts_.end());
+      parts_.resize(parts);
       return false;
     }
     if (sides.right == 0) continue;
-    measure(rest_, edge, bound);
-    if (left_.size() <= left_count_) left_.resize(left_count_ + 1);
-    split(rest_, ref, sides, inside_, left_[left_count_++]);
-    std::swap(rest_, inside_);
+    const bool from_place = rest == &pieces_[place];
+    const std::uint32_t part = new_piece();
+    if (from_place) rest = &pieces_[place];
+    split(*rest, ref, sides, rest_[used], pieces_[part]);
+    find_window(pieces_[part]);
+    parts_.push_back(part);
+    rest = &rest_[used];
+    used = 1 - used;
   }
   kept_edges_ = edges_.size();
-  area += area_of(rest_);
+  area += area_of(*rest);
   return true;
 }
 
@@ -369,8 +458,8 @@ void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& i
   } else {
     add_crossing(piece, back, first, by, inside, outside);
   }
-  inside.finish();
-  outside.finish();
+  inside.fill_up();
+  outside.fill_up();
 }
 
 /// The point of the grid through which two lines both run by their making, if any.

@@ -29,11 +29,13 @@ class FastView {
   /// Looks from the part of a face that lies in a bin. Returns false where there is none.
   bool look_from(std::int32_t face, const FastBins::Bin& bin);
 
-  /// Eats up what `face` covers of what is left, and returns its area, steps squared.
-  double show(std::int32_t face);
+  /// Eats up what `face`, with its box, covers of what is left, and returns its area, steps squared.
+  double show(std::int32_t face, const FaceBox& box);
+  /// What is left lies in here.
+  const FaceWindow& window() const { return window_; }
 
   /// Whether nothing is left but for rounding.
-  bool done() const { return left_count_ == 0 || left_area_ <= Real{0x1p-40} * area_; }
+  bool done() const { return left_.empty() || left_area_ <= Real{0x1p-40} * area_; }
 
  private:
   static constexpr std::size_t most_corners = 32;  ///< of a piece
@@ -52,19 +54,13 @@ class FastView {
   /// Index in edges_, doubled, and 1 more where the line is meant the other way round.
   using EdgeRef = std::int32_t;
 
-  struct Box {
-    Real x0, y0, x1, y1;
-    bool overlaps(const Box& other) const {
-      return (x0 < other.x1) & (other.x0 < x1) & (y0 < other.y1) & (other.y0 < y1);
-    }
-  };
   /// A convex polygon, counter-clockwise. x and y repeat the first corner behind the last, up to a
   /// multiple of four.
   struct Piece {
     std::size_t count = 0;
     Real error = 0;  ///< of corners made by cuts: along x or y at most
-    Box box;
-    alignas(32) std::array<Real, most_corners> x, y;
+    FaceWindow window;
+    alignas(16) std::array<Real, most_corners> x, y;
     std::array<EdgeRef, most_corners> edge;   ///< to the next corner
     std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
 
@@ -77,13 +73,14 @@ class FastView {
       edge[count] = leaving;
       point[count++] = on_grid;
     }
-    void finish();
+    void fill_up();
   };
   /// On which sides of a line corners lie, one bit a corner; those on it on neither.
   struct Sides {
     std::uint32_t left, right;
   };
 
+  void find_window(Piece& piece) const;
   void load_corners(const FastFaces::Face& face, Piece& piece) const;
   void load_edges(const FastFaces::Face& face, Piece& piece);
   EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, bool forward);
@@ -93,10 +90,12 @@ class FastView {
 
   Sides sides_of(const Piece& piece, const Edge& edge, Real bound) const;
   Sides settled(const Piece& piece, const Edge& edge, Sides sides) const;
-  void measure(const Piece& piece, const Edge& edge, Real bound);
+  Sides measure(const Piece& piece, const Edge& edge, Real bound);
   Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const;
   bool separates(const Piece& piece, const Piece& other, Real reach) const;
-  bool eat(std::size_t place, Real& area);
+  bool eat(std::uint32_t place, Real& area);
+  std::uint32_t new_piece();
+  void find_whole_window();
   void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
   PointId common_point(LineId p, LineId q) const;
   void add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by, Piece& inside,
@@ -111,13 +110,15 @@ class FastView {
   FastBins::Bin bin_{};
   std::vector<Edge> edges_;
   std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
-  Real reach_ = 0;              ///< largest |x| + |y| of the looking polygon
+  Real reach_ = 0, shown_reach_ = 0;  ///< largest |x| + |y| of what looks and what is shown
   Real area_ = 0, left_area_ = 0;
-  std::vector<Piece> left_;  ///< left_count_ of them, then places to be used again
-  std::size_t left_count_ = 0;
-
-  Piece shown_, inside_, rest_;
-  Real shown_reach_ = 0;
+  FaceWindow window_;
+  std::vector<Piece> pieces_;           ///< places for them
+  std::vector<std::uint32_t> left_;     ///< the places of what is left
+  std::vector<std::uint32_t> parts_;    ///< … of what eat() has just put beside it
+  std::vector<std::uint32_t> unused_;
+  Piece shown_;
+  std::array<Piece, 2> rest_;
   std::array<Real, most_corners> sides_;  ///< of the corners measure() was given
 };
 
