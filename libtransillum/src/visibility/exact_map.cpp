@@ -1,12 +1,21 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The local map in exact numbers: what it says of the scene's double coordinates, seen along the
+// frame's double axes, is true; areas are rounded when all is summed.
+#include <memory>
 #include <utility>
 
 #include "visibility/engines.h"
+#include "visibility/exact_number.h"
+#include "visibility/local_map.h"
 
 namespace transillum {
 
-TransferEngine exact_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree) {
-  return local_map_engine(std::move(scene), std::move(tree));
+TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const BspTree> tree) {
+  return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
+                                                            const Cancellation& cancellation) {
+    return LocalMap<ExactReal, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+  };
 }
 
 }  // namespace transillum

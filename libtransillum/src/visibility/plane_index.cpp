@@ -2,7 +2,6 @@
 #include "visibility/plane_index.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace transillum {
 namespace {
@@ -16,20 +15,6 @@ bool overlap(const PlaneBox& a, const PlaneBox& b) {
 }
 
 }  // namespace
-
-PlaneBox box_of(const MapPolygon& polygon) {
-  Real x0 = polygon[0].at.x, x1 = x0, y0 = polygon[0].at.y, y1 = y0;
-  for (const MapCorner& corner : polygon) {
-    x0 = std::min(x0, corner.at.x);
-    x1 = std::max(x1, corner.at.x);
-    y0 = std::min(y0, corner.at.y);
-    y1 = std::max(y1, corner.at.y);
-  }
-  // Rounded outward: a needle thinner than a double's last place still has a box.
-  const auto down = [](Real r) { return std::nextafter(static_cast<double>(r), -HUGE_VAL); };
-  const auto up = [](Real r) { return std::nextafter(static_cast<double>(r), HUGE_VAL); };
-  return {down(x0), down(y0), up(x1), up(y1)};
-}
 
 PlaneIndex::PlaneIndex(const PlaneBox& all, std::size_t expected) : levels_(spare_levels) {
   while (levels_ < most_levels && (std::size_t{1} << (2 * (levels_ - spare_levels))) < expected) {

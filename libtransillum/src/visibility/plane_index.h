@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -12,8 +14,25 @@ namespace transillum {
 /// An axis-parallel box of the plane.
 struct PlaneBox {
   double x0, y0, x1, y1;
+
+  template <class Number>
+  void add(const BasicPlanePoint<Number>& p) {
+    const auto [x_low, x_high] = MapNumber<Number>::around(p.x);
+    const auto [y_low, y_high] = MapNumber<Number>::around(p.y);
+    *this = {std::min(x0, x_low), std::min(y0, y_low), std::max(x1, x_high), std::max(y1, y_high)};
+  }
 };
-PlaneBox box_of(const MapPolygon& polygon);
+
+/// The box of a polygon, rounded outward: a needle thinner than a double's last place still has
+/// one.
+template <class Number>
+PlaneBox box_of(const std::vector<BasicMapCorner<Number>>& polygon) {
+  PlaneBox box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const BasicMapCorner<Number>& corner : polygon) box.add(corner.at);
+  const auto down = [](double x) { return std::nextafter(x, -HUGE_VAL); };
+  const auto up = [](double x) { return std::nextafter(x, HUGE_VAL); };
+  return {down(box.x0), down(box.y0), up(box.x1), up(box.y1)};
+}
 
 /// Which polygons may overlap a box: a loose quadtree over the plane.
 ///

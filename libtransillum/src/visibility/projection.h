@@ -4,45 +4,99 @@
 #include <vector>
 
 #include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
 #include "transillum/visibility_map.h"
+#include "visibility/map_number.h"
 
 namespace transillum {
 
-/// The number of the local visibility map. A patch seen at 1e-6 of its area is a needle whose
-/// width takes 1e-10 of itself only with more than a double's 53 bits; x86's 64 bits are enough
-/// and cost little here (decisions/0003-extended-precision.md).
-using Real = long double;
-
 /// A point of the transillumination plane.
-struct PlanePoint {
-  Real x = 0, y = 0;
+template <class Number>
+struct BasicPlanePoint {
+  Number x{}, y{};
+
+  friend BasicPlanePoint operator-(const BasicPlanePoint& a, const BasicPlanePoint& b) {
+    return {a.x - b.x, a.y - b.y};
+  }
+  friend BasicPlanePoint operator+(const BasicPlanePoint& a, const BasicPlanePoint& b) {
+    return {a.x + b.x, a.y + b.y};
+  }
+  friend Number cross(const BasicPlanePoint& a, const BasicPlanePoint& b) {
+    return a.x * b.y - a.y * b.x;
+  }
+  /// The point at a + t (b - a).
+  friend BasicPlanePoint between(const BasicPlanePoint& a, const BasicPlanePoint& b,
+                                 const Number& t) {
+    return {MapNumber<Number>::settled(a.x + t * (b.x - a.x)),
+            MapNumber<Number>::settled(a.y + t * (b.y - a.y))};
+  }
 };
-inline PlanePoint operator-(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x - b.x, a.y - b.y};
-}
-inline PlanePoint operator+(const PlanePoint& a, const PlanePoint& b) {
-  return {a.x + b.x, a.y + b.y};
-}
-inline Real cross(const PlanePoint& a, const PlanePoint& b) { return a.x * b.y - a.y * b.x; }
+using PlanePoint = BasicPlanePoint<Real>;
 
 /// A line of the tree seen along the direction, as an oriented line of the plane.
-struct PlaneLine {
-  PlanePoint origin, along;
+template <class Number>
+struct BasicPlaneLine {
+  BasicPlanePoint<Number> origin, along;
 
   /// Twice the area of the triangle with `along`: > 0 to the left.
-  Real side(const PlanePoint& p) const { return cross(along, p - origin); }
+  Number side(const BasicPlanePoint<Number>& p) const { return cross(along, p - origin); }
 };
+using PlaneLine = BasicPlaneLine<Real>;
 
 /// All points and lines of a tree, projected along one direction.
 ///
 /// Every point is projected once, and cut points are interpolated from projected ones, so what
-/// meets in space meets here, to the bit or to the last place.
-struct Projection {
+/// meets in space meets here: to the bit or to the last place, and in exact numbers truly, since
+/// then every corner of a fragment lies on the lines of both its edges.
+template <class Number>
+class BasicProjection {
+ public:
   PlaneFrame frame;
-  std::vector<PlanePoint> points;
-  std::vector<PlaneLine> lines;  ///< by LineId, from the line's a to its b
+  std::vector<BasicPlanePoint<Number>> points;
+  std::vector<BasicPlaneLine<Number>> lines;  ///< by LineId, from the line's a to its b
 
-  Projection(const Scene& scene, const BspTree& tree, const Vec3& omega);
+  /// @throws Cancelled
+  BasicProjection(const Scene& scene, const BspTree& tree, const Vec3& omega,
+                  const Cancellation& cancellation = {})
+      : frame(plane_frame(scene, omega)) {
+    const auto look_for_cancellation = [&cancellation](std::size_t done) {
+      if (done % 256 == 0) cancellation.throw_if_cancelled();
+    };
+    points.reserve(tree.points().size());
+    for (const Vec3& p : scene.points()) {
+      look_for_cancellation(points.size());
+      points.push_back({along(frame.u, p), along(frame.v, p)});
+    }
+    for (const BspTree::CutPoint& cut : tree.cut_points()) {
+      look_for_cancellation(points.size());
+      points.push_back(between(point(cut.a), point(cut.b), static_cast<Number>(cut.t)));
+    }
+    lines.reserve(tree.lines().size());
+    for (const BspTree::Line& line : tree.lines()) {
+      look_for_cancellation(lines.size());
+      const BasicPlanePoint<Number>& a = point(line.a);
+      const BasicPlanePoint<Number>& b = point(line.b);
+      lines.push_back(
+          {a, {MapNumber<Number>::settled(b.x - a.x), MapNumber<Number>::settled(b.y - a.y)}});
+    }
+  }
+
+  const BasicPlanePoint<Number>& point(PointId p) const {
+    return points[static_cast<std::size_t>(p)];
+  }
+  const BasicPlaneLine<Number>& line(LineId l) const { return lines[static_cast<std::size_t>(l)]; }
+
+ private:
+  Number along(const Vec3& axis, const Vec3& p) const {
+    const auto product = [](double of_axis, double of_point, double of_origin) {
+      return static_cast<Number>(of_axis) *
+             (static_cast<Number>(of_point) - static_cast<Number>(of_origin));
+    };
+    return MapNumber<Number>::settled(product(axis.x, p.x, frame.origin.x) +
+                                      product(axis.y, p.y, frame.origin.y) +
+                                      product(axis.z, p.z, frame.origin.z));
+  }
 };
+using Projection = BasicProjection<Real>;
 
 }  // namespace transillum
