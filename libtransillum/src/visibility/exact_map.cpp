@@ -14,7 +14,7 @@ TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
                             std::shared_ptr<const BspTree> tree) {
   return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
                                                             const Cancellation& cancellation) {
-    return LocalMap<ExactReal, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+    return LocalMap<Rational, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
   };
 }
 

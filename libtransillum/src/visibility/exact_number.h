@@ -2,8 +2,8 @@
 // For the few files that compute in exact numbers: this draws in CGAL.
 #pragma once
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Fraction_traits.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
 
 #include <utility>
 
@@ -11,18 +11,14 @@
 
 namespace transillum {
 
-/// A rational number whose sign is mostly told by an interval: a CGAL lazy number. It remembers
-/// how it was made, so what others are built on must be settled, or histories grow without end
-/// and their evaluation overflows the stack. None may pass from one thread to another.
-using ExactReal = CGAL::Epeck::FT;
+/// The number of the exact maps, always in lowest terms. Copies share their digits without a lock,
+/// so none may pass from one thread to another.
+using Rational = CGAL::Gmpq;
 
 /// A sum of exact areas, m²: an integer multiple of 2^-1200, which is finer than any double. A sum
 /// of fractions would have all their denominators multiplied together.
 class ExactArea {
  public:
-  using Rational = ExactReal::ET;
-  using Integer = CGAL::Fraction_traits<Rational>::Numerator_type;
-
   ExactArea() = default;
   explicit ExactArea(const Rational& area);
 
@@ -40,19 +36,15 @@ class ExactArea {
   friend double nearest_double(const ExactArea& area);
 
  private:
-  Integer units_ = 0;
+  CGAL::Gmpz units_;
 };
 
 template <>
-struct MapNumber<ExactReal> {
+struct MapNumber<Rational> {
   using Area = ExactArea;
 
-  static ExactReal settled(const ExactReal& number) {
-    number.exact();
-    return number;
-  }
-  static ExactArea area(const ExactReal& number) { return ExactArea(number.exact()); }
-  static std::pair<double, double> around(const ExactReal& number) {
+  static Area area(const Rational& number) { return ExactArea(number); }
+  static std::pair<double, double> around(const Rational& number) {
     return CGAL::to_interval(number);
   }
 };

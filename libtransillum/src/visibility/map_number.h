@@ -10,7 +10,7 @@ namespace transillum {
 /// and cost little here (decisions/0003-extended-precision.md).
 using Real = long double;
 
-/// What the maps ask of a number besides arithmetic and signs; ExactReal has one too
+/// What the maps ask of a number besides arithmetic and signs; Rational has one too
 /// (decisions/0008-exact-numbers.md).
 template <class Number>
 struct MapNumber;
@@ -19,8 +19,6 @@ template <>
 struct MapNumber<Real> {
   using Area = double;  ///< what areas are summed in
 
-  /// A number that others will be built on.
-  static Real settled(Real number) { return number; }
   static Area area(Real number) { return static_cast<double>(number); }
   /// Two doubles with the number between them, but for a rounding.
   static std::pair<double, double> around(Real number) {

@@ -27,8 +27,7 @@ struct BasicPlanePoint {
   /// The point at a + t (b - a).
   friend BasicPlanePoint between(const BasicPlanePoint& a, const BasicPlanePoint& b,
                                  const Number& t) {
-    return {MapNumber<Number>::settled(a.x + t * (b.x - a.x)),
-            MapNumber<Number>::settled(a.y + t * (b.y - a.y))};
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
   }
 };
 using PlanePoint = BasicPlanePoint<Real>;
@@ -75,9 +74,7 @@ class BasicProjection {
     for (const BspTree::Line& line : tree.lines()) {
       look_for_cancellation(lines.size());
       const BasicPlanePoint<Number>& a = point(line.a);
-      const BasicPlanePoint<Number>& b = point(line.b);
-      lines.push_back(
-          {a, {MapNumber<Number>::settled(b.x - a.x), MapNumber<Number>::settled(b.y - a.y)}});
+      lines.push_back({a, point(line.b) - a});
     }
   }
 
@@ -92,9 +89,8 @@ class BasicProjection {
       return static_cast<Number>(of_axis) *
              (static_cast<Number>(of_point) - static_cast<Number>(of_origin));
     };
-    return MapNumber<Number>::settled(product(axis.x, p.x, frame.origin.x) +
-                                      product(axis.y, p.y, frame.origin.y) +
-                                      product(axis.z, p.z, frame.origin.z));
+    return product(axis.x, p.x, frame.origin.x) + product(axis.y, p.y, frame.origin.y) +
+           product(axis.z, p.z, frame.origin.z);
   }
 };
 using Projection = BasicProjection<Real>;

@@ -1,0 +1,185 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The engines in exact numbers: against answers known by hand, and all maps against one another
+// (method, oracle 7).
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "support/scenes.h"
+#include "transillum/engine.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+using testing::test_directions;
+
+Transfers transfers_of(Engine engine, const std::shared_ptr<const Scene>& scene,
+                       const Vec3& omega) {
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  return make_engine(engine, scene, tree)(omega, {});
+}
+
+class ExactEngines : public ::testing::TestWithParam<Engine> {
+ protected:
+  /// The area that the only pair exchanges.
+  double only_area(const Sketch& sketch) {
+    const Transfers transfers = transfers_of(GetParam(), sketch.scene(), {0, 0, 1});
+    EXPECT_EQ(transfers.exchanges.size(), 1u);
+    if (transfers.exchanges.size() != 1) return 0;
+    EXPECT_EQ(transfers.exchanges[0].receiver, 0);
+    EXPECT_EQ(transfers.exchanges[0].source, 1);
+    return transfers.exchanges[0].area;
+  }
+};
+
+/// Faces up, respectively down, at height z.
+std::vector<Vec3> up(std::vector<Vec3> outline, double z) {
+  for (Vec3& p : outline) p.z = z;
+  return outline;
+}
+std::vector<Vec3> down(std::vector<Vec3> outline, double z) {
+  outline = up(std::move(outline), z);
+  std::reverse(outline.begin(), outline.end());
+  return outline;
+}
+std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
+}
+
+TEST_P(ExactEngines, SquaresGiveTheRoundedTruth) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  // 1 - 0.1 and the like are the roundings of what the doubles' own values give.
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
+  sketch.face(down(rectangle(0.1, -1, 3, 2), 1), grey);
+  EXPECT_EQ(only_area(sketch), 1 - 0.1);
+}
+
+TEST_P(ExactEngines, ThirdsAreRoundedOnce) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
+  sketch.face(down({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}}, 1), grey);
+  EXPECT_EQ(only_area(sketch), 1.0 / 6);
+}
+
+TEST_P(ExactEngines, PartsRoundABlockerAddUpToTheRoundedTruth) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
+  sketch.face(down(rectangle(-1, -1, 2, 2), 2), grey);
+  // In the way, its back to the receiver: in the square it is 3/4 long and rises to 9/28.
+  sketch.face(up({{0.25, 0.25, 0}, {7.25, 0.25, 0}, {7.25, 3.25, 0}}, 1), grey);
+  const Transfers transfers = transfers_of(GetParam(), sketch.scene(), {0, 0, 1});
+  const double hidden = 27.0 / 224;
+  EXPECT_EQ(transfers.forward[0].projected, 1);
+  EXPECT_EQ(transfers.forward[0].covered, 1);
+  EXPECT_EQ(transfers.back_seen[2], hidden);
+  ASSERT_FALSE(transfers.exchanges.empty());
+  EXPECT_EQ(transfers.exchanges[0].receiver, 0);
+  EXPECT_EQ(transfers.exchanges[0].source, 1);
+  EXPECT_EQ(transfers.exchanges[0].area, 197.0 / 224);
+}
+
+TEST_P(ExactEngines, StopAtOnceWhenCancelled) {
+  const auto scene = load_scene("cornell-box");
+  const TransferEngine engine =
+      make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(engine({0, 0, 1}, cancellation), Cancelled);
+}
+
+TEST_P(ExactEngines, StopSoonWhenCancelledUnderWay) {
+  const auto scene = load_scene("sphere-flake:levels=2,slices=10,stacks=6");
+  const TransferEngine engine =
+      make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
+  using Clock = std::chrono::steady_clock;
+  const Cancellation cancellation;
+  Clock::time_point cancelled;
+  std::thread canceller([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    cancelled = Clock::now();
+    cancellation.cancel();
+  });
+  EXPECT_THROW(engine(normalized({1, 2, 3}), cancellation), Cancelled);
+  canceller.join();
+  // 50 ms are promised; machines may be busy.
+  EXPECT_LT(Clock::now() - cancelled, std::chrono::milliseconds(500));
+}
+
+TEST_P(ExactEngines, GiveTheSameBitsEachTimeAndInAnyThread) {
+  const auto scene = load_scene("boards");
+  const TransferEngine engine =
+      make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
+  const Vec3 omega = normalized({3, -1, 2});
+  const Transfers here = engine(omega, {});
+  Transfers there[2];
+  std::thread one([&] { there[0] = engine(omega, {}); });
+  std::thread two([&] { there[1] = engine(omega, {}); });
+  one.join();
+  two.join();
+  for (const Transfers& other : there) {
+    ASSERT_EQ(other.exchanges.size(), here.exchanges.size());
+    for (std::size_t k = 0; k < here.exchanges.size(); ++k) {
+      EXPECT_EQ(other.exchanges[k].area, here.exchanges[k].area);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, ExactEngines, ::testing::Values(Engine::exact),
+                         [](const auto& engine) { return name_of(engine.param); });
+
+class MapsAgree : public ::testing::TestWithParam<const char*> {};
+
+using Pair = std::pair<PatchId, PatchId>;
+
+std::map<Pair, double> by_pair(const Transfers& transfers) {
+  std::map<Pair, double> areas;
+  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+  return areas;
+}
+
+/// Largest difference over the patch's area; a pair has the smaller of its patches' areas.
+double difference(const Scene& scene, const Transfers& a, const Transfers& b) {
+  double largest = 0;
+  const auto compare = [&](PatchId i, double one, double other) {
+    largest = std::max(largest, std::abs(one - other) / scene.patch(i).area);
+  };
+  auto pairs = by_pair(a);
+  for (const auto& [pair, area] : by_pair(b)) pairs[pair] -= area;
+  for (const auto& [pair, area] : pairs) {
+    compare(pair.first, area, 0);
+    compare(pair.second, area, 0);
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    compare(i, a.forward[k].projected, b.forward[k].projected);
+    compare(i, a.forward[k].covered, b.forward[k].covered);
+    compare(i, a.backward[k].projected, b.backward[k].projected);
+    compare(i, a.backward[k].covered, b.backward[k].covered);
+    compare(i, a.back_seen[k], b.back_seen[k]);
+  }
+  return largest;
+}
+
+TEST_P(MapsAgree, LocalAndExact) {
+  const auto scene = load_scene(GetParam());
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const TransferEngine local = make_engine(Engine::local, scene, tree);
+  const TransferEngine exact = make_engine(Engine::exact, scene, tree);
+  for (const Vec3& omega : test_directions(15, 17)) {
+    EXPECT_LE(difference(*scene, exact(omega, {}), local(omega, {})), 1e-10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIns, MapsAgree,
+                         ::testing::Values("cornell-box", "boards", "furnace", "stars", "rooms",
+                                           "sphere-flake:levels=1,slices=6,stacks=4"));
+
+}  // namespace
+}  // namespace transillum
