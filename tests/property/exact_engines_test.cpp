@@ -131,7 +131,7 @@ TEST_P(ExactEngines, GiveTheSameBitsEachTimeAndInAnyThread) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ExactEngines, ::testing::Values(Engine::exact),
+INSTANTIATE_TEST_SUITE_P(Engines, ExactEngines, ::testing::Values(Engine::exact, Engine::global),
                          [](const auto& engine) { return name_of(engine.param); });
 
 class MapsAgree : public ::testing::TestWithParam<const char*> {};
@@ -167,13 +167,16 @@ double difference(const Scene& scene, const Transfers& a, const Transfers& b) {
   return largest;
 }
 
-TEST_P(MapsAgree, LocalAndExact) {
+TEST_P(MapsAgree, LocalAndGlobalWithExact) {
   const auto scene = load_scene(GetParam());
   const auto tree = std::make_shared<const BspTree>(*scene);
-  const TransferEngine local = make_engine(Engine::local, scene, tree);
   const TransferEngine exact = make_engine(Engine::exact, scene, tree);
+  const TransferEngine local = make_engine(Engine::local, scene, tree);
+  const TransferEngine global = make_engine(Engine::global, scene, tree);
   for (const Vec3& omega : test_directions(15, 17)) {
-    EXPECT_LE(difference(*scene, exact(omega, {}), local(omega, {})), 1e-10);
+    const Transfers truth = exact(omega, {});
+    EXPECT_LE(difference(*scene, truth, local(omega, {})), 1e-10);
+    EXPECT_LE(difference(*scene, truth, global(omega, {})), 1e-10);
   }
 }
 

@@ -1,0 +1,107 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/plane_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace transillum {
+namespace {
+
+using Point = BasicPlanePoint<Rational>;
+using Tile = std::vector<TilePolygon>;
+
+/// A straight cut across the plane along one of its axes.
+struct TileCut {
+  bool across_x;  ///< x = at; else y = at
+  double at;
+
+  const Rational& coordinate(const Point& p) const { return across_x ? p.x : p.y; }
+  double low(const PlaneBox& box) const { return across_x ? box.x0 : box.y0; }
+  double high(const PlaneBox& box) const { return across_x ? box.x1 : box.y1; }
+};
+
+/// Through the middle of the polygons, across the longer side of what they cover.
+TileCut middle_cut(const Tile& tile) {
+  PlaneBox all = tile.front().box;
+  for (const TilePolygon& polygon : tile) {
+    const PlaneBox& box = polygon.box;
+    all = {std::min(all.x0, box.x0), std::min(all.y0, box.y0), std::max(all.x1, box.x1),
+           std::max(all.y1, box.y1)};
+  }
+  TileCut cut{all.x1 - all.x0 >= all.y1 - all.y0, 0};
+  std::vector<double> centers;
+  for (const TilePolygon& polygon : tile) {
+    centers.push_back(0.5 * (cut.low(polygon.box) + cut.high(polygon.box)));
+  }
+  const auto middle = centers.begin() + static_cast<std::ptrdiff_t>(centers.size() / 2);
+  std::nth_element(centers.begin(), middle, centers.end());
+  cut.at = *middle;
+  return cut;
+}
+
+/// The part of `outline` on one side of `cut`: 1 beyond it, -1 before it.
+std::vector<Point> part_of(const std::vector<Point>& outline, const TileCut& cut, int side) {
+  const Rational at(cut.at);
+  const auto side_of = [&](const Point& p) { return side * CGAL::compare(cut.coordinate(p), at); };
+  std::vector<Point> part;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Point& a = outline[k];
+    const Point& b = outline[(k + 1) % outline.size()];
+    const int side_a = side_of(a), side_b = side_of(b);
+    if (side_a >= 0) part.push_back(a);
+    if (side_a * side_b >= 0) continue;
+    const Rational from = cut.coordinate(a), to = cut.coordinate(b);
+    const Rational t = (at - from) / (to - from);
+    part.push_back(between(a, b, t));
+  }
+  return part;
+}
+
+/// Deals the polygons of `tile` out to both sides of `cut`.
+std::pair<Tile, Tile> halves(const Tile& tile, const TileCut& cut) {
+  std::pair<Tile, Tile> halves;
+  for (const TilePolygon& polygon : tile) {
+    if (cut.high(polygon.box) <= cut.at) {
+      halves.first.push_back(polygon);
+    } else if (cut.low(polygon.box) >= cut.at) {
+      halves.second.push_back(polygon);
+    } else {
+      halves.first.push_back(tile_polygon(polygon.rank, part_of(polygon.outline, cut, -1)));
+      halves.second.push_back(tile_polygon(polygon.rank, part_of(polygon.outline, cut, 1)));
+    }
+  }
+  return halves;
+}
+
+}  // namespace
+
+TilePolygon tile_polygon(std::int32_t rank, std::vector<Point> outline) {
+  PlaneBox box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Point& p : outline) box.add(p);
+  return {rank, std::move(outline), box};
+}
+
+void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
+                   const Cancellation& cancellation,
+                   const std::function<void(const std::vector<TilePolygon>&)>& use) {
+  std::vector<Tile> open;
+  open.push_back(std::move(polygons));
+  while (!open.empty()) {
+    cancellation.throw_if_cancelled();
+    const Tile tile = std::move(open.back());
+    open.pop_back();
+    if (tile.size() > most) {
+      auto [before, beyond] = halves(tile, middle_cut(tile));
+      // Where most polygons reach across, halves are hardly less work than the whole.
+      if (std::max(before.size(), beyond.size()) < tile.size() * 9 / 10) {
+        open.push_back(std::move(beyond));
+        open.push_back(std::move(before));
+        continue;
+      }
+    }
+    use(tile);
+  }
+}
+
+}  // namespace transillum
