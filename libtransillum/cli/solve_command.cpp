@@ -39,7 +39,10 @@ struct SolveCall {
 void check_outputs(const SolveCall& call) {
   for (const std::string& file : call.out) check_result_path(file);
   std::vector<std::string> files = call.out;
-  if (!call.stats.empty()) files.push_back(call.stats);
+  if (!call.stats.empty()) {
+    check_statistics_path(call.stats);
+    files.push_back(call.stats);
+  }
   check_output_files(files, call.scene);
 }
 

@@ -67,6 +67,7 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"solve", "furnace", "--out", "/no/such/folder/a.csv"}, "/no/such/folder"},
       {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "named twice"},
       {{"solve", "furnace", "--stats", "/no/such/folder/a.json"}, "/no/such/folder"},
+      {{"solve", "furnace", "--stats", "a.csv"}, "a.csv: statistics are JSON"},
       {{"solve", "no-such-scene.obj"}, "no-such-scene.obj"},
       {{"solve", "cornel-box"}, "cornell-box"},
       {{"solve", "rooms:m=3"}, "rooms"},

@@ -218,6 +218,7 @@ TEST(BuiltInScenes, WrongParametersAreSaidSo) {
                 HasSubstr("must be a whole number from 0 to 5"));
   }
   EXPECT_THAT(said("rooms:n"), HasSubstr("parameter `n` has no value; write n=24"));
+  EXPECT_EQ(said("rooms:n=3,n=3"), "rooms: parameter `n` is given twice");
   EXPECT_THAT(said("rooms:n=3,"), HasSubstr("no parameter ``"));
   EXPECT_THAT(said("sphere-flake:levels=5,slices=4096,stacks=4096"),
               HasSubstr("faces are more than"));

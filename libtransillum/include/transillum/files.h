@@ -31,6 +31,8 @@ void check_writable(const std::filesystem::path& path);
 
 /// check_writable, and @throws InputError unless `path` ends in .csv, .vtp, .ply or .obj.
 void check_result_path(const std::filesystem::path& path);
+/// check_writable, and @throws InputError unless `path` ends in .json.
+void check_statistics_path(const std::filesystem::path& path);
 /// Writes a solution as the ending of `path` says (cli.md for the columns of CSV).
 void write_result(const std::filesystem::path& path, const Solution& solution);
 

@@ -29,6 +29,14 @@ void check_result_path(const std::filesystem::path& path) {
   check_writable(path);
 }
 
+void check_statistics_path(const std::filesystem::path& path) {
+  if (lower_case_ending(path) != ".json") {
+    throw InputError(
+        fmt::format("{}: statistics are JSON, their file ends in .json", path.string()));
+  }
+  check_writable(path);
+}
+
 void write_result(const std::filesystem::path& path, const Solution& solution) {
   const ResultWriter write = writer_for(path);
   write_file_whole(path, [&](std::ostream& out) { write(out, solution); });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <set>
 
 #include "transillum/errors.h"
 
@@ -72,6 +73,7 @@ ParameterValues::ParameterValues(const std::string& scene, const std::string& te
     values_[p.name] = p.standard;
   }
   if (text.empty()) return;
+  std::set<std::string> given;
   for (const std::string& assignment : split(text, ',')) {
     const std::size_t equals = std::min(assignment.find('='), assignment.size());
     const std::string name = assignment.substr(0, equals);
@@ -84,6 +86,9 @@ ParameterValues::ParameterValues(const std::string& scene, const std::string& te
     if (equals == assignment.size()) {
       throw InputError(fmt::format("{}: parameter `{}` has no value; write {}={}", scene, name,
                                    name, found->standard));
+    }
+    if (!given.insert(name).second) {
+      throw InputError(fmt::format("{}: parameter `{}` is given twice", scene, name));
     }
     values_[name] = parse_value(scene, *found, assignment.substr(equals + 1));
   }
