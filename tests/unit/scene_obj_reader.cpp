@@ -120,7 +120,8 @@ TEST(ObjReader, CountsFacesOfTooFewCornersAsDegenerate) {
   EXPECT_EQ(scene->patch(0).face, 2);
   EXPECT_EQ(scene->report().faces, 4);
   EXPECT_EQ(scene->report().dropped_degenerate, 3);
-  EXPECT_THAT(scene->report().warnings, Contains(HasSubstr("s.obj:5: face 0: it has no area")));
+  EXPECT_THAT(scene->report().warnings,
+              Contains(HasSubstr("s.obj:5: face 0: it has 2 corners, but needs at least 3")));
 }
 
 void expect_same(const SceneDescription& a, const SceneDescription& b) {

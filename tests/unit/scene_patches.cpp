@@ -109,6 +109,26 @@ TEST(ScenePatches, BentQuadrilateralsStayWholeByDegrees) {
   EXPECT_THAT(bent.report().warnings, Contains(HasSubstr("test: face 0: it is not planar")));
 }
 
+/// Of a face a thousand kilometres long and a metre wide, a metre off its plane is no rounding.
+TEST(ScenePatches, LongFacesAreNotPlanarByTheirLengthAlone) {
+  const Scene scene(polygon({{1e6, 1e6, 1e6},
+                             {1e6 + 0.7, 1e6 + 0.1, 0.1},
+                             {1e6 + 0.6, 1e6 + 0.9, 1e6 + 0.4},
+                             {1e6 - 0.1, 1e6 + 0.8, 1e6 + 0.1}}));
+  EXPECT_EQ(scene.report().cut_non_planar, 1);
+  EXPECT_EQ(scene.patch_count(), 2);
+}
+
+/// Their coordinates' rounding is more of them than of others.
+TEST(ScenePatches, SmallFacesFarAwayStayWhole) {
+  const Scene scene(polygon({{1e6, 1e6, 1e6},
+                             {1e6 + 1e-3, 1e6, 1e6 + 1e-3},
+                             {1e6 + 1e-3, 1e6 + 1e-3, 1e6 + 1.3e-3},
+                             {1e6, 1e6 + 1e-3, 1e6 + 0.3e-3}}));
+  EXPECT_EQ(scene.report().cut_non_planar, 0);
+  EXPECT_EQ(scene.patch_count(), 1);
+}
+
 TEST(ScenePatches, QuadrilateralsThatCrossOnlyWhenFlattenedAreTwoTriangles) {
   // Folded by more than a right angle.
   const Scene scene(polygon({{0, 0, 0}, {2, 0, 0}, {0.2, 0.1, 2}, {0, 2, 0}}));

@@ -15,8 +15,9 @@ namespace transillum {
 namespace {
 
 constexpr double epsilon = 0x1p-52;
-/// Share of a face's size beyond which it is not one planar polygon any more.
-constexpr double largest_relative_deviation = 1e-6;
+/// Shares of a face's size, and of its width, beyond which it is not one planar polygon any more.
+constexpr double largest_deviation_by_diameter = 1e-6;
+constexpr double largest_deviation_by_width = 1e-3;
 constexpr std::size_t faces_between_looks = 256;
 
 double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::uint32_t> corners) {
@@ -74,7 +75,9 @@ void PatchBuilder::build() {
     add_face(f);
   }
   if (patches.empty()) {
-    throw InputError(description_.name + ": no face has an area, there is nothing to light");
+    throw InputError(face_place(description_, 0) + lack_of_area(0) +
+                     (description_.face_count() > 1 ? ", nor has any other face an area" : "") +
+                     "; there is nothing to light");
   }
   count_coincident();
   count_unused();
@@ -88,7 +91,7 @@ void PatchBuilder::add_face(std::size_t face) {
   if (shape.degenerate) {
     if (is_bow_tie(table.points(), outline)) refuse_crossing(face);
     drop(face);
-  } else if (shape.deviation > largest_relative_deviation * shape.diameter) {
+  } else if (!is_planar(shape)) {
     add_triangles(face, outline, shape);
   } else {
     add_part(face, outline, shape);
@@ -109,7 +112,13 @@ PatchBuilder::Outline PatchBuilder::welded_outline(std::size_t face) {
 void PatchBuilder::drop(std::size_t face) {
   ++report.dropped_degenerate;
   warnings_.add("faces without area, left out",
-                face_place(description_, face) + "it has no area and is left out");
+                face_place(description_, face) + lack_of_area(face) + "; it is left out");
+}
+
+std::string PatchBuilder::lack_of_area(std::size_t face) const {
+  const std::size_t corners = description_.outline(face).size();
+  if (corners >= 3) return "it has no area";
+  return fmt::format("it has {} corner{}, but needs at least 3", corners, corners == 1 ? "" : "s");
 }
 
 void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
@@ -226,6 +235,13 @@ void PatchBuilder::add_opposite() {
     }
     pieces.push_back({front + 1, begin, static_cast<std::uint32_t>(piece_corners.size())});
   }
+}
+
+/// Rounding alone makes no face crooked, however thin it is.
+bool PatchBuilder::is_planar(const PolygonShape& shape) const {
+  const double width = shape.area / shape.diameter;
+  return is_flat(shape) || (shape.deviation <= largest_deviation_by_diameter * shape.diameter &&
+                            shape.deviation <= largest_deviation_by_width * width);
 }
 
 bool PatchBuilder::is_flat(const PolygonShape& shape) const { return shape.deviation <= flatness_; }

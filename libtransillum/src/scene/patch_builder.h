@@ -35,6 +35,8 @@ class PatchBuilder {
   void add_face(std::size_t face);
   Outline welded_outline(std::size_t face);
   void drop(std::size_t face);
+  /// Why a face that is dropped has none.
+  std::string lack_of_area(std::size_t face) const;
   /// Cuts a face that is not planar into triangles; each becomes a face's part of its own.
   void add_triangles(std::size_t face, const Outline& outline, const PolygonShape& shape);
   /// A planar part of a face: one patch, or many where it is to be refined.
@@ -45,6 +47,7 @@ class PatchBuilder {
   void add_opposite();
   void check_room(std::size_t face, std::int64_t more) const;
 
+  bool is_planar(const PolygonShape& shape) const;
   bool is_flat(const PolygonShape& shape) const;
   /// The outline's convex pieces; flat ones to rounding.
   /// @throws InputError where the outline crosses itself.
