@@ -1,0 +1,240 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Fuzz target: one whole direction. An input makes a scene of a few polygons, most of them on a
+// coarse grid, and a direction; the engines must agree and keep what holds for every scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "fuzz/byte_source.h"
+#include "fuzz/require.h"
+#include "support/scenes.h"
+#include "transillum/engine.h"
+#include "transillum/errors.h"
+
+namespace transillum::fuzz {
+namespace {
+
+constexpr unsigned most_polygons = 12;
+constexpr unsigned grid_size = 8;
+/// Of the patch's area; what every engine promises (method, oracle 7).
+constexpr double tolerance = 1e-10;
+/// Beyond this the exact engine takes too long for a fuzz target.
+constexpr std::size_t most_fragments_exactly = 10;
+
+/// A scene and a direction.
+struct Case {
+  std::shared_ptr<const Scene> scene;
+  Vec3 omega;
+  /// Whether a box round everything faces inward: then all that is seen is something.
+  bool closed = false;
+};
+
+double grid_value(ByteSource& bytes) { return bytes.below(grid_size); }
+
+Vec3 grid_point(ByteSource& bytes) {
+  const double x = grid_value(bytes), y = grid_value(bytes), z = grid_value(bytes);
+  return {x, y, z};
+}
+
+Vec3 free_point(ByteSource& bytes) {
+  const double x = bytes.fraction(), y = bytes.fraction(), z = bytes.fraction();
+  return (grid_size - 1) * Vec3{x, y, z};
+}
+
+/// A rectangle across an axis.
+std::vector<Vec3> take_rectangle(ByteSource& bytes) {
+  const unsigned axis = bytes.below(3);
+  const double level = grid_value(bytes);
+  const double a = grid_value(bytes), b = grid_value(bytes);
+  const double c = a + 1 + bytes.below(4), d = b + 1 + bytes.below(4);
+  std::vector<Vec3> outline;
+  for (const auto& [u, v] : {std::pair{a, b}, {c, b}, {c, d}, {a, d}}) {
+    outline.push_back(axis == 0   ? Vec3{level, u, v}
+                      : axis == 1 ? Vec3{v, level, u}
+                                  : Vec3{u, v, level});
+  }
+  return outline;
+}
+
+/// One more outline; `before` are the others.
+std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<Vec3>>& before) {
+  std::vector<Vec3> outline;
+  switch (bytes.below(7)) {
+    case 0:
+      return take_rectangle(bytes);
+    case 1:  // a triangle of the grid
+      for (int k = 0; k < 3; ++k) outline.push_back(grid_point(bytes));
+      return outline;
+    case 2: {  // a parallelogram of the grid
+      const Vec3 a = grid_point(bytes), b = grid_point(bytes), c = grid_point(bytes);
+      return {a, b, c, c - b + a};
+    }
+    case 3:  // a triangle anywhere
+      for (int k = 0; k < 3; ++k) outline.push_back(free_point(bytes));
+      return outline;
+    case 4: {  // concave, in the plane of three grid points, with straight corners at times
+      const Vec3 o = grid_point(bytes), u = grid_point(bytes) - o, v = grid_point(bytes) - o;
+      const unsigned count = 4 + bytes.below(5);
+      for (unsigned k = 0; k < count; ++k) {
+        const double s = bytes.below(4), t = bytes.below(4);
+        outline.push_back(o + 0.25 * s * u + 0.25 * t * v);
+      }
+      return outline;
+    }
+    default:  // an earlier one again, moved along the grid or not
+      if (before.empty()) return take_rectangle(bytes);
+      outline = before[bytes.below(static_cast<unsigned>(before.size()))];
+      if (bytes.flag()) {
+        const Vec3 shift = grid_point(bytes);
+        for (Vec3& p : outline) p = p + 0.5 * shift;
+      }
+      return outline;
+  }
+}
+
+Vec3 take_direction(ByteSource& bytes) {
+  const bool is_free = bytes.flag();
+  Vec3 omega = is_free ? free_point(bytes) : grid_point(bytes);
+  if (bytes.flag()) omega.x = -omega.x;
+  if (bytes.flag()) omega.y = -omega.y;
+  if (bytes.flag()) omega.z = -omega.z;
+  return norm(omega) > 0 ? normalized(omega) : Vec3{0, 0, 1};
+}
+
+/// @throws InputError, as of an outline that crosses itself
+Case take_case(ByteSource& bytes) {
+  Case made;
+  made.omega = take_direction(bytes);
+  enum { open, two_sided, closed };
+  const unsigned kind = bytes.below(3);
+  made.closed = kind == closed;
+  testing::Sketch sketch("case");
+  const std::array materials{sketch.material(0.5, 0), sketch.material(0, 1)};
+  std::vector<std::vector<Vec3>> outlines;
+  for (unsigned left = 1 + bytes.below(most_polygons); left > 0 && !bytes.empty(); --left) {
+    const unsigned how = bytes.byte();
+    std::vector<Vec3> outline = take_outline(bytes, outlines);
+    if ((how & 1u) != 0) std::reverse(outline.begin(), outline.end());
+    sketch.face(outline, materials[how >> 1 & 1u]);
+    outlines.push_back(std::move(outline));
+  }
+  // Parallelograms may reach three grids far, and so may those that are moved.
+  if (made.closed) sketch.box({-100, -100, -100}, {100, 100, 100}, true, materials[0]);
+  made.scene = sketch.scene({.two_sided = kind == two_sided});
+  return made;
+}
+
+using Areas = std::map<std::pair<PatchId, PatchId>, double>;
+Areas areas_of(const Transfers& transfers) {
+  Areas areas;
+  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+  return areas;
+}
+
+/// How far engines may be off at patch i, m²: what they promise, and what no double tells of the
+/// area of a needle across the scene.
+double slack_of(const Scene& scene, PatchId i) {
+  Bounds box;
+  for (const PointId p : scene.outline(i)) box.add(scene.point(p));
+  const double farthest = std::max(max_abs(box.low), max_abs(box.high));
+  return tolerance * scene.patch(i).area + 16 * 0x1p-52 * farthest * box.diagonal();
+}
+
+/// What holds for each engine's transfers by themselves.
+void check(const Case& from, const Transfers& transfers, const std::string& engine) {
+  const Scene& scene = *from.scene;
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  require(transfers.forward.size() == patches && transfers.backward.size() == patches &&
+              transfers.back_seen.size() == patches,
+          engine + ": an entry a patch");
+  std::vector<double> received(patches), sent(patches);
+  std::pair<PatchId, PatchId> last{no_patch, no_patch};
+  for (const Transfer& t : transfers.exchanges) {
+    require(std::isfinite(t.area) && t.area > 0, engine + ": areas are finite and > 0");
+    require(last < std::pair(t.receiver, t.source), engine + ": sorted, one entry a pair");
+    last = {t.receiver, t.source};
+    received[static_cast<std::size_t>(t.receiver)] += t.area;
+    sent[static_cast<std::size_t>(t.source)] += t.area;
+  }
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double area = scene.patches()[i].area;
+    const double cosine = dot(scene.patches()[i].normal, from.omega);
+    const double slack = slack_of(scene, static_cast<PatchId>(i));
+    const auto check_side = [&](const Coverage& side, double exchanged, double toward) {
+      const std::string who = fmt::format(
+          "{}: patch {} of {} m2, cosine {}: projected {}, covered {}, exchanged {}: ", engine, i,
+          area, cosine, side.projected, side.covered, exchanged);
+      require(std::abs(side.projected - std::max(0.0, toward) * area) <= slack,
+              who + "the projection follows the cosine");
+      require(side.covered <= side.projected + slack, who + "nothing is covered twice");
+      require(exchanged <= side.covered + slack, who + "what is exchanged is covered");
+      if (from.closed) {
+        require(side.covered >= side.projected - slack, who + "all is covered in a closed scene");
+      }
+    };
+    check_side(transfers.forward[i], received[i], cosine);
+    check_side(transfers.backward[i], sent[i], -cosine);
+    require(std::isfinite(transfers.back_seen[i]) && transfers.back_seen[i] >= 0 &&
+                transfers.back_seen[i] <= area + slack,
+            engine + ": no more of a back is seen than there is");
+  }
+}
+
+/// The same areas; where one has an entry that the other has not, it is next to nothing.
+void require_equal(const Scene& scene, Areas expected, const Areas& found,
+                   const std::string& what) {
+  for (const auto& [pair, area] : found) {
+    expected.try_emplace(pair, 0.0);
+    expected[pair] -= area;
+  }
+  for (const auto& [pair, difference] : expected) {
+    const double area = scene.patch(pair.first).area;
+    require(std::abs(difference) <= slack_of(scene, pair.first),
+            fmt::format("{}: {} from {} differ by {} of the receiver's area", what, pair.first,
+                        pair.second, difference / area));
+  }
+}
+
+/// Looked at from the other end, receiver and source change places.
+Areas transposed(const Areas& areas) {
+  Areas result;
+  for (const auto& [pair, area] : areas) result[{pair.second, pair.first}] = area;
+  return result;
+}
+
+void run(const Case& from) {
+  const auto tree = std::make_shared<const BspTree>(*from.scene);
+  const auto transfers_by = [&](Engine engine) {
+    Transfers transfers = make_engine(engine, from.scene, tree)(from.omega, {});
+    check(from, transfers, name_of(engine));
+    return areas_of(transfers);
+  };
+  const Areas local = transfers_by(Engine::local);
+  const Transfers back = make_engine(Engine::local, from.scene, tree)(-from.omega, {});
+  require_equal(*from.scene, local, transposed(areas_of(back)), "local, from both ends");
+  require_equal(*from.scene, local, transfers_by(Engine::fast), "local and fast");
+  if (tree->fragments().size() > most_fragments_exactly) return;
+  require_equal(*from.scene, local, transfers_by(Engine::exact), "local and exact");
+}
+
+}  // namespace
+}  // namespace transillum::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace transillum;
+  fuzz::ByteSource bytes(data, size);
+  fuzz::Case from;
+  try {
+    from = fuzz::take_case(bytes);
+  } catch (const InputError&) {
+    return 0;
+  }
+  fuzz::run(from);
+  return 0;
+}
