@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "radiosity/exchange_sums.h"
+#include "radiosity/hand_over.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -52,6 +53,10 @@ double share(double part, double scale) { return scale > 0 ? part / scale : 0.0;
 double quadrature_error_bound(double directions) {
   return 2 * std::numbers::pi / directions * (std::log2(directions) + 7);
 }
+
+/// Stands for what a solver has done before its workers start: an address that they know without
+/// reading anything.
+constexpr char start_of_passes = 0;
 
 /// What a worker makes of one direction.
 struct Pass {
@@ -295,24 +300,43 @@ struct RadiositySolver::Impl {
     auto last = Clock::now();
     double absorbing = -seconds_iterate;
     double wall = 0;
+    // Passes under way have places that they take in turn: at most as many are let in, and they
+    // leave in order, so a pass finds its place left by the one before it there.
+    std::vector<Pass> under_way(static_cast<std::size_t>(2 * threads));
+    const auto place_of = [&](int k) {
+      return &under_way[static_cast<std::size_t>(k) % under_way.size()];
+    };
     const auto source = [&](tbb::flow_control& control) {
+      take_over_at(&start_of_passes);
+      const Turn turn(&next);
       if (next >= passes || !going) {
         control.stop();
         return passes;
       }
+      const Turn handed_on(place_of(next));
       return next++;
     };
     const bool first = in_first_step();
-    const auto work = [&, first](int k) { return make_pass(k, first); };
-    const auto sink = [&](Pass pass) {
-      absorb(std::move(pass));
+    const auto work = [&, first](int k) {
+      take_over_at(&start_of_passes);
+      const Turn turn(place_of(k));
+      *place_of(k) = make_pass(k, first);
+      return k;
+    };
+    const auto sink = [&](int k) {
+      take_over_at(&start_of_passes);
+      const Turn turn(this), handed_on(place_of(k));
+      absorb(std::move(*place_of(k)));
       const double now = seconds_since(last);
       last = Clock::now();
       wall += now;
       step_seconds += now;
       if (observer && !observer(self)) going = false;
     };
-    const auto book_time = [&] {
+    const auto conclude = [&] {
+      take_over_at(&next);
+      take_over_at(this);
+      for (const Pass& place : under_way) take_over_at(&place);
       absorbing += seconds_iterate;
       seconds_transfers += std::max(0.0, wall - absorbing / threads);
     };
@@ -320,19 +344,17 @@ struct RadiositySolver::Impl {
     const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
                                          static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
+    const auto filters = tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, source) &
+                         tbb::make_filter<int, int>(tbb::filter_mode::parallel, work) &
+                         tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order, sink);
+    hand_over_at(&start_of_passes);
     try {
-      arena.execute([&] {
-        tbb::parallel_pipeline(
-            static_cast<std::size_t>(2 * threads),
-            tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, source) &
-                tbb::make_filter<int, Pass>(tbb::filter_mode::parallel, work) &
-                tbb::make_filter<Pass, void>(tbb::filter_mode::serial_in_order, sink));
-      });
+      arena.execute([&] { tbb::parallel_pipeline(under_way.size(), filters); });
     } catch (...) {
-      book_time();
+      conclude();
       throw;
     }
-    book_time();
+    conclude();
     return going;
   }
 
