@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "fuzz/byte_source.h"
@@ -62,10 +63,23 @@ std::vector<Vec3> take_rectangle(ByteSource& bytes) {
   return outline;
 }
 
+/// A level polygon of many corners.
+std::vector<Vec3> take_disc(ByteSource& bytes) {
+  const Vec3 center = grid_point(bytes);
+  const double radius = 1 + grid_value(bytes) / 2;
+  const unsigned count = 5 + bytes.below(76);
+  std::vector<Vec3> outline;
+  for (unsigned k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    outline.push_back(center + radius * Vec3{std::cos(angle), std::sin(angle), 0});
+  }
+  return outline;
+}
+
 /// One more outline; `before` are the others.
 std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<Vec3>>& before) {
   std::vector<Vec3> outline;
-  switch (bytes.below(7)) {
+  switch (bytes.below(8)) {
     case 0:
       return take_rectangle(bytes);
     case 1:  // a triangle of the grid
@@ -87,12 +101,15 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
       }
       return outline;
     }
-    default:  // an earlier one again, moved along the grid or not
+    case 5:
+      return take_disc(bytes);
+    default:  // an earlier one again, where it was, or moved far or by very little
       if (before.empty()) return take_rectangle(bytes);
       outline = before[bytes.below(static_cast<unsigned>(before.size()))];
       if (bytes.flag()) {
         const Vec3 shift = grid_point(bytes);
-        for (Vec3& p : outline) p = p + 0.5 * shift;
+        const double share = std::ldexp(0.5, -static_cast<int>(bytes.below(20)));
+        for (Vec3& p : outline) p = p + share * shift;
       }
       return outline;
   }
