@@ -15,13 +15,18 @@ constexpr double faces_across = 1.5;
 constexpr int many_cells = 12;
 constexpr int top_shift = 61;
 constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr FaceBox nowhere{
+    {infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity}};
+constexpr FaceBox everywhere{
+    {-infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity}};
 
 double low(const FaceBox& box, std::size_t axis) { return box.ends[axis]; }
 double high(const FaceBox& box, std::size_t axis) { return -box.ends[axis + 4]; }
 
 }  // namespace
 
-FastBins::FastBins(const FastFaces& faces, const Cancellation& cancellation) : input_(faces) {
+FastBins::FastBins(const FastFaces& faces, bool backs_only, const Cancellation& cancellation)
+    : input_(faces), backs_only_(backs_only) {
   const std::size_t count = faces.faces.size();
   last_.assign(count, none);
   counts_.assign(count, 0);
@@ -132,8 +137,7 @@ void FastBins::divide(const Region& region, int shift) {
 }
 
 void FastBins::add_end() {
-  boxes_.push_back(
-      {{-infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity}});
+  boxes_.push_back(everywhere);
   faces_of_.push_back(none);
   before_.push_back(none);
 }
@@ -146,7 +150,7 @@ void FastBins::add_bin(const Region& region) {
     last_[face] = static_cast<Entry>(faces_of_.size());
     ++counts_[face];
     faces_of_.push_back(lists_[k]);
-    boxes_.push_back(input_.boxes[face]);
+    boxes_.push_back(backs_only_ && input_.faces[face].front ? nowhere : input_.boxes[face]);
   }
   bins_.push_back({region.x, region.y, std::int64_t{1} << region.shift, begin,
                    static_cast<Entry>(faces_of_.size())});

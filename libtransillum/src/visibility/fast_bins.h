@@ -16,9 +16,6 @@ class FastBins {
  public:
   using Entry = std::int32_t;
   static constexpr Entry none = -1;
-  /// Faces at the ends of every bin's list, of which every box says that it overlaps.
-  static constexpr std::int32_t before_all = -1;
-  static constexpr std::int32_t after_all = std::numeric_limits<std::int32_t>::max();
 
   /// A bin: [x, x + size) by [y, y + size) steps, and its entries from begin to end. The entry
   /// before them and the one behind them are no faces but ends, which every box overlaps.
@@ -27,7 +24,8 @@ class FastBins {
     Entry begin, end;
   };
 
-  FastBins(const FastFaces& faces, const Cancellation& cancellation);
+  /// @param backs_only front-facing faces are not found by their boxes.
+  FastBins(const FastFaces& faces, bool backs_only, const Cancellation& cancellation);
 
   const std::vector<Bin>& bins() const { return bins_; }
   /// The face of an entry; -1 at the ends.
@@ -59,6 +57,7 @@ class FastBins {
   void add_end();
 
   const FastFaces& input_;
+  bool backs_only_;
   std::vector<Bin> bins_;
   std::vector<FaceBox> boxes_;
   std::vector<std::int32_t> faces_of_;

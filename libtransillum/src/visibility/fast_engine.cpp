@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/closed_surface.h"
 #include "visibility/engines.h"
 #include "visibility/fast_bins.h"
 #include "visibility/fast_faces.h"
@@ -23,17 +24,28 @@ namespace {
 /// Faces in more bins than this look bin by bin.
 constexpr std::int32_t most_bins = 8;
 
+/// What all passes share.
+struct FastScene {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const BspTree> tree;
+  FastOutlines outlines;
+  bool in_air = false;  ///< no lit side looks at a back, whatever the direction
+
+  FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
+      : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*tree) {}
+};
+
 class FastPass {
  public:
-  FastPass(const Scene& scene, const BspTree& tree, const FastOutlines& outlines, const Vec3& omega,
-           const Cancellation& cancellation)
+  FastPass(const FastScene& shared, const Vec3& omega, const Cancellation& cancellation)
       : cancellation_(cancellation),
-        faces_(scene, tree, outlines, omega),
-        bins_(faces_, cancellation),
-        view_(outlines, faces_, transfers_.counts),
-        wide_view_(outlines, faces_, transfers_.counts),
+        in_air_(shared.in_air),
+        faces_(*shared.scene, *shared.tree, shared.outlines, omega),
+        bins_(faces_, in_air_, cancellation),
+        view_(shared.outlines, faces_, transfers_.counts),
+        wide_view_(shared.outlines, faces_, transfers_.counts),
         area_unit_(faces_.grid.step * faces_.grid.step) {
-    const auto patches = static_cast<std::size_t>(scene.patch_count());
+    const auto patches = static_cast<std::size_t>(shared.scene->patch_count());
     transfers_.direction = omega;
     transfers_.forward.resize(patches);
     transfers_.backward.resize(patches);
@@ -47,7 +59,7 @@ class FastPass {
       side[static_cast<std::size_t>(face.patch)].projected += area_unit_ * face.area;
     }
     look_all<Way::up>();
-    look_all<Way::down>();
+    if (!in_air_) look_all<Way::down>();
     sort_exchanges();
     return std::move(transfers_);
   }
@@ -215,6 +227,7 @@ class FastPass {
   }
 
   const Cancellation& cancellation_;
+  bool in_air_;
   Transfers transfers_;
   FastFaces faces_;
   FastBins bins_;
@@ -226,14 +239,32 @@ class FastPass {
   std::vector<Cursor> cursors_;
 };
 
+/// Whether a pass tells that lit sides look at lit sides only. Where surfaces are closed, what
+/// holds along all lines of one direction holds everywhere: the surfaces around a point, counted
+/// by their lit sides and backs, are the same number on whatever line one comes to it
+/// (decisions/0015-closed-surfaces.md).
+bool is_in_air(const FastScene& shared) {
+  // As good as any that no scene is aligned with.
+  const Vec3 omega = normalized(Vec3{0.5772156649, 0.3141592653, 0.7390851332});
+  if (!is_closed_surface(*shared.scene)) return false;
+  const Cancellation never;
+  const Transfers transfers = FastPass(shared, omega, never).run();
+  for (PatchId i = 0; i < shared.scene->patch_count(); ++i) {
+    // Rounding lets slivers of backs be seen beside the edges of what hides them.
+    const double most = 1e-13 * shared.scene->patch(i).area;
+    if (transfers.back_seen[static_cast<std::size_t>(i)] > most) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree) {
-  auto outlines = std::make_shared<const FastOutlines>(*tree);
-  return [scene = std::move(scene), tree = std::move(tree), outlines = std::move(outlines)](
-             const Vec3& omega, const Cancellation& cancellation) {
-    return FastPass(*scene, *tree, *outlines, omega, cancellation).run();
+  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
+  shared->in_air = is_in_air(*shared);
+  return [shared = std::move(shared)](const Vec3& omega, const Cancellation& cancellation) {
+    return FastPass(*shared, omega, cancellation).run();
   };
 }
 

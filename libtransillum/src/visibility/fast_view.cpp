@@ -42,9 +42,8 @@ SideBits side_bits(const double* x, const double* y, std::size_t count, double d
   const __m128d dxs = _mm_set1_pd(dx), dys = _mm_set1_pd(dy), cs = _mm_set1_pd(c);
   const __m128d bounds = _mm_set1_pd(bound), minus_bounds = _mm_set1_pd(-bound);
   for (std::size_t k = 0; k < count; k += 2) {
-    const __m128d side = _mm_add_pd(_mm_sub_pd(_mm_mul_pd(dxs, _mm_load_pd(y + k)),
-                                               _mm_mul_pd(dys, _mm_load_pd(x + k))),
-                                    cs);
+    const __m128d side = _mm_add_pd(
+        _mm_sub_pd(_mm_mul_pd(dxs, _mm_load_pd(y + k)), _mm_mul_pd(dys, _mm_load_pd(x + k))), cs);
     bits.left |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(side, bounds))) << k;
     bits.right |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(side, minus_bounds)))
                   << k;

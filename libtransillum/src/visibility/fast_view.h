@@ -29,7 +29,8 @@ class FastView {
   /// Looks from the part of a face that lies in a bin. Returns false where there is none.
   bool look_from(std::int32_t face, const FastBins::Bin& bin);
 
-  /// Eats up what `face`, with its box, covers of what is left, and returns its area, steps squared.
+  /// Eats up what `face`, with its box, covers of what is left, and returns its area, steps
+  /// squared.
   double show(std::int32_t face, const FaceBox& box);
   /// What is left lies in here.
   const FaceWindow& window() const { return window_; }
@@ -109,13 +110,13 @@ class FastView {
   GridPoint origin_;
   FastBins::Bin bin_{};
   std::vector<Edge> edges_;
-  std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
+  std::size_t kept_edges_ = 0;        ///< of them, those that pieces refer to
   Real reach_ = 0, shown_reach_ = 0;  ///< largest |x| + |y| of what looks and what is shown
   Real area_ = 0, left_area_ = 0;
   FaceWindow window_;
-  std::vector<Piece> pieces_;           ///< places for them
-  std::vector<std::uint32_t> left_;     ///< the places of what is left
-  std::vector<std::uint32_t> parts_;    ///< … of what eat() has just put beside it
+  std::vector<Piece> pieces_;         ///< places for them
+  std::vector<std::uint32_t> left_;   ///< the places of what is left
+  std::vector<std::uint32_t> parts_;  ///< … of what eat() has just put beside it
   std::vector<std::uint32_t> unused_;
   Piece shown_;
   std::array<Piece, 2> rest_;
