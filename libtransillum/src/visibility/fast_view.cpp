@@ -17,41 +17,6 @@ constexpr Real rounding = 8 * std::numeric_limits<Real>::epsilon();
 /// Corners of cut faces lie up to so many steps off the lines that they are on.
 constexpr int off_line = 2;
 
-/// On which sides of a line corners lie, one bit a corner.
-struct SideBits {
-  std::uint32_t left = 0, right = 0;
-};
-
-template <class Real>
-SideBits side_bits(const Real* x, const Real* y, std::size_t count, Real dx, Real dy, Real c,
-                   Real bound) {
-  SideBits bits;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Real side = dx * y[k] - dy * x[k] + c;
-    bits.left |= static_cast<std::uint32_t>(side > bound) << k;
-    bits.right |= static_cast<std::uint32_t>(side < -bound) << k;
-  }
-  return bits;
-}
-
-#ifdef __SSE2__
-/// The same, by twos. What lies behind the last corner up to a multiple of two may be read.
-SideBits side_bits(const double* x, const double* y, std::size_t count, double dx, double dy,
-                   double c, double bound) {
-  SideBits bits;
-  const __m128d dxs = _mm_set1_pd(dx), dys = _mm_set1_pd(dy), cs = _mm_set1_pd(c);
-  const __m128d bounds = _mm_set1_pd(bound), minus_bounds = _mm_set1_pd(-bound);
-  for (std::size_t k = 0; k < count; k += 2) {
-    const __m128d side = _mm_add_pd(
-        _mm_sub_pd(_mm_mul_pd(dxs, _mm_load_pd(y + k)), _mm_mul_pd(dys, _mm_load_pd(x + k))), cs);
-    bits.left |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpgt_pd(side, bounds))) << k;
-    bits.right |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmplt_pd(side, minus_bounds)))
-                  << k;
-  }
-  return bits;
-}
-#endif
-
 /// Largest |x| + |y| of some corners.
 template <class Polygon>
 auto reach_of(const Polygon& polygon) {
@@ -69,20 +34,12 @@ typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& ot
   count = other.count;
   error = other.error;
   window = other.window;
-  const auto filled = static_cast<std::ptrdiff_t>((count + 3) / 4 * 4);
+  const auto filled = static_cast<std::ptrdiff_t>(count);
   std::copy(other.x.begin(), other.x.begin() + filled, x.begin());
   std::copy(other.y.begin(), other.y.begin() + filled, y.begin());
   std::copy(other.edge.begin(), other.edge.begin() + filled, edge.begin());
   std::copy(other.point.begin(), other.point.begin() + filled, point.begin());
   return *this;
-}
-
-template <class Real>
-void FastView<Real>::Piece::fill_up() {
-  for (std::size_t k = count; k % 4 != 0; ++k) {
-    x[k] = x[0];
-    y[k] = y[0];
-  }
 }
 
 template <class Real>
@@ -129,7 +86,7 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
     const EdgeRef ref = add_edge(grid_line(line, true), line, true);
     const Edge edge = edge_of(ref);
-    const Sides sides = measure(piece, edge, edge.length * (edge.slack + piece.error));
+    const Sides sides = measure(piece, edge);
     if (sides.left == 0) return false;
     if (sides.right == 0) continue;
     split(piece, ref, sides, rest_[0], rest_[1]);
@@ -163,7 +120,6 @@ void FastView<Real>::load_corners(const FastFaces::Face& face, Piece& piece) con
     piece.add(static_cast<Real>(corner.at.x - origin_.x),
               static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
   }
-  piece.fill_up();
 }
 
 template <class Real>
@@ -240,45 +196,54 @@ typename FastView<Real>::Edge FastView<Real>::edge_of(EdgeRef ref) const {
   return edge;
 }
 
-/// On which sides of the line of `edge` the corners of `piece` lie; determinants within `bound` of
-/// 0 are not sure.
+/// Sides of the corners of `piece` with what is not sure settled; what is on the line is on neither.
 template <class Real>
-typename FastView<Real>::Sides FastView<Real>::sides_of(const Piece& piece, const Edge& edge,
-                                                        Real bound) const {
-  const std::size_t count = piece.count;
-  const std::uint32_t all = (std::uint32_t{1} << count) - 1;
-  const SideBits bits =
-      side_bits(piece.x.data(), piece.y.data(), count, edge.dx, edge.dy, edge.c, bound);
-  counts_.decisions += static_cast<std::int64_t>(count);
-  const Sides sides{bits.left & all, bits.right & all};
-  return (sides.left | sides.right) == all ? sides : settled(piece, edge, sides);
-}
-
-/// The same with what was not sure settled.
-template <class Real>
-typename FastView<Real>::Sides FastView<Real>::settled(const Piece& piece, const Edge& edge,
-                                                       Sides sides) const {
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    if ((sides.left | sides.right) >> k & 1) continue;
+Sides FastView<Real>::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
+  const Edge edge = edge_of(ref);
+  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+  for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
+       unsure &= unsure - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
     const Real side = exact_side_of(piece, k, edge);
-    sides.left |= static_cast<std::uint32_t>(side > 0) << k;
-    sides.right |= static_cast<std::uint32_t>(side < 0) << k;
+    sides.left |= static_cast<std::uint64_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint64_t>(side < 0) << k;
   }
   return sides;
 }
 
-/// The same, and leaves the determinants in sides_, their signs right.
+/// Finds the edges of `by` that have corners of `piece` on their right, as bits of `cuts`. Returns
+/// false where one has none on its left: they share no area.
 template <class Real>
-typename FastView<Real>::Sides FastView<Real>::measure(const Piece& piece, const Edge& edge,
-                                                       Real bound) {
-  Sides sides{0, 0};
+bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
+                               std::uint64_t& cuts) {
+  const std::size_t found =
+      find_sides(piece.x.data(), piece.y.data(), piece.count, edges_.data(), by.edge.data(),
+                 by.count, error, sides_of_edges_.data());
+  counts_.decisions += static_cast<std::int64_t>((found + (found < by.count)) * piece.count);
+  if (found < by.count) return false;
+  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+  cuts = 0;
+  for (std::size_t k = 0; k < by.count; ++k) {
+    Sides sides = sides_of_edges_[k];
+    if ((sides.left | sides.right) != all) sides = settled(piece, by.edge[k], sides);
+    if (sides.left == 0) return false;
+    cuts |= static_cast<std::uint64_t>(sides.right != 0) << k;
+  }
+  return true;
+}
+
+/// The sides of the corners of `piece`; leaves the determinants in sides_, their signs right.
+template <class Real>
+Sides FastView<Real>::measure(const Piece& piece, const Edge& edge) {
+  Sides sides;
+  const Real bound = edge.length * (edge.slack + piece.error);
   counts_.decisions += static_cast<std::int64_t>(piece.count);
   for (std::size_t k = 0; k < piece.count; ++k) {
     Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
     if (std::abs(side) <= bound) side = exact_side_of(piece, k, edge);
     sides_[k] = side;
-    sides.left |= static_cast<std::uint32_t>(side > 0) << k;
-    sides.right |= static_cast<std::uint32_t>(side < 0) << k;
+    sides.left |= static_cast<std::uint64_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint64_t>(side < 0) << k;
   }
   return sides;
 }
@@ -306,17 +271,6 @@ Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge
   return static_cast<Real>(
       point == made_by_cut ? exact_side(line, grid_line(arriving, true), grid_line(leaving, true))
                            : exact_side(line, faces_.grid.points[static_cast<std::size_t>(point)]));
-}
-
-/// Whether an edge of `piece` has all of `other`, which reaches so far, on its outer side.
-template <class Real>
-bool FastView<Real>::separates(const Piece& piece, const Piece& other, Real reach) const {
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    const Edge edge = edge_of(piece.edge[k]);
-    const Real bound = edge.length * (edge.slack + rounding<Real> * reach);
-    if (sides_of(other, edge, bound).left == 0) return true;
-  }
-  return false;
 }
 
 template <class Real>
@@ -369,26 +323,20 @@ void FastView<Real>::find_whole_window() {
 /// parts_. Returns false where they share nothing.
 template <class Real>
 bool FastView<Real>::eat(std::uint32_t place, Real& area) {
-  std::uint32_t cuts = 0;
-  for (std::size_t k = 0; k < shown_.count; ++k) {
-    const Piece& piece = pieces_[place];
-    const Edge& edge = edges_[static_cast<std::size_t>(shown_.edge[k] >> 1)];
-    const Sides sides = sides_of(piece, edge, edge.length * (edge.slack + piece.error));
-    if (sides.left == 0) return false;
-    cuts |= static_cast<std::uint32_t>(sides.right != 0) << k;
-  }
+  std::uint64_t cuts = 0, cuts_of_shown = 0;
+  if (!find_cuts(pieces_[place], shown_, pieces_[place].error, cuts)) return false;
   if (cuts == 0) {
     area += area_of(pieces_[place]);
     return true;
   }
-  if (separates(pieces_[place], shown_, shown_reach_)) return false;
+  if (!find_cuts(shown_, pieces_[place], rounding<Real> * shown_reach_, cuts_of_shown)) return false;
   const std::size_t parts = parts_.size();
   std::size_t used = 0;
   const Piece* rest = &pieces_[place];
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = shown_.edge[static_cast<std::size_t>(std::countr_zero(cuts))];
     const Edge edge = edge_of(ref);
-    const Sides sides = measure(*rest, edge, edge.length * (edge.slack + rest->error));
+    const Sides sides = measure(*rest, edge);
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
       unused_.insert(unused_.end(), parts_.begin() + static_cast<std::ptrdiff_t>(parts),
@@ -401,8 +349,9 @@ bool FastView<Real>::eat(std::uint32_t place, Real& area) {
     const std::uint32_t part = new_piece();
     if (from_place) rest = &pieces_[place];
     split(*rest, ref, sides, rest_[used], pieces_[part]);
-    find_window(pieces_[part]);
     parts_.push_back(part);
+    if (pieces_[part].count > many_corners) halve(part);
+    find_window(pieces_[part]);
     rest = &rest_[used];
     used = 1 - used;
   }
@@ -411,7 +360,29 @@ bool FastView<Real>::eat(std::uint32_t place, Real& area) {
   return true;
 }
 
-/// Splits a piece along a line that has corners on both sides, as sides_of() has just found.
+/// Cuts a piece with many corners from one to another, and adds the other half to parts_.
+template <class Real>
+void FastView<Real>::halve(std::uint32_t place) {
+  const std::uint32_t other = new_piece();
+  const Piece whole = pieces_[place];
+  Piece &first = pieces_[place], &second = pieces_[other];
+  const std::size_t middle = whole.count / 2;
+  const EdgeRef chord =
+      add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
+               whole.y[0] - whole.y[middle], halving, true);
+  first.count = middle + 1;
+  first.edge[middle] = chord;
+  second.count = 0;
+  second.error = whole.error;
+  second.add(whole.x[0], whole.y[0], chord ^ 1, whole.point[0]);
+  for (std::size_t k = middle; k < whole.count; ++k) {
+    second.add(whole.x[k], whole.y[k], whole.edge[k], whole.point[k]);
+  }
+  find_window(second);
+  parts_.push_back(other);
+}
+
+/// Splits a piece along a line that has corners on both sides, as measure() has just found.
 ///
 ///            F ── … ── L        F … L: corners on the left, which is inside
 ///           /           \\.
@@ -457,8 +428,6 @@ void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& i
   } else {
     add_crossing(piece, back, first, by, inside, outside);
   }
-  inside.fill_up();
-  outside.fill_up();
 }
 
 /// The point of the grid through which two lines both run by their making, if any.

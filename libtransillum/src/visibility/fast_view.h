@@ -9,6 +9,7 @@
 #include "visibility/exact_side.h"
 #include "visibility/fast_bins.h"
 #include "visibility/fast_faces.h"
+#include "visibility/side_masks.h"
 
 namespace transillum {
 
@@ -39,29 +40,21 @@ class FastView {
   bool done() const { return left_.empty() || left_area_ <= Real{0x1p-40} * area_; }
 
  private:
-  static constexpr std::size_t most_corners = 32;  ///< of a piece
+  static constexpr std::size_t most_corners = 48;  ///< of a piece
+  static constexpr std::size_t many_corners = 24;  ///< a piece of more is cut in half
   static constexpr PointId made_by_cut = FaceCorner::no_point;
   // Lines of a bin's square and of a piece cut in half, in place of LineIds.
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving = -6;
 
-  /// A directed line. What an edge bounds lies on its left: dx y - dy x + c > 0.
-  struct Edge {
-    Real dx, dy, c;
-    Real length;  ///< |dx| + |dy|
-    Real slack;   ///< how far from the line a point of the looking polygon may seem by rounding
-    LineId line;
-    bool forward;  ///< it runs along its line from a to b
-  };
-  /// Index in edges_, doubled, and 1 more where the line is meant the other way round.
-  using EdgeRef = std::int32_t;
+  using Edge = DirectedLine<Real>;
+  using EdgeRef = DirectedRef;  ///< in edges_
 
-  /// A convex polygon, counter-clockwise. x and y repeat the first corner behind the last, up to a
-  /// multiple of four.
+  /// A convex polygon, counter-clockwise.
   struct Piece {
     std::size_t count = 0;
     Real error = 0;  ///< of corners made by cuts: along x or y at most
     FaceWindow window;
-    alignas(16) std::array<Real, most_corners> x, y;
+    alignas(64) std::array<Real, most_corners> x{}, y{};
     std::array<EdgeRef, most_corners> edge;   ///< to the next corner
     std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
 
@@ -74,13 +67,7 @@ class FastView {
       edge[count] = leaving;
       point[count++] = on_grid;
     }
-    void fill_up();
   };
-  /// On which sides of a line corners lie, one bit a corner; those on it on neither.
-  struct Sides {
-    std::uint32_t left, right;
-  };
-
   void find_window(Piece& piece) const;
   void load_corners(const FastFaces::Face& face, Piece& piece) const;
   void load_edges(const FastFaces::Face& face, Piece& piece);
@@ -89,13 +76,13 @@ class FastView {
   GridLine grid_line(LineId line, bool forward) const;
   Edge edge_of(EdgeRef ref) const;
 
-  Sides sides_of(const Piece& piece, const Edge& edge, Real bound) const;
-  Sides settled(const Piece& piece, const Edge& edge, Sides sides) const;
-  Sides measure(const Piece& piece, const Edge& edge, Real bound);
+  Sides settled(const Piece& piece, EdgeRef ref, Sides sides) const;
+  bool find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts);
+  Sides measure(const Piece& piece, const Edge& edge);
   Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const;
-  bool separates(const Piece& piece, const Piece& other, Real reach) const;
   bool eat(std::uint32_t place, Real& area);
   std::uint32_t new_piece();
+  void halve(std::uint32_t place);
   void find_whole_window();
   void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
   PointId common_point(LineId p, LineId q) const;
@@ -120,6 +107,7 @@ class FastView {
   std::vector<std::uint32_t> unused_;
   Piece shown_;
   std::array<Piece, 2> rest_;
+  std::array<Sides, most_corners> sides_of_edges_;
   std::array<Real, most_corners> sides_;  ///< of the corners measure() was given
 };
 
