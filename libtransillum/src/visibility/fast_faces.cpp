@@ -149,7 +149,7 @@ bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& o
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
-  const bool needle = area < 0x1p-10 * size;
+  const bool needle = area < 0x1p-14 * size;
   if (needle && !is_convex(first, count)) return false;
   boxes.push_back(box);
   faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), outline.patch, front,

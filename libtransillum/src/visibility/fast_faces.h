@@ -5,6 +5,7 @@
 #include <emmintrin.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -59,6 +60,16 @@ struct alignas(16) FaceBox {
 struct alignas(16) FaceWindow {
   std::array<float, 8> ends;
 
+  void add(const FaceWindow& other) {
+#ifdef __SSE2__
+    for (std::size_t d = 0; d < 8; d += 4) {
+      _mm_store_ps(ends.data() + d,
+                   _mm_max_ps(_mm_load_ps(ends.data() + d), _mm_load_ps(other.ends.data() + d)));
+    }
+#else
+    for (std::size_t d = 0; d < 8; ++d) ends[d] = std::max(ends[d], other.ends[d]);
+#endif
+  }
   bool overlaps(const FaceBox& box) const {
 #ifdef __SSE2__
     const __m128 low = _mm_cmplt_ps(_mm_load_ps(box.ends.data()), _mm_load_ps(ends.data()));

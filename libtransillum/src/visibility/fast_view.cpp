@@ -84,9 +84,8 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
   bin_ = bin;
   Piece& piece = pieces_[left_[0]];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
-    const EdgeRef ref = add_edge(grid_line(line, true), line, true);
-    const Edge edge = edge_of(ref);
-    const Sides sides = measure(piece, edge);
+    const EdgeRef ref = add_edge(bin_line(line), line, made_by_cut, made_by_cut);
+    const Sides sides = measure(piece, ref);
     if (sides.left == 0) return false;
     if (sides.right == 0) continue;
     split(piece, ref, sides, rest_[0], rest_[1]);
@@ -130,81 +129,70 @@ void FastView<Real>::load_edges(const FastFaces::Face& face, Piece& piece) {
     const FaceCorner& corner = corners[k];
     if (face.plain) {
       const std::size_t next = k + 1 < count ? k + 1 : 0;
-      piece.edge[k] = add_edge(piece.x[k], piece.y[k], piece.x[next] - piece.x[k],
-                               piece.y[next] - piece.y[k], corner.line, corner.forward);
+      piece.edge[k] =
+          add_edge(piece.x[k], piece.y[k], piece.x[next] - piece.x[k], piece.y[next] - piece.y[k],
+                   corner.line, corner.point, corners[next].point);
     } else {
-      piece.edge[k] = add_edge(grid_line(corner.line, corner.forward), corner.line, corner.forward);
+      const BspTree::Line& points = outlines_.lines[static_cast<std::size_t>(corner.line)];
+      const PointId from = corner.forward ? points.a : points.b;
+      const PointId to = corner.forward ? points.b : points.a;
+      piece.edge[k] = add_edge({faces_.grid.points[static_cast<std::size_t>(from)],
+                                faces_.grid.points[static_cast<std::size_t>(to)]},
+                               corner.line, from, to);
     }
   }
 }
 
 template <class Real>
-typename FastView<Real>::EdgeRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy,
-                                                          LineId line, bool forward) {
+DirectedRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
+                                     PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
   const Real slack = rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line};
-  edges_.push_back({dx, dy, dy * x - dx * y, length, slack, line, forward});
+  edges_.push_back({dx, dy, dy * x - dx * y, length, slack, line, from, to});
   return static_cast<EdgeRef>(2 * (edges_.size() - 1));
 }
 
 template <class Real>
-typename FastView<Real>::EdgeRef FastView<Real>::add_edge(const GridLine& through, LineId line,
-                                                          bool forward) {
+DirectedRef FastView<Real>::add_edge(const GridLine& through, LineId line, PointId from,
+                                     PointId to) {
   return add_edge(static_cast<Real>(through.a.x - origin_.x),
                   static_cast<Real>(through.a.y - origin_.y),
                   static_cast<Real>(through.b.x - through.a.x),
-                  static_cast<Real>(through.b.y - through.a.y), line, forward);
+                  static_cast<Real>(through.b.y - through.a.y), line, from, to);
 }
 
-/// A line through points of the grid, run through from a to b or the other way round.
+/// An edge of a bin's square, the square on its left.
 template <class Real>
-GridLine FastView<Real>::grid_line(LineId line, bool forward) const {
+GridLine FastView<Real>::bin_line(LineId line) const {
   const std::int64_t x1 = bin_.x + bin_.size, y1 = bin_.y + bin_.size;
-  GridLine result;
   switch (line) {
     case low_x:
-      result = {{bin_.x, y1}, {bin_.x, bin_.y}};
-      break;
+      return {{bin_.x, y1}, {bin_.x, bin_.y}};
     case low_y:
-      result = {{bin_.x, bin_.y}, {x1, bin_.y}};
-      break;
+      return {{bin_.x, bin_.y}, {x1, bin_.y}};
     case high_x:
-      result = {{x1, bin_.y}, {x1, y1}};
-      break;
-    case high_y:
-      result = {{x1, y1}, {bin_.x, y1}};
-      break;
-    default: {
-      const BspTree::Line& points = outlines_.lines[static_cast<std::size_t>(line)];
-      result = {faces_.grid.points[static_cast<std::size_t>(points.a)],
-                faces_.grid.points[static_cast<std::size_t>(points.b)]};
-    }
+      return {{x1, bin_.y}, {x1, y1}};
+    default:
+      return {{x1, y1}, {bin_.x, y1}};
   }
-  if (!forward) std::swap(result.a, result.b);
-  return result;
 }
 
 template <class Real>
-typename FastView<Real>::Edge FastView<Real>::edge_of(EdgeRef ref) const {
-  Edge edge = edges_[static_cast<std::size_t>(ref >> 1)];
-  if (ref & 1) {
-    edge.dx = -edge.dx;
-    edge.dy = -edge.dy;
-    edge.c = -edge.c;
-    edge.forward = !edge.forward;
-  }
-  return edge;
+GridLine FastView<Real>::grid_line(const Edge& edge) const {
+  if (edge.line < 0) return bin_line(edge.line);
+  return {faces_.grid.points[static_cast<std::size_t>(edge.from)],
+          faces_.grid.points[static_cast<std::size_t>(edge.to)]};
 }
 
-/// Sides of the corners of `piece` with what is not sure settled; what is on the line is on neither.
+/// Sides of the corners of `piece` with what is not sure settled; what is on the line is on
+/// neither.
 template <class Real>
 Sides FastView<Real>::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
-  const Edge edge = edge_of(ref);
   const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
   for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
        unsure &= unsure - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
-    const Real side = exact_side_of(piece, k, edge);
+    const Real side = exact_side_of(piece, k, ref);
     sides.left |= static_cast<std::uint64_t>(side > 0) << k;
     sides.right |= static_cast<std::uint64_t>(side < 0) << k;
   }
@@ -216,9 +204,8 @@ Sides FastView<Real>::settled(const Piece& piece, EdgeRef ref, Sides sides) cons
 template <class Real>
 bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
                                std::uint64_t& cuts) {
-  const std::size_t found =
-      find_sides(piece.x.data(), piece.y.data(), piece.count, edges_.data(), by.edge.data(),
-                 by.count, error, sides_of_edges_.data());
+  const std::size_t found = find_sides(piece.x.data(), piece.y.data(), piece.count, edges_.data(),
+                                       by.edge.data(), by.count, error, sides_of_edges_.data());
   counts_.decisions += static_cast<std::int64_t>((found + (found < by.count)) * piece.count);
   if (found < by.count) return false;
   const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
@@ -234,13 +221,15 @@ bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
 
 /// The sides of the corners of `piece`; leaves the determinants in sides_, their signs right.
 template <class Real>
-Sides FastView<Real>::measure(const Piece& piece, const Edge& edge) {
+Sides FastView<Real>::measure(const Piece& piece, EdgeRef ref) {
   Sides sides;
+  const Edge& edge = edge_of(ref);
+  const Real sign = ref & 1 ? -1 : 1;
   const Real bound = edge.length * (edge.slack + piece.error);
   counts_.decisions += static_cast<std::int64_t>(piece.count);
   for (std::size_t k = 0; k < piece.count; ++k) {
-    Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
-    if (std::abs(side) <= bound) side = exact_side_of(piece, k, edge);
+    Real side = sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
+    if (std::abs(side) <= bound) side = exact_side_of(piece, k, ref);
     sides_[k] = side;
     sides.left |= static_cast<std::uint64_t>(side > 0) << k;
     sides.right |= static_cast<std::uint64_t>(side < 0) << k;
@@ -248,29 +237,28 @@ Sides FastView<Real>::measure(const Piece& piece, const Edge& edge) {
   return sides;
 }
 
-/// The determinant of corner k of `piece` and the line of `edge` where it is too small for Real:
-/// its sign right, and its value too, which says where a cut goes.
+/// The determinant of corner k of `piece` and an edge's line where it is too small for Real: its
+/// sign right, and its value too, which says where a cut goes.
 template <class Real>
-Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const {
-  const std::size_t before = k > 0 ? k - 1 : piece.count - 1;
-  const LineId leaving = edges_[static_cast<std::size_t>(piece.edge[k] >> 1)].line;
-  const LineId arriving = edges_[static_cast<std::size_t>(piece.edge[before] >> 1)].line;
-  // A corner of an edge on that very line is on it, whatever rounding has done to it.
-  if (leaving == edge.line || arriving == edge.line) return 0;
+Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const {
+  const Edge& edge = edge_of(ref);
+  const Edge& leaving = edge_of(piece.edge[k]);
+  const Edge& arriving = edge_of(piece.edge[k > 0 ? k - 1 : piece.count - 1]);
   const PointId point = piece.point[k];
-  if (point != made_by_cut && edge.line >= 0) {
-    const BspTree::Line& points = outlines_.lines[static_cast<std::size_t>(edge.line)];
-    if (point == points.a || point == points.b) return 0;
-  }
+  // A corner of an edge on that very line is on it, whatever rounding has done to it.
+  if (leaving.line == edge.line || arriving.line == edge.line) return 0;
+  if (point != made_by_cut && (point == edge.from || point == edge.to)) return 0;
+  const Real sign = ref & 1 ? -1 : 1;
   if (edge.line == halving ||
-      (point == made_by_cut && (leaving == halving || arriving == halving))) {
-    return edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+      (point == made_by_cut && (leaving.line == halving || arriving.line == halving))) {
+    return sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
   }
   ++counts_.exact_decisions;
-  const GridLine line = grid_line(edge.line, edge.forward);
-  return static_cast<Real>(
-      point == made_by_cut ? exact_side(line, grid_line(arriving, true), grid_line(leaving, true))
-                           : exact_side(line, faces_.grid.points[static_cast<std::size_t>(point)]));
+  const GridLine line = grid_line(edge);
+  return sign * static_cast<Real>(
+                    point == made_by_cut
+                        ? exact_side(line, grid_line(arriving), grid_line(leaving))
+                        : exact_side(line, faces_.grid.points[static_cast<std::size_t>(point)]));
 }
 
 template <class Real>
@@ -311,12 +299,10 @@ double FastView<Real>::show(std::int32_t face, const FaceBox& box) {
 
 template <class Real>
 void FastView<Real>::find_whole_window() {
-  for (std::size_t p = 0; p < left_.size(); ++p) {
-    const FaceWindow& window = pieces_[left_[p]].window;
-    for (std::size_t d = 0; d < 8; ++d) {
-      window_.ends[d] = p == 0 ? window.ends[d] : std::max(window_.ends[d], window.ends[d]);
-    }
-  }
+  if (left_.empty()) return;
+  FaceWindow whole = pieces_[left_[0]].window;
+  for (std::size_t p = 1; p < left_.size(); ++p) whole.add(pieces_[left_[p]].window);
+  window_ = whole;
 }
 
 /// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside into
@@ -329,14 +315,14 @@ bool FastView<Real>::eat(std::uint32_t place, Real& area) {
     area += area_of(pieces_[place]);
     return true;
   }
-  if (!find_cuts(shown_, pieces_[place], rounding<Real> * shown_reach_, cuts_of_shown)) return false;
+  if (!find_cuts(shown_, pieces_[place], rounding<Real> * shown_reach_, cuts_of_shown))
+    return false;
   const std::size_t parts = parts_.size();
   std::size_t used = 0;
   const Piece* rest = &pieces_[place];
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = shown_.edge[static_cast<std::size_t>(std::countr_zero(cuts))];
-    const Edge edge = edge_of(ref);
-    const Sides sides = measure(*rest, edge);
+    const Sides sides = measure(*rest, ref);
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
       unused_.insert(unused_.end(), parts_.begin() + static_cast<std::ptrdiff_t>(parts),
@@ -367,9 +353,8 @@ void FastView<Real>::halve(std::uint32_t place) {
   const Piece whole = pieces_[place];
   Piece &first = pieces_[place], &second = pieces_[other];
   const std::size_t middle = whole.count / 2;
-  const EdgeRef chord =
-      add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
-               whole.y[0] - whole.y[middle], halving, true);
+  const EdgeRef chord = add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
+                                 whole.y[0] - whole.y[middle], halving, made_by_cut, made_by_cut);
   first.count = middle + 1;
   first.edge[middle] = chord;
   second.count = 0;
@@ -432,12 +417,9 @@ void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& i
 
 /// The point of the grid through which two lines both run by their making, if any.
 template <class Real>
-PointId FastView<Real>::common_point(LineId p, LineId q) const {
-  if (p < 0 || q < 0) return made_by_cut;
-  const BspTree::Line& a = outlines_.lines[static_cast<std::size_t>(p)];
-  const BspTree::Line& b = outlines_.lines[static_cast<std::size_t>(q)];
-  if (a.a == b.a || a.a == b.b) return a.a;
-  return a.b == b.a || a.b == b.b ? a.b : made_by_cut;
+PointId FastView<Real>::common_point(const Edge& p, const Edge& q) {
+  if (p.from == q.from || p.from == q.to) return p.from;
+  return p.to == q.from || p.to == q.to ? p.to : made_by_cut;
 }
 
 /// Adds the point where the edge from corner `from` to corner `to` crosses the line `by` to both
@@ -450,15 +432,15 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   const Real dx = piece.x[to] - piece.x[from], dy = piece.y[to] - piece.y[from];
   const Real t = here * across;
   Real x = piece.x[from] + t * dx, y = piece.y[from] + t * dy;
-  const Edge& edge = edges_[static_cast<std::size_t>(piece.edge[from] >> 1)];
-  const Edge& cutting = edges_[static_cast<std::size_t>(by >> 1)];
+  const Edge& edge = edge_of(piece.edge[from]);
+  const Edge& cutting = edge_of(by);
   // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
   // farther from where they meet.
   const Real nearness = edge.slack + cutting.slack + rounding<Real> * (std::abs(x) + std::abs(y));
   const Real flatness =
       edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
   Real error = nearness * flatness;
-  const PointId common = common_point(edge.line, cutting.line);
+  const PointId common = common_point(edge, cutting);
   if (common != made_by_cut) {
     const GridPoint& p = faces_.grid.points[static_cast<std::size_t>(common)];
     x = static_cast<Real>(p.x - origin_.x);
@@ -467,8 +449,7 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   } else if (!(flatness < 0x1p16) && edge.line != halving && cutting.line != halving) {
     // The lines meet at a flat angle.
     ++counts_.exact_decisions;
-    const Meeting meeting =
-        exact_meeting(grid_line(edge.line, true), grid_line(cutting.line, true), origin_);
+    const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);
     if (!meeting.parallel) {
       // Corners of cut faces lie a little off their lines: no farther than the edge goes.
       const auto [x0, x1] = std::minmax(piece.x[from], piece.x[to]);

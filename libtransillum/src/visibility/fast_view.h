@@ -71,21 +71,22 @@ class FastView {
   void find_window(Piece& piece) const;
   void load_corners(const FastFaces::Face& face, Piece& piece) const;
   void load_edges(const FastFaces::Face& face, Piece& piece);
-  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, bool forward);
-  EdgeRef add_edge(const GridLine& through, LineId line, bool forward);
-  GridLine grid_line(LineId line, bool forward) const;
-  Edge edge_of(EdgeRef ref) const;
+  EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from, PointId to);
+  EdgeRef add_edge(const GridLine& through, LineId line, PointId from, PointId to);
+  GridLine bin_line(LineId line) const;
+  GridLine grid_line(const Edge& edge) const;
+  const Edge& edge_of(EdgeRef ref) const { return edges_[static_cast<std::size_t>(ref >> 1)]; }
 
   Sides settled(const Piece& piece, EdgeRef ref, Sides sides) const;
   bool find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts);
-  Sides measure(const Piece& piece, const Edge& edge);
-  Real exact_side_of(const Piece& piece, std::size_t k, const Edge& edge) const;
+  Sides measure(const Piece& piece, EdgeRef ref);
+  Real exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const;
   bool eat(std::uint32_t place, Real& area);
   std::uint32_t new_piece();
   void halve(std::uint32_t place);
   void find_whole_window();
   void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
-  PointId common_point(LineId p, LineId q) const;
+  static PointId common_point(const Edge& p, const Edge& q);
   void add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by, Piece& inside,
                     Piece& outside);
   static Real area_of(const Piece& piece);

@@ -49,10 +49,9 @@ __attribute__((target("avx512f"))) std::size_t find_sides_by_eight(
     const __m512d high = _mm512_set1_pd(limit), low = _mm512_set1_pd(-limit);
     Sides found;
     for (std::size_t g = 0; g < corner_count; g += 8) {
-      const __m512d side =
-          _mm512_add_pd(_mm512_sub_pd(_mm512_mul_pd(dx, _mm512_load_pd(y + g)),
-                                      _mm512_mul_pd(dy, _mm512_load_pd(x + g))),
-                        c);
+      const __m512d side = _mm512_add_pd(_mm512_sub_pd(_mm512_mul_pd(dx, _mm512_load_pd(y + g)),
+                                                       _mm512_mul_pd(dy, _mm512_load_pd(x + g))),
+                                         c);
       found.left |= static_cast<std::uint64_t>(_mm512_cmp_pd_mask(side, high, _CMP_GT_OQ)) << g;
       found.right |= static_cast<std::uint64_t>(_mm512_cmp_pd_mask(side, low, _CMP_LT_OQ)) << g;
     }
@@ -75,10 +74,9 @@ __attribute__((target("avx2"))) std::size_t find_sides_by_four(
     const __m256d high = _mm256_set1_pd(limit), low = _mm256_set1_pd(-limit);
     Sides found;
     for (std::size_t g = 0; g < corner_count; g += 4) {
-      const __m256d side =
-          _mm256_add_pd(_mm256_sub_pd(_mm256_mul_pd(dx, _mm256_load_pd(y + g)),
-                                      _mm256_mul_pd(dy, _mm256_load_pd(x + g))),
-                        c);
+      const __m256d side = _mm256_add_pd(_mm256_sub_pd(_mm256_mul_pd(dx, _mm256_load_pd(y + g)),
+                                                       _mm256_mul_pd(dy, _mm256_load_pd(x + g))),
+                                         c);
       found.left |= static_cast<std::uint64_t>(static_cast<unsigned>(
                         _mm256_movemask_pd(_mm256_cmp_pd(side, high, _CMP_GT_OQ))))
                     << g;

@@ -15,7 +15,7 @@ struct DirectedLine {
   Real length;  ///< |dx| + |dy|
   Real slack;   ///< how far from the line a point of the looking polygon may seem by rounding
   LineId line;
-  bool forward;  ///< it runs along its line from a to b
+  PointId from, to;  ///< the points of the grid that it was made to run through, in its direction
 };
 /// Index in a list of lines, doubled, and 1 more where the line is meant the other way round.
 using DirectedRef = std::int32_t;
