@@ -7,36 +7,37 @@
 namespace transillum {
 namespace {
 
-std::pair<PatchId, PatchId> pair_of(const Transfer& t) { return {t.receiver, t.source}; }
+/// Rises with the receiver, then with the source.
+std::uint64_t key_of(const Transfer& t) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(t.receiver)) << 32 |
+         static_cast<std::uint32_t>(t.source);
+}
 
-/// Appends `t`, or adds it to the last entry where that is the same pair.
-void accumulate(ExchangeSums::Run& run, const Transfer& t) {
-  if (!run.empty() && pair_of(run.back()) == pair_of(t)) {
-    run.back().area += t.area;
-  } else {
-    run.push_back(t);
+/// Walks two runs in one order: `visit` gets an entry of either, or the two of a pair that both
+/// have. Which of the runs comes next is a toss-up, so nothing is left to branches.
+template <class Visit>
+void walk(const ExchangeSums::Run& a, const ExchangeSums::Run& b, Visit visit) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    const std::uint64_t key_a = key_of(a[i]), key_b = key_of(b[j]);
+    const bool take_a = key_a <= key_b, take_b = key_b <= key_a;
+    const Transfer& first = *(take_a ? &a[i] : &b[j]);
+    visit(first, take_a && take_b ? b[j].area : 0.0);
+    i += take_a;
+    j += take_b;
   }
+  for (; i < a.size(); ++i) visit(a[i], 0.0);
+  for (; j < b.size(); ++j) visit(b[j], 0.0);
 }
 
 ExchangeSums::Run merged(const ExchangeSums::Run& a, const ExchangeSums::Run& b) {
-  // Two walks: count first, so that no memory is taken beyond what is kept.
-  const auto walk = [&](auto&& visit) {
-    std::size_t i = 0, j = 0;
-    while (i < a.size() || j < b.size()) {
-      const bool take_a = j == b.size() || (i < a.size() && pair_of(a[i]) <= pair_of(b[j]));
-      const bool take_b = i == a.size() || (j < b.size() && pair_of(b[j]) <= pair_of(a[i]));
-      visit(take_a ? &a[i] : nullptr, take_b ? &b[j] : nullptr);
-      i += take_a;
-      j += take_b;
-    }
-  };
+  // Counted first, so that no memory is taken beyond what is kept.
   std::size_t count = 0;
-  walk([&](const Transfer*, const Transfer*) { ++count; });
-  ExchangeSums::Run sum;
-  sum.reserve(count);
-  walk([&](const Transfer* from_a, const Transfer* from_b) {
-    sum.push_back(from_a ? *from_a : *from_b);
-    if (from_a && from_b) sum.back().area += from_b->area;
+  walk(a, b, [&](const Transfer&, double) { ++count; });
+  ExchangeSums::Run sum(count);
+  Transfer* next = sum.data();
+  walk(a, b, [&](const Transfer& t, double more) {
+    *next++ = {t.receiver, t.source, t.area + more};
   });
   return sum;
 }
@@ -45,15 +46,36 @@ ExchangeSums::Run merged(const ExchangeSums::Run& a, const ExchangeSums::Run& b)
 
 ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges, bool two_way) {
   if (!two_way) return exchanges;
-  Run sorted = exchanges;
-  for (Transfer& t : sorted) {
-    if (t.receiver > t.source) std::swap(t.receiver, t.source);
+  // By the lower number: counted, then dealt out.
+  PatchId last = -1;
+  for (const Transfer& t : exchanges) last = std::max({last, t.receiver, t.source});
+  std::vector<std::uint32_t> place(static_cast<std::size_t>(last) + 2, 0);
+  const auto lower = [](const Transfer& t) {
+    return static_cast<std::size_t>(std::min(t.receiver, t.source));
+  };
+  for (const Transfer& t : exchanges) ++place[lower(t) + 1];
+  for (std::size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
+  Run run(exchanges.size());
+  for (const Transfer& t : exchanges) {
+    run[place[lower(t)]++] = {std::min(t.receiver, t.source), std::max(t.receiver, t.source),
+                              t.area};
   }
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Transfer& a, const Transfer& b) { return pair_of(a) < pair_of(b); });
-  Run run;
-  run.reserve(sorted.size());
-  for (const Transfer& t : sorted) accumulate(run, t);
+  // Each row by the other number; rows are short, and the two ways of a pair stay in their order.
+  std::size_t kept = 0;
+  for (std::size_t begin = 0, end = 0; begin < run.size(); begin = end) {
+    while (end < run.size() && run[end].receiver == run[begin].receiver) ++end;
+    std::stable_sort(run.begin() + static_cast<std::ptrdiff_t>(begin),
+                     run.begin() + static_cast<std::ptrdiff_t>(end),
+                     [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
+    for (std::size_t k = begin; k < end; ++k) {
+      if (kept > 0 && key_of(run[kept - 1]) == key_of(run[k])) {
+        run[kept - 1].area += run[k].area;
+      } else {
+        run[kept++] = run[k];
+      }
+    }
+  }
+  run.resize(kept);
   return run;
 }
 
