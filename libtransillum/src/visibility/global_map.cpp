@@ -147,14 +147,14 @@ class GlobalMap {
         sums_(scene.patch_count()) {}
 
   Transfers run() {
-    for_each_tile(look_at_fragments(), most_polygons_in_a_tile, cancellation_,
+    for_each_tile(look_at_fragments(), most_busy_in_a_tile, cancellation_,
                   [this](const std::vector<TilePolygon>& tile) { walk(tile); });
     return sums_.finish(omega_);
   }
 
  private:
   /// CGAL cannot be interrupted in the making of a map, so each must be small.
-  static constexpr std::size_t most_polygons_in_a_tile = 100;
+  static constexpr std::size_t most_busy_in_a_tile = 64;
 
   /// A fragment of the BSP order, edge-on ones left out.
   struct Ranked {

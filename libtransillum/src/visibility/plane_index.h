@@ -15,6 +15,7 @@ namespace transillum {
 struct PlaneBox {
   double x0, y0, x1, y1;
 
+  friend bool operator==(const PlaneBox&, const PlaneBox&) = default;
   template <class Number>
   void add(const BasicPlanePoint<Number>& p) {
     const auto [x_low, x_high] = MapNumber<Number>::around(p.x);

@@ -9,7 +9,22 @@ namespace transillum {
 namespace {
 
 using Point = BasicPlanePoint<Rational>;
-using Tile = std::vector<TilePolygon>;
+struct Tile {
+  PlaneBox box;
+  std::vector<TilePolygon> polygons;
+
+  void add(TilePolygon polygon) {
+    if (!polygon.outline.empty()) polygons.push_back(std::move(polygon));
+  }
+  /// Polygons that have an edge inside; those that fill the tile (as good as surely: their boxes
+  /// do) are no work.
+  std::size_t busy() const {
+    return static_cast<std::size_t>(
+        std::count_if(polygons.begin(), polygons.end(), [this](const TilePolygon& polygon) {
+          return polygon.outline.size() != 4 || polygon.box != box;
+        }));
+  }
+};
 
 /// A straight cut across the plane along one of its axes.
 struct TileCut {
@@ -21,17 +36,11 @@ struct TileCut {
   double high(const PlaneBox& box) const { return across_x ? box.x1 : box.y1; }
 };
 
-/// Through the middle of the polygons, across the longer side of what they cover.
+/// Through the middle of the polygons, across the tile's longer side.
 TileCut middle_cut(const Tile& tile) {
-  PlaneBox all = tile.front().box;
-  for (const TilePolygon& polygon : tile) {
-    const PlaneBox& box = polygon.box;
-    all = {std::min(all.x0, box.x0), std::min(all.y0, box.y0), std::max(all.x1, box.x1),
-           std::max(all.y1, box.y1)};
-  }
-  TileCut cut{all.x1 - all.x0 >= all.y1 - all.y0, 0};
+  TileCut cut{tile.box.x1 - tile.box.x0 >= tile.box.y1 - tile.box.y0, 0};
   std::vector<double> centers;
-  for (const TilePolygon& polygon : tile) {
+  for (const TilePolygon& polygon : tile.polygons) {
     centers.push_back(0.5 * (cut.low(polygon.box) + cut.high(polygon.box)));
   }
   const auto middle = centers.begin() + static_cast<std::ptrdiff_t>(centers.size() / 2);
@@ -60,18 +69,20 @@ std::vector<Point> part_of(const std::vector<Point>& outline, const TileCut& cut
 
 /// Deals the polygons of `tile` out to both sides of `cut`.
 std::pair<Tile, Tile> halves(const Tile& tile, const TileCut& cut) {
-  std::pair<Tile, Tile> halves;
-  for (const TilePolygon& polygon : tile) {
+  Tile before{tile.box, {}}, beyond{tile.box, {}};
+  (cut.across_x ? before.box.x1 : before.box.y1) = cut.at;
+  (cut.across_x ? beyond.box.x0 : beyond.box.y0) = cut.at;
+  for (const TilePolygon& polygon : tile.polygons) {
     if (cut.high(polygon.box) <= cut.at) {
-      halves.first.push_back(polygon);
+      before.add(polygon);
     } else if (cut.low(polygon.box) >= cut.at) {
-      halves.second.push_back(polygon);
+      beyond.add(polygon);
     } else {
-      halves.first.push_back(tile_polygon(polygon.rank, part_of(polygon.outline, cut, -1)));
-      halves.second.push_back(tile_polygon(polygon.rank, part_of(polygon.outline, cut, 1)));
+      before.add(tile_polygon(polygon.rank, part_of(polygon.outline, cut, -1)));
+      beyond.add(tile_polygon(polygon.rank, part_of(polygon.outline, cut, 1)));
     }
   }
-  return halves;
+  return {std::move(before), std::move(beyond)};
 }
 
 }  // namespace
@@ -85,22 +96,27 @@ TilePolygon tile_polygon(std::int32_t rank, std::vector<Point> outline) {
 void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
                    const Cancellation& cancellation,
                    const std::function<void(const std::vector<TilePolygon>&)>& use) {
+  PlaneBox all{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const TilePolygon& polygon : polygons) {
+    for (const Point& p : polygon.outline) all.add(p);
+  }
   std::vector<Tile> open;
-  open.push_back(std::move(polygons));
+  open.push_back({all, std::move(polygons)});
   while (!open.empty()) {
     cancellation.throw_if_cancelled();
     const Tile tile = std::move(open.back());
     open.pop_back();
-    if (tile.size() > most) {
+    const std::size_t busy = tile.busy();
+    if (busy > most) {
       auto [before, beyond] = halves(tile, middle_cut(tile));
-      // Where most polygons reach across, halves are hardly less work than the whole.
-      if (std::max(before.size(), beyond.size()) < tile.size() * 9 / 10) {
+      // Where most edges end in one place, cutting never helps.
+      if (std::max(before.busy(), beyond.busy()) < busy * 9 / 10) {
         open.push_back(std::move(beyond));
         open.push_back(std::move(before));
         continue;
       }
     }
-    use(tile);
+    use(tile.polygons);
   }
 }
 

@@ -20,8 +20,9 @@ struct TilePolygon {
 /// The box of `outline`.
 TilePolygon tile_polygon(std::int32_t rank, std::vector<BasicPlanePoint<Rational>> outline);
 
-/// Cuts the plane into tiles of at most `most` polygons each, as far as cutting helps, and hands
-/// each tile's parts of `polygons` to `use`. The cuts are exact: no part is lost or doubled.
+/// Cuts the plane into tiles in each of which at most `most` polygons have edges, as far as cutting
+/// helps, and hands each tile's parts of `polygons` to `use`. The cuts are exact: no part is lost
+/// or doubled.
 /// @throws Cancelled
 void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
                    const Cancellation& cancellation,
