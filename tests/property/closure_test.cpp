@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "support/map_on_failure.h"
 #include "support/scenes.h"
 #include "transillum/engine.h"
 
@@ -25,6 +26,7 @@ TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine engine = make_engine(Engine::local, scene, tree);
   for (const Vec3& omega : test_directions(200, 7)) {
+    const testing::MapOnFailure map(*scene, *tree, omega);
     const Transfers transfers = engine(omega, {});
     const ClosureDefect defect = closure_defect(transfers, *scene);
     ASSERT_LE(defect.relative, 1e-10)
@@ -72,6 +74,7 @@ TEST(Reciprocity, OppositeDirectionsGiveTheSameAreas) {
     const auto tree = std::make_shared<const BspTree>(*scene);
     const TransferEngine engine = make_engine(Engine::local, scene, tree);
     for (const Vec3& omega : test_directions(20, 11)) {
+      const testing::MapOnFailure drawn(*scene, *tree, omega);
       std::map<std::pair<PatchId, PatchId>, double> there;
       for (const Transfer& t : engine(omega, {}).exchanges) there[{t.receiver, t.source}] = t.area;
       for (const Transfer& t : engine(-omega, {}).exchanges) {

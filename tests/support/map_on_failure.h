@@ -1,0 +1,32 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string>
+
+#include "transillum/visibility_map.h"
+
+namespace transillum::testing {
+
+/// Draws the visibility map of one direction where a test of engines fails: made before what is
+/// expected of the direction; when it goes and an expectation has failed meanwhile, the map is
+/// written as an SVG into failed-maps/ of the build folder, and its path is printed; at most five
+/// a test.
+class MapOnFailure {
+ public:
+  MapOnFailure(const Scene& scene, const BspTree& tree, const Vec3& omega);
+  ~MapOnFailure();
+  MapOnFailure(const MapOnFailure&) = delete;
+  MapOnFailure& operator=(const MapOnFailure&) = delete;
+
+ private:
+  const Scene& scene_;
+  const BspTree& tree_;
+  Vec3 omega_;
+  int failures_;
+};
+
+/// Writes the map as failed-maps/NAME.svg and returns its path.
+std::string save_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
+                     const std::string& name);
+
+}  // namespace transillum::testing
