@@ -11,6 +11,8 @@ namespace {
 
 using Corners = std::vector<FaceCorner>;
 
+constexpr double thinnest = 32;  ///< steps
+
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
 /// edge-on may not, and takes no part.
 bool is_convex(const FaceCorner* outline, std::size_t count) {
@@ -149,6 +151,8 @@ bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& o
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
+  // What is thinner than the steps that corners are rounded to is seen edge-on.
+  if (area < thinnest * std::sqrt(size)) return false;
   const bool needle = area < 0x1p-14 * size;
   if (needle && !is_convex(first, count)) return false;
   boxes.push_back(box);

@@ -128,10 +128,11 @@ void FastView<Real>::load_edges(const FastFaces::Face& face, Piece& piece) {
   for (std::size_t k = 0; k < count; ++k) {
     const FaceCorner& corner = corners[k];
     if (face.plain) {
-      const std::size_t next = k + 1 < count ? k + 1 : 0;
-      piece.edge[k] =
-          add_edge(piece.x[k], piece.y[k], piece.x[next] - piece.x[k], piece.y[next] - piece.y[k],
-                   corner.line, corner.point, corners[next].point);
+      // From whole numbers: differences of far corners have lost digits.
+      const FaceCorner& next = corners[k + 1 < count ? k + 1 : 0];
+      piece.edge[k] = add_edge(piece.x[k], piece.y[k], static_cast<Real>(next.at.x - corner.at.x),
+                               static_cast<Real>(next.at.y - corner.at.y), corner.line,
+                               corner.point, next.point);
     } else {
       const BspTree::Line& points = outlines_.lines[static_cast<std::size_t>(corner.line)];
       const PointId from = corner.forward ? points.a : points.b;
