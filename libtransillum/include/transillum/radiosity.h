@@ -77,6 +77,7 @@ struct SolveStatistics {
   double energy_balance = 0;  ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
   double rho_max = 0;
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
+  PassCounts counts;                 ///< of the first step's passes, added up
   std::vector<IterationRecord> steps;
   double seconds_load = 0, seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0,
          seconds_total = 0;

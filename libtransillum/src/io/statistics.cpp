@@ -61,6 +61,14 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["change"] = list_of(steps, [](const IterationRecord& s) { return s.change; });
   json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
+  const PassCounts& counts = statistics.counts;
+  json["counters"] = {{"pairs", counts.pairs},
+                      {"cuts", counts.cuts},
+                      {"decisions", counts.decisions},
+                      {"exact_decisions", counts.exact_decisions}};
+  json["thread_seconds"] = {{"order", counts.seconds_order},
+                            {"bins", counts.seconds_bins},
+                            {"clip", counts.seconds_clip}};
   json["seconds"] = {{"load", statistics.seconds_load},
                      {"bsp", statistics.seconds_bsp},
                      {"transfers", statistics.seconds_transfers},

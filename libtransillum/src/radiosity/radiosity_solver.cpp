@@ -99,6 +99,7 @@ struct RadiositySolver::Impl {
   double closure_relative = 0, closure_grazing = 0, covered = 0, seen = 0;
   double energy_defect = 0;
   std::int64_t transfer_count = 0;
+  PassCounts counts;
   double seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0;
 
   Impl(std::shared_ptr<const Scene> solved, const SolveOptions& how,
@@ -192,6 +193,7 @@ struct RadiositySolver::Impl {
     }
     closure_relative = std::max(closure_relative, pass.closure.relative);
     closure_grazing = std::max(closure_grazing, pass.closure.grazing);
+    counts += transfers.counts;
     transfer_count += static_cast<std::int64_t>(transfers.exchanges.size());
     sums.add(std::move(pass.run));
   }
@@ -429,6 +431,7 @@ SolveStatistics RadiositySolver::statistics() const {
   statistics.iterations = static_cast<int>(s.steps.size());
   statistics.threads = s.threads;
   statistics.transfers = s.transfer_count;
+  statistics.counts = s.counts;
   statistics.kept_form_factors = !s.sums.overrun();
   statistics.form_factors = static_cast<std::int64_t>(s.sums.size());
   statistics.converged = s.converged;

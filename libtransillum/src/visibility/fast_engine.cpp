@@ -8,6 +8,7 @@
 // what these see of them. Only back-facing faces that are left with something open look
 // for themselves: in a scene of closed surfaces, none.
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -20,6 +21,8 @@
 
 namespace transillum {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 /// Faces in more bins than this look bin by bin.
 constexpr std::int32_t most_bins = 8;
@@ -40,8 +43,11 @@ class FastPass {
   FastPass(const FastScene& shared, const Vec3& omega, const Cancellation& cancellation)
       : cancellation_(cancellation),
         in_air_(shared.in_air),
+        start_(Clock::now()),
         faces_(*shared.scene, *shared.tree, shared.outlines, omega),
+        ordered_(Clock::now()),
         bins_(faces_, in_air_, cancellation),
+        binned_(Clock::now()),
         view_(shared.outlines, faces_, transfers_.counts),
         wide_view_(shared.outlines, faces_, transfers_.counts),
         area_unit_(faces_.grid.step * faces_.grid.step) {
@@ -61,6 +67,12 @@ class FastPass {
     look_all<Way::up>();
     if (!in_air_) look_all<Way::down>();
     sort_exchanges();
+    const auto seconds = [](Clock::time_point from, Clock::time_point to) {
+      return std::chrono::duration<double>(to - from).count();
+    };
+    transfers_.counts.seconds_order = seconds(start_, ordered_);
+    transfers_.counts.seconds_bins = seconds(ordered_, binned_);
+    transfers_.counts.seconds_clip = seconds(binned_, Clock::now());
     return std::move(transfers_);
   }
 
@@ -240,8 +252,11 @@ class FastPass {
   const Cancellation& cancellation_;
   bool in_air_;
   Transfers transfers_;
+  Clock::time_point start_;
   FastFaces faces_;
+  Clock::time_point ordered_;
   FastBins bins_;
+  Clock::time_point binned_;
   FastView<double> view_;
   FastView<long double> wide_view_;
   double area_unit_;                     ///< m² a step squared

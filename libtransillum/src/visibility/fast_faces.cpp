@@ -153,7 +153,7 @@ bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& o
   const double size = width * width + height * height;
   // What is thinner than the steps that corners are rounded to is seen edge-on.
   if (area < thinnest * std::sqrt(size)) return false;
-  const bool needle = area < 0x1p-14 * size;
+  const bool needle = area < 0x1p-11 * size;
   if (needle && !is_convex(first, count)) return false;
   boxes.push_back(box);
   faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), outline.patch, front,

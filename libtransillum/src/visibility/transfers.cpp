@@ -6,6 +6,17 @@
 
 namespace transillum {
 
+PassCounts& PassCounts::operator+=(const PassCounts& other) {
+  pairs += other.pairs;
+  cuts += other.cuts;
+  decisions += other.decisions;
+  exact_decisions += other.exact_decisions;
+  seconds_order += other.seconds_order;
+  seconds_bins += other.seconds_bins;
+  seconds_clip += other.seconds_clip;
+  return *this;
+}
+
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
   // Below this share of its area a patch counts as grazing (method, oracle 1).
   constexpr double grazing_share = 1e-6;
