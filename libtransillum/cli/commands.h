@@ -17,6 +17,7 @@ Run add_scene_command(CLI::App& program);
 Run add_solve_command(CLI::App& program);
 Run add_transfers_command(CLI::App& program);
 Run add_map_command(CLI::App& program);
+Run add_factors_command(CLI::App& program);
 Run add_directions_command(CLI::App& program);
 Run add_info_command(CLI::App& program);
 

@@ -109,6 +109,37 @@ void add_scene_argument(CLI::App& command, std::string& scene) {
       ->type_name("");
 }
 
+void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options) {
+  add_parsed_option(
+      command, "--engine", "NAME",
+      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(engine)),
+      [&engine](const std::string& text) { engine = engine_from_name(text); });
+  add_parsed_option(command, "--lines", "L",
+                    fmt::format("for the engine rays: lines a patch and direction (default {})",
+                                options.lines_per_patch),
+                    [&options](const std::string& text) {
+                      options.lines_per_patch = parse_number("--lines", text);
+                      if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
+                        refuse("--lines", text, "larger than 0 and at most 1e6");
+                      }
+                    });
+}
+
+void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {
+  add_parsed_option(command, "--memory", "SIZE",
+                    "what kept form factors may take, such as 2G or 800M; beyond it they are "
+                    "computed again each step (default: a quarter of the machine's)",
+                    [&memory](const std::string& text) {
+                      // 0 means the default to the library; here it means that nothing is kept.
+                      memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
+                    });
+  add_parsed_option(command, "--threads", "N",
+                    "default: all cores; the result does not depend on it",
+                    [&threads](const std::string& text) {
+                      threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
+                    });
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--two-sided", options.two_sided,
                    "every face lights and receives on both sides: two opposite patches");

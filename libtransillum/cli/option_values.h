@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "transillum/engine.h"
 #include "transillum/scene.h"
 
 namespace transillum::cli {
@@ -25,6 +26,10 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 // Options that several commands share.
 
 void add_scene_argument(CLI::App& command, std::string& scene);
+/// --engine and --lines
+void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
+/// --memory and --threads
+void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 /// --two-sided and --max-patch-area
 void add_scene_options(CLI::App& command, SceneOptions& options);
 

@@ -21,7 +21,8 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
       fmt::format("{} (default {})", fmt::join(sampling_names(), " | "), name_of(options.sampling)),
       [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
   add_parsed_option(
-      command, "--seed", "S", fmt::format("for random sampling (default {})", options.seed),
+      command, "--seed", "S",
+      fmt::format("for random sampling and the engine rays (default {})", options.seed),
       [&options](const std::string& text) { options.seed = parse_seed("--seed", text); });
 }
 

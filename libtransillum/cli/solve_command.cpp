@@ -50,7 +50,7 @@ SolveOptions solve_options(const SolveCall& call) {
   SolveOptions options = call.options;
   options.directions = call.sequence.directions;
   options.sampling = call.sequence.sampling;
-  options.seed = call.sequence.seed;
+  options.seed = options.engine_options.seed = call.sequence.seed;
   options.two_way = !call.one_way;
   options.validate();
   return options;
@@ -167,10 +167,7 @@ void add_stopping_rules(CLI::App& command, SolveOptions& options) {
 
 void add_estimator(CLI::App& command, SolveCall& call) {
   SolveOptions& options = call.options;
-  add_parsed_option(
-      command, "--engine", "NAME",
-      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(options.engine)),
-      [&options](const std::string& text) { options.engine = engine_from_name(text); });
+  add_engine_options(command, options.engine, options.engine_options);
   auto* one_way =
       command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
   auto* two_way = command.add_flag("--two-way", call.two_way,
@@ -185,22 +182,6 @@ void add_estimator(CLI::App& command, SolveCall& call) {
           throw InputError(fmt::format("--normalize: \"{}\" is not none or rows", text));
         }
         options.normalize = text == "rows" ? Normalization::rows : Normalization::none;
-      });
-}
-
-void add_machine_limits(CLI::App& command, SolveOptions& options) {
-  add_parsed_option(command, "--memory", "SIZE",
-                    "what kept form factors may take, such as 2G or 800M; beyond it they are "
-                    "computed again each step (default: a quarter of the machine's)",
-                    [&options](const std::string& text) {
-                      // 0 means the default to the library; here it means that nothing is kept.
-                      options.memory =
-                          std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
-                    });
-  add_parsed_option(
-      command, "--threads", "N", "default: all cores; the result does not depend on it",
-      [&options](const std::string& text) {
-        options.threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
       });
 }
 
@@ -229,7 +210,7 @@ Run add_solve_command(CLI::App& program) {
   add_estimator(command, *call);
   add_stopping_rules(command, call->options);
   add_scene_options(command, call->scene_options);
-  add_machine_limits(command, call->options);
+  add_machine_limits(command, call->options.memory, call->options.threads);
   add_outputs(command, *call);
   command.footer(
       "Results: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; areas in m2, exitance "

@@ -22,6 +22,7 @@ struct TransfersCall {
   SceneOptions scene_options;
   Vec3 direction;
   Engine engine = Engine::fast;
+  EngineOptions engine_options;
   std::string out;
 };
 
@@ -33,7 +34,7 @@ int run(const TransfersCall& call) {
   ProgressDisplay progress;
   const auto tree = std::make_shared<const BspTree>(
       *scene, cancellation, [&](double share) { progress.show("sorting", share); });
-  const TransferEngine engine = make_engine(call.engine, scene, tree);
+  const TransferEngine engine = make_engine(call.engine, scene, tree, call.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
   if (call.out.empty()) {
@@ -56,10 +57,7 @@ Run add_transfers_command(CLI::App& program) {
       "omega, from the receivers toward the sources; of any length",
       [call](const std::string& text) { call->direction = parse_direction("--direction", text); })
       ->required();
-  add_parsed_option(
-      command, "--engine", "NAME",
-      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(call->engine)),
-      [call](const std::string& text) { call->engine = engine_from_name(text); });
+  add_engine_options(command, call->engine, call->engine_options);
   add_scene_options(command, call->scene_options);
   command
       .add_option("-o,--out", call->out,

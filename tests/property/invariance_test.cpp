@@ -21,7 +21,8 @@ void expect_same_transfers(std::shared_ptr<const Scene> a, std::shared_ptr<const
                            const std::vector<int>& patch_in_b) {
   const auto tree_a = std::make_shared<const BspTree>(*a);
   const auto tree_b = std::make_shared<const BspTree>(*b);
-  const auto engine_a = make_engine(Engine::local, a, tree_a), engine_b = make_engine(Engine::local, b, tree_b);
+  const auto engine_a = make_engine(Engine::local, a, tree_a),
+             engine_b = make_engine(Engine::local, b, tree_b);
   const auto n = static_cast<std::size_t>(a->patch_count());
   for (const Vec3& omega : testing::test_directions(15, 9)) {
     std::vector<double> difference(n * n, 0.0);
@@ -109,8 +110,10 @@ TEST(Invariance, PatchCutByHand) {
   };
   const auto whole = room(false), halves = room(true);
   const PatchId last = whole->patch_count() - 1;
-  const auto whole_engine = make_engine(Engine::local, whole, std::make_shared<const BspTree>(*whole));
-  const auto halves_engine = make_engine(Engine::local, halves, std::make_shared<const BspTree>(*halves));
+  const auto whole_engine =
+      make_engine(Engine::local, whole, std::make_shared<const BspTree>(*whole));
+  const auto halves_engine =
+      make_engine(Engine::local, halves, std::make_shared<const BspTree>(*halves));
   const auto n = static_cast<std::size_t>(whole->patch_count());
   double seen = 0;
   for (const Vec3& omega : testing::test_directions(40, 12)) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -43,7 +44,8 @@ TEST(CliHelp, EveryCommandExplainsItself) {
        {"solve", "transfers", "map", "directions", "info", "sphere-flake", "rooms"}) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
-  for (const char* command : {"scene", "solve", "transfers", "map", "directions", "info"}) {
+  for (const char* command :
+       {"scene", "solve", "transfers", "map", "factors", "directions", "info"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
@@ -257,6 +259,59 @@ TEST(CliMap, SaysWhyAMapIsEmpty) {
   EXPECT_THAT(result.err, ::testing::AnyOf(HasSubstr("edge-on"), HasSubstr("turns its back")));
   EXPECT_EQ(line_count(result.err), 1U);
   EXPECT_THAT(folder.names(), ElementsAre("m.svg"));
+}
+
+TEST(CliTransfers, RaysEstimateTheSameAreas) {
+  const auto total = [](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"transfers", "cornell-box", "--direction", "1,2,3"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    double sum = 0;
+    for (const auto& row : numbers(result.out)) sum += row[2];
+    return sum;
+  };
+  const double exact = total({"--engine", "local"});
+  EXPECT_NEAR(total({"--engine", "rays", "--lines", "10000"}), exact, 2e-3 * exact);
+  EXPECT_NE(total({"--engine", "rays"}), total({"--engine", "rays", "--lines", "200"}));
+}
+
+TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
+  const TemporaryFolder folder;
+  const auto factors = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"factors", "furnace", "--out", folder / "f.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(split(read_file(folder / "f.csv"), '\n').front(), "i,j,F");
+    return numbers(read_file(folder / "f.csv"));
+  };
+  const auto passes = factors({"-m", "4000"});
+  std::map<std::pair<double, double>, double> matrix;
+  std::map<double, double> sums;
+  for (const auto& row : passes) {
+    ASSERT_EQ(row.size(), 3U);
+    EXPECT_GT(row[2], 0);
+    matrix[{row[0], row[1]}] = row[2];
+    sums[row[0]] += row[2];
+  }
+  EXPECT_TRUE(std::is_sorted(passes.begin(), passes.end()));
+  EXPECT_EQ(sums.size(), 12U);
+  for (const auto& [i, sum] : sums) EXPECT_NEAR(sum, 1, 1e-3) << i;
+  const auto rays = factors({"--engine", "rays", "--rays", "20000", "--seed", "3"});
+  EXPECT_TRUE(std::is_sorted(rays.begin(), rays.end()));
+  for (const auto& row : rays) EXPECT_NEAR(row[2], (matrix[{row[0], row[1]}]), 0.01);
+  EXPECT_EQ(factors({"--engine", "rays", "--rays", "20000", "--seed", "3", "--threads", "1"}),
+            rays);
+}
+
+TEST(CliFactors, MemoryTooSmallIsAFailureWithoutAFile) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"factors", "furnace", "-m", "8", "--memory", "10", "--out", folder / "f.csv"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("--memory"));
+  EXPECT_EQ(folder.names().size(), 0U);
 }
 
 TEST(CliDirections, ArePointsOfTheUnitSphere) {

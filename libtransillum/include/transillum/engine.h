@@ -34,7 +34,7 @@ using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancella
 
 /// Options that only some engines read.
 struct EngineOptions {
-  double lines_per_patch = 100;  ///< rays: lines a direction, over the number of patches; > 0
+  double lines_per_patch = 100;  ///< rays: lines a direction over the number of patches, (0, 1e6]
   bool gridded = true;           ///< rays: on a jittered grid; else anywhere at random
   std::uint64_t seed = 1;        ///< rays
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "transillum/directions.h"
+#include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -39,6 +40,9 @@ void write_result(const std::filesystem::path& path, const Solution& solution);
 /// receiver,source,area; source -1: nothing above, or a back side. Only the forward direction.
 void write_transfers_csv(std::ostream& out, const Transfers& transfers);
 void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
+/// i,j,F; rows by i, then j
+void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors);
+void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors);
 /// u,v,x,y,z
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions);
 void write_directions_csv(const std::filesystem::path& path,

@@ -12,6 +12,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
 #include "transillum/engine.h"
+#include "transillum/form_factors.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 
@@ -29,6 +30,7 @@ struct SolveOptions {
   Sampling sampling = Sampling::fibonacci;
   std::uint64_t seed = 1;
   Engine engine = Engine::fast;
+  EngineOptions engine_options = {};
   bool two_way = true;  ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;
   int iterations = 0;        ///< stop after so many steps; 0: by tolerance
@@ -124,6 +126,9 @@ class RadiositySolver {
   std::vector<Rgb> running_estimate() const;
   /// H of the last finished step, W/m², one a patch.
   const std::vector<Rgb>& irradiance() const;
+  /// F_ij of all pairs, from the kept sums of the first step.
+  /// @throws std::runtime_error where that is not finished, or the memory did not take them.
+  FormFactors form_factors() const;
   /// sum_j F_ij, one a patch, from the passes done so far; 1 within eps(M)/pi where i is enclosed.
   std::vector<double> form_factor_sums() const;
   /// A patch: share of its seen area, over all passes so far, at which receivers see its back.

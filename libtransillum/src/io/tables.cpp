@@ -36,6 +36,19 @@ void write_transfers_csv(const std::filesystem::path& path, const Transfers& tra
   write_file_whole(path, [&](std::ostream& out) { write_transfers_csv(out, transfers); });
 }
 
+void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors) {
+  out << "i,j,F\n";
+  for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
+    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+      fmt::print(out, "{},{},{}\n", i, form_factors.source[k], form_factors.value[k]);
+    }
+  }
+}
+
+void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors) {
+  write_file_whole(path, [&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
+}
+
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions) {
   out << "u,v,x,y,z\n";
   for (const DirectionSample& sample : directions) {

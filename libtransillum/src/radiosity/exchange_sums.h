@@ -34,6 +34,12 @@ class ExchangeSums {
 
   /// gathered_i = sum_j entry_ij b_j for all i; `gathered` has the size of `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
+  /// visit(i, j, entry) by rising pairs; a two-way pair comes once, i < j. After finish().
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    if (levels_.empty()) return;
+    for (const Transfer& t : levels_.front().run) visit(t.receiver, t.source, t.area);
+  }
 
  private:
   struct Level {

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -120,7 +121,7 @@ struct RadiositySolver::Impl {
       tree = std::make_shared<const BspTree>(*scene, cancellation);
       seconds_bsp = seconds_since(start);
     }
-    engine = make_engine(options.engine, scene, tree);
+    engine = make_engine(options.engine, scene, tree, options.engine_options);
 
     const auto patches = static_cast<std::size_t>(scene->patch_count());
     for (PatchId i = 0; i < scene->patch_count(); ++i) b.push_back(scene->exitance(i));
@@ -464,6 +465,36 @@ const std::vector<double>& RadiositySolver::estimate_changes() const {
   return impl_->estimate_changes;
 }
 std::vector<Rgb> RadiositySolver::running_estimate() const { return impl_->estimate; }
+
+FormFactors RadiositySolver::form_factors() const {
+  const Impl& s = *impl_;
+  if (s.in_first_step()) throw std::runtime_error("there are no form factors yet");
+  if (s.sums.overrun()) {
+    throw std::runtime_error("the form factors take more than --memory allows");
+  }
+  // Rows are filled in the order of the pairs, first with what lies left of the diagonal: so their
+  // sources rise.
+  const bool two_way = s.options.two_way;
+  FormFactors result;
+  result.row_begin.resize(s.b.size() + 1);
+  s.sums.for_each([&](PatchId i, PatchId j, double) {
+    ++result.row_begin[static_cast<std::size_t>(i) + 1];
+    if (two_way) ++result.row_begin[static_cast<std::size_t>(j) + 1];
+  });
+  std::partial_sum(result.row_begin.begin(), result.row_begin.end(), result.row_begin.begin());
+  result.source.resize(result.row_begin.back());
+  result.value.resize(result.row_begin.back());
+  std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);
+  const auto put = [&](PatchId i, PatchId j, double area) {
+    const auto row = static_cast<std::size_t>(i);
+    const std::size_t k = next[row]++;
+    result.source[k] = j;
+    result.value[k] = s.row_scale(row, s.first_projected, s.first_done) * area;
+  };
+  if (two_way) s.sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
+  s.sums.for_each(put);
+  return result;
+}
 
 std::vector<double> RadiositySolver::form_factor_sums() const {
   const Impl& s = *impl_;

@@ -1,0 +1,110 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "interruption.h"
+#include "messages.h"
+#include "option_values.h"
+#include "output_files.h"
+#include "progress_display.h"
+#include "sequence_options.h"
+#include "transillum/files.h"
+
+namespace transillum::cli {
+namespace {
+
+struct FactorsCall {
+  std::string scene;
+  SceneOptions scene_options;
+  SequenceOptions sequence;
+  SolveOptions passes;
+  GatherOptions rays;
+  std::string out;
+};
+
+FormFactors gather(const FactorsCall& call, const Scene& scene, const Cancellation& cancellation,
+                   ProgressDisplay& display) {
+  GatherOptions options = call.rays;
+  options.seed = call.sequence.seed;
+  options.threads = call.passes.threads;
+  return gather_form_factors(scene, options, cancellation,
+                             [&](double share) { display.show("gathering", share); });
+}
+
+FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                       const Cancellation& cancellation, ProgressDisplay& display) {
+  SolveOptions options = call.passes;
+  options.directions = call.sequence.directions;
+  options.sampling = call.sequence.sampling;
+  options.seed = call.sequence.seed;
+  options.iterations = 1;
+  const auto tree = std::make_shared<const BspTree>(
+      *scene, cancellation, [&](double share) { display.show("sorting", share); });
+  RadiositySolver solver(scene, options, tree, cancellation);
+  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+    const SolveProgress progress = watched.progress();
+    if (progress.direction > 0) {
+      display.show(fmt::format("pass {}/{}", progress.direction, progress.passes),
+                   static_cast<double>(progress.direction) / progress.passes,
+                   fmt::format("{:.1f} passes/s, {} left", progress.passes_per_second,
+                               time_text(progress.seconds_left)));
+    }
+    return true;
+  });
+  return solver.form_factors();
+}
+
+int run(const FactorsCall& call) {
+  const Cancellation& cancellation = cancel_on_signals();
+  if (!call.out.empty()) check_output_files({call.out}, call.scene);
+  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  print_warnings(*scene);
+  ProgressDisplay display;
+  const FormFactors form_factors = call.passes.engine == Engine::rays
+                                       ? gather(call, *scene, cancellation, display)
+                                       : sum_passes(call, scene, cancellation, display);
+  display.clear();
+  if (call.out.empty()) {
+    write_form_factors_csv(std::cout, form_factors);
+  } else {
+    write_form_factors_csv(call.out, form_factors);
+  }
+  return success;
+}
+
+}  // namespace
+
+Run add_factors_command(CLI::App& program) {
+  auto call = std::make_shared<FactorsCall>();
+  CLI::App& command = *program.add_subcommand("factors", "Writes the form factors of all pairs");
+  add_scene_argument(command, call->scene);
+  add_sequence_options(command, call->sequence);
+  add_parsed_option(
+      command, "--engine", "NAME",
+      fmt::format("{} (default {}); rays: no directions, but cosine-distributed rays from every "
+                  "patch",
+                  fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
+      [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
+  add_parsed_option(
+      command, "--rays", "N",
+      fmt::format("for the engine rays: rays a patch (default {})", call->rays.rays_per_patch),
+      [call](const std::string& text) {
+        call->rays.rays_per_patch =
+            static_cast<int>(parse_whole_number("--rays", text, 1, 1 << 24));
+      });
+  add_scene_options(command, call->scene_options);
+  add_machine_limits(command, call->passes.memory, call->passes.threads);
+  command
+      .add_option("-o,--out", call->out,
+                  "CSV: i,j,F for every F > 0, by i, then j (default: to standard output)")
+      ->type_name("FILE.csv");
+  command.footer(
+      "F_ij is the share of what leaves patch i that reaches patch j.\n"
+      "Example: transillum factors cornell-box -m 256 --out factors.csv");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli
