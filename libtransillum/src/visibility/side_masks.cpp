@@ -33,10 +33,6 @@ std::size_t find_sides_one_by_one(const Real* x, const Real* y, std::size_t corn
 }
 
 #if defined(__x86_64__)
-using FindSides = std::size_t(const double*, const double*, std::size_t,
-                              const DirectedLine<double>*, const DirectedRef*, std::size_t, double,
-                              Sides*);
-
 __attribute__((target("avx512f"))) std::size_t find_sides_by_eight(
     const double* x, const double* y, std::size_t corner_count, const DirectedLine<double>* lines,
     const DirectedRef* refs, std::size_t line_count, double error, Sides* sides) {
@@ -90,12 +86,6 @@ __attribute__((target("avx2"))) std::size_t find_sides_by_four(
   }
   return line_count;
 }
-
-FindSides* widest() {
-  if (__builtin_cpu_supports("avx512f")) return find_sides_by_eight;
-  if (__builtin_cpu_supports("avx2")) return find_sides_by_four;
-  return find_sides_one_by_one<double>;
-}
 #endif
 
 }  // namespace
@@ -111,12 +101,18 @@ template <>
 std::size_t find_sides(const double* x, const double* y, std::size_t corner_count,
                        const DirectedLine<double>* lines, const DirectedRef* refs,
                        std::size_t line_count, double error, Sides* sides) {
+  static const auto widest = find_sides_ways().front().find;
+  return widest(x, y, corner_count, lines, refs, line_count, error, sides);
+}
+
+std::vector<FindSidesWay> find_sides_ways() {
+  std::vector<FindSidesWay> ways;
 #if defined(__x86_64__)
-  static FindSides* const find = widest();
-  return find(x, y, corner_count, lines, refs, line_count, error, sides);
-#else
-  return find_sides_one_by_one(x, y, corner_count, lines, refs, line_count, error, sides);
+  if (__builtin_cpu_supports("avx512f")) ways.push_back({"by eight", find_sides_by_eight});
+  if (__builtin_cpu_supports("avx2")) ways.push_back({"by four", find_sides_by_four});
 #endif
+  ways.push_back({"one by one", find_sides_one_by_one<double>});
+  return ways;
 }
 
 }  // namespace transillum

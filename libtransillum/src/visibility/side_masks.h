@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "transillum/bsp_tree.h"
 
@@ -33,5 +34,13 @@ template <class Real>
 std::size_t find_sides(const Real* x, const Real* y, std::size_t corner_count,
                        const DirectedLine<Real>* lines, const DirectedRef* refs,
                        std::size_t line_count, Real error, Sides* sides);
+
+/// A way to find sides in doubles.
+struct FindSidesWay {
+  const char* name;
+  decltype(find_sides<double>)* find;
+};
+/// Those that this processor has; find_sides goes by the first.
+std::vector<FindSidesWay> find_sides_ways();
 
 }  // namespace transillum
