@@ -14,11 +14,14 @@
 #include "support/map_on_failure.h"
 #include "support/random_scenes.h"
 #include "support/scenes.h"
+#include "support/transfer_difference.h"
 #include "transillum/engine.h"
 #include "transillum/files.h"
 
 namespace transillum {
 namespace {
+
+using testing::TransferDifference;
 
 constexpr double agreed = 1e-10;
 
@@ -32,61 +35,10 @@ constexpr std::array contestants{Contestant{Engine::local, SIZE_MAX},
                                  Contestant{Engine::fast, SIZE_MAX},
                                  Contestant{Engine::global, 400}, Contestant{Engine::exact, 200}};
 
-/// What a needle's own coordinates leave open of its area, m²: as doubles they know the place of an
-/// edge to the last bit of the scene's extent only. 0 for all patches but the thinnest, narrower
-/// than 1e-9 of the scene.
-double rounding(const Scene& scene, PatchId i) {
-  double perimeter = 0;
-  const auto outline = scene.outline(i);
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    perimeter += norm(scene.point(outline[(k + 1) % outline.size()]) - scene.point(outline[k]));
-  }
-  const double extent = scene.bounds().diagonal();
-  return scene.patch(i).area < 1e-9 * perimeter * extent ? 0x1p-53 * perimeter * extent : 0;
-}
-
-/// Largest differences met, as shares of the patch's area; of an exchange, of the smaller patch's.
-struct Difference {
-  double share = 0;   ///< beyond `rounding`
-  std::string where;  ///< it was met
-
-  void take(double a, double b, double area, double rounding, const std::string& what) {
-    const double found = std::max(std::abs(a - b) - rounding, 0.0) / area;
-    // Also what is no number at all.
-    if (!(found <= share)) *this = {found, fmt::format("{}: {} and {}", what, a, b)};
-  }
-};
-
-Difference difference(const Scene& scene, const Transfers& a, const Transfers& b) {
-  Difference worst;
-  std::map<std::pair<PatchId, PatchId>, std::array<double, 2>> exchanges;
-  for (const Transfer& t : a.exchanges) exchanges[{t.receiver, t.source}][0] += t.area;
-  for (const Transfer& t : b.exchanges) exchanges[{t.receiver, t.source}][1] += t.area;
-  for (const auto& [pair, areas] : exchanges) {
-    const auto [i, j] = pair;
-    const PatchId smaller = scene.patch(i).area < scene.patch(j).area ? i : j;
-    worst.take(areas[0], areas[1], scene.patch(smaller).area, rounding(scene, smaller),
-               fmt::format("A({},{})", i, j));
-  }
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const auto take = [&](double in_a, double in_b, const char* what) {
-      worst.take(in_a, in_b, scene.patch(i).area, rounding(scene, i),
-                 fmt::format("{}, {}", what, i));
-    };
-    take(a.forward[k].projected, b.forward[k].projected, "projected for omega");
-    take(a.forward[k].covered, b.forward[k].covered, "covered for omega");
-    take(a.backward[k].projected, b.backward[k].projected, "projected for -omega");
-    take(a.backward[k].covered, b.backward[k].covered, "covered for -omega");
-    take(a.back_seen[k], b.back_seen[k], "back_seen");
-  }
-  return worst;
-}
-
 /// Largest differences of all that ran in this program, engine by engine.
 class Table : public ::testing::Environment {
  public:
-  void take(Engine a, Engine b, const Difference& found) {
+  void take(Engine a, Engine b, const TransferDifference& found) {
     Row& row = rows_[{a, b}];
     ++row.directions;
     if (!(found.share <= row.worst)) row.worst = found.share;
@@ -126,7 +78,7 @@ class Contest {
     for (const auto& [engine, run] : engines_) results.push_back(run(omega, {}));
     for (std::size_t a = 0; a < results.size(); ++a) {
       for (std::size_t b = a + 1; b < results.size(); ++b) {
-        const Difference found = difference(*scene_, results[a], results[b]);
+        const TransferDifference found = testing::difference(*scene_, results[a], results[b]);
         table->take(engines_[a].first, engines_[b].first, found);
         EXPECT_LE(found.share, agreed)
             << name_of(engines_[a].first) << " and " << name_of(engines_[b].first) << ", "

@@ -1,0 +1,71 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "support/transfer_difference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace transillum::testing {
+namespace {
+
+/// What a needle's own coordinates leave open of its area, m²: as doubles they know the place of an
+/// edge to the last bit of the scene's extent only. 0 for all patches but the thinnest, narrower
+/// than 1e-9 of the scene.
+double rounding(const Scene& scene, PatchId i) {
+  double perimeter = 0;
+  const auto outline = scene.outline(i);
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    perimeter += norm(scene.point(outline[(k + 1) % outline.size()]) - scene.point(outline[k]));
+  }
+  const double extent = scene.bounds().diagonal();
+  return scene.patch(i).area < 1e-9 * perimeter * extent ? 0x1p-53 * perimeter * extent : 0;
+}
+
+void take(TransferDifference& worst, double a, double b, double area, double rounding,
+          const std::string& what) {
+  const double found = std::max(std::abs(a - b) - rounding, 0.0) / area;
+  // Also what is no number at all.
+  if (!(found <= worst.share)) worst = {found, fmt::format("{}: {} and {}", what, a, b)};
+}
+
+}  // namespace
+
+TransferDifference difference(const Scene& scene, const Transfers& a, const Transfers& b) {
+  TransferDifference worst;
+  std::map<std::pair<PatchId, PatchId>, std::array<double, 2>> exchanges;
+  for (const Transfer& t : a.exchanges) exchanges[{t.receiver, t.source}][0] += t.area;
+  for (const Transfer& t : b.exchanges) exchanges[{t.receiver, t.source}][1] += t.area;
+  for (const auto& [pair, areas] : exchanges) {
+    const auto [i, j] = pair;
+    const PatchId smaller = scene.patch(i).area < scene.patch(j).area ? i : j;
+    take(worst, areas[0], areas[1], scene.patch(smaller).area, rounding(scene, smaller),
+         fmt::format("A({},{})", i, j));
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const auto compare = [&](double in_a, double in_b, const char* what) {
+      take(worst, in_a, in_b, scene.patch(i).area, rounding(scene, i),
+           fmt::format("{}, {}", what, i));
+    };
+    compare(a.forward[k].projected, b.forward[k].projected, "projected for omega");
+    compare(a.forward[k].covered, b.forward[k].covered, "covered for omega");
+    compare(a.backward[k].projected, b.backward[k].projected, "projected for -omega");
+    compare(a.backward[k].covered, b.backward[k].covered, "covered for -omega");
+    compare(a.back_seen[k], b.back_seen[k], "back_seen");
+  }
+  return worst;
+}
+
+TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
+                                             const Transfers& back) {
+  Transfers turned = back;
+  for (Transfer& t : turned.exchanges) std::swap(t.receiver, t.source);
+  std::swap(turned.forward, turned.backward);
+  return difference(scene, there, turned);
+}
+
+}  // namespace transillum::testing
