@@ -44,20 +44,28 @@ typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& ot
 
 template <class Real>
 void FastView<Real>::find_window(Piece& piece) const {
-  const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
-  const std::array<double, 4> origin{x, y, x + y, x - y};
-  std::array<Real, 4> low, high;
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    const std::array<Real, 4> along{piece.x[k], piece.y[k], piece.x[k] + piece.y[k],
-                                    piece.x[k] - piece.y[k]};
-    for (std::size_t d = 0; d < 4; ++d) {
-      low[d] = k == 0 || along[d] < low[d] ? along[d] : low[d];
-      high[d] = k == 0 || along[d] > high[d] ? along[d] : high[d];
-    }
+  Real x0 = piece.x[0], x1 = x0, y0 = piece.y[0], y1 = y0;
+  Real s0 = x0 + y0, s1 = s0, d0 = x0 - y0, d1 = d0;
+  for (std::size_t k = 1; k < piece.count; ++k) {
+    const Real x = piece.x[k], y = piece.y[k], s = x + y, d = x - y;
+    x0 = std::min(x0, x);
+    x1 = std::max(x1, x);
+    y0 = std::min(y0, y);
+    y1 = std::max(y1, y);
+    s0 = std::min(s0, s);
+    s1 = std::max(s1, s);
+    d0 = std::min(d0, d);
+    d1 = std::max(d1, d);
   }
+  const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
+  const std::array<double, 4> low{x + static_cast<double>(x0), y + static_cast<double>(y0),
+                                  x + y + static_cast<double>(s0), x - y + static_cast<double>(d0)};
+  const std::array<double, 4> high{x + static_cast<double>(x1), y + static_cast<double>(y1),
+                                   x + y + static_cast<double>(s1),
+                                   x - y + static_cast<double>(d1)};
   for (std::size_t d = 0; d < 4; ++d) {
-    piece.window.ends[d] = -rounded_down(-(origin[d] + static_cast<double>(high[d])));
-    piece.window.ends[d + 4] = -rounded_down(origin[d] + static_cast<double>(low[d]));
+    piece.window.ends[d] = -rounded_down(-high[d]);
+    piece.window.ends[d + 4] = -rounded_down(low[d]);
   }
 }
 
@@ -65,14 +73,14 @@ template <class Real>
 void FastView<Real>::look_from(std::int32_t face) {
   const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
   origin_ = faces_.corners[own.begin].at;
-  edges_.clear();
+  edge_count_ = 0;
   unused_.insert(unused_.end(), left_.begin(), left_.end());
   left_.assign(1, new_piece());
   Piece& piece = pieces_[left_[0]];
   load_corners(own, piece);
   reach_ = reach_of(piece);
   load_edges(own, piece);
-  kept_edges_ = edges_.size();
+  kept_edges_ = edge_count_;
   left_area_ = area_ = static_cast<Real>(own.area);
   find_window(piece);
   window_ = piece.window;
@@ -91,7 +99,7 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
     split(piece, ref, sides, rest_[0], rest_[1]);
     piece = rest_[0];
   }
-  kept_edges_ = edges_.size();
+  kept_edges_ = edge_count_;
   left_area_ = area_ = area_of(piece);
   find_window(piece);
   window_ = piece.window;
@@ -149,8 +157,10 @@ DirectedRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy, LineId li
                                      PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
   const Real slack = rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line};
-  edges_.push_back({dx, dy, dy * x - dx * y, length, slack, line, from, to});
-  return static_cast<EdgeRef>(2 * (edges_.size() - 1));
+  // Not shrunk between faces, so that nothing is made anew.
+  if (edges_.size() <= edge_count_) edges_.resize(2 * edge_count_ + 16);
+  edges_[edge_count_] = {dx, dy, dy * x - dx * y, length, slack, line, from, to};
+  return static_cast<EdgeRef>(2 * edge_count_++);
 }
 
 template <class Real>
@@ -213,7 +223,10 @@ bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
   cuts = 0;
   for (std::size_t k = 0; k < by.count; ++k) {
     Sides sides = sides_of_edges_[k];
-    if ((sides.left | sides.right) != all) sides = settled(piece, by.edge[k], sides);
+    // What is not sure matters only where it may be all that lies on a side.
+    if ((sides.left == 0 || sides.right == 0) && (sides.left | sides.right) != all) {
+      sides = settled(piece, by.edge[k], sides);
+    }
     if (sides.left == 0) return false;
     cuts |= static_cast<std::uint64_t>(sides.right != 0) << k;
   }
@@ -275,7 +288,7 @@ double FastView<Real>::show(std::int32_t face, const FaceBox& box) {
       continue;
     }
     if (!loaded) {
-      edges_.resize(kept_edges_);
+      edge_count_ = kept_edges_;
       load_corners(shown, shown_);
       load_edges(shown, shown_);
       shown_reach_ = reach_of(shown_);
@@ -342,7 +355,7 @@ bool FastView<Real>::eat(std::uint32_t place, Real& area) {
     rest = &rest_[used];
     used = 1 - used;
   }
-  kept_edges_ = edges_.size();
+  kept_edges_ = edge_count_;
   area += area_of(*rest);
   return true;
 }

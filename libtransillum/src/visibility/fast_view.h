@@ -97,7 +97,8 @@ class FastView {
 
   GridPoint origin_;
   FastBins::Bin bin_{};
-  std::vector<Edge> edges_;
+  std::vector<Edge> edges_;  ///< edge_count_ of them, then places to be used again
+  std::size_t edge_count_ = 0;
   std::size_t kept_edges_ = 0;        ///< of them, those that pieces refer to
   Real reach_ = 0, shown_reach_ = 0;  ///< largest |x| + |y| of what looks and what is shown
   Real area_ = 0, left_area_ = 0;
