@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "invariant.h"
 #include "transillum/transfers.h"
 #include "visibility/exact_side.h"
 #include "visibility/fast_bins.h"
@@ -62,6 +63,7 @@ class FastView {
     Piece(const Piece& other) { *this = other; }
     Piece& operator=(const Piece& other);
     void add(Real at_x, Real at_y, EdgeRef leaving, PointId on_grid) {
+      TRANSILLUM_INVARIANT(count < most_corners, "a piece has room for its corners");
       x[count] = at_x;
       y[count] = at_y;
       edge[count] = leaving;
