@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <string>
+#include <tuple>
 
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
@@ -14,18 +16,11 @@ namespace {
 
 using testing::test_directions;
 
-struct BuiltIn {
-  const char* spec;
-  double max_patch_area;
-};
-
-class Closure : public ::testing::TestWithParam<BuiltIn> {};
-
-TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
-  const auto scene = load_scene(GetParam().spec, {.max_patch_area = GetParam().max_patch_area});
+/// What all passes through a scene without open sides keep.
+void expect_closure(const std::shared_ptr<const Scene>& scene, Engine by, int directions) {
   const auto tree = std::make_shared<const BspTree>(*scene);
-  const TransferEngine engine = make_engine(Engine::local, scene, tree);
-  for (const Vec3& omega : test_directions(200, 7)) {
+  const TransferEngine engine = make_engine(by, scene, tree);
+  for (const Vec3& omega : test_directions(directions, 7)) {
     const testing::MapOnFailure map(*scene, *tree, omega);
     const Transfers transfers = engine(omega, {});
     const ClosureDefect defect = closure_defect(transfers, *scene);
@@ -44,12 +39,44 @@ TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BuiltIns, Closure,
-                         ::testing::Values(BuiltIn{"sphere-flake", 0}, BuiltIn{"cornell-box", 0},
-                                           BuiltIn{"cornell-box", 0.01}, BuiltIn{"furnace", 0},
-                                           BuiltIn{"furnace", 0.02}, BuiltIn{"boards", 0},
-                                           BuiltIn{"boards", 0.01}, BuiltIn{"rooms", 0},
-                                           BuiltIn{"stars", 0}, BuiltIn{"stars", 0.1}));
+struct BuiltIn {
+  const char* spec;
+  double max_patch_area;
+};
+
+class Closure : public ::testing::TestWithParam<std::tuple<BuiltIn, Engine>> {};
+
+TEST_P(Closure, ReceivedAreasAddUpTo200Projections) {
+  const auto& [built_in, engine] = GetParam();
+  expect_closure(load_scene(built_in.spec, {.max_patch_area = built_in.max_patch_area}), engine,
+                 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    BuiltIns, Closure,
+    ::testing::Combine(::testing::Values(BuiltIn{"sphere-flake", 0}, BuiltIn{"cornell-box", 0},
+                                         BuiltIn{"cornell-box", 0.01}, BuiltIn{"furnace", 0},
+                                         BuiltIn{"furnace", 0.02}, BuiltIn{"boards", 0},
+                                         BuiltIn{"boards", 0.01}, BuiltIn{"rooms", 0},
+                                         BuiltIn{"stars", 0}, BuiltIn{"stars", 0.1}),
+                       ::testing::Values(Engine::local, Engine::fast)),
+    [](const auto& test) {
+      return std::to_string(test.index / 2) + name_of(std::get<Engine>(test.param));
+    });
+
+/// Closed surfaces that stick in one another: backs are looked at, and nothing is left open still.
+class ClosureInterpenetrating : public ::testing::TestWithParam<Engine> {};
+
+TEST_P(ClosureInterpenetrating, ReceivedAreasAddUpTo200Projections) {
+  testing::Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.tetrahedra(10, 0.6, 23, grey).box({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, true, grey);
+  expect_closure(sketch.scene(), GetParam(), 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, ClosureInterpenetrating,
+                         ::testing::Values(Engine::local, Engine::fast),
+                         [](const auto& test) { return name_of(test.param); });
 
 /// Projected areas against the normals, an independent road.
 TEST(Projection, AreasFollowTheCosine) {

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "support/scenes.h"
 
+#include <array>
 #include <utility>
 
 #include "transillum/directions.h"
@@ -57,6 +58,25 @@ Sketch& Sketch::triangles(int count, double size, std::uint64_t seed, int materi
                                          uniform(generator) - 0.5});
     }
     face(outline, material);
+  }
+  return *this;
+}
+
+Sketch& Sketch::tetrahedra(int count, double size, std::uint64_t seed, int material) {
+  std::mt19937_64 generator(seed);
+  const auto point = [&generator] {
+    const double x = uniform(generator), y = uniform(generator), z = uniform(generator);
+    return Vec3{x, y, z};
+  };
+  for (int k = 0; k < count; ++k) {
+    const Vec3 at = (1 - size) * point();
+    std::array<Vec3, 4> corners;
+    for (Vec3& corner : corners) corner = at + size * point();
+    auto& [a, b, c, d] = corners;
+    // d lies behind a, b, c.
+    if (dot(cross(b - a, c - a), d - a) > 0) std::swap(a, b);
+    face({a, b, c}, material).face({a, c, d}, material);
+    face({a, d, b}, material).face({b, d, c}, material);
   }
   return *this;
 }

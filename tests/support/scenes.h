@@ -23,6 +23,9 @@ class Sketch {
   Sketch& box(const Vec3& low, const Vec3& high, bool inward, int material);
   /// `count` random triangles of about `size` in the unit cube, facing anywhere.
   Sketch& triangles(int count, double size, std::uint64_t seed, int material);
+  /// `count` random tetrahedra of about `size` in the unit cube, each seen from outside; they stick
+  /// in one another.
+  Sketch& tetrahedra(int count, double size, std::uint64_t seed, int material);
   const SceneDescription& description() const { return description_; }
   std::shared_ptr<const Scene> scene(const SceneOptions& options = {}) const {
     return std::make_shared<const Scene>(description_, options);

@@ -1,0 +1,420 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The fast engine where its short cuts might fail: against the local map and known answers.
+#include <gmock/gmock.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <thread>
+
+#include "scene/closed_surface.h"
+#include "support/map_on_failure.h"
+#include "support/scenes.h"
+#include "support/transfer_difference.h"
+#include "transillum/engine.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+
+constexpr double agreed = 1e-10;
+
+/// A scene, its tree and the fast engine at work on it.
+struct Fast {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const BspTree> tree;
+  TransferEngine run;
+
+  explicit Fast(std::shared_ptr<const Scene> of)
+      : scene(std::move(of)),
+        tree(std::make_shared<const BspTree>(*scene)),
+        run(make_engine(Engine::fast, scene, tree)) {}
+
+  TransferEngine local() const { return make_engine(Engine::local, scene, tree); }
+};
+
+void expect_as_local(const Fast& fast, const Vec3& omega) {
+  const testing::MapOnFailure map(*fast.scene, *fast.tree, omega);
+  const auto found = testing::difference(*fast.scene, fast.local()(omega, {}), fast.run(omega, {}));
+  EXPECT_LE(found.share, agreed) << fast.scene->name() << ", direction " << omega.x << ", "
+                                 << omega.y << ", " << omega.z << ", " << found.where;
+}
+
+void expect_as_local(const std::shared_ptr<const Scene>& scene, int directions = 20) {
+  const Fast fast(scene);
+  for (const Vec3& omega : testing::test_directions(directions, 31)) expect_as_local(fast, omega);
+}
+
+double area_of(const Transfers& transfers, PatchId receiver, PatchId source) {
+  for (const Transfer& t : transfers.exchanges) {
+    if (t.receiver == receiver && t.source == source) return t.area;
+  }
+  return 0;
+}
+
+/// Some lit side looks at a back, so that backs have to look for themselves.
+bool is_in_air(const Fast& fast) {
+  for (const Vec3& omega : testing::test_directions(20, 32)) {
+    for (const double seen : fast.run(omega, {}).back_seen) {
+      if (seen > 1e-6) return false;
+    }
+  }
+  return true;
+}
+
+// Closed surfaces, of which the engine decides by one pass whether they are in air.
+
+void expect_closed(const Sketch& sketch, bool in_air, const SceneOptions& options = {}) {
+  const Fast fast(sketch.scene(options));
+  EXPECT_TRUE(is_closed_surface(*fast.scene));
+  EXPECT_EQ(is_in_air(fast), in_air);
+  expect_as_local(fast.scene);
+}
+
+TEST(FastEngineClosed, InterpenetratingBoxes) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {2, 2, 2}, false, grey).box({1, 1, 1}, {3, 3, 3}, false, grey);
+  sketch.box({0.5, 1.5, -1}, {1.5, 2.5, 2.5}, false, grey);
+  expect_closed(sketch, false);
+  sketch.box({-4, -4, -4}, {4, 4, 4}, true, grey);
+  expect_closed(sketch, false);
+}
+
+TEST(FastEngineClosed, InterpenetratingTetrahedraInARoom) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.tetrahedra(8, 0.7, seed, grey).box({-1, -1, -1}, {2, 2, 2}, true, grey);
+    expect_closed(sketch, false);
+  }
+}
+
+TEST(FastEngineClosed, NestedBoxes) {
+  const auto nested = [](bool outer_inward, bool inner_inward) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.box({0, 0, 0}, {3, 3, 3}, outer_inward, grey);
+    sketch.box({1, 1, 1}, {2, 2.5, 2.25}, inner_inward, grey);
+    return sketch;
+  };
+  expect_closed(nested(true, false), true);    // a block in a room
+  expect_closed(nested(false, false), false);  // a block in a block
+  expect_closed(nested(false, true), true);    // a hollow block
+  expect_closed(nested(true, true), false);    // a room in a room
+}
+
+TEST(FastEngineClosed, ASheetOfTwoSidesInABox) {
+  for (const bool inward : {true, false}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.box({0, 0, 0}, {3, 3, 3}, inward, grey);
+    const std::vector<Vec3> sheet{{1, 1, 1}, {2, 1, 1.25}, {2, 2, 1.75}, {1, 2, 1.5}};
+    sketch.face(sheet, grey).face({sheet.rbegin(), sheet.rend()}, grey);
+    expect_closed(sketch, inward);
+  }
+}
+
+TEST(FastEngineClosed, EverythingFromBothSides) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {1, 1, 1}, false, grey).triangles(12, 1.5, 3, grey);
+  expect_closed(sketch, true, {.two_sided = true});
+}
+
+/// Of one block standing on another, coincident opposite faces hide each other.
+TEST(FastEngineClosed, ABoxStandingExactlyOnAFloor) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {4, 4, 3}, true, grey).box({1, 1, 0}, {2, 3, 1}, false, grey);
+  sketch.box({2, 1, 0}, {3, 2, 1}, false, grey).box({1, 1, 1}, {2, 2, 2}, false, grey);
+  const auto scene = sketch.scene();
+  EXPECT_TRUE(is_closed_surface(*scene));
+  expect_as_local(scene);
+  // Of the floor, patch 0, what the boxes do not stand on looks at the ceiling, patch 1.
+  EXPECT_NEAR(area_of(Fast(scene).run({0, 0, 1}, {}), 0, 1), 16 - 3, 1e-12);
+}
+
+// Polygons of many corners: faces are cut into parts of 16, pieces of more than 24 in half.
+
+std::vector<Vec3> regular(int corners, double radius, const Vec3& center) {
+  std::vector<Vec3> outline;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    outline.push_back(center + radius * Vec3{std::cos(angle), std::sin(angle), 0});
+  }
+  return outline;
+}
+double area_of_regular(int corners) {
+  return 0.5 * corners * std::sin(2 * std::numbers::pi / corners);
+}
+std::vector<Vec3> square(double half, double z) {
+  return {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+}
+std::vector<Vec3> turned_over(std::vector<Vec3> outline) {
+  std::reverse(outline.begin(), outline.end());
+  return outline;
+}
+
+TEST(FastEngineCorners, PolygonsOf3To100) {
+  for (int corners = 3; corners <= 100; ++corners) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    const Vec3 apart{0.25, 0.125, 2};
+    sketch.face(regular(corners, 1, {}), grey);
+    sketch.face(turned_over(regular(corners, 1, apart)), grey);
+    const Fast fast(sketch.scene());
+    // Along what sets them apart they are one behind the other.
+    const Vec3 along = normalized(apart);
+    EXPECT_NEAR(area_of(fast.run(along, {}), 0, 1), along.z * area_of_regular(corners), 1e-13);
+    EXPECT_NEAR(area_of(fast.run(-along, {}), 1, 0), along.z * area_of_regular(corners), 1e-13);
+    if (corners % 11 == 0) expect_as_local(fast.scene, 12);
+  }
+}
+
+TEST(FastEngineCorners, StacksOfPolygons) {
+  for (const int corners : {7, 16, 17, 31, 100}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.face(regular(100, 2, {}), grey);
+    for (int k = 1; k < 12; ++k) {
+      const Vec3 center{std::cos(2.4 * k), std::sin(2.4 * k), 0.2 * k};
+      const auto outline = regular(corners, 0.4 + 0.05 * k, center);
+      sketch.face(k % 3 == 0 ? outline : turned_over(outline), grey);
+    }
+    sketch.face(turned_over(regular(100, 3, {0, 0, 3})), grey);
+    expect_as_local(sketch.scene(), 12);
+  }
+}
+
+/// Cuts a square's corners off until a regular polygon round the unit circle is left open: 4, 8,
+/// 16 … corners, the later half of them cut by lines that cut nothing but them.
+Sketch polished_square(int corners) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(square(1, 0), grey);
+  sketch.face(turned_over(square(4, 2)), grey);
+  int made = 0;
+  for (int n = 8; n <= corners; n *= 2) {
+    for (int k = 1; k < n; k += 2) {
+      const double angle = 2 * std::numbers::pi * k / n;
+      const Vec3 out{std::cos(angle), std::sin(angle), 0}, along{-out.y, out.x, 0};
+      const Vec3 up{0, 0, 0.01 * ++made};
+      sketch.face({up + out + 20.0 * along, up + out - 20.0 * along, up + 20.0 * out}, grey);
+    }
+  }
+  return sketch;
+}
+
+TEST(FastEngineCorners, PiecesGetAsManyAsTheyLike) {
+  for (int corners = 8; corners <= 128; corners *= 2) {
+    const Sketch sketch = polished_square(corners);
+    const double expected = corners * std::tan(std::numbers::pi / corners);
+    const Transfers transfers = Fast(sketch.scene()).run({0, 0, 1}, {});
+    EXPECT_NEAR(area_of(transfers, 0, 1), expected, 1e-13);
+    EXPECT_NEAR(transfers.forward[0].covered, 4, 1e-13);
+    // And where nothing is a power of two.
+    const auto turn = testing::random_rotation(static_cast<std::uint64_t>(corners));
+    const Fast turned(std::make_shared<const Scene>(testing::moved(sketch.description(), turn)));
+    EXPECT_NEAR(area_of(turned.run(turn({0, 0, 1}), {}), 0, 1), expected, 1e-12);
+  }
+}
+
+// Large faces and small ones: bins.
+
+constexpr int tiles_across = 40;
+
+/// A floor of small squares, up, or a ceiling of them, down; patches 0 … tiles_across² - 1.
+Sketch tiles(bool up) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  for (int k = 0; k < tiles_across * tiles_across; ++k) {
+    const double x = k % tiles_across, y = k / tiles_across, z = up ? 0 : 3;
+    const std::vector<Vec3> tile{{x, y, z}, {x + 1, y, z}, {x + 1, y + 1, z}, {x, y + 1, z}};
+    sketch.face(up ? tile : turned_over(tile), grey);
+  }
+  return sketch;
+}
+
+void expect_all_tiles_seen(const Transfers& transfers, bool tiles_receive) {
+  ASSERT_EQ(transfers.exchanges.size(), static_cast<std::size_t>(tiles_across * tiles_across));
+  for (const Transfer& t : transfers.exchanges) {
+    ASSERT_EQ(tiles_receive ? t.source : t.receiver, tiles_across * tiles_across);
+    ASSERT_NEAR(t.area, 1, 1e-12);
+  }
+}
+
+TEST(FastEngineBins, ALargeFaceOverManySmallOnes) {
+  Sketch sketch = tiles(true);
+  const double far = tiles_across;
+  sketch.face({{0, 0, 3}, {0, far, 3}, {far, far, 3}, {far, 0, 3}}, 0);
+  const Fast fast(sketch.scene());
+  expect_all_tiles_seen(fast.run({0, 0, 1}, {}), true);
+  for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+}
+
+TEST(FastEngineBins, ManySmallFacesOverALargeOne) {
+  Sketch sketch = tiles(false);
+  const double far = tiles_across;
+  sketch.face({{0, 0, 0}, {far, 0, 0}, {far, far, 0}, {0, far, 0}}, 0);
+  const Fast fast(sketch.scene());
+  expect_all_tiles_seen(fast.run({0, 0, 1}, {}), false);
+  for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+}
+
+/// A strip across all tiles: from bin to bin along a diagonal, and beside most of those that its
+/// box covers.
+TEST(FastEngineBins, ALongThinDiagonalFace) {
+  for (const double width : {0.3, 1e-3, 1e-7}) {
+    for (const bool above : {true, false}) {
+      Sketch sketch = tiles(above);
+      const double far = tiles_across, z = above ? 3 : 0;
+      const Vec3 a{-1, -0.75, z}, b{far + 1, far + 1.25, z};
+      const Vec3 across = normalized(Vec3{b.y - a.y, a.x - b.x, 0});
+      const std::vector<Vec3> strip{a, b, b - width * across, a - width * across};
+      sketch.face(above ? turned_over(strip) : strip, 0);
+      const Fast fast(sketch.scene());
+      const Transfers transfers = fast.run({0, 0, 1}, {});
+      double seen = 0;
+      for (const Transfer& t : transfers.exchanges) seen += t.area;
+      // The difference of what lies beyond its two long sides: triangles in the tiles' corner.
+      const double outer = far - 0.25, inner = outer - std::numbers::sqrt2 * width;
+      EXPECT_NEAR(seen, 0.5 * (outer * outer - inner * inner), 1e-11);
+      EXPECT_GT(transfers.exchanges.size(), static_cast<std::size_t>(2 * tiles_across - 2));
+      for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+    }
+  }
+}
+
+// What holds whatever the scene.
+
+TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
+  std::vector<std::shared_ptr<const Scene>> scenes;
+  for (const char* spec : {"cornell-box", "furnace", "boards", "rooms", "stars", "sphere-flake"}) {
+    scenes.push_back(load_scene(spec));
+  }
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  scenes.push_back(sketch.tetrahedra(12, 0.7, 4, grey).triangles(12, 1, 6, grey).scene());
+  for (const auto& scene : scenes) {
+    const Fast fast(scene);
+    for (const Vec3& omega : testing::test_directions(12, 13)) {
+      const auto found =
+          testing::difference_from_both_ends(*scene, fast.run(omega, {}), fast.run(-omega, {}));
+      EXPECT_LE(found.share, agreed) << scene->name() << ", direction " << omega.x << ", "
+                                     << omega.y << ", " << omega.z << ", " << found.where;
+    }
+  }
+}
+
+/// Share of the decisions that took whole numbers, over some random directions.
+double exact_share(const char* spec) {
+  const Fast fast(load_scene(spec));
+  std::int64_t decisions = 0, exact = 0;
+  std::vector<Vec3> directions = testing::test_directions(27, 14);
+  directions.erase(directions.begin(), directions.begin() + 7);  // those that see edges end-on
+  for (const Vec3& omega : directions) {
+    const PassCounts counts = fast.run(omega, {}).counts;
+    EXPECT_GT(counts.pairs, 0);
+    EXPECT_GT(counts.cuts, 0);
+    decisions += counts.decisions;
+    exact += counts.exact_decisions;
+  }
+  EXPECT_GT(decisions, 0);
+  return static_cast<double>(exact) / static_cast<double>(decisions);
+}
+
+TEST(FastEngine, SeldomDecidesInWholeNumbers) {
+  EXPECT_LT(exact_share("sphere-flake"), 0.01);
+  // Where walls and blocks share planes and lines, points on lines are common.
+  EXPECT_LT(exact_share("rooms"), 0.1);
+  EXPECT_LT(exact_share("cornell-box"), 0.1);
+}
+
+TEST(FastEngine, IsLeftWhenCancelled) {
+  const Fast fast(load_scene("sphere-flake"));
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Cancelled);
+}
+
+/// Of one thread, so that it does not matter what else a machine does.
+double cpu_seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+TEST(FastEngine, IsLeftSoonWhenCancelledMeanwhile) {
+  const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
+  const Vec3 omega = normalized({1, 2, 3});
+  clockid_t clock{};
+  ASSERT_EQ(pthread_getcpuclockid(pthread_self(), &clock), 0);
+  const double begin = cpu_seconds(clock);
+  fast.run(omega, {});
+  const double pass = cpu_seconds(clock) - begin;
+  for (const double share : {0.02, 0.1, 0.25, 0.5, 0.7}) {
+    const Cancellation cancellation;
+    const double start = cpu_seconds(clock);
+    double cancelled = 0;
+    std::thread canceller([&] {
+      while (cpu_seconds(clock) < start + share * pass) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      cancelled = cpu_seconds(clock);
+      cancellation.cancel();
+    });
+    EXPECT_THROW(fast.run(omega, cancellation), Cancelled);
+    const double stopped = cpu_seconds(clock);
+    canceller.join();
+    // 50 ms are promised; where sanitizers slow all down, in proportion.
+    EXPECT_LT(stopped - cancelled, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
+  }
+}
+
+bool same(const std::vector<Coverage>& a, const std::vector<Coverage>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.projected == y.projected && x.covered == y.covered;
+  });
+}
+bool same(const Transfers& a, const Transfers& b) {
+  const auto same_exchange = [](const Transfer& x, const Transfer& y) {
+    return x.receiver == y.receiver && x.source == y.source && x.area == y.area;
+  };
+  return std::equal(a.exchanges.begin(), a.exchanges.end(), b.exchanges.begin(), b.exchanges.end(),
+                    same_exchange) &&
+         same(a.forward, b.forward) && same(a.backward, b.backward) && a.back_seen == b.back_seen;
+}
+
+TEST(FastEngine, GivesTheSameBitsAgainAndFromManyThreads) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  const auto nasty = sketch.tetrahedra(15, 0.7, 9, grey).triangles(15, 1, 2, grey).scene();
+  for (const auto& scene : {load_scene("sphere-flake:levels=1"), load_scene("rooms"), nasty}) {
+    const Fast fast(scene), made_again(scene);
+    const auto directions = testing::test_directions(12, 15);
+    std::vector<Transfers> first;
+    for (const Vec3& omega : directions) first.push_back(fast.run(omega, {}));
+    std::array<std::vector<Transfers>, 4> by_thread;
+    std::vector<std::thread> threads;
+    for (auto& found : by_thread) {
+      threads.emplace_back([&] {
+        for (const Vec3& omega : directions) found.push_back(fast.run(omega, {}));
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      EXPECT_TRUE(same(first[k], fast.run(directions[k], {})));
+      EXPECT_TRUE(same(first[k], made_again.run(directions[k], {})));
+      for (const auto& found : by_thread) EXPECT_TRUE(same(first[k], found[k]));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace transillum
