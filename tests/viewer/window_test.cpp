@@ -95,9 +95,7 @@ class WindowTest : public QObject {
     QVERIFY(solved.ready);
     const QImage before = picture_of(solved.scene_view->canvas());
     solved.window->findChild<QComboBox*>("color_mode")->setCurrentIndex(1);
-    QTest::qWait(100);
-    const QImage after = picture_of(solved.scene_view->canvas());
-    QVERIFY(after != before);
+    QVERIFY(wait_for([&] { return picture_of(solved.scene_view->canvas()) != before; }));
     const Color8 top = color_of(ColorMap::viridis, 1);
     const QImage whole = picture_of(solved.window.get());
     QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
@@ -116,8 +114,8 @@ class WindowTest : public QObject {
     QCOMPARE(solved.window->selection().patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
     QVERIFY(!solved.text("patch_radiosity").isEmpty());
-    QTest::qWait(100);
-    QVERIFY(share_of(picture_of(solved.map_view->canvas()), theme::selection) > 0);
+    QVERIFY(wait_for(
+        [&] { return share_of(picture_of(solved.map_view->canvas()), theme::selection) > 0; }));
     QVERIFY(picture_of(solved.scene_view->canvas()) != scene_before);
     QVERIFY(share_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
   }
@@ -131,9 +129,8 @@ class WindowTest : public QObject {
     QTest::mousePress(canvas, Qt::LeftButton, {}, from);
     for (int k = 1; k <= 10; ++k) QTest::mouseMove(canvas, from + QPoint(9 * k, 4 * k), 10);
     QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(90, 40));
-    QTest::qWait(100);
+    QVERIFY(wait_for([&] { return picture_of(canvas) != before; }));
     QCOMPARE(solved.window->selection().patch(), no_patch);
-    QVERIFY(picture_of(canvas) != before);
   }
 
   void what_a_click_hits_is_seen_from_its_front() {

@@ -45,7 +45,7 @@ class FastPass {
       : cancellation_(cancellation),
         in_air_(shared.in_air),
         start_(Clock::now()),
-        faces_(*shared.scene, *shared.tree, shared.outlines, omega),
+        faces_(*shared.scene, *shared.tree, shared.outlines, omega, cancellation),
         ordered_(Clock::now()),
         bins_(faces_, in_air_, cancellation),
         binned_(Clock::now()),

@@ -109,12 +109,14 @@ void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) 
 }
 
 FastFaces::FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-                     const Vec3& omega)
+                     const Vec3& omega, const Cancellation& cancellation)
     : grid(scene, tree, omega) {
+  cancellation.throw_if_cancelled();
   boxes.reserve(outlines.outlines.size());
   faces.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
   for (const FragmentId f : tree.order(omega)) {
+    if (faces.size() % 4096 == 0) cancellation.throw_if_cancelled();
     const auto fragment = static_cast<std::size_t>(f);
     for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
       if (!add(outlines, outlines.outlines[k])) {

@@ -104,8 +104,9 @@ struct FastFaces {
   std::vector<Face> faces;
   std::vector<FaceCorner> corners;
 
+  /// @throws Cancelled
   FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-            const Vec3& omega);
+            const Vec3& omega, const Cancellation& cancellation);
 
  private:
   bool add(const FastOutlines& outlines, const FastOutlines::Outline& outline);
