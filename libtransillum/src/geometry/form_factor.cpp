@@ -1,0 +1,152 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "geometry/form_factor.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/edge_integral.h"
+
+namespace transillum {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vec3 middle_of(Outline polygon) {
+  Vec3 sum;
+  for (const Vec3& corner : polygon) sum = sum + (corner - polygon[0]);
+  return polygon[0] + sum / static_cast<double>(polygon.size());
+}
+
+double radius_about(const Vec3& center, Outline polygon) {
+  double radius = 0;
+  for (const Vec3& corner : polygon) radius = std::max(radius, norm(corner - center));
+  return radius;
+}
+
+/// No point of the polygon is nearer to x.
+double distance_bound(const Vec3& x, Outline polygon) {
+  Bounds box;
+  for (const Vec3& corner : polygon) box.add(corner);
+  const auto outside = [](double low, double at, double high) {
+    return std::max({low - at, at - high, 0.0});
+  };
+  const Vec3 gap{outside(box.low.x, x.x, box.high.x), outside(box.low.y, x.y, box.high.y),
+                 outside(box.low.z, x.z, box.high.z)};
+  return std::max(norm(gap), std::abs(lit_half_space(polygon).distance(x)));
+}
+
+/// Sums a function of the unit interval by Gauss' rule: visit(abscissa, weight).
+template <class Visit>
+void for_gauss_points(Visit&& visit) {
+  using Rule = boost::math::quadrature::gauss<double, 5>;
+  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+    const double x = Rule::abscissa()[k], weight = Rule::weights()[k] / 2;
+    visit((1 + x) / 2, weight);
+    if (x > 0) visit((1 - x) / 2, weight);
+  }
+}
+
+/// The point form factor integrated over the small polygon p, by triangles about its first corner.
+double exchange_of_small(Outline p, Outline q) {
+  const Vec3 normal = lit_half_space(p).normal;
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < p.size(); ++k) {
+    const Vec3 a = p[k] - p[0], b = p[k + 1] - p[0];
+    const double twice_area = dot(cross(a, b), normal);
+    for_gauss_points([&](double u, double weight_u) {
+      for_gauss_points([&](double v, double weight_v) {
+        const Vec3 x = p[0] + u * ((1 - v) * a + v * b);
+        sum += twice_area * u * weight_u * weight_v * point_form_factor(x, normal, q);
+      });
+    });
+  }
+  return sum;
+}
+
+double exchange_by_edges(Outline p, Outline q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Edge a(p[i], p[(i + 1) % p.size()]);
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      const Edge b(q[j], q[(j + 1) % q.size()]);
+      sum += edge_pair_integral(a, b);
+    }
+  }
+  return sum / (2 * pi);
+}
+
+}  // namespace
+
+Vec3 area_vector(Outline polygon) {
+  Vec3 twice;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    twice = twice + cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+  }
+  return 0.5 * twice;
+}
+
+HalfSpace lit_half_space(Outline polygon) {
+  const Vec3 normal = normalized(area_vector(polygon));
+  return {normal, dot(normal, middle_of(polygon))};
+}
+
+Corners clipped(Outline polygon, const HalfSpace& space, double tolerance) {
+  Corners kept;
+  if (polygon.empty()) return kept;
+  const auto distance_to = [&](const Vec3& x) {
+    const double distance = space.distance(x);
+    return std::abs(distance) <= tolerance ? 0.0 : distance;
+  };
+  Vec3 last = polygon.back();
+  double last_distance = distance_to(last);
+  for (const Vec3& corner : polygon) {
+    const double distance = distance_to(corner);
+    if ((last_distance > 0 && distance < 0) || (last_distance < 0 && distance > 0)) {
+      kept.push_back(last + last_distance / (last_distance - distance) * (corner - last));
+    }
+    if (distance >= 0) kept.push_back(corner);
+    last = corner;
+    last_distance = distance;
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
+double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon) {
+  Corners above;
+  for (const Vec3& corner : polygon) above.push_back(corner - x);
+  if (std::any_of(above.begin(), above.end(), [&](const Vec3& r) { return dot(normal, r) < 0; })) {
+    above = clipped(above, {normal, 0});
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < above.size(); ++k) {
+    const Vec3 &a = above[k], &b = above[k + 1 < above.size() ? k + 1 : 0];
+    const Vec3 across = cross(a, b);
+    const double sine = norm(across);
+    // Seen from x the edges of the lit side run clockwise.
+    if (sine > 0) sum -= std::atan2(sine, dot(a, b)) * dot(normal, across) / sine;
+  }
+  return std::max(0.0, sum / (2 * pi));
+}
+
+double polygon_exchange(Outline p, Outline q) {
+  constexpr double rounding = 1e-14, small = 1.0 / 25;
+  const HalfSpace before_p = lit_half_space(p), before_q = lit_half_space(q);
+  const Vec3 middle = middle_of(p);
+  const double size = radius_about(middle, p) + radius_about(middle, q);
+  const Corners facing_p = clipped(p, before_q, rounding * size);
+  const Corners facing_q = clipped(q, before_p, rounding * size);
+  if (facing_p.empty() || facing_q.empty()) return 0;
+
+  const auto looks_small = [&](Outline a, Outline b) {
+    const Vec3 center = middle_of(a);
+    return radius_about(center, a) <= small * distance_bound(center, b);
+  };
+  if (looks_small(facing_p, facing_q)) return exchange_of_small(facing_p, facing_q);
+  if (looks_small(facing_q, facing_p)) return exchange_of_small(facing_q, facing_p);
+  return std::max(0.0, exchange_by_edges(facing_p, facing_q));
+}
+
+}  // namespace transillum
