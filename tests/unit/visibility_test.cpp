@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "radiosity/exchange_sums.h"
@@ -178,7 +179,7 @@ TEST(ExchangeSums, AddUpAndGatherBothWays) {
   std::mt19937_64 generator(8);
   for (const bool two_way : {false, true}) {
     constexpr std::size_t n = 12;
-    ExchangeSums sums(two_way, 1 << 20);
+    ExchangeSums sums(12, two_way, 1 << 20, {});
     double dense[n][n] = {};
     for (int pass = 0; pass < 37; ++pass) {
       std::vector<Transfer> exchanges;
@@ -191,7 +192,7 @@ TEST(ExchangeSums, AddUpAndGatherBothWays) {
           if (two_way) dense[j][i] += area;
         }
       }
-      sums.add(ExchangeSums::make_run(exchanges, two_way));
+      sums.add(sums.make_run(exchanges));
     }
     sums.finish();
     std::vector<Rgb> b(n), gathered(n);
@@ -208,12 +209,54 @@ TEST(ExchangeSums, AddUpAndGatherBothWays) {
 }
 
 TEST(ExchangeSums, LetGoOfEverythingBeyondTheBudget) {
-  ExchangeSums sums(true, 10 * sizeof(Transfer));
+  ExchangeSums sums(7, true, 10 * sizeof(Transfer), {});
   sums.add({{0, 1, 1.0}, {0, 2, 1.0}});
   EXPECT_FALSE(sums.overrun());
   sums.add({{0, 3, 1.0}, {0, 4, 1.0}, {0, 5, 1.0}, {0, 6, 1.0}});
   EXPECT_TRUE(sums.overrun());
   EXPECT_EQ(sums.size(), 0u);
+  sums.finish();
+  sums.for_each([](PatchId, PatchId, double) { ADD_FAILURE(); });
+}
+
+TEST(ExchangeSums, AreTheSameBitsWheneverTheyAreMerged) {
+  constexpr PatchId n = 40;
+  constexpr std::uint64_t pairs = n * (n - 1) / 2;
+  ExchangeSums roomy(n, true, 1 << 30, {}), crowded(n, true, 3 * pairs * sizeof(Transfer), {});
+  std::map<std::pair<PatchId, PatchId>, double> in_order_of_passes;
+  std::mt19937_64 generator(11);
+  for (int pass = 0; pass < 300; ++pass) {
+    std::vector<Transfer> exchanges;
+    for (PatchId i = 0; i < n; ++i) {
+      const auto j = static_cast<PatchId>(generator() % n);
+      if (i == j) continue;
+      const double area = uniform(generator);
+      exchanges.push_back({i, j, area});
+      in_order_of_passes[std::minmax(i, j)] += area;
+    }
+    roomy.add(roomy.make_run(exchanges));
+    crowded.add(crowded.make_run(exchanges));
+  }
+  for (ExchangeSums* sums : {&roomy, &crowded}) {
+    ASSERT_FALSE(sums->overrun());
+    sums->finish();
+    ASSERT_EQ(sums->size(), in_order_of_passes.size());
+    auto expected = in_order_of_passes.begin();
+    sums->for_each([&](PatchId i, PatchId j, double area) {
+      EXPECT_EQ(std::pair(i, j), expected->first);
+      EXPECT_EQ(area, expected->second);
+      ++expected;
+    });
+  }
+}
+
+TEST(ExchangeSums, StopWhenCancelled) {
+  const Cancellation cancellation;
+  ExchangeSums sums(3, true, 1 << 20, cancellation);
+  sums.add({{0, 1, 1.0}});
+  cancellation.cancel();
+  EXPECT_THROW(sums.add({{0, 1, 1.0}, {0, 2, 1.0}}), Cancelled);
+  EXPECT_THROW(sums.finish(), Cancelled);
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace transillum {
 
 /// A wish to stop, shared by all copies. Sticky: once set it stays set.
 ///
-/// Threads: any thread may set or read any copy at any time. Passes, the building of trees and the
-/// reading of files look at it at least every 50 ms and then throw Cancelled; the merging of form
-/// factors between passes (seconds, where they take gigabytes) goes to its end first.
+/// Threads: any thread may set or read any copy at any time. All that may take long, be it the
+/// reading of a file, the building of a tree, a pass or the sums over passes, looks at it at least
+/// every 50 ms and then throws Cancelled.
 class Cancellation {
  public:
   void cancel() const { flag_->store(true, std::memory_order_relaxed); }

@@ -2,124 +2,143 @@
 #include "radiosity/exchange_sums.h"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace transillum {
-namespace {
 
-/// Rises with the receiver, then with the source.
-std::uint64_t key_of(const Transfer& t) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(t.receiver)) << 32 |
-         static_cast<std::uint32_t>(t.source);
-}
+ExchangeSums::ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
+                           const Cancellation& cancellation)
+    : patches_(static_cast<std::size_t>(patches)),
+      two_way_(two_way),
+      budget_(budget),
+      cancellation_(cancellation),
+      sums_(empty_rows()),
+      place_(patches_, 0) {}
 
-/// Walks two runs in one order: `visit` gets an entry of either, or the two of a pair that both
-/// have. Which of the runs comes next is a toss-up, so nothing is left to branches.
-template <class Visit>
-void walk(const ExchangeSums::Run& a, const ExchangeSums::Run& b, Visit visit) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    const std::uint64_t key_a = key_of(a[i]), key_b = key_of(b[j]);
-    const bool take_a = key_a <= key_b, take_b = key_b <= key_a;
-    const Transfer& first = *(take_a ? &a[i] : &b[j]);
-    visit(first, take_a && take_b ? b[j].area : 0.0);
-    i += take_a;
-    j += take_b;
-  }
-  for (; i < a.size(); ++i) visit(a[i], 0.0);
-  for (; j < b.size(); ++j) visit(b[j], 0.0);
-}
-
-ExchangeSums::Run merged(const ExchangeSums::Run& a, const ExchangeSums::Run& b) {
-  // Counted first, so that no memory is taken beyond what is kept.
-  std::size_t count = 0;
-  walk(a, b, [&](const Transfer&, double) { ++count; });
-  ExchangeSums::Run sum(count);
-  Transfer* next = sum.data();
-  walk(a, b, [&](const Transfer& t, double more) {
-    *next++ = {t.receiver, t.source, t.area + more};
-  });
-  return sum;
-}
-
-}  // namespace
-
-ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges, bool two_way) {
-  if (!two_way) return exchanges;
+ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges) const {
+  if (!two_way_) return exchanges;
   // By the lower number: counted, then dealt out.
-  PatchId last = -1;
-  for (const Transfer& t : exchanges) last = std::max({last, t.receiver, t.source});
-  std::vector<std::uint32_t> place(static_cast<std::size_t>(last) + 2, 0);
-  const auto lower = [](const Transfer& t) {
-    return static_cast<std::size_t>(std::min(t.receiver, t.source));
-  };
-  for (const Transfer& t : exchanges) ++place[lower(t) + 1];
-  for (std::size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
+  std::vector<std::uint32_t> next(patches_ + 1, 0);
+  for (const Transfer& t : exchanges) {
+    ++next[static_cast<std::size_t>(std::min(t.receiver, t.source)) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
   Run run(exchanges.size());
   for (const Transfer& t : exchanges) {
-    run[place[lower(t)]++] = {std::min(t.receiver, t.source), std::max(t.receiver, t.source),
-                              t.area};
+    const auto [low, high] = std::minmax(t.receiver, t.source);
+    run[next[static_cast<std::size_t>(low)]++] = {low, high, t.area};
   }
-  // Each row by the other number; rows are short, and the two ways of a pair stay in their order.
-  std::size_t kept = 0;
-  for (std::size_t begin = 0, end = 0; begin < run.size(); begin = end) {
-    while (end < run.size() && run[end].receiver == run[begin].receiver) ++end;
-    std::stable_sort(run.begin() + static_cast<std::ptrdiff_t>(begin),
-                     run.begin() + static_cast<std::ptrdiff_t>(end),
-                     [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
-    for (std::size_t k = begin; k < end; ++k) {
-      if (kept > 0 && key_of(run[kept - 1]) == key_of(run[k])) {
-        run[kept - 1].area += run[k].area;
-      } else {
-        run[kept++] = run[k];
-      }
-    }
-  }
-  run.resize(kept);
   return run;
 }
 
 void ExchangeSums::add(Run run) {
   if (overrun_) return;
-  // While two runs merge, their sum exists beside them.
-  if (2 * (size() + run.size()) * sizeof(Transfer) > budget_) {
+  waiting_size_ += run.size();
+  waiting_.push_back(std::move(run));
+  // While passes are merged, the new sums exist beside all that they are made of.
+  const bool crowded = 2 * size() * sizeof(Transfer) > budget_;
+  // A merge passes over all the sums, and is put off until as many exchanges are waiting.
+  if (!crowded && waiting_size_ < sums_.source.size()) return;
+  merge();
+  // Sums that left little room for passes would have to be merged again and again.
+  if (3 * size() * sizeof(Transfer) > budget_) {
     overrun_ = true;
-    levels_.clear();
-    levels_.shrink_to_fit();
-    return;
+    sums_ = empty_rows();
+    spare_ = {};
   }
-  levels_.push_back({std::move(run), 0});
-  while (levels_.size() >= 2 && levels_.back().rank == levels_[levels_.size() - 2].rank) {
-    merge_last_two();
+}
+
+void ExchangeSums::merge() {
+  std::vector<std::span<const Transfer>> rest(waiting_.begin(), waiting_.end());
+  if (spare_.source.capacity() < size()) spare_ = {};
+  auto& [begin, source, area] = spare_;
+  begin.clear();
+  source.clear();
+  area.clear();
+  source.reserve(size());
+  area.reserve(size());
+  for (std::size_t row = 0; row < patches_; ++row) {
+    cancellation_.throw_if_cancelled();
+    const std::size_t first = source.size();
+    begin.push_back(first);
+    const auto old_first = static_cast<std::ptrdiff_t>(sums_.begin[row]);
+    const auto old_last = static_cast<std::ptrdiff_t>(sums_.begin[row + 1]);
+    source.insert(source.end(), sums_.source.begin() + old_first, sums_.source.begin() + old_last);
+    area.insert(area.end(), sums_.area.begin() + old_first, sums_.area.begin() + old_last);
+    for (std::size_t k = first; k < source.size(); ++k) {
+      place_[static_cast<std::size_t>(source[k])] = static_cast<std::uint32_t>(k - first);
+    }
+    for (auto& run : rest) {
+      std::size_t taken = 0;
+      for (; taken < run.size() && static_cast<std::size_t>(run[taken].receiver) == row; ++taken) {
+        const Transfer& t = run[taken];
+        // What another row has left here points beyond this one, or to another source in it.
+        std::uint32_t& place = place_[static_cast<std::size_t>(t.source)];
+        const std::size_t k = first + place;
+        if (k < source.size() && source[k] == t.source) {
+          area[k] += t.area;
+        } else {
+          place = static_cast<std::uint32_t>(source.size() - first);
+          source.push_back(t.source);
+          area.push_back(t.area);
+        }
+      }
+      run = run.subspan(taken);
+    }
   }
+  begin.push_back(source.size());
+  std::swap(sums_, spare_);
+  waiting_.clear();
+  waiting_size_ = 0;
 }
 
 void ExchangeSums::finish() {
-  while (levels_.size() >= 2) merge_last_two();
+  if (overrun_) return;
+  merge();
+  // Dealing out by source, then by receiver again, sorts each row.
+  transpose();
+  transpose();
+  spare_ = {};
 }
 
-void ExchangeSums::merge_last_two() {
-  Level last = std::move(levels_.back());
-  levels_.pop_back();
-  Level& before = levels_.back();
-  before.run = merged(before.run, last.run);
-  ++before.rank;
-}
-
-std::size_t ExchangeSums::size() const {
-  std::size_t total = 0;
-  for (const Level& level : levels_) total += level.run.size();
-  return total;
+void ExchangeSums::transpose() {
+  const std::size_t count = sums_.source.size();
+  std::vector<std::size_t> next(patches_ + 1, 0);
+  for (std::size_t i = 0; i < patches_; ++i) {
+    cancellation_.throw_if_cancelled();
+    for (std::size_t k = sums_.begin[i]; k < sums_.begin[i + 1]; ++k) {
+      ++next[static_cast<std::size_t>(sums_.source[k]) + 1];
+    }
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  spare_.begin = next;
+  spare_.source.resize(count);
+  spare_.area.resize(count);
+  for (std::size_t i = 0; i < patches_; ++i) {
+    cancellation_.throw_if_cancelled();
+    for (std::size_t k = sums_.begin[i]; k < sums_.begin[i + 1]; ++k) {
+      const std::size_t to = next[static_cast<std::size_t>(sums_.source[k])]++;
+      spare_.source[to] = static_cast<PatchId>(i);
+      spare_.area[to] = sums_.area[k];
+    }
+  }
+  std::swap(sums_, spare_);
 }
 
 void ExchangeSums::gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const {
   std::fill(gathered.begin(), gathered.end(), Rgb{});
-  if (levels_.empty()) return;
-  for (const Transfer& t : levels_.front().run) {
-    const auto i = static_cast<std::size_t>(t.receiver);
-    const auto j = static_cast<std::size_t>(t.source);
-    gathered[i] += t.area * b[j];
-    if (two_way_) gathered[j] += t.area * b[i];
+  for (std::size_t i = 0; i < patches_; ++i) {
+    cancellation_.throw_if_cancelled();
+    const Rgb b_i = b[i];
+    Rgb row;
+    for (std::size_t k = sums_.begin[i]; k < sums_.begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(sums_.source[k]);
+      row += sums_.area[k] * b[j];
+      if (two_way_) gathered[j] += sums_.area[k] * b_i;
+    }
+    gathered[i] += row;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "transillum/cancellation.h"
 #include "transillum/transfers.h"
 
 namespace transillum {
@@ -12,47 +13,66 @@ namespace transillum {
 /// The sums over all passes of the exchanged areas: form factors but for a factor a row.
 /// F_ij = 4 / (M A_i) * (entry i,j), as in method.md's estimator.
 ///
-/// Two-way sums are symmetric, so a pair is kept once, the lower number first.
+/// Two-way sums are symmetric, so a pair is kept once, the lower number first. A pair's areas are
+/// added in the order of the passes, whenever that happens. All that may take long throws
+/// Cancelled.
 class ExchangeSums {
  public:
-  /// Exchanges of one pass, sorted by pair.
+  /// Exchanges by rising receiver, sources in any order.
   using Run = std::vector<Transfer>;
-  /// Puts a pass's exchanges into the order of the sums. Pure: any thread may.
-  static Run make_run(const std::vector<Transfer>& exchanges, bool two_way);
 
-  /// @param budget bytes that the sums may take, also while they are merged; passes under way,
-  /// two a thread, come on top.
-  ExchangeSums(bool two_way, std::uint64_t budget) : two_way_(two_way), budget_(budget) {}
+  /// @param budget bytes that the sums may take, also while passes are merged into them; passes
+  /// under way, two a thread, and a few numbers a patch come on top.
+  ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
+               const Cancellation& cancellation);
 
-  /// Adds a pass. The bits of the sums depend on the order of the passes only. Once the budget is
-  /// overrun everything is let go, and overrun() stays true.
+  /// Puts a pass's exchanges into the rows of the sums. Any thread may, at any time.
+  Run make_run(const std::vector<Transfer>& exchanges) const;
+
+  /// Adds a pass. Once the budget is overrun everything is let go, and overrun() stays true.
   void add(Run run);
   bool overrun() const { return overrun_; }
-  /// After the last pass: one list.
+  /// After the last pass.
   void finish();
-  std::size_t size() const;
+  std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
   /// gathered_i = sum_j entry_ij b_j for all i; `gathered` has the size of `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
   /// visit(i, j, entry) by rising pairs; a two-way pair comes once, i < j. After finish().
   template <class Visit>
   void for_each(Visit&& visit) const {
-    if (levels_.empty()) return;
-    for (const Transfer& t : levels_.front().run) visit(t.receiver, t.source, t.area);
+    for (std::size_t i = 0; i < patches_; ++i) {
+      for (std::size_t k = sums_.begin[i]; k < sums_.begin[i + 1]; ++k) {
+        visit(static_cast<PatchId>(i), sums_.source[k], sums_.area[k]);
+      }
+    }
   }
 
  private:
-  struct Level {
-    Run run;
-    int rank;
+  /// Row i: from begin[i] to before begin[i + 1].
+  struct Rows {
+    std::vector<std::size_t> begin;
+    std::vector<PatchId> source;
+    std::vector<double> area;
   };
-  void merge_last_two();
+  Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
+  /// What waits, into the sums: row by row, of each first the sums and then the passes.
+  void merge();
+  void transpose();
 
+  std::size_t patches_;
   bool two_way_;
   std::uint64_t budget_;
+  Cancellation cancellation_;
   bool overrun_ = false;
-  /// Like the digits of a binary counter: runs of falling rank, two of one rank merged at once.
-  std::vector<Level> levels_;
+  Rows sums_;
+  /// Passes still to be merged into the sums, in their order.
+  std::vector<Run> waiting_;
+  std::size_t waiting_size_ = 0;
+  /// Where the next sums are made; kept, for fresh memory costs as much as the merging.
+  Rows spare_;
+  /// A source: where in its row the merge has put it last.
+  std::vector<std::uint32_t> place_;
 };
 
 }  // namespace transillum

@@ -93,7 +93,8 @@ struct RadiositySolver::Impl {
   bool finished = false, converged = false;
 
   // Known once the first step's passes are done.
-  std::vector<double> row_areas, column_areas;  ///< sum_d sum_j A(i,j,omega_d), and over i
+  std::vector<double> row_areas;     ///< sum_d sum_j A(i,j,omega_d)
+  std::vector<double> column_areas;  ///< the same over i; two-way, these are the rows'
   std::vector<double> first_projected, facing_area, back_seen;
   int first_done = 0;
   ExchangeSums sums;
@@ -109,7 +110,8 @@ struct RadiositySolver::Impl {
         options(how),
         tree(std::move(ready_tree)),
         cancellation(stop),
-        sums(how.two_way, how.memory ? how.memory : quarter_of_memory()) {
+        sums(scene->patch_count(), how.two_way, how.memory ? how.memory : quarter_of_memory(),
+             stop) {
     options.validate();
     const auto samples = make_directions(options.sampling, options.directions, options.seed);
     for (const int k : progressive_order(options.directions)) {
@@ -145,7 +147,7 @@ struct RadiositySolver::Impl {
     Pass pass;
     pass.transfers = engine(directions[static_cast<std::size_t>(k)], cancellation);
     if (first) {
-      pass.run = ExchangeSums::make_run(pass.transfers.exchanges, options.two_way);
+      pass.run = sums.make_run(pass.transfers.exchanges);
       pass.closure = closure_defect(pass.transfers, *scene);
     }
     return pass;
@@ -154,6 +156,7 @@ struct RadiositySolver::Impl {
   /// Adds a pass to the step under way; in order of the passes, on one thread at a time.
   void absorb(Pass pass) {
     const auto start = Clock::now();
+    if (in_first_step()) sums.add(std::move(pass.run));
     const Transfers& transfers = pass.transfers;
     for (const Transfer& t : transfers.exchanges) {
       const auto i = static_cast<std::size_t>(t.receiver);
@@ -172,17 +175,13 @@ struct RadiositySolver::Impl {
   }
 
   /// What needs to be learnt from each direction only once.
-  void absorb_first(Pass& pass) {
+  void absorb_first(const Pass& pass) {
     const Transfers& transfers = pass.transfers;
     for (const Transfer& t : transfers.exchanges) {
       const auto i = static_cast<std::size_t>(t.receiver);
       const auto j = static_cast<std::size_t>(t.source);
       row_areas[i] += t.area;
-      column_areas[j] += t.area;
-      if (options.two_way) {
-        row_areas[j] += t.area;
-        column_areas[i] += t.area;
-      }
+      (options.two_way ? row_areas : column_areas)[j] += t.area;
     }
     for (std::size_t i = 0; i < projected.size(); ++i) {
       const Coverage& forward = transfers.forward[i];
@@ -196,7 +195,6 @@ struct RadiositySolver::Impl {
     closure_grazing = std::max(closure_grazing, pass.closure.grazing);
     counts += transfers.counts;
     transfer_count += static_cast<std::int64_t>(transfers.exchanges.size());
-    sums.add(std::move(pass.run));
   }
 
   /// What turns gathered_i into the irradiance H_i.
@@ -232,7 +230,9 @@ struct RadiositySolver::Impl {
   /// B(n+1) from what was gathered, and the rule of eq. 25.
   void finish_step() {
     if (in_first_step()) {
+      const auto start = Clock::now();
       sums.finish();
+      seconds_iterate += seconds_since(start);
       first_projected = projected;
       first_done = done;
     }
