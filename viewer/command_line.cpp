@@ -28,7 +28,9 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("-m,--directions", solve.directions, "passes an iteration step takes")
       ->capture_default_str();
   app.add_option("--sampling", words.sampling, joined(sampling_names()))->capture_default_str();
-  app.add_option("--seed", solve.seed, "for random directions")->capture_default_str();
+  app.add_option("--seed", solve.seed, "for random and scrambled directions")
+      ->capture_default_str();
+  app.add_option("--rotate", solve.rotation, "seed of a random rotation of all directions");
   app.add_option("--engine", words.engine, joined(engine_names()))->capture_default_str();
   auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
   app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")

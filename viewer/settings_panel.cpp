@@ -22,8 +22,8 @@ namespace {
 
 bool same(const SolveOptions& a, const SolveOptions& b) {
   return a.directions == b.directions && a.sampling == b.sampling && a.seed == b.seed &&
-         a.engine == b.engine && a.two_way == b.two_way && a.normalize == b.normalize &&
-         a.iterations == b.iterations && a.tolerance == b.tolerance;
+         a.rotation == b.rotation && a.engine == b.engine && a.two_way == b.two_way &&
+         a.normalize == b.normalize && a.iterations == b.iterations && a.tolerance == b.tolerance;
 }
 
 bool same(const SceneOptions& a, const SceneOptions& b) {
@@ -69,7 +69,7 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   sampling_->setToolTip(tr("Where the directions come from (section 4 of the paper)"));
   seed_ = new QSpinBox;
   seed_->setRange(0, std::numeric_limits<int>::max());
-  seed_->setToolTip(tr("For random directions"));
+  seed_->setToolTip(tr("For random and scrambled directions"));
   engine_ = new QComboBox;
   for (const std::string& name : engine_names()) engine_->addItem(capitalized(name));
   engine_->setToolTip(tr("The algorithm that finds what sees what"));
@@ -187,7 +187,7 @@ void SettingsPanel::set_restart_enabled(bool enabled) {
 
 void SettingsPanel::show_state() {
   if (!restart_) return;  // still under construction
-  seed_->setEnabled(static_cast<Sampling>(sampling_->currentIndex()) == Sampling::random);
+  seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
   const bool differs = enabled_ && differ_from_effect();
   restart_->setEnabled(enabled_);

@@ -16,8 +16,9 @@ struct DirectionsCall {
 
 int run(const DirectionsCall& call) {
   if (!call.out.empty()) check_writable(call.out);
-  const auto samples =
-      make_directions(call.sequence.sampling, call.sequence.directions, call.sequence.seed);
+  const SequenceOptions& sequence = call.sequence;
+  auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
+  if (sequence.rotation) samples = rotated(std::move(samples), *sequence.rotation);
   if (call.out.empty()) {
     write_directions_csv(std::cout, samples);
   } else {

@@ -40,6 +40,7 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
   options.directions = call.sequence.directions;
   options.sampling = call.sequence.sampling;
   options.seed = call.sequence.seed;
+  options.rotation = call.sequence.rotation;
   options.iterations = 1;
   const auto tree = std::make_shared<const BspTree>(
       *scene, cancellation, [&](double share) { display.show("sorting", share); });

@@ -22,8 +22,14 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
       [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
   add_parsed_option(
       command, "--seed", "S",
-      fmt::format("for random sampling and the engine rays (default {})", options.seed),
+      fmt::format("for random, sobol and scrambled-hammersley, and for the engine rays "
+                  "(default {})",
+                  options.seed),
       [&options](const std::string& text) { options.seed = parse_seed("--seed", text); });
+  add_parsed_option(
+      command, "--rotate", "S",
+      "turn all directions by one random rotation; S is its seed (default: leave them)",
+      [&options](const std::string& text) { options.rotation = parse_seed("--rotate", text); });
 }
 
 }  // namespace transillum::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 
 #include "transillum/directions.h"
 
@@ -13,9 +14,10 @@ struct SequenceOptions {
   int directions = 1024;
   Sampling sampling = Sampling::fibonacci;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> rotation;
 };
 
-/// -m, --sampling, --seed
+/// -m, --sampling, --seed, --rotate
 void add_sequence_options(CLI::App& command, SequenceOptions& options);
 
 }  // namespace transillum::cli

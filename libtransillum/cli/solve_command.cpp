@@ -51,6 +51,7 @@ SolveOptions solve_options(const SolveCall& call) {
   options.directions = call.sequence.directions;
   options.sampling = call.sequence.sampling;
   options.seed = options.engine_options.seed = call.sequence.seed;
+  options.rotation = call.sequence.rotation;
   options.two_way = !call.one_way;
   options.validate();
   return options;

@@ -51,7 +51,8 @@ TEST(ClosedForms, SquaresSeeEachOtherAsTheFormulasSay) {
 }
 
 TEST(ClosedForms, EverySamplingAndWayConvergesToTheSame) {
-  for (const Sampling sampling : {Sampling::hammersley, Sampling::random, Sampling::fibonacci}) {
+  for (const std::string& name : sampling_names()) {
+    const Sampling sampling = sampling_from_name(name);
     for (const bool two_way : {false, true}) {
       SolveOptions options{.directions = 20000,
                            .sampling = sampling,
@@ -90,7 +91,8 @@ TEST(ClosedForms, ASphereInAUniformEnclosureSeesItWholly) {
 }
 
 TEST(Furnace, IsTwoEverywhereExactlyWithNormalisedRows) {
-  for (const Sampling sampling : {Sampling::hammersley, Sampling::random, Sampling::fibonacci}) {
+  for (const std::string& name : sampling_names()) {
+    const Sampling sampling = sampling_from_name(name);
     for (const bool two_way : {false, true}) {
       const auto scene = load_scene("furnace");
       const Solution solution = solve(scene, {.directions = 64,

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "program_run.h"
+#include "transillum/directions.h"
 
 namespace transillum::testing {
 namespace {
@@ -148,6 +149,22 @@ TEST(CliSolve, OneWayUsesHalfTheDirections) {
   const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
   EXPECT_EQ(json.at("directions"), 16);
   EXPECT_EQ(json.at("options").at("sampling"), "hammersley");
+}
+
+TEST(CliSolve, RotationChangesTheErrorOnly) {
+  const TemporaryFolder folder;
+  for (const char* seed : {"1", "2"}) {
+    ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "300", "--rotate", seed, "--out",
+                           folder / "b.csv", "--stats", folder / "s.json"})
+                  .status,
+              0);
+    const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+    EXPECT_EQ(json.at("options").at("rotation"), std::stoi(seed));
+    write_text(folder / seed, read_file(folder / "b.csv"));
+  }
+  const auto a = numbers(read_file(folder / "1")), b = numbers(read_file(folder / "2"));
+  EXPECT_NE(a, b);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i][9], b[i][9], 0.1 * b[i][9] + 0.1);
 }
 
 TEST(CliSolve, TwoSidedFacesGiveTwoPatchesEach) {
@@ -316,7 +333,7 @@ TEST(CliFactors, MemoryTooSmallIsAFailureWithoutAFile) {
 
 TEST(CliDirections, ArePointsOfTheUnitSphere) {
   const TemporaryFolder folder;
-  for (const char* sampling : {"hammersley", "random", "fibonacci"}) {
+  for (const std::string& sampling : sampling_names()) {
     ASSERT_EQ(
         run_program({"directions", "--sampling", sampling, "-m", "32", "--out", folder / "d.csv"})
             .status,
@@ -331,6 +348,22 @@ TEST(CliDirections, ArePointsOfTheUnitSphere) {
     }
     EXPECT_EQ(run_program({"directions", "--sampling", sampling, "-m", "32"}).out, csv);
   }
+}
+
+TEST(CliDirections, RotateTurnsTheWholeSet) {
+  const auto rows = [](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"directions", "-m", "9"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return numbers(run_program(arguments).out);
+  };
+  const auto straight = rows({}), turned = rows({"--rotate", "3"});
+  ASSERT_EQ(turned.size(), 9U);
+  EXPECT_NE(turned[1], straight[1]);
+  EXPECT_NE(turned[1], rows({"--rotate", "4"})[1]);
+  const auto angle = [](const auto& a, const auto& b) {
+    return a[2] * b[2] + a[3] * b[3] + a[4] * b[4];
+  };
+  EXPECT_NEAR(angle(turned[1], turned[7]), angle(straight[1], straight[7]), 1e-15);
 }
 
 TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {

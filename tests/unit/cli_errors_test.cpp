@@ -50,6 +50,7 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"solve", "furnace", "-m", "1e3"}, "--directions"},
       {{"solve", "furnace", "--sampling", "fibonaci"}, "fibonacci"},
       {{"solve", "furnace", "--seed", "-1"}, "--seed"},
+      {{"solve", "furnace", "--rotate", "x"}, "--rotate"},
       {{"solve", "furnace", "--seed", "18446744073709551616"}, "--seed"},
       {{"solve", "furnace", "--engine", "magic"}, "local"},
       {{"solve", "furnace", "--engine", "rays", "--lines", "0"}, "--lines: \"0\""},

@@ -49,6 +49,8 @@ class CommandLineTest : public QObject {
                                    "random",
                                    "--seed",
                                    "5",
+                                   "--rotate",
+                                   "8",
                                    "--one-way",
                                    "--normalize",
                                    "rows",
@@ -71,6 +73,7 @@ class CommandLineTest : public QObject {
     QCOMPARE(line.solve_options.directions, 77);
     QVERIFY(line.solve_options.sampling == Sampling::random);
     QCOMPARE(line.solve_options.seed, std::uint64_t{5});
+    QVERIFY(line.solve_options.rotation == std::optional<std::uint64_t>(8));
     QVERIFY(!line.solve_options.two_way);
     QVERIFY(line.solve_options.normalize == Normalization::rows);
     QCOMPARE(line.solve_options.iterations, 3);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ enum class Normalization {
 struct SolveOptions {
   int directions = 1024;  ///< M: passes an iteration step, 1 … 2^24
   Sampling sampling = Sampling::fibonacci;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of the samplings that are seeded, and of engine rays
+  std::optional<std::uint64_t> rotation = {};  ///< seed of a rotation of all directions, if any
   Engine engine = Engine::fast;
   EngineOptions engine_options = {};
   bool two_way = true;  ///< each pass serves omega and -omega

@@ -15,6 +15,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["directions"] = options.directions;
   json["sampling"] = name_of(options.sampling);
   json["seed"] = options.seed;
+  json["rotation"] = options.rotation ? Json(*options.rotation) : Json();
   json["engine"] = name_of(options.engine);
   json["two_way"] = options.two_way;
   json["normalize"] = options.normalize == Normalization::rows ? "rows" : "none";

@@ -16,6 +16,7 @@
 #include <functional>
 #include <utility>
 
+#include "bit_mixing.h"
 #include "transillum/errors.h"
 #include "transillum/form_factors.h"
 #include "visibility/embree_scene.h"
@@ -33,12 +34,7 @@ constexpr PatchId batch = 64;
 using Sample = std::array<float, 4>;
 
 /// splitmix64
-std::uint64_t random_bits(std::uint64_t& state) {
-  std::uint64_t x = state += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
+std::uint64_t random_bits(std::uint64_t& state) { return mixed(state += golden_step); }
 
 /// Numbers along a curve that keeps neighbours of the square together: the bits of both
 /// coordinates in turn.

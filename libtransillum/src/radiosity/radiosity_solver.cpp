@@ -113,8 +113,9 @@ struct RadiositySolver::Impl {
         sums(scene->patch_count(), how.two_way, how.memory ? how.memory : quarter_of_memory(),
              stop) {
     options.validate();
-    const auto samples = make_directions(options.sampling, options.directions, options.seed);
-    for (const int k : progressive_order(options.directions)) {
+    auto samples = make_directions(options.sampling, options.directions, options.seed);
+    if (options.rotation) samples = rotated(std::move(samples), *options.rotation);
+    for (const int k : progressive_order(options.sampling, options.directions)) {
       directions.push_back(samples[static_cast<std::size_t>(k)].direction);
     }
     threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bit_mixing.h"
 #include "transillum/errors.h"
 #include "transillum/visibility_map.h"
 #include "visibility/embree_scene.h"
@@ -24,13 +25,6 @@ constexpr std::size_t packet_size = 16;
 constexpr double least_cosine = 1e-7;
 /// Hits nearer to each other than this share of the scene's radius may be one seam hit twice.
 constexpr double seam = 1e-5;
-
-/// A bijection of the 64-bit numbers that leaves no pattern (the end of splitmix64).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31);
-}
 
 std::uint64_t bits_of(double x) {
   x += 0.0;  // -0 and 0 are one direction
@@ -80,7 +74,7 @@ class LineGrid {
       const std::int64_t j = gridded_ ? 4 * row + lane / 4 : 0;
       lines.valid[k] = i < columns_ && j < rows_ ? -1 : 0;
       const std::uint64_t number = static_cast<std::uint64_t>(j * columns_ + i);
-      const std::uint64_t random = mixed(key_ + number * 0x9e3779b97f4a7c15U);
+      const std::uint64_t random = mixed(key_ + number * golden_step);
       const double u = (static_cast<double>(random >> 32) + 0.5) * 0x1p-32;
       const double v = (static_cast<double>(random & 0xffffffffU) + 0.5) * 0x1p-32;
       lines.x[k] = low_.x + size_.x * (gridded_ ? (static_cast<double>(i) + u) / columns() : u);

@@ -1,0 +1,154 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "sampling/sequences.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/random/sobol.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "bit_mixing.h"
+#include "sampling/owen_scrambling.h"
+#include "sampling/sphere_map.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+/// A double in [0,1) from the upper 53 bits: the same on every standard library.
+double uniform(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1p-53;
+}
+
+std::uint32_t bit_reversed(std::uint32_t k) {
+  std::uint32_t reversed = 0;
+  for (int bit = 0; bit < 32; ++bit, k >>= 1) reversed = (reversed << 1) | (k & 1u);
+  return reversed;
+}
+
+/// A point given by the first 32 digits of its coordinates, each scrambled by a tree of its own.
+DirectionSample scrambled(std::uint32_t u, std::uint32_t v, std::uint64_t seed) {
+  const auto coordinate = [seed](std::uint32_t digits, std::uint64_t axis) {
+    return (owen_scrambled(digits, mixed(seed + axis * golden_step)) + 0.5) * 0x1p-32;
+  };
+  return sample_at(coordinate(u, 1), coordinate(v, 2));
+}
+
+/// Sobol's points in the plane, from the number `k` on.
+class SobolDigits {
+ public:
+  explicit SobolDigits(std::uint32_t k) : next_(k), points_(2) { skip_to_next(); }
+
+  std::pair<std::uint32_t, std::uint32_t> take() {
+    // Boost leaves out the origin, number 0. Scrambled it is a point like the others, and nets of
+    // 2^m points miss it.
+    std::pair<std::uint32_t, std::uint32_t> digits{0, 0};
+    if (next_ != 0) {
+      digits.first = static_cast<std::uint32_t>(points_() >> 32);
+      digits.second = static_cast<std::uint32_t>(points_() >> 32);
+    }
+    if (++next_ == 0) skip_to_next();
+    return digits;
+  }
+
+ private:
+  void skip_to_next() { points_.seed(next_ > 0 ? next_ - 1 : 0); }
+
+  std::uint32_t next_;
+  boost::random::sobol points_;
+};
+
+DirectionSample hammersley_point(std::uint32_t k, int count) {
+  return sample_at(static_cast<double>(k) / count, radical_inverse(k, 2));
+}
+
+DirectionSample centred_hammersley_point(std::uint32_t k, int count) {
+  return sample_at(radical_inverse(k, 2), (k + 0.5) / count);
+}
+
+DirectionSample scrambled_hammersley_point(std::uint32_t k, int count, std::uint64_t seed) {
+  const std::uint64_t u = (std::uint64_t{k} << 32) / static_cast<std::uint64_t>(count);
+  return scrambled(static_cast<std::uint32_t>(u), bit_reversed(k), seed);
+}
+
+DirectionSample fibonacci_point(std::uint32_t k, int count) {
+  const double turns = k / std::numbers::phi;
+  return sample_at(turns - std::floor(turns), (k + 0.5) / count);
+}
+
+}  // namespace
+
+void check_direction_count(int count) {
+  if (count < 1 || count > max_directions) {
+    throw InputError(
+        fmt::format("{} directions: the number must be from 1 to {}", count, max_directions));
+  }
+}
+
+double radical_inverse(std::uint32_t k, std::uint32_t base) {
+  std::uint64_t mirrored = 0, power = 1;
+  for (; k != 0; k /= base, power *= base) mirrored = mirrored * base + k % base;
+  return static_cast<double>(mirrored) / static_cast<double>(power);
+}
+
+std::vector<DirectionSample> extensible_points(Sampling sampling, std::uint32_t begin, int count,
+                                               std::uint64_t seed) {
+  std::vector<DirectionSample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
+  SobolDigits sobol(begin);
+  std::mt19937_64 generator(seed);
+  if (sampling == Sampling::random) generator.discard(2 * std::uint64_t{begin});
+  for (std::uint32_t k = begin; samples.size() < static_cast<std::size_t>(count); ++k) {
+    if (sampling == Sampling::halton) {
+      samples.push_back(sample_at(radical_inverse(k, 2), radical_inverse(k, 3)));
+    } else if (sampling == Sampling::sobol) {
+      const auto [u, v] = sobol.take();
+      samples.push_back(scrambled(u, v, seed));
+    } else {
+      const double u = uniform(generator);
+      samples.push_back(sample_at(u, uniform(generator)));
+    }
+  }
+  return samples;
+}
+
+std::vector<DirectionSample> make_directions(Sampling sampling, int count, std::uint64_t seed) {
+  check_direction_count(count);
+  if (is_extensible(sampling)) return extensible_points(sampling, 0, count, seed);
+  std::vector<DirectionSample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
+    switch (sampling) {
+      case Sampling::centred_hammersley:
+        samples.push_back(centred_hammersley_point(k, count));
+        break;
+      case Sampling::scrambled_hammersley:
+        samples.push_back(scrambled_hammersley_point(k, count, seed));
+        break;
+      case Sampling::fibonacci:
+        samples.push_back(fibonacci_point(k, count));
+        break;
+      default:
+        samples.push_back(hammersley_point(k, count));
+    }
+  }
+  return samples;
+}
+
+std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int end,
+                                             std::uint64_t seed) {
+  if (!is_extensible(sampling)) {
+    throw InputError(fmt::format("{}: all its points change with their number, so it cannot go on",
+                                 name_of(sampling)));
+  }
+  if (begin < 0 || end < begin || end > max_directions) {
+    throw InputError(
+        fmt::format("directions {} to {}: not within 0 to {}", begin, end, max_directions));
+  }
+  return extensible_points(sampling, static_cast<std::uint32_t>(begin), end - begin, seed);
+}
+
+}  // namespace transillum

@@ -1,0 +1,22 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "transillum/directions.h"
+
+namespace transillum {
+
+/// @throws InputError unless 1 <= count <= max_directions.
+void check_direction_count(int count);
+
+/// The digits of k in `base` mirrored at the point: van der Corput's sequence, in [0,1).
+double radical_inverse(std::uint32_t k, std::uint32_t base);
+
+/// Points `begin` … `begin + count - 1` of an extensible sequence; their numbers go on from 0 after
+/// 2^32 - 1.
+std::vector<DirectionSample> extensible_points(Sampling sampling, std::uint32_t begin, int count,
+                                               std::uint64_t seed);
+
+}  // namespace transillum
