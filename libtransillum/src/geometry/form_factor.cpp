@@ -13,20 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Vec3 middle_of(Outline polygon) {
-  Vec3 sum;
-  for (const Vec3& corner : polygon) sum = sum + (corner - polygon[0]);
-  return polygon[0] + sum / static_cast<double>(polygon.size());
-}
-
-double radius_about(const Vec3& center, Outline polygon) {
-  double radius = 0;
-  for (const Vec3& corner : polygon) radius = std::max(radius, norm(corner - center));
-  return radius;
-}
-
 /// No point of the polygon is nearer to x.
-double distance_bound(const Vec3& x, Outline polygon) {
+double distance_bound(const Vec3& x, Outline polygon, const HalfSpace& before) {
   Bounds box;
   for (const Vec3& corner : polygon) box.add(corner);
   const auto outside = [](double low, double at, double high) {
@@ -34,7 +22,7 @@ double distance_bound(const Vec3& x, Outline polygon) {
   };
   const Vec3 gap{outside(box.low.x, x.x, box.high.x), outside(box.low.y, x.y, box.high.y),
                  outside(box.low.z, x.z, box.high.z)};
-  return std::max(norm(gap), std::abs(lit_half_space(polygon).distance(x)));
+  return std::max(norm(gap), std::abs(before.distance(x)));
 }
 
 /// Sums a function of the unit interval by Gauss' rule: visit(abscissa, weight).
@@ -48,9 +36,19 @@ void for_gauss_points(Visit&& visit) {
   }
 }
 
+/// What rounding of the coordinates may do to distances.
+double rounding_of(Outline p, Outline q) {
+  double largest = 0;
+  for (const Outline polygon : {p, q}) {
+    for (const Vec3& corner : polygon) {
+      largest = std::max({largest, max_abs(corner), max_abs(corner - p[0])});
+    }
+  }
+  return 1e-14 * largest;
+}
+
 /// The point form factor integrated over the small polygon p, by triangles about its first corner.
-double exchange_of_small(Outline p, Outline q) {
-  const Vec3 normal = lit_half_space(p).normal;
+double exchange_of_small(Outline p, const Vec3& normal, Outline q) {
   double sum = 0;
   for (std::size_t k = 1; k + 1 < p.size(); ++k) {
     const Vec3 a = p[k] - p[0], b = p[k + 1] - p[0];
@@ -78,6 +76,18 @@ double exchange_by_edges(Outline p, Outline q) {
 }
 
 }  // namespace
+
+Vec3 middle_of(Outline polygon) {
+  Vec3 sum;
+  for (const Vec3& corner : polygon) sum = sum + (corner - polygon[0]);
+  return polygon[0] + sum / static_cast<double>(polygon.size());
+}
+
+double radius_about(const Vec3& center, Outline polygon) {
+  double radius = 0;
+  for (const Vec3& corner : polygon) radius = std::max(radius, norm(corner - center));
+  return radius;
+}
 
 Vec3 area_vector(Outline polygon) {
   Vec3 twice;
@@ -131,22 +141,31 @@ double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon) {
   return std::max(0.0, sum / (2 * pi));
 }
 
-double polygon_exchange(Outline p, Outline q) {
-  constexpr double rounding = 1e-14, small = 1.0 / 25;
-  const HalfSpace before_p = lit_half_space(p), before_q = lit_half_space(q);
-  const Vec3 middle = middle_of(p);
-  const double size = radius_about(middle, p) + radius_about(middle, q);
-  const Corners facing_p = clipped(p, before_q, rounding * size);
-  const Corners facing_q = clipped(q, before_p, rounding * size);
-  if (facing_p.empty() || facing_q.empty()) return 0;
+FacingPolygons::FacingPolygons(Outline whole_p, Outline whole_q)
+    : FacingPolygons(whole_p, whole_q, rounding_of(whole_p, whole_q)) {}
 
-  const auto looks_small = [&](Outline a, Outline b) {
-    const Vec3 center = middle_of(a);
-    return radius_about(center, a) <= small * distance_bound(center, b);
+FacingPolygons::FacingPolygons(Outline whole_p, Outline whole_q, double tolerance)
+    : before_p(lit_half_space(whole_p)), before_q(lit_half_space(whole_q)) {
+  const auto reaches_before = [tolerance](Outline polygon, const HalfSpace& space) {
+    return std::any_of(polygon.begin(), polygon.end(),
+                       [&](const Vec3& x) { return space.distance(x) > tolerance; });
   };
-  if (looks_small(facing_p, facing_q)) return exchange_of_small(facing_p, facing_q);
-  if (looks_small(facing_q, facing_p)) return exchange_of_small(facing_q, facing_p);
-  return std::max(0.0, exchange_by_edges(facing_p, facing_q));
+  if (!reaches_before(whole_p, before_q) || !reaches_before(whole_q, before_p)) return;
+  p = clipped(whole_p, before_q, tolerance);
+  q = clipped(whole_q, before_p, tolerance);
+}
+
+double polygon_exchange(const FacingPolygons& facing) {
+  constexpr double small = 1.0 / 25;
+  if (facing.empty()) return 0;
+  const auto looks_small = [](Outline a, Outline b, const HalfSpace& before_b) {
+    const Vec3 center = middle_of(a);
+    return radius_about(center, a) <= small * distance_bound(center, b, before_b);
+  };
+  const auto& [before_p, before_q, p, q] = facing;
+  if (looks_small(p, q, before_q)) return exchange_of_small(p, before_p.normal, q);
+  if (looks_small(q, p, before_p)) return exchange_of_small(q, before_q.normal, p);
+  return std::max(0.0, exchange_by_edges(p, q));
 }
 
 }  // namespace transillum

@@ -1,0 +1,101 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/first_shot.h"
+
+#include <gmock/gmock.h>
+
+#include "support/scenes.h"
+
+namespace transillum {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using testing::Sketch;
+
+double power_received(const Scene& scene, const DirectLight& light) {
+  double power = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    power += scene.patch(i).area * light.irradiance[static_cast<std::size_t>(i)].g;
+  }
+  return power;
+}
+
+double power_sent(const Scene& scene, const DirectLight& light) {
+  double power = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    power += scene.patch(i).area * light.exitance[static_cast<std::size_t>(i)].g;
+  }
+  return power;
+}
+
+TEST(SmallSources, AreWhatHangsTogetherAndIsSmallAndBright) {
+  EXPECT_THAT(find_small_sources(*load_scene("stars")), SizeIs(12 * 8));
+  EXPECT_THAT(find_small_sources(*load_scene("cornell-box")), IsEmpty());
+  EXPECT_THAT(find_small_sources(*load_scene("cornell-box"), 0), SizeIs(1));
+  // Cut into many small patches it is as large a light as before.
+  EXPECT_THAT(find_small_sources(*load_scene("cornell-box", {.max_patch_area = 1e-4})), IsEmpty());
+  EXPECT_THAT(find_small_sources(*load_scene("furnace")), IsEmpty());
+
+  Sketch sketch;
+  const int wall = sketch.material(0.5, 0), lamp = sketch.material(0.5, 100),
+            ember = sketch.material(0.5, 1e-6);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, wall);
+  sketch.face({{.5, .5, .9}, {.5, .51, .9}, {.51, .51, .9}, {.51, .5, .9}}, lamp);
+  sketch.face({{.2, .2, .1}, {.2, .21, .1}, {.21, .21, .1}, {.21, .2, .1}}, ember);
+  EXPECT_THAT(find_small_sources(*sketch.scene()), ElementsAre(6));
+  EXPECT_THAT(find_small_sources(*sketch.scene(), 29'000), ElementsAre(6)) << "R²/A is 30,000";
+  EXPECT_THAT(find_small_sources(*sketch.scene(), 31'000), IsEmpty());
+}
+
+/// In closed scenes all that is sent arrives.
+TEST(Shoot, KeepsThePower) {
+  for (const auto& [spec, accuracy] :
+       {std::pair{"stars", 1e-5}, {"cornell-box", 1e-4}, {"furnace", 1e-4}}) {
+    const auto scene = load_scene(spec);
+    const DirectLight light = shoot(*scene, find_small_sources(*scene, 0));
+    EXPECT_DOUBLE_EQ(light.power_share, 1);
+    EXPECT_GT(power_sent(*scene, light), 0);
+    EXPECT_NEAR(power_received(*scene, light) / power_sent(*scene, light), 1, accuracy) << spec;
+  }
+}
+
+TEST(Shoot, GivesTheFormulasIrradiance) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0), light = sketch.material(0.5, 7);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, light);
+  sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, light);
+  const DirectLight shot = shoot(*sketch.scene(), {1});
+  EXPECT_NEAR(shot.irradiance[0].g, 7 * 0.1998248957, 1e-9);
+  EXPECT_EQ(shot.irradiance[1], Rgb{}) << "a patch does not see itself";
+  EXPECT_NEAR(shot.irradiance[2].g, 7 * 0.2000437761, 1e-9);
+  EXPECT_EQ(shot.exitance[1], (Rgb{7, 7, 7}));
+  EXPECT_EQ(shot.exitance[2], Rgb{}) << "not shot";
+  EXPECT_DOUBLE_EQ(shot.power_share, 0.5);
+}
+
+TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
+  const auto scene = load_scene("stars:n=3");
+  const auto sources = find_small_sources(*scene);
+  const DirectLight one = shoot(*scene, sources, 1);
+  for (const int threads : {2, 5}) {
+    EXPECT_TRUE(shoot(*scene, sources, threads).irradiance == one.irradiance);
+  }
+}
+
+TEST(Shoot, StopsAndTellsHowFarItIs) {
+  const auto scene = load_scene("stars");
+  Cancellation cancellation;
+  std::vector<double> heard;
+  shoot(*scene, find_small_sources(*scene), 1, cancellation,
+        [&](double share) { heard.push_back(share); });
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_EQ(heard.back(), 1);
+  cancellation.cancel();
+  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), 0, cancellation), Cancelled);
+  EXPECT_THAT(shoot(*scene, {}).irradiance, SizeIs(scene->patches().size()));
+}
+
+}  // namespace
+}  // namespace transillum

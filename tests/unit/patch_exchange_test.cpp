@@ -1,0 +1,168 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/patch_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scenes.h"
+#include "transillum/form_factors.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+
+std::vector<Vec3> level_square(double z, bool up) {
+  if (up) return {{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}};
+  return {{0, 0, z}, {0, 1, z}, {1, 1, z}, {1, 0, z}};
+}
+
+constexpr double parallel_unit_squares = 0.1998248957;  // at distance 1
+
+TEST(PatchExchange, InAConvexRoomAllIsSeenWhole) {
+  Sketch sketch;
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.5, 1));
+  const auto scene = sketch.scene({.max_patch_area = 0.08});
+  const ExchangeFinder exchange(*scene);
+  for (PatchId i = 0; i < scene->patch_count(); i += 7) {
+    double sum = 0;
+    for (PatchId j = 0; j < scene->patch_count(); ++j) {
+      const PatchExchange e = exchange(i, j);
+      EXPECT_TRUE(e.whole);
+      sum += e.area;
+    }
+    EXPECT_NEAR(sum / scene->patch(i).area, 1, 1e-12);
+  }
+}
+
+TEST(PatchExchange, WhatTouchesTheShaftDoesNotBlock) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0);
+  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  // Beside, beneath, behind; with an edge or a corner in common.
+  sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, grey);
+  sketch.face({{1, 1, 1}, {2, 1, 0.5}, {1, 2, 0.5}}, grey);
+  sketch.face({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, grey);
+  sketch.face(level_square(1.5, false), grey);
+  const auto scene = sketch.scene({.two_sided = true});
+  const PatchExchange e = ExchangeFinder(*scene)(0, 2);
+  EXPECT_TRUE(e.whole);
+  EXPECT_NEAR(e.area, parallel_unit_squares, 1e-10);
+}
+
+TEST(PatchExchange, AHiddenPatchGivesNothing) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0);
+  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  // Two halves that share an edge; one looks up and one down.
+  sketch.face({{-9, -9, .5}, {9, -9, .5}, {9, .3, .5}, {-9, .3, .5}}, grey);
+  sketch.face({{-9, 9, .5}, {9, 9, .5}, {9, .3, .5}, {-9, .3, .5}}, grey);
+  const PatchExchange e = ExchangeFinder(*sketch.scene())(0, 1);
+  EXPECT_FALSE(e.whole);
+  EXPECT_NEAR(e.area, 0, 1e-14);
+}
+
+/// A partition parts floor and ceiling, so that halves see halves. The points are dealt out without
+/// regard to where it stands.
+TEST(PatchExchange, BehindAPartitionConverges) {
+  Sketch parted;
+  const int grey = parted.material(0.5, 0);
+  parted.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  parted.face({{.3, 0, 0}, {.3, 1, 0}, {.3, 1, 1}, {.3, 0, 1}}, grey);
+  double exact = 0;
+  for (const auto& [x0, x1] : {std::pair{0.0, 0.3}, {0.3, 1.0}}) {
+    const std::vector<Vec3> floor{{x0, 0, 0}, {x1, 0, 0}, {x1, 1, 0}, {x0, 1, 0}};
+    const std::vector<Vec3> ceiling{{x0, 0, 1}, {x0, 1, 1}, {x1, 1, 1}, {x1, 0, 1}};
+    exact += polygon_exchange(floor, ceiling);
+  }
+  const auto scene = parted.scene();
+  // Measured: 2.3e-3, 5.7e-4, 2.1e-4.
+  for (const auto& [density, accuracy] : {std::pair{4.0, 4e-3}, {16.0, 1e-3}, {40.0, 4e-4}}) {
+    const PatchExchange e = ExchangeFinder(*scene, {}, density)(0, 1);
+    EXPECT_FALSE(e.whole);
+    EXPECT_NEAR(e.area, exact, accuracy) << density;
+  }
+}
+
+/// A plate floats in a room. What the floor does not see of the ceiling, it sees of the plate.
+TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistance) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, grey);
+  sketch.face({{.3, .2, .5}, {.7, .3, .4}, {.6, .8, .55}, {.25, .6, .6}}, grey);
+  const auto scene = sketch.scene({.two_sided = true});
+  double last = 1e-2;
+  for (const double density : {2.0, 8.0, 32.0}) {
+    const ExchangeFinder exchange(*scene, {}, density);
+    double error = 0;
+    for (PatchId i = 0; i < scene->patch_count(); i += 2) {
+      double sum = 0;
+      for (PatchId j = 0; j < scene->patch_count(); ++j) sum += exchange(i, j).area;
+      error = std::max(error, std::abs(sum / scene->patch(i).area - 1));
+    }
+    EXPECT_LT(error, last) << density;
+    last = error / 8;
+  }
+}
+
+/// A lamp that lies in its ceiling, the same way up, covers it.
+TEST(PatchExchange, OfCoincidentPatchesTheBrighterIsSeen) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0), light = sketch.material(0.5, 9);
+  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  sketch.face({{.5, 0, 1}, {.5, 1, 1}, {1, 1, 1}, {1, 0, 1}}, light);
+  const ExchangeFinder exchange(*sketch.scene());
+  EXPECT_NEAR(exchange(0, 1).area, parallel_unit_squares / 2, 1e-10);
+  EXPECT_NEAR(exchange(0, 2).area, parallel_unit_squares / 2, 1e-10);
+  EXPECT_TRUE(exchange(0, 1).whole);
+}
+
+/// Whatever sticks in whatever: against rays.
+TEST(PatchExchange, AgreesWithRays) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.triangles(12, 0.8, seed, grey);
+    sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {.5, 1, 0}, {.5, .5, 0}, {0, .5, 0}}, grey);
+    const auto scene = sketch.scene({.two_sided = true});
+    constexpr int rays = 1 << 16;
+    const FormFactors gathered = gather_form_factors(*scene, {.rays_per_patch = rays});
+    const ExchangeFinder exchange(*scene);
+    int partial = 0;
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      std::vector<double> row(static_cast<std::size_t>(scene->patch_count()));
+      const auto begin = gathered.row_begin[static_cast<std::size_t>(i)];
+      const auto end = gathered.row_begin[static_cast<std::size_t>(i) + 1];
+      for (std::size_t k = begin; k < end; ++k) {
+        row[static_cast<std::size_t>(gathered.source[k])] = gathered.value[k];
+      }
+      for (PatchId j = 0; j < scene->patch_count(); ++j) {
+        const PatchExchange e = exchange(i, j);
+        const double f = e.area / scene->patch(i).area;
+        // Four deviations of a count, and the quadrature's error where a blocker stands close.
+        const double deviation = std::sqrt(f * (1 - std::min(f, 1.0)) / rays) + 1.0 / rays;
+        EXPECT_NEAR(row[static_cast<std::size_t>(j)], f, 4 * deviation + (e.whole ? 0 : 2e-3))
+            << seed << ": " << i << " " << j;
+        partial += !e.whole && e.area > 0;
+      }
+    }
+    EXPECT_GT(partial, 20);
+  }
+}
+
+TEST(PatchExchange, RowsOfClosedScenesSumToOne) {
+  for (const auto& [spec, accuracy] :
+       {std::pair{"cornell-box", 1e-3}, {"furnace", 1e-3}, {"stars:n=2", 1e-3}}) {
+    const auto scene = load_scene(spec);
+    const ExchangeFinder exchange(*scene);
+    for (PatchId i = 0; i < scene->patch_count(); i += 3) {
+      double sum = 0;
+      for (PatchId j = 0; j < scene->patch_count(); ++j) sum += exchange(i, j).area;
+      EXPECT_NEAR(sum / scene->patch(i).area, 1, accuracy) << spec << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace transillum
