@@ -8,43 +8,40 @@
 #include <QElapsedTimer>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QHBoxLayout>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
 #include <QScrollArea>
 #include <QSettings>
-#include <QStackedWidget>
 #include <QStatusBar>
 #include <QStyle>
 #include <QToolBar>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
 #include "banner.h"
-#include "color_bar.h"
 #include "color_controls.h"
 #include "convergence_view.h"
 #include "help_dialogs.h"
-#include "map_canvas.h"
 #include "map_view.h"
 #include "number_text.h"
 #include "patch_inspector.h"
 #include "progress_line.h"
+#include "scene_page.h"
 #include "scene_view.h"
 #include "settings_panel.h"
 #include "solve_actions.h"
 #include "solve_summary.h"
+#include "step_actions.h"
 #include "theme.h"
-#include "welcome_page.h"
+#include "timeline_bar.h"
 
 namespace transillum::viewer {
 
 namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 1;
+constexpr int layout_version = 2;
 
 constexpr PatchId few_patches = 64;
 
@@ -70,9 +67,12 @@ QScrollArea* scrollable(QWidget* content) {
 MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), remember_(remember) {
   setWindowTitle(tr("transillum"));
   setAcceptDrops(true);
+  setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
   actions_ = new SolveActions(this);
-  setCentralWidget(make_center());
+  step_actions_ = new StepActions(focus_, selection_, this);
+  make_center();
   make_docks();
   make_menus();
   progress_ = new ProgressLine;
@@ -84,42 +84,12 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
 
 MainWindow::~MainWindow() = default;
 
-QWidget* MainWindow::make_center() {
-  banner_ = new Banner;
-  color_controls_ = new ColorControls(colors_);
-  scene_view_ = new SceneView(selection_, colors_);
-  scene_view_->setObjectName("scene_view");
-  auto* welcome = new WelcomePage;
-  connect(welcome, &WelcomePage::open_clicked, this, &MainWindow::choose_file);
-  connect(welcome, &WelcomePage::built_in_clicked, this,
-          [this](const QString& name) { open(name); });
-  connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
-          &SceneView::set_direction_shown);
-  connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
-          &SceneView::set_outlines_shown);
-  connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
-
-  auto* scene_page = new QWidget;
-  auto* with_bar = new QHBoxLayout;
-  with_bar->setSpacing(0);
-  with_bar->addWidget(scene_view_, 1);
-  with_bar->addWidget(new ColorBar(colors_));
-  auto* scene_layout = new QVBoxLayout(scene_page);
-  scene_layout->setContentsMargins(0, 0, 0, 0);
-  scene_layout->setSpacing(0);
-  scene_layout->addWidget(color_controls_);
-  scene_layout->addLayout(with_bar, 1);
-  pages_ = new QStackedWidget;
-  pages_->addWidget(welcome);
-  pages_->addWidget(scene_page);
-
-  auto* center = new QWidget;
-  auto* layout = new QVBoxLayout(center);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(banner_);
-  layout->addWidget(pages_, 1);
-  return center;
+void MainWindow::make_center() {
+  page_ = new ScenePage(selection_, colors_);
+  scene_view_ = page_->scene_view();
+  connect(page_, &ScenePage::open_clicked, this, &MainWindow::choose_file);
+  connect(page_, &ScenePage::built_in_clicked, this, [this](const QString& name) { open(name); });
+  setCentralWidget(page_);
 }
 
 QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidget* content) {
@@ -130,11 +100,12 @@ QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidge
 }
 
 QList<QDockWidget*> MainWindow::docks() const {
-  return {settings_dock_, inspector_dock_, summary_dock_, map_dock_, convergence_dock_};
+  return {settings_dock_, inspector_dock_,   summary_dock_,
+          map_dock_,      convergence_dock_, timeline_dock_};
 }
 
 void MainWindow::make_docks() {
-  map_view_ = new MapView(selection_, colors_);
+  map_view_ = new MapView(focus_, selection_, colors_);
   convergence_view_ = new ConvergenceView;
   inspector_ = new PatchInspector(selection_, colors_);
   settings_ = new SettingsPanel;
@@ -144,8 +115,12 @@ void MainWindow::make_docks() {
   inspector_dock_ = add_dock(tr("Patch"), "inspector_dock", scrollable(inspector_));
   map_dock_ = add_dock(tr("Visibility map"), "map_dock", map_view_);
   convergence_dock_ = add_dock(tr("Convergence"), "convergence_dock", convergence_view_);
+  timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
+  timeline_dock_ = add_dock(tr("Timeline"), "timeline_dock", timeline_);
+  timeline_dock_->setTitleBarWidget(new QWidget);  // no room for one on a projector
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
-  connect(map_dock_, &QDockWidget::visibilityChanged, this, &MainWindow::request_map);
+  connect(map_dock_, &QDockWidget::visibilityChanged, this,
+          [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
 }
 
 void MainWindow::make_menus() {
@@ -161,12 +136,14 @@ void MainWindow::make_menus() {
 
   actions_->add_to(*menuBar()->addMenu(tr("&Solve")));
 
+  step_actions_->add_to(*menuBar()->addMenu(tr("S&tep")));
+
   QMenu* view = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : docks()) view->addAction(dock->toggleViewAction());
   view->addSeparator();
   view->addAction(tr("Reset view"), scene_view_, &SceneView::reset_view,
                   QKeySequence(Qt::Key_Home));
-  view->addAction(tr("Show or hide the direction"), color_controls_,
+  view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
   view->addAction(
       tr("Select nothing"), this, [this] { selection_.select(no_patch); },
@@ -207,8 +184,7 @@ void MainWindow::connect_session() {
     show_failure(message);
     emit failed(message, bad_input);
   });
-  connect(&map_recorder_, &MapRecorder::recorded, map_view_, &MapView::show_map);
-  connect(&map_recorder_, &MapRecorder::failed, this, &MainWindow::show_failure);
+  connect(&focus_feed_, &FocusFeed::failed, this, &MainWindow::show_failure);
 
   connect(actions_, &SolveActions::run, this, &MainWindow::run);
   connect(actions_, &SolveActions::pause, &session_, &SolverSession::pause);
@@ -227,6 +203,7 @@ void MainWindow::reset_layout() {
   addDockWidget(Qt::LeftDockWidgetArea, summary_dock_);
   addDockWidget(Qt::RightDockWidgetArea, map_dock_);
   addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
+  addDockWidget(Qt::BottomDockWidgetArea, timeline_dock_);
   for (QDockWidget* dock : docks()) dock->show();
   resizeDocks({settings_dock_, map_dock_}, {290, 410}, Qt::Horizontal);
   resizeDocks({settings_dock_, inspector_dock_, summary_dock_}, {385, 290, 225}, Qt::Vertical);
@@ -252,7 +229,7 @@ void MainWindow::set_options(const SolveOptions& solve, const SceneOptions& scen
 }
 
 void MainWindow::open(const QString& spec, Goal then) {
-  banner_->dismiss();
+  page_->banner()->dismiss();
   asked_spec_ = spec.toStdString();
   asked_scene_options_ = settings_->scene_options();
   session_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
@@ -278,7 +255,7 @@ void MainWindow::run() {
 
 void MainWindow::solve_anew() {
   if (!loaded_) return;
-  banner_->dismiss();
+  page_->banner()->dismiss();
   const SceneOptions scene = settings_->scene_options();
   const bool same_scene = scene.two_sided == scene_options_.two_sided &&
                           scene.max_patch_area == scene_options_.max_patch_area;
@@ -294,12 +271,12 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   spec_ = asked_spec_;
   scene_options_ = asked_scene_options_;
   selection_.select(no_patch);
-  map_recorder_.clear();
+  focus_feed_.clear();
   map_view_->clear();
-  pages_->setCurrentIndex(1);
+  page_->show_scene();
   scene_view_->show_scene(loaded_);
   // Few large patches of like brightness run into one another without outlines.
-  color_controls_->set_outlines(loaded_->scene->patch_count() <= few_patches);
+  page_->color_controls()->set_outlines(loaded_->scene->patch_count() <= few_patches);
   progress_->show_scene(*loaded_);
   const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
   setWindowTitle(tr("%1 – transillum").arg(name));
@@ -308,13 +285,14 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   for (const std::string& warning : loaded_->scene->report().warnings)
     warnings << QString::fromStdString(warning);
   if (warnings.isEmpty())
-    banner_->dismiss();
+    page_->banner()->dismiss();
   else
-    banner_->say(Banner::Kind::warning,
-                 warnings.size() == 1
-                     ? warnings.front()
-                     : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1),
-                 warnings.join('\n'));
+    page_->banner()->say(
+        Banner::Kind::warning,
+        warnings.size() == 1
+            ? warnings.front()
+            : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1),
+        warnings.join('\n'));
 }
 
 void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -331,7 +309,8 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
   actions_->show_state(session_.state(), at_start());
-  request_map();
+  timeline_->show_snapshot(*snapshot_);
+  focus_feed_.show_snapshot(snapshot_);
   // A large scene is refreshed less often, so that the window has time for its user.
   session_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
 }
@@ -343,34 +322,17 @@ void MainWindow::show_state(SessionState state) {
   settings_->set_restart_enabled(loaded_ && state != SessionState::loading);
 }
 
-void MainWindow::request_map() {
-  if (!snapshot_ || map_dock_->isHidden()) return;
-  const SolveProgress& progress = snapshot_->progress;
-  if (norm(progress.last_direction) < 0.5) {
-    map_recorder_.clear();
-    map_view_->clear();
-    map_view_->show_snapshot(snapshot_);
-    return;
-  }
-  const auto shown = map_view_->map();
-  const bool same = shown && shown->loaded == loaded_ && shown->omega == progress.last_direction &&
-                    !map_recorder_.busy();
-  if (same) return;
-  const int direction = progress.direction > 0 ? progress.direction : progress.passes;
-  map_recorder_.request({loaded_, progress.last_direction, direction, progress.passes});
-}
-
 bool MainWindow::settled() const {
   const bool resting =
       session_.state() == SessionState::paused || session_.state() == SessionState::finished;
-  return resting && snapshot_ && !map_recorder_.busy() &&
+  return resting && snapshot_ && focus_.arrived() &&
          (map_dock_->isHidden() || map_view_->up_to_date());
 }
 
-QString MainWindow::banner_text() const { return banner_->text(); }
+QString MainWindow::banner_text() const { return page_->banner()->text(); }
 
 void MainWindow::show_failure(const QString& message) {
-  banner_->say(Banner::Kind::error, message);
+  page_->banner()->say(Banner::Kind::error, message);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

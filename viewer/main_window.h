@@ -6,26 +6,27 @@
 #include <string>
 
 #include "color_choice.h"
-#include "map_recorder.h"
+#include "focus.h"
+#include "focus_feed.h"
 #include "selection.h"
 #include "solver_session.h"
 
 class QDockWidget;
 class QMenu;
-class QStackedWidget;
 
 namespace transillum::viewer {
 
-class Banner;
-class ColorControls;
 class ConvergenceView;
 class MapView;
 class PatchInspector;
 class ProgressLine;
+class ScenePage;
 class SceneView;
 class SettingsPanel;
 class SolveActions;
 class SolveSummary;
+class StepActions;
+class TimelineBar;
 
 /// The one window: lays out the views and carries snapshots to them.
 class MainWindow : public QMainWindow {
@@ -42,6 +43,7 @@ class MainWindow : public QMainWindow {
   /// Whether the worker rests and every view shows the newest there is.
   bool settled() const;
   SolverSession& session() { return session_; }
+  Focus& focus() { return focus_; }
   Selection& selection() { return selection_; }
   ColorChoice& colors() { return colors_; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
@@ -56,7 +58,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent* event) override;
 
  private:
-  QWidget* make_center();
+  void make_center();
   void make_docks();
   QList<QDockWidget*> docks() const;
   void make_menus();
@@ -71,7 +73,6 @@ class MainWindow : public QMainWindow {
   void show_loaded(std::shared_ptr<const LoadedScene> loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void show_state(SessionState state);
-  void request_map();
   void show_failure(const QString& message);
   bool at_start() const;
 
@@ -79,16 +80,16 @@ class MainWindow : public QMainWindow {
   Selection selection_;
   ColorChoice colors_;
   SolverSession session_;
-  MapRecorder map_recorder_;
+  Focus focus_;
+  FocusFeed focus_feed_{focus_};
   std::string asked_spec_, spec_;  // the scene asked for last, and the open one
   SceneOptions asked_scene_options_, scene_options_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
 
   SolveActions* actions_;
-  Banner* banner_;
-  QStackedWidget* pages_;
-  ColorControls* color_controls_;
+  StepActions* step_actions_;
+  ScenePage* page_;
   SceneView* scene_view_;
   MapView* map_view_;
   ConvergenceView* convergence_view_;
@@ -96,7 +97,9 @@ class MainWindow : public QMainWindow {
   SettingsPanel* settings_;
   SolveSummary* summary_;
   ProgressLine* progress_;
-  QDockWidget *settings_dock_, *inspector_dock_, *summary_dock_, *map_dock_, *convergence_dock_;
+  TimelineBar* timeline_;
+  QDockWidget *settings_dock_, *inspector_dock_, *summary_dock_, *map_dock_, *convergence_dock_,
+      *timeline_dock_;
 };
 
 }  // namespace transillum::viewer

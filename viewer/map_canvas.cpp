@@ -15,9 +15,15 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+constexpr double smallest_zoom = 0.5, largest_zoom = 500;
+
+}  // namespace
+
 MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
     : QWidget(parent), selection_(selection) {
-  setMinimumSize(200, 160);
+  setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setToolTip(tr("Drag to move, wheel to enlarge, double click to see all, click to select"));
@@ -27,16 +33,13 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
 
 MapCanvas::~MapCanvas() { painter_pool_.waitForDone(); }
 
-void MapCanvas::show_map(std::shared_ptr<const RecordedMap> map, std::int32_t step,
-                         std::shared_ptr<const std::vector<Color8>> patch_colors) {
-  map_ = std::move(map);
-  step_ = step;
-  patch_colors_ = std::move(patch_colors);
+void MapCanvas::show_map(Content content) {
+  content_ = std::move(content);
   repaint_map();
 }
 
 void MapCanvas::clear() {
-  map_ = nullptr;
+  content_ = {};
   picture_ = nullptr;
   stale_ = false;
   zoom_ = 1;
@@ -50,8 +53,23 @@ void MapCanvas::fit() {
   repaint_map();
 }
 
+void MapCanvas::fit_step() {
+  if (!content_.map) return;
+  const QRectF bounds = step_bounds(*content_.map, content_.step);
+  if (bounds.isNull()) return;
+  const MapTransform fitted = fit_map(*content_.map, size());
+  const double room = 0.6 * std::min(width(), height());
+  const double extent = std::max({bounds.width(), bounds.height(), 1e-12});
+  zoom_ = std::clamp(room / extent / fitted.scale, smallest_zoom, largest_zoom);
+  MapTransform near = fitted;
+  near.scale *= zoom_;
+  const QPointF middle = near.to_pixels({bounds.center().x(), bounds.center().y()});
+  pan_ = fitted.middle - middle;
+  repaint_map();
+}
+
 MapTransform MapCanvas::transform() const {
-  MapTransform result = fit_map(*map_, size());
+  MapTransform result = fit_map(*content_.map, size());
   result.scale *= zoom_;
   result.middle += pan_;
   return result;
@@ -59,15 +77,16 @@ MapTransform MapCanvas::transform() const {
 
 void MapCanvas::repaint_map() {
   update();
-  if (!map_) return;
+  if (!content_.map) return;
   if (painting_) {
     stale_ = true;  // newest wins: painted when the one under way is done
     return;
   }
   painting_ = true;
   stale_ = false;
-  const MapPictureRequest request{map_,        step_,  patch_colors_,
-                                  transform(), size(), devicePixelRatioF()};
+  const MapPictureRequest request{content_.map,        content_.step,   content_.phase,
+                                  content_.step_shown, content_.labels, content_.patch_colors,
+                                  transform(),         size(),          devicePixelRatioF()};
   painter_pool_.start([this, request] {
     give_way_to_the_window();
     auto picture = std::make_shared<const MapPicture>(paint_map(request));
@@ -78,7 +97,7 @@ void MapCanvas::repaint_map() {
 
 void MapCanvas::take(std::shared_ptr<const MapPicture> picture) {
   painting_ = false;
-  if (!map_) return;
+  if (!content_.map) return;
   picture_ = std::move(picture);
   update();
   if (stale_) repaint_map();
@@ -87,7 +106,7 @@ void MapCanvas::take(std::shared_ptr<const MapPicture> picture) {
 
 PatchId MapCanvas::patch_at(const QPointF& position) const {
   if (!picture_) return no_patch;
-  const MapRecord& record = picture_->request.map->record;
+  const MapRecord& record = picture_->request.map->record();
   const std::int32_t row =
       row_at(record, picture_->rows, picture_->request.transform.to_metres(position));
   return row == MapRecord::no_row ? no_patch : record.rows[static_cast<std::size_t>(row)].patch;
@@ -96,7 +115,7 @@ PatchId MapCanvas::patch_at(const QPointF& position) const {
 void MapCanvas::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
-  if (!picture_ || !map_) {
+  if (!picture_ || !content_.map) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
                      tr("The visibility map appears with the first direction"));
@@ -104,7 +123,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   // The picture may be of an older view: put its middle and scale where they are now.
   const MapTransform& painted = picture_->request.transform;
-  const MapTransform now = picture_->request.map == map_ ? transform() : painted;
+  const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
   const double share = now.scale / painted.scale;
   painter.setRenderHint(QPainter::SmoothPixmapTransform, share != 1);
   const QPointF corner = now.middle - share * painted.middle;
@@ -119,7 +138,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
   const PatchId patch = selection_.patch();
   if (patch == no_patch) return;
-  const MapRecord& record = picture_->request.map->record;
+  const MapRecord& record = picture_->request.map->record();
   std::vector<QPolygonF> fragments;
   for (const std::int32_t number : picture_->rows) {
     const MapRecord::Row& row = record.rows[static_cast<std::size_t>(number)];
@@ -179,11 +198,11 @@ void MapCanvas::resizeEvent(QResizeEvent* event) {
 }
 
 void MapCanvas::wheelEvent(QWheelEvent* event) {
-  if (!map_) return;
+  if (!content_.map) return;
   const double factor = std::pow(1.0015, event->angleDelta().y());
-  const double zoom = std::clamp(zoom_ * factor, 0.5, 500.0);
+  const double zoom = std::clamp(zoom_ * factor, smallest_zoom, largest_zoom);
   // The point under the pointer stays where it is.
-  const QPointF fitted_middle = fit_map(*map_, size()).middle;
+  const QPointF fitted_middle = fit_map(*content_.map, size()).middle;
   const QPointF arm = event->position() - fitted_middle - pan_;
   pan_ += arm * (1 - zoom / zoom_);
   zoom_ = zoom;
@@ -198,7 +217,7 @@ void MapCanvas::mousePressEvent(QMouseEvent* event) {
 }
 
 void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
-  if (!(event->buttons() & Qt::LeftButton) || !map_) return;
+  if (!(event->buttons() & Qt::LeftButton) || !content_.map) return;
   const QPointF position = event->pos();
   const double way = (position - press_position_).manhattanLength();
   if (!dragging_ && way < QApplication::startDragDistance()) return;

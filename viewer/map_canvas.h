@@ -23,10 +23,20 @@ class MapCanvas : public QWidget {
   explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
   ~MapCanvas() override;
 
-  void show_map(std::shared_ptr<const RecordedMap> map, std::int32_t step,
-                std::shared_ptr<const std::vector<Color8>> patch_colors);
+  /// What of a map is to be drawn; the canvas knows where.
+  struct Content {
+    std::shared_ptr<const RecordedMap> map;
+    std::int32_t step = 0;
+    Phase phase = Phase::after;
+    bool step_shown = false;
+    bool labels = false;
+    std::shared_ptr<const std::vector<Color8>> patch_colors;
+  };
+  void show_map(Content content);
   void clear();
   void fit();
+  /// Brings the step's polygon and what it cuts near.
+  void fit_step();
   /// Whether the picture on the screen is the one that was asked for.
   bool up_to_date() const { return !painting_ && !stale_; }
   /// The patch drawn at a point, in logical pixels; no_patch for none.
@@ -57,9 +67,7 @@ class MapCanvas : public QWidget {
   void draw_legend(QPainter& painter) const;
 
   Selection& selection_;
-  std::shared_ptr<const RecordedMap> map_;
-  std::int32_t step_ = 0;
-  std::shared_ptr<const std::vector<Color8>> patch_colors_;
+  Content content_;
   double zoom_ = 1;  // times the scale that fits
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map_painter.h"
 
+#include <QFontMetricsF>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,13 @@ const QColor back_hatch{0x6b, 0x74, 0x80};
 
 bool outside(const QPolygonF& polygon, const QRectF& view) {
   return !polygon.boundingRect().intersects(view);
+}
+
+QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
+  const auto channel = [&](int x, int y) {
+    return static_cast<int>(std::lround(x + share_of_b * (y - x)));
+  };
+  return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
 }
 
 double area(const QPolygonF& polygon) {
@@ -47,7 +55,7 @@ QBrush back_side_brush(double pixel_ratio) {
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
   double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL;
   for (const Vec3& p : map.loaded->scene->points()) {
-    const Vec2 q = map.record.frame.project(p);
+    const Vec2 q = map.record().frame.project(p);
     left = std::min(left, q.x);
     right = std::max(right, q.x);
     bottom = std::min(bottom, q.y);
@@ -73,61 +81,190 @@ QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,
   return polygon;
 }
 
-MapPicture paint_map(const MapPictureRequest& request) {
-  MapPicture picture;
-  picture.request = request;
-  const MapRecord& record = request.map->record;
-  picture.rows = record.map_after(request.step);
-
-  const double ratio = request.pixel_ratio;
-  const QSize device_size(static_cast<int>(std::lround(request.size.width() * ratio)),
-                          static_cast<int>(std::lround(request.size.height() * ratio)));
-  picture.image = QImage(device_size, QImage::Format_RGB32);
-  picture.image.fill(theme::scene_background);
-  MapTransform transform = request.transform;
-  transform.scale *= ratio;
-  transform.middle *= ratio;
-  const QRectF view(QPointF(0, 0), QSizeF(device_size));
-
-  QPainter painter(&picture.image);
-  const QBrush hatch = back_side_brush(ratio);
-  // Polygons that share an edge are filled without antialiasing: no seams. Thin lines over the
-  // edges, drawn afterwards where polygons are large enough to bear them, smooth the steps.
-  std::vector<QPolygonF> outlines;
-  for (const std::int32_t number : picture.rows) {
-    const MapRecord::Row& row = record.rows[static_cast<std::size_t>(number)];
-    const QPolygonF polygon = row_polygon(record, row, transform);
-    if (outside(polygon, view)) continue;
-    const Color8& c = (*request.patch_colors)[static_cast<std::size_t>(row.patch)];
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(row.front_facing ? hatch : QBrush(QColor(c[0], c[1], c[2])));
-    painter.drawPolygon(polygon);
-    if (area(polygon) > 30 * ratio * ratio) outlines.push_back(polygon);
-  }
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(QColor(0, 0, 0, 80), 0.6 * ratio));
-  for (const QPolygonF& polygon : outlines) painter.drawPolygon(polygon);
-  painter.end();
-  picture.image.setDevicePixelRatio(ratio);
-  return picture;
+QRectF step_bounds(const RecordedMap& map, std::int32_t step) {
+  if (step < 0 || map.history.step(step).row == MapRecord::no_row) return {};
+  QPolygonF all;
+  std::vector<std::int32_t> rows = map.history.cut_at(step);
+  rows.push_back(map.history.step(step).row);
+  for (const std::int32_t r : rows)
+    for (const Vec2& p : map.record().outline(map.row(r))) all.append({p.x, p.y});
+  return all.boundingRect();
 }
 
-std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p) {
-  for (const std::int32_t number : rows) {
-    const auto outline = record.outline(record.rows[static_cast<std::size_t>(number)]);
-    // Convex, of either orientation: p lies on one side of all edges.
-    bool left = true, right = true;
-    for (std::size_t k = 0; k < outline.size() && (left || right); ++k) {
-      const Vec2& a = outline[k];
-      const Vec2& b = outline[(k + 1) % outline.size()];
-      const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      left = left && side >= 0;
-      right = right && side <= 0;
-    }
-    if (left != right) return number;
+namespace {
+
+/// Draws one picture; coordinates are device pixels.
+class MapPainting {
+ public:
+  explicit MapPainting(const MapPictureRequest& request)
+      : request_(request),
+        history_(request.map->history),
+        ratio_(request.pixel_ratio),
+        transform_(request.transform),
+        hatch_(back_side_brush(ratio_)) {
+    transform_.scale *= ratio_;
+    transform_.middle *= ratio_;
+    if (request.step_shown && request.step >= 0) step_row_ = history_.step(request.step).row;
   }
-  return MapRecord::no_row;
+
+  MapPicture paint() {
+    MapPicture picture;
+    picture.request = request_;
+    const QSize size(static_cast<int>(std::lround(request_.size.width() * ratio_)),
+                     static_cast<int>(std::lround(request_.size.height() * ratio_)));
+    view_ = QRectF(QPointF(0, 0), QSizeF(size));
+    picture.image = QImage(size, QImage::Format_RGB32);
+    picture.image.fill(theme::scene_background);
+    painter_.begin(&picture.image);
+    picture.rows = drawn_rows();
+    fill(picture.rows);
+    if (step_row_ != MapRecord::no_row) mark_step();
+    if (request_.labels) label(picture.rows);
+    painter_.end();
+    picture.image.setDevicePixelRatio(ratio_);
+    return picture;
+  }
+
+ private:
+  std::vector<std::int32_t> drawn_rows() const {
+    const MapRecord& record = history_.record();
+    if (step_row_ == MapRecord::no_row || request_.phase == Phase::after)
+      return record.map_after(request_.step);
+    std::vector<std::int32_t> rows = record.map_after(request_.step - 1);
+    if (request_.phase == Phase::before) return rows;
+    std::erase_if(rows, [&](std::int32_t r) { return row(r).consumed == request_.step; });
+    for (const auto& parts :
+         {history_.inside_at(request_.step), history_.outside_at(request_.step)})
+      rows.insert(rows.end(), parts.begin(), parts.end());
+    return rows;
+  }
+
+  // Polygons that share an edge are filled without antialiasing: no seams. Thin lines over the
+  // edges, drawn afterwards where polygons are large enough to bear them, smooth the steps.
+  void fill(const std::vector<std::int32_t>& rows) {
+    std::vector<QPolygonF> outlines;
+    const bool dim = step_row_ != MapRecord::no_row && request_.phase == Phase::split;
+    painter_.setPen(Qt::NoPen);
+    for (const std::int32_t r : rows) {
+      const QPolygonF polygon = polygon_of(r);
+      if (outside(polygon, view_)) continue;
+      const Color8& c = (*request_.patch_colors)[static_cast<std::size_t>(row(r).patch)];
+      QColor color(c[0], c[1], c[2]);
+      if (dim && row(r).made < request_.step) color = mixed(color, theme::scene_background, 0.45);
+      painter_.setBrush(row(r).front_facing ? hatch_ : QBrush(color));
+      painter_.drawPolygon(polygon);
+      if (area(polygon) > 30 * ratio_ * ratio_) outlines.push_back(polygon);
+    }
+    painter_.setRenderHint(QPainter::Antialiasing);
+    outline(outlines, QColor(0, 0, 0, 80), 0.6);
+  }
+
+  void mark_step() {
+    const std::int32_t step = request_.step;
+    const std::vector<QPolygonF> inside = polygons_of(history_.inside_at(step));
+    const std::vector<QPolygonF> outside = polygons_of(history_.outside_at(step));
+    const QPolygonF polygon = polygon_of(step_row_);
+    switch (request_.phase) {
+      case Phase::before:
+        outline(polygons_of(history_.cut_at(step)), theme::on_dark, 1.2);
+        veil({polygon}, theme::processed, 70);
+        break;
+      case Phase::split:
+        veil(outside, theme::outside, 215);
+        for (const std::int32_t r : history_.inside_at(step))
+          veil({polygon_of(r)}, theme::inside, history_.exchanges(r) ? 255 : 120);
+        // The cutting edges: where the parts meet.
+        outline(outside, theme::on_dark, 1.2);
+        outline(inside, theme::on_dark, 1.2);
+        break;
+      case Phase::after:
+        outline(outside, theme::outside, 1.4);
+        break;
+    }
+    outline({polygon}, Qt::black, 4);
+    outline({polygon}, theme::processed, 2);
+    ring_if_small(polygon);
+  }
+
+  void ring_if_small(const QPolygonF& polygon) {
+    const QRectF box = polygon.boundingRect();
+    constexpr double radius = 16;
+    if (std::max(box.width(), box.height()) > 1.2 * radius * ratio_) return;
+    painter_.setBrush(Qt::NoBrush);
+    for (const QPen& pen : {QPen(Qt::black, 3.5 * ratio_), QPen(theme::processed, 1.5 * ratio_)}) {
+      painter_.setPen(pen);
+      painter_.drawEllipse(box.center(), radius * ratio_, radius * ratio_);
+    }
+  }
+
+  void label(const std::vector<std::int32_t>& rows) {
+    QFont font = painter_.font();
+    font.setPixelSize(static_cast<int>(std::lround(11 * ratio_)));
+    painter_.setFont(font);
+    const QFontMetricsF metrics(font);
+    for (const std::int32_t r : rows) {
+      const QPolygonF polygon = polygon_of(r);
+      const QRectF box = polygon.boundingRect();
+      const QString text = QString::number(row(r).patch);
+      const QSizeF size(metrics.horizontalAdvance(text) + 4 * ratio_, metrics.height());
+      // A triangle's middle is half as wide as its box.
+      const bool room = box.width() > 1.6 * size.width() && box.height() > 1.6 * size.height();
+      if (!room || !box.intersects(view_)) continue;
+      QPointF middle;
+      for (const QPointF& p : polygon) middle += p / polygon.size();
+      const QRectF place(middle - QPointF(size.width(), size.height()) / 2, size);
+      painter_.setPen(Qt::NoPen);
+      painter_.setBrush(QColor(0, 0, 0, 150));
+      painter_.drawRoundedRect(place, 2 * ratio_, 2 * ratio_);
+      painter_.setPen(theme::on_dark);
+      painter_.drawText(place, Qt::AlignCenter, text);
+    }
+  }
+
+  void veil(const std::vector<QPolygonF>& polygons, QColor color, int alpha) {
+    color.setAlpha(alpha);
+    painter_.setPen(Qt::NoPen);
+    painter_.setBrush(color);
+    painter_.setRenderHint(QPainter::Antialiasing, false);
+    for (const QPolygonF& polygon : polygons) painter_.drawPolygon(polygon);
+    painter_.setRenderHint(QPainter::Antialiasing);
+  }
+
+  void outline(const std::vector<QPolygonF>& polygons, const QColor& color, double width) {
+    painter_.setBrush(Qt::NoBrush);
+    painter_.setPen(QPen(color, width * ratio_, Qt::SolidLine, Qt::SquareCap, Qt::RoundJoin));
+    for (const QPolygonF& polygon : polygons) painter_.drawPolygon(polygon);
+  }
+
+  const MapRecord::Row& row(std::int32_t r) const { return history_.row(r); }
+  QPolygonF polygon_of(std::int32_t r) const {
+    return row_polygon(history_.record(), row(r), transform_);
+  }
+  std::vector<QPolygonF> polygons_of(const std::vector<std::int32_t>& rows) const {
+    std::vector<QPolygonF> polygons;
+    for (const std::int32_t r : rows) polygons.push_back(polygon_of(r));
+    return polygons;
+  }
+
+  const MapPictureRequest& request_;
+  const MapHistory& history_;
+  double ratio_;
+  MapTransform transform_;
+  QBrush hatch_;
+  std::int32_t step_row_ = MapRecord::no_row;  ///< the step's polygon, where it is to be marked
+  QRectF view_;
+  QPainter painter_;
+};
+
+}  // namespace
+
+MapPicture paint_map(const MapPictureRequest& request) { return MapPainting(request).paint(); }
+
+std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](std::int32_t row) {
+    return record.covers(record.rows[static_cast<std::size_t>(row)], p);
+  });
+  return found == rows.end() ? MapRecord::no_row : *found;
 }
 
 }  // namespace transillum::viewer

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "color_map.h"
-#include "map_recorder.h"
+#include "focus.h"
+#include "recorded_map.h"
 
 namespace transillum::viewer {
 
@@ -40,7 +41,10 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 /// What one picture of a map shows.
 struct MapPictureRequest {
   std::shared_ptr<const RecordedMap> map;
-  std::int32_t step = 0;  ///< V after this step
+  std::int32_t step = 0;
+  Phase phase = Phase::after;
+  bool step_shown = false;  ///< mark what the step did; else V is drawn alone
+  bool labels = false;      ///< number of the patch where a fragment has room for it
   std::shared_ptr<const std::vector<Color8>> patch_colors;
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
@@ -50,7 +54,7 @@ struct MapPictureRequest {
 struct MapPicture {
   MapPictureRequest request;
   QImage image;
-  std::vector<std::int32_t> rows;  ///< of V
+  std::vector<std::int32_t> rows;  ///< drawn: of V, or the parts that a step is splitting it into
 };
 
 /// How a back side is filled.
@@ -58,6 +62,9 @@ QBrush back_side_brush(double pixel_ratio);
 
 /// Lit sides in their patch's colour, back sides grey and hatched. Any thread.
 MapPicture paint_map(const MapPictureRequest& request);
+
+/// What a step is about: its polygon and all that it cuts, metres; null rectangle for none.
+QRectF step_bounds(const RecordedMap& map, std::int32_t step);
 
 QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,
                       const MapTransform& transform);

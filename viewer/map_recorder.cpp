@@ -46,7 +46,8 @@ void MapRecorder::work() {
   while (true) {
     wake_.wait(lock, [this] { return quit_ || request_; });
     // Wait out the pause between two maps; a newer request may replace this one meanwhile.
-    if (wake_.wait_until(lock, earliest, [this] { return quit_; })) return;
+    wake_.wait_until(lock, earliest, [this] { return quit_ || (request_ && !request_->patient); });
+    if (quit_) return;
     if (!request_) continue;
     const Request request = *std::exchange(request_, std::nullopt);
     const quint64 number = request_number_;
@@ -58,11 +59,10 @@ void MapRecorder::work() {
     auto map = std::make_shared<RecordedMap>();
     QString error;
     try {
-      map->record = record_local_map(*request.loaded->scene, *request.loaded->tree, request.omega,
-                                     cancellation)
-                        .record;
+      map->history = MapHistory(record_local_map(*request.loaded->scene, *request.loaded->tree,
+                                                 request.omega, cancellation)
+                                    .record);
       map->loaded = request.loaded;
-      map->omega = request.omega;
       map->direction = request.direction;
       map->passes = request.passes;
     } catch (const Cancelled&) {
@@ -71,7 +71,7 @@ void MapRecorder::work() {
       map = nullptr;
       error = QString::fromUtf8(failure.what());
     }
-    // At most two maps a second, and at most a quarter of one core.
+    // Patient ones: at most two maps a second, and at most a quarter of one core.
     const Clock::duration cost = Clock::now() - begin;
     earliest = Clock::now() + std::max<Clock::duration>(std::chrono::milliseconds(500), 3 * cost);
     QMetaObject::invokeMethod(

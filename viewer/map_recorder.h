@@ -8,19 +8,10 @@
 #include <optional>
 #include <thread>
 
-#include "snapshot.h"
-#include "transillum/visibility_map.h"
+#include "recorded_map.h"
+#include "transillum/cancellation.h"
 
 namespace transillum::viewer {
-
-/// The history of one direction's visibility map. Immutable.
-struct RecordedMap {
-  std::shared_ptr<const LoadedScene> loaded;
-  MapRecord record;
-  Vec3 omega;         ///< as asked for
-  int direction = 0;  ///< 1-based number of the pass within its iteration step
-  int passes = 0;     ///< of the step: M
-};
 
 /// Records visibility maps beside the solver, on a thread of its own; the newest request wins.
 ///
@@ -32,8 +23,9 @@ class MapRecorder : public QObject {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
     Vec3 omega;
-    int direction = 0;
-    int passes = 0;
+    int direction = 0;     ///< from 0: number of the pass
+    int passes = 0;        ///< of the step: M
+    bool patient = false;  ///< may wait, to leave time to the solver
   };
 
   explicit MapRecorder(QObject* parent = nullptr);

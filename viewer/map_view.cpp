@@ -1,14 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map_view.h"
 
+#include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QSignalBlocker>
-#include <QSlider>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <cmath>
 #include <utility>
 
 #include "map_canvas.h"
@@ -21,122 +19,149 @@ namespace {
 
 constexpr int recolor_interval_ms = 700;
 
+QToolButton* text_button(const QString& text, const QString& tip, bool checkable) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setCheckable(checkable);
+  return button;
+}
+
+QString color_name(const QColor& color, const QString& words) {
+  return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), words);
+}
+
 }  // namespace
 
-MapView::MapView(Selection& selection, const ColorChoice& colors, QWidget* parent)
-    : QWidget(parent), colors_(colors) {
+MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), focus_(focus), colors_(colors) {
   title_ = new QLabel;
   step_text_ = new QLabel;
+  step_text_->setObjectName("map_text");
   step_text_->setForegroundRole(QPalette::PlaceholderText);
   // Long words must not widen the window: they are cut off before that.
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   canvas_ = new MapCanvas(selection);
   canvas_->setObjectName("map_canvas");
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setObjectName("map_step");
-  slider_->setEnabled(false);
-  slider_->setToolTip(tr("The map after this step: one step processes one polygon"));
-  fullest_ = new QToolButton;
-  fullest_->setText(tr("Fullest"));
-  fullest_->setCheckable(true);
-  fullest_->setChecked(true);
-  fullest_->setToolTip(tr("Show each direction after the step at which most of it shines"));
-  auto* fit = new QToolButton;
-  fit->setIcon(theme::icon(theme::Icon::frame));
-  fit->setToolTip(tr("Show all of the map"));
 
   auto* words = new QVBoxLayout;
   words->setContentsMargins(10, 6, 10, 6);
   words->setSpacing(1);
   words->addWidget(title_);
   words->addWidget(step_text_);
-  auto* controls = new QHBoxLayout;
-  controls->setContentsMargins(10, 6, 8, 6);
-  controls->setSpacing(8);
-  controls->addWidget(new QLabel(tr("Step")));
-  controls->addWidget(slider_, 1);
-  controls->addWidget(fullest_);
-  controls->addWidget(fit);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addLayout(words);
   layout->addWidget(canvas_, 1);
-  layout->addLayout(controls);
+  layout->addWidget(make_controls());
 
   recolor_timer_ = new QTimer(this);
   recolor_timer_->setSingleShot(true);
-  connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_step);
-  connect(slider_, &QSlider::valueChanged, this, [this] {
-    fullest_->setChecked(false);
-    show_step();
-  });
-  connect(fullest_, &QToolButton::clicked, this, [this](bool checked) {
-    if (checked && map_) show_map(map_);
-  });
-  connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
+  connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_moment);
+  connect(&focus_, &Focus::moved, this, &MapView::show_moment);
+  connect(&focus_, &Focus::wished, this, &MapView::show_title);
   connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
-  connect(&colors_, &ColorChoice::changed, this, &MapView::show_step);
+  connect(&colors_, &ColorChoice::changed, this, &MapView::show_moment);
   show_title();
 }
 
-std::int32_t MapView::step() const { return slider_->value() - 1; }
+QWidget* MapView::make_controls() {
+  phases_ = new QButtonGroup(this);
+  const auto add_phase = [&](Phase phase, const char* name, const QString& text,
+                             const QString& tip) {
+    QToolButton* button = text_button(text, tip, true);
+    button->setObjectName(QString::fromLatin1(name));
+    phases_->addButton(button, static_cast<int>(phase));
+    return button;
+  };
+  auto* controls = new QWidget;
+  auto* row = new QHBoxLayout(controls);
+  row->setContentsMargins(10, 6, 8, 6);
+  row->setSpacing(4);
+  row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
+                           tr("V as the steps before left it, and the polygon to be put in")));
+  row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),
+                           tr("What the polygon cuts out of V, and what it leaves")));
+  row->addWidget(
+      add_phase(Phase::after, "phase_after", tr("After"), tr("V with the polygon put in")));
+  row->addStretch(1);
+  labels_ = text_button(tr("Labels"), tr("Name the patch of each fragment that has room"), true);
+  labels_->setObjectName("map_labels");
+  near_ = text_button(tr("Near"), tr("Bring the step's polygon near"), false);
+  near_->setObjectName("map_near");
+  auto* fit = new QToolButton;
+  fit->setIcon(theme::icon(theme::Icon::frame));
+  fit->setToolTip(tr("Show all of the map"));
+  for (QToolButton* button : {labels_, near_, fit}) row->addWidget(button);
 
-void MapView::show_map(std::shared_ptr<const RecordedMap> map) {
-  map_ = std::move(map);
-  const MapRecord& record = map_->record;
-  const double share =
-      slider_->maximum() > 0 ? static_cast<double>(slider_->value()) / slider_->maximum() : 1;
-  {
-    // The slider counts finished steps: 0 is the empty map before the first one.
-    const QSignalBlocker quiet(slider_);
-    slider_->setRange(0, record.step_count());
-    slider_->setPageStep(std::max(record.step_count() / 20, 1));
-    slider_->setValue(fullest_->isChecked()
-                          ? record.fullest_step() + 1
-                          : static_cast<int>(std::lround(share * record.step_count())));
-    slider_->setEnabled(true);
-  }
-  show_step();
+  connect(phases_, &QButtonGroup::idClicked, this,
+          [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
+  connect(labels_, &QToolButton::toggled, this, &MapView::show_moment);
+  connect(near_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
+  connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
+  return controls;
 }
 
 void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool first = !snapshot_;
   snapshot_ = std::move(snapshot);
-  if (map_ && !recolor_timer_->isActive()) recolor_timer_->start(recolor_interval_ms);
+  if (first)
+    show_moment();
+  else if (focus_.map() && !recolor_timer_->isActive())
+    recolor_timer_->start(recolor_interval_ms);
 }
 
 void MapView::clear() {
-  map_ = nullptr;
   snapshot_ = nullptr;
   recolor_timer_->stop();
-  slider_->setEnabled(false);
   canvas_->clear();
   show_title();
 }
 
 bool MapView::up_to_date() const { return canvas_->up_to_date() && !recolor_timer_->isActive(); }
 
-void MapView::show_step() {
-  if (!map_ || !snapshot_ || snapshot_->loaded != map_->loaded) return;
+void MapView::show_moment() {
+  const auto map = focus_.map();
+  if (!map) {
+    canvas_->clear();
+    show_title();
+    return;
+  }
+  if (!snapshot_ || snapshot_->loaded != map->loaded) return;
   recolor_timer_->stop();
   auto patch_colors = std::make_shared<std::vector<Color8>>();
   colors_.scale().color(snapshot_->radiosity, *patch_colors);
-  canvas_->show_map(map_, step(), std::move(patch_colors));
+  canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
+                     labels_->isChecked(), std::move(patch_colors)});
 }
 
 void MapView::show_title() {
-  if (!map_) {
+  const auto map = focus_.map();
+  for (QAbstractButton* button : phases_->buttons()) button->setEnabled(map != nullptr);
+  near_->setEnabled(map != nullptr);
+  phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
+  if (!map) {
     title_->setText(tr("No direction yet"));
     step_text_->setText(tr("Seen along ω, toward the light that crosses the plane"));
     return;
   }
   title_->setText(tr("Direction %1 of %2, seen along ω")
-                      .arg(count_text(map_->direction), count_text(map_->passes)));
-  title_->setToolTip(
-      tr("ω = %1 points to where the light comes from").arg(vector_text(map_->record.frame.omega)));
-  step_text_->setText(tr("V after step %1 of %2: %3 fragments")
-                          .arg(count_text(step() + 1), count_text(map_->record.step_count()),
+                      .arg(count_text(map->direction + 1), count_text(map->passes)));
+  title_->setToolTip(tr("ω = %1 points to where the light comes from")
+                         .arg(vector_text(map->record().frame.omega)));
+  const bool split = focus_.phase() == Phase::split && focus_.moment().step >= 0;
+  if (split && !focus_.following()) {
+    step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
+                            .arg(color_name(theme::processed.darker(120), tr("polygon")),
+                                 color_name(theme::inside, tr("inside list")),
+                                 color_name(theme::outside, tr("outside list"))));
+    return;
+  }
+  const std::int32_t after = focus_.moment().step + (focus_.phase() == Phase::before ? 0 : 1);
+  step_text_->setText(tr("V after %1 of %2 polygons: %3 fragments")
+                          .arg(count_text(after), count_text(map->history.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
 }
 

@@ -23,6 +23,7 @@ struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   SolveProgress progress;
+  std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass; one list a run
   SolveStatistics statistics;
   std::vector<Rgb> radiosity;            ///< running estimate, W/m², one a patch
   std::vector<double> form_factor_sums;  ///< one a patch

@@ -175,8 +175,7 @@ void SolverSession::load(const OpenRequest& request) {
       ++goal_number_;
     }
     loaded_ = loaded;
-    solver_ = std::move(solver);
-    more_to_do_ = true;
+    take_solver(std::move(solver));
     post([this, loaded] { emit scene_loaded(loaded); });
     post_snapshot();
   } catch (const Cancelled&) {
@@ -193,9 +192,8 @@ void SolverSession::load(const OpenRequest& request) {
 void SolverSession::begin_solve(const SolveOptions& options) {
   if (!loaded_) return;
   try {
-    solver_ = std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
-                                                solve_cancellation_);
-    more_to_do_ = true;
+    take_solver(std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
+                                                  solve_cancellation_));
     post_snapshot();
   } catch (const Cancelled&) {
     // Another wish has come in the meantime; the loop sees to it.
@@ -204,6 +202,12 @@ void SolverSession::begin_solve(const SolveOptions& options) {
   } catch (const std::exception& error) {
     post_failure(QString::fromStdString(error.what()), false);
   }
+}
+
+void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
+  solver_ = std::move(solver);
+  directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
+  more_to_do_ = true;
 }
 
 void SolverSession::advance(const Goal& goal) {
@@ -278,6 +282,7 @@ void SolverSession::post_snapshot() {
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
   snapshot->progress = solver_->progress();
+  snapshot->directions = directions_;
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();
   snapshot->form_factor_sums = solver_->form_factor_sums();

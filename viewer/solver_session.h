@@ -73,6 +73,7 @@ class SolverSession : public QObject {
   void work();
   void load(const OpenRequest& request);
   void begin_solve(const SolveOptions& options);
+  void take_solver(std::unique_ptr<RadiositySolver> solver);
   void advance(const Goal& goal);
   void advance_exactly(int passes);
   void on_pass(const RadiositySolver& solver);
@@ -103,6 +104,7 @@ class SolverSession : public QObject {
   // The worker's own.
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
+  std::shared_ptr<const std::vector<Vec3>> directions_;
   bool more_to_do_ = false;
   std::int64_t last_snapshot_ns_ = 0;
   double snapshot_cost_ms_ = 0;

@@ -17,6 +17,25 @@ QPolygonF triangle(double left, double right) {
   return {{QPointF(left, 5), QPointF(right, 12), QPointF(left, 19)}};
 }
 
+void draw_chevron(QPainter& painter, double x) {
+  painter.drawPolyline(QPolygonF({{x, 6}, {x + 6, 12}, {x, 18}}));
+}
+
+Icon mirrored(Icon which) {
+  switch (which) {
+    case Icon::step_back:
+      return Icon::step_on;
+    case Icon::previous_event:
+      return Icon::next_event;
+    case Icon::previous_exchange:
+      return Icon::next_exchange;
+    case Icon::previous_direction:
+      return Icon::next_direction;
+    default:
+      return which;
+  }
+}
+
 // On a square of 24 by 24.
 void draw(QPainter& painter, Icon which, const QColor& color) {
   const QPen line(color, 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
@@ -82,6 +101,49 @@ void draw(QPainter& painter, Icon which, const QColor& color) {
       painter.drawLine(QPointF(12, 12), QPointF(12, 21));
       break;
     }
+    case Icon::step_on:
+      painter.setPen(line);
+      painter.setBrush(Qt::NoBrush);
+      draw_chevron(painter, 9);
+      break;
+    case Icon::phase_on:
+      painter.drawEllipse(QPointF(5, 12), 2, 2);
+      painter.drawEllipse(QPointF(12, 12), 2, 2);
+      painter.drawEllipse(QPointF(19, 12), 2, 2);
+      break;
+    case Icon::next_event:
+      painter.setBrush(selection);
+      painter.drawEllipse(QPointF(6, 12), 3.6, 3.6);
+      painter.setPen(line);
+      painter.setBrush(Qt::NoBrush);
+      draw_chevron(painter, 14);
+      break;
+    case Icon::next_exchange:
+      painter.setPen(line);
+      painter.drawLine(QPointF(6, 5), QPointF(6, 19));
+      painter.drawPolyline(QPolygonF({{2.5, 8.5}, {6, 5}, {9.5, 8.5}}));
+      painter.setBrush(Qt::NoBrush);
+      draw_chevron(painter, 14);
+      break;
+    case Icon::next_direction:
+      painter.setPen(line);
+      painter.setBrush(Qt::NoBrush);
+      draw_chevron(painter, 7);
+      painter.drawLine(QPointF(17.5, 6), QPointF(17.5, 18));
+      break;
+    case Icon::newest:
+      painter.drawPolygon(triangle(3, 11));
+      painter.drawPolygon(triangle(11, 19));
+      painter.drawRoundedRect(QRectF(19, 5, 2.6, 14), 1, 1);
+      break;
+    case Icon::step_back:
+    case Icon::previous_event:
+    case Icon::previous_exchange:
+    case Icon::previous_direction:
+      painter.translate(24, 0);
+      painter.scale(-1, 1);
+      draw(painter, mirrored(which), color);
+      break;
   }
 }
 

@@ -19,6 +19,11 @@ inline const QColor warm{0xd9, 0x5f, 0x02};  ///< second line of a chart
 inline const QColor good{0x1a, 0x7f, 0x4b};
 inline const QColor selection{0xff, 0x3e, 0x9e};  ///< in no scene and no colour map
 
+/// A step of the visibility map: told apart by brightness too.
+inline const QColor processed{0xff, 0xe0, 0x4d};  ///< the polygon of the step
+inline const QColor inside{0xe6, 0x7e, 0x22};     ///< what it cut out of V
+inline const QColor outside{0x4f, 0xb3, 0xe8};    ///< what it left of the same
+
 /// Light is looked at before a dark, neutral ground.
 inline const QColor scene_background{0x1d, 0x21, 0x27};
 inline const QColor on_dark{0xec, 0xef, 0xf3};
@@ -35,7 +40,17 @@ enum class Icon {
   warning,
   error,
   close,
-  scene
+  scene,
+  step_on,
+  step_back,
+  phase_on,
+  next_event,
+  previous_event,
+  next_exchange,
+  previous_exchange,
+  next_direction,
+  previous_direction,
+  newest
 };
 /// Drawn for 1x and 2x screens.
 QIcon icon(Icon which);

@@ -1,18 +1,15 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
-#include <QLabel>
 #include <QMimeData>
 #include <QPushButton>
-#include <QSlider>
 #include <QTemporaryDir>
 #include <QToolBar>
 #include <QUrl>
 #include <set>
 
-#include "window_support.h"
+#include "solved_window.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -20,31 +17,14 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-// A window with a scene whose first iteration is done and shown.
-struct Solved {
-  std::unique_ptr<MainWindow> window;
-  SceneView* scene_view = nullptr;
-  MapView* map_view = nullptr;
-
-  explicit Solved(const QString& scene) {
-    window = make_window();
-    scene_view = window->findChild<SceneView*>();
-    map_view = window->findChild<MapView*>();
-    window->open(scene, {Goal::Kind::iteration});
-    ready = wait_for([this] {
-      return window->snapshot() && window->snapshot()->progress.iteration == 1 && window->settled();
-    });
-    QTest::qWait(100);
-  }
-  bool ready = false;
-
-  QString text(const char* label) const { return window->findChild<QLabel*>(label)->text(); }
-  void trigger(const char* action) const { window->findChild<QAction*>(action)->trigger(); }
+struct Solved : SolvedWindow {
+  using SolvedWindow::SolvedWindow;
 
   std::set<PatchId> patches_in_map() const {
-    const MapRecord& record = map_view->map()->record;
+    const Focus& focus = window->focus();
+    const MapRecord& record = focus.map()->record();
     std::set<PatchId> patches;
-    for (const std::int32_t row : record.map_after(map_view->step()))
+    for (const std::int32_t row : record.map_after(focus.moment().step))
       patches.insert(record.rows[static_cast<std::size_t>(row)].patch);
     return patches;
   }
@@ -152,16 +132,6 @@ class WindowTest : public QObject {
     QTest::mouseClick(canvas, Qt::LeftButton, {}, middle);
     QCOMPARE(solved.window->selection().patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
-  }
-
-  void the_map_steps_back_to_nothing() {
-    const Solved solved("furnace");
-    QVERIFY(solved.ready);
-    QVERIFY(solved.map_view->canvas()->fragment_count() > 0);
-    solved.window->findChild<QSlider*>("map_step")->setValue(0);
-    QVERIFY(wait_for([&] {
-      return solved.map_view->up_to_date() && solved.map_view->canvas()->fragment_count() == 0;
-    }));
   }
 
   void actions_drive_the_solve() {

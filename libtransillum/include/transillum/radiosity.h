@@ -120,6 +120,8 @@ class RadiositySolver {
   std::shared_ptr<const BspTree> shared_tree() const;
   const SolveOptions& options() const;
   SolveProgress progress() const;
+  /// omega of each pass of a step, in the order of the passes.
+  const std::vector<Vec3>& directions() const;
   SolveStatistics statistics() const;
 
   /// B of the last finished step, W/m², one a patch; E before the first.

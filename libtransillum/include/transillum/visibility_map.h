@@ -56,6 +56,8 @@ struct MapRecord {
   }
   /// Of the row's polygon, m².
   double area(const Row& row) const;
+  /// Whether point `p` of the plane lies in the row's polygon or on its edge.
+  bool covers(const Row& row, const Vec2& p) const;
   /// The numbers of the rows that make up V after step k (-1: before the first).
   std::vector<std::int32_t> map_after(std::int32_t step) const;
   /// The step after which what shines down in V (is back facing) makes the most of a picture: the

@@ -423,6 +423,8 @@ SolveProgress RadiositySolver::progress() const {
   return progress;
 }
 
+const std::vector<Vec3>& RadiositySolver::directions() const { return impl_->directions; }
+
 SolveStatistics RadiositySolver::statistics() const {
   const Impl& s = *impl_;
   SolveStatistics statistics;

@@ -16,6 +16,19 @@ double MapRecord::area(const Row& row) const {
   return twice / 2;
 }
 
+bool MapRecord::covers(const Row& row, const Vec2& p) const {
+  // Convex, and needles may have turned over: p lies on one side of all edges.
+  const auto corner = outline(row);
+  bool left = true, right = true;
+  for (std::size_t k = 0; k < corner.size() && (left || right); ++k) {
+    const Vec2 &a = corner[k], &b = corner[(k + 1) % corner.size()];
+    const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    left = left && side >= 0;
+    right = right && side <= 0;
+  }
+  return left != right;
+}
+
 std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
   std::vector<std::int32_t> map;
   // Rows are in order of making.

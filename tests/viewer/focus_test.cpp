@@ -1,0 +1,254 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "focus.h"
+
+#include <QSignalSpy>
+#include <QTest>
+
+#include "transillum/directions.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+constexpr int passes = 4;
+
+/// A focus with the recorded directions of a small scene, handed out when the test says so.
+struct Watched {
+  std::shared_ptr<LoadedScene> loaded = std::make_shared<LoadedScene>();
+  std::vector<std::shared_ptr<const RecordedMap>> maps;
+  Focus focus;
+  std::vector<int> wanted;
+  bool at_once = true;
+
+  Watched() {
+    loaded->scene = load_scene("boards");
+    loaded->tree = std::make_shared<BspTree>(*loaded->scene);
+    const auto samples = make_directions(Sampling::random, passes, 3);
+    for (int d = 0; d < passes; ++d) {
+      auto map = std::make_shared<RecordedMap>();
+      const Vec3& omega = samples[static_cast<std::size_t>(d)].direction;
+      map->history = MapHistory(record_local_map(*loaded->scene, *loaded->tree, omega).record);
+      map->loaded = loaded;
+      map->direction = d;
+      map->passes = passes;
+      maps.push_back(map);
+    }
+    QObject::connect(&focus, &Focus::map_wanted, &focus, [this](int direction) {
+      wanted.push_back(direction);
+      if (at_once) show(direction);
+    });
+    focus.begin_run(passes);
+  }
+  void show(int direction) { focus.show_map(maps[static_cast<std::size_t>(direction)]); }
+  std::int32_t last_step(int direction) const {
+    return maps[static_cast<std::size_t>(direction)]->history.step_count() - 1;
+  }
+  bool at(const Moment& moment) const {
+    return focus.moment() == moment && focus.arrived() && focus.map() &&
+           focus.map()->direction == moment.direction;
+  }
+};
+
+}  // namespace
+
+class FocusTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void moments_are_ordered() {
+    QVERIFY((Moment{0, 3, 100}) < (Moment{1, 0, -1}));
+    QVERIFY((Moment{1, 2, 7}) < (Moment{1, 3, -1}));
+    QVERIFY((Moment{1, 2, -1}) < (Moment{1, 2, 0}));
+  }
+
+  void follows_the_newest_until_told_otherwise() {
+    Watched w;
+    w.focus.follow(0, 0);
+    QCOMPARE(w.focus.moment().step, w.maps[0]->record().fullest_step());
+    w.focus.follow(0, 2);
+    QVERIFY(w.at({0, 2, w.maps[2]->record().fullest_step()}));
+    w.focus.step_by(-1);
+    QVERIFY(!w.focus.following());
+    const Moment here = w.focus.moment();
+    w.focus.follow(0, 3);
+    QVERIFY(w.at(here));
+    w.focus.set_following(true);
+    QVERIFY(w.at({0, 3, w.maps[3]->record().fullest_step()}));
+  }
+
+  void hears_of_the_same_newest_direction_once() {
+    Watched w;
+    w.focus.follow(0, 1);
+    const QSignalSpy moved(&w.focus, &Focus::moved);
+    w.focus.follow(0, 1);
+    QCOMPARE(moved.count(), 0);
+  }
+
+  void steps_go_through_all_directions_and_back() {
+    Watched w;
+    w.focus.go_to({0, 0, -1});
+    std::vector<Moment> way{w.focus.moment()};
+    while (w.focus.step_by(1)) way.push_back(w.focus.moment());
+    std::size_t expected = 0;
+    for (int d = 0; d < passes; ++d) expected += static_cast<std::size_t>(w.last_step(d) + 2);
+    QCOMPARE(way.size(), expected);
+    QVERIFY(w.at({0, passes - 1, w.last_step(passes - 1)}));
+    for (std::size_t k = 1; k < way.size(); ++k) QVERIFY(way[k - 1] < way[k]);
+    for (std::size_t k = way.size(); k-- > 1;) {
+      QVERIFY(w.at(way[k]));
+      QVERIFY(w.focus.step_by(-1));
+    }
+    QVERIFY(w.at({0, 0, -1}));
+    QVERIFY(!w.focus.step_by(-1));
+  }
+
+  void a_phase_is_a_part_of_a_step() {
+    Watched w;
+    w.focus.go_to({0, 0, -1});
+    w.focus.phase_by(1);
+    for (std::int32_t k = 0; k <= w.last_step(0); ++k) {
+      for (const Phase phase : {Phase::before, Phase::split, Phase::after}) {
+        QVERIFY(w.at({0, 0, k}));
+        QVERIFY(w.focus.phase() == phase);
+        w.focus.phase_by(1);
+      }
+    }
+    QVERIFY(w.at({0, 1, -1}));
+    w.focus.phase_by(-1);
+    QVERIFY(w.at({0, 0, w.last_step(0)}));
+    QVERIFY(w.focus.phase() == Phase::after);
+    w.focus.phase_by(-1);
+    QVERIFY(w.focus.phase() == Phase::split);
+    // There is nothing before the beginning.
+    w.focus.go_to({0, 0, -1});
+    w.focus.phase_by(-1);
+    QVERIFY(w.at({0, 0, -1}));
+  }
+
+  void iterations_that_have_not_begun_are_out_of_reach() {
+    Watched w;
+    w.focus.go_to({0, 1, 2});
+    w.focus.iteration_by(1);
+    QVERIFY(w.at({0, 1, 2}));
+    w.focus.set_iterations(3);
+    w.focus.iteration_by(1);
+    QVERIFY(w.at({1, 1, 2}));
+    w.focus.go_to({1, passes - 1, 0});
+    w.focus.direction_by(1);
+    QVERIFY(w.at({2, 0, 0}));
+    w.focus.go_to({9, 99, 1 << 30});
+    QVERIFY(w.at({2, passes - 1, w.last_step(passes - 1)}));
+    w.focus.go_to({-9, -9, -9});
+    QVERIFY(w.at({0, 0, -1}));
+  }
+
+  void the_old_moment_stays_until_the_new_one_is_recorded() {
+    Watched w;
+    w.focus.go_to({0, 0, 1});
+    w.at_once = false;
+    w.focus.go_to({0, 2, 3});
+    QVERIFY(!w.focus.arrived());
+    QCOMPARE(w.focus.moment().direction, 0);
+    QCOMPARE(w.focus.map()->direction, 0);
+    QCOMPARE(w.focus.wanted().direction, 2);
+    w.show(2);
+    QVERIFY(w.at({0, 2, 3}));
+  }
+
+  void the_newest_wish_wins() {
+    Watched w;
+    w.focus.go_to({0, 0, 1});
+    w.at_once = false;
+    w.focus.go_to({0, 1, 0});
+    w.focus.go_to({0, 3, 0});
+    w.show(1);  // shown in passing
+    QVERIFY(!w.focus.arrived());
+    QCOMPARE(w.focus.moment().direction, 1);
+    w.show(3);
+    QVERIFY(w.at({0, 3, 0}));
+    w.show(1);  // nobody waits for it any more
+    QVERIFY(w.at({0, 3, 0}));
+  }
+
+  void seeks_through_the_directions() {
+    Watched w;
+    w.focus.go_to({0, 0, -1});
+    const PatchId patch = 2;
+    std::vector<Moment> expected;
+    for (int d = 0; d < passes; ++d)
+      for (const std::int32_t k : w.maps[static_cast<std::size_t>(d)]->history.steps_of(patch))
+        expected.push_back({0, d, k});
+    QVERIFY(expected.front().direction < expected.back().direction);
+    const QSignalSpy ended(&w.focus, &Focus::seek_ended);
+    for (const Moment& moment : expected) {
+      w.focus.seek(find_events_of(patch), Way::forward);
+      QVERIFY(w.at(moment));
+    }
+    w.focus.seek(find_events_of(patch), Way::forward);
+    QVERIFY(w.at(expected.back()));
+    QCOMPARE(ended.back().front().toBool(), false);
+    for (std::size_t k = expected.size() - 1; k-- > 0;) {
+      w.focus.seek(find_events_of(patch), Way::backward);
+      QVERIFY(w.at(expected[k]));
+    }
+  }
+
+  void a_vain_search_ends_after_every_direction() {
+    Watched w;
+    w.focus.set_iterations(1000);
+    w.focus.go_to({500, 1, 3});
+    w.wanted.clear();
+    const QSignalSpy ended(&w.focus, &Focus::seek_ended);
+    for (const Way way : {Way::forward, Way::backward}) {
+      w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), way);
+      QVERIFY(w.at({500, 1, 3}));
+    }
+    QCOMPARE(ended.count(), 2);
+    QVERIFY(w.wanted.size() <= 2 * passes);
+  }
+
+  void a_search_can_be_stopped() {
+    Watched w;
+    w.focus.go_to({0, 0, 3});
+    w.at_once = false;
+    const QSignalSpy ended(&w.focus, &Focus::seek_ended);
+    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
+    QVERIFY(w.focus.seeking());
+    w.focus.stop();
+    QVERIFY(!w.focus.seeking());
+    QVERIFY(w.at({0, 0, 3}));
+    QCOMPARE(ended.count(), 1);
+    w.show(1);
+    QVERIFY(w.at({0, 0, 3}));
+  }
+
+  void finds_what_covers_a_point() {
+    const Watched w;
+    const MapHistory& history = w.maps[1]->history;
+    const MapRecord& record = history.record();
+    const MapRecord::Row& row = record.rows[record.rows.size() / 2];
+    Vec2 p{0, 0};
+    const auto outline = record.outline(row);
+    for (const Vec2& corner : outline) {
+      p.x += corner.x / static_cast<double>(outline.size());
+      p.y += corner.y / static_cast<double>(outline.size());
+    }
+    const auto top_after = [&](std::int32_t step) {
+      for (const std::int32_t r : record.map_after(step))
+        if (record.covers(history.row(r), p)) return history.row(r).patch;
+      return no_patch;
+    };
+    const StepFinder finder = find_changes_at(p);
+    std::int32_t k = -1;
+    int changes = 0;
+    while ((k = finder(history, k, Way::forward)) != MapHistory::none) {
+      QCOMPARE(top_after(k), history.step(k).patch);
+      ++changes;
+    }
+    QVERIFY(changes > 0);
+  }
+};
+
+QTEST_GUILESS_MAIN(FocusTest)
+#include "focus_test.moc"

@@ -1,0 +1,162 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Stepping through visibility maps with the pointer and the keys.
+#include <QMouseEvent>
+#include <QToolButton>
+
+#include "solved_window.h"
+#include "timeline_lanes.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+using Lane = TimelineLanes::Lane;
+
+struct Stepping : SolvedWindow {
+  Focus& focus;
+  TimelineLanes* lanes;
+
+  explicit Stepping(const QString& scene)
+      : SolvedWindow(scene), focus(window->focus()), lanes(window->findChild<TimelineLanes*>()) {}
+
+  QPoint place(Lane lane, int k, int count) const {
+    const QRectF rect = lanes->rect_of(lane);
+    return QPointF(TimelineLanes::position(rect, k, count), rect.center().y()).toPoint();
+  }
+  int steps() const { return focus.map()->history.step_count(); }
+  /// With the left button held; QTest::mouseMove() has none.
+  void drag_to(const QPoint& place) const {
+    QMouseEvent move(QEvent::MouseMove, place, Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(lanes, &move);
+  }
+  bool settles() const {
+    return wait_for([this] { return window->settled(); });
+  }
+};
+
+}  // namespace
+
+class SteppingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_lane_knows_its_places() {
+    const QRectF lane(80, 0, 500, 10);
+    for (const int count : {1, 7, 500, 499})
+      for (int k = 0; k < count; ++k)
+        QCOMPARE(TimelineLanes::index(lane, TimelineLanes::position(lane, k, count), count), k);
+    QCOMPARE(TimelineLanes::index(lane, -1e9, 7), 0);
+    QCOMPARE(TimelineLanes::index(lane, 1e9, 7), 6);
+  }
+
+  void scrubs_through_polygons_and_directions() {
+    const Stepping s("furnace");
+    QVERIFY(s.ready);
+    QVERIFY(s.focus.following());
+    const int count = s.steps() + 1;
+    QTest::mousePress(s.lanes, Qt::LeftButton, {}, s.place(Lane::steps, 0, count));
+    QCOMPARE(s.focus.moment().step, -1);
+    QVERIFY(!s.focus.following());
+    QVERIFY(s.settles());
+    QCOMPARE(s.map_view->canvas()->fragment_count(), std::size_t{0});
+    for (const int k : {1, 3, count - 1, 2}) {
+      s.drag_to(s.place(Lane::steps, k, count));
+      QCOMPARE(s.focus.moment().step, k - 1);
+      QVERIFY(s.settles());
+      QCOMPARE(s.map_view->canvas()->fragment_count(),
+               s.focus.map()->record().map_after(k - 1).size());
+    }
+    QTest::mouseRelease(s.lanes, Qt::LeftButton, {}, s.place(Lane::steps, 2, count));
+
+    QTest::mouseClick(s.lanes, Qt::LeftButton, {}, s.place(Lane::directions, 5, s.focus.passes()));
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    QVERIFY((s.focus.moment() == Moment{0, 5, 1}));
+    QVERIFY(s.focus.map()->record().frame.omega == (*s.window->snapshot()->directions)[5]);
+  }
+
+  void keys_step() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    QApplication::setActiveWindow(s.window.get());  // Xvfb has no window manager
+    s.focus.go_to({0, 3, 10});
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    const auto press = [&](Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+      QTest::keyClick(s.window.get(), key, modifiers);
+      QTest::qWait(20);
+      return wait_for([&] { return s.focus.arrived(); });
+    };
+    QVERIFY(press(Qt::Key_Period));
+    QCOMPARE(s.focus.moment().step, 11);
+    QVERIFY(press(Qt::Key_Comma));
+    QVERIFY(press(Qt::Key_Comma));
+    QCOMPARE(s.focus.moment().step, 9);
+    QVERIFY(press(Qt::Key_BracketRight));
+    QCOMPARE(s.focus.moment().direction, 4);
+    QVERIFY(press(Qt::Key_BracketLeft));
+    QCOMPARE(s.focus.moment().direction, 3);
+    QVERIFY(press(Qt::Key_T));
+    QVERIFY(s.focus.map()->history.step(s.focus.moment().step).exchanges > 0);
+
+    s.window->selection().select(4);
+    const Moment before = s.focus.moment();
+    QVERIFY(press(Qt::Key_N));
+    QVERIFY(before < s.focus.moment());
+    const auto events = s.focus.map()->history.steps_of(4);
+    QVERIFY(std::find(events.begin(), events.end(), s.focus.moment().step) != events.end());
+
+    s.lanes->setFocus();
+    const std::int32_t at = s.focus.moment().step;
+    QTest::keyClick(s.lanes, Qt::Key_Left);
+    QCOMPARE(s.focus.moment().step, at - 1);
+    QTest::keyClick(s.lanes, Qt::Key_Right);
+    QCOMPARE(s.focus.moment().step, at);
+    QVERIFY(press(Qt::Key_F));
+    QVERIFY(s.focus.following());
+  }
+
+  void the_map_shows_what_a_step_does() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    s.focus.go_to({0, 3, -1});
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
+                   return history.step(k).exchanges > 0 && !history.outside_at(k).empty();
+                 }),
+                 Way::forward);
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    MapCanvas* canvas = s.map_view->canvas();
+    s.window->findChild<QToolButton*>("map_near")->click();
+    const auto picture_in = [&](const char* phase) {
+      s.window->findChild<QToolButton*>(phase)->click();
+      (void)s.settles();
+      return canvas->grab().toImage();
+    };
+    const QImage before = picture_in("phase_before");
+    const QImage split = picture_in("phase_split");
+    const QImage after = picture_in("phase_after");
+    for (const QImage& picture : {before, split, after})
+      QVERIFY(share_of(picture, theme::processed) > 0);
+    QVERIFY(before != split && split != after && before != after);
+    QVERIFY(share_of(split, theme::inside) > share_of(before, theme::inside));
+    s.window->findChild<QToolButton*>("map_labels")->click();
+    QVERIFY(s.settles());
+    QVERIFY(canvas->grab().toImage() != after);
+  }
+
+  void a_new_run_starts_anew() {
+    const Stepping s("furnace");
+    QVERIFY(s.ready);
+    s.focus.go_to({0, 2, 1});
+    QVERIFY(s.settles());
+    s.trigger("stop");
+    QVERIFY(wait_for([&] { return !s.focus.map(); }));
+    QVERIFY(s.focus.following());
+    QTest::mouseClick(s.lanes, Qt::LeftButton, {}, s.place(Lane::directions, 1, s.focus.passes()));
+    QVERIFY(wait_for([&] { return s.focus.map() && s.focus.map()->direction == 1; }));
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(SteppingTest)
+#include "stepping_test.moc"

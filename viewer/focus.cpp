@@ -1,0 +1,221 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "focus.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+std::int32_t nearest_step(const MapHistory& history, std::int32_t step) {
+  return std::clamp(step, -1, history.step_count() - 1);
+}
+
+}  // namespace
+
+void Focus::begin_run(int passes) {
+  passes_ = passes;
+  iterations_ = 1;
+  moment_ = wanted_ = newest_ = {};
+  map_ = nullptr;
+  following_ = true;
+  under_way_ = false;
+  seek_left_ = 0;
+  emit wished();
+  emit moved();
+}
+
+void Focus::set_iterations(int count) {
+  count = std::max(count, 1);
+  if (count == iterations_) return;
+  iterations_ = count;
+  emit wished();
+}
+
+void Focus::go_to(const Moment& moment) {
+  if (passes_ == 0) return;
+  leave_newest();
+  seek_left_ = 0;
+  go(moment.iteration, moment.direction, moment.step,
+     [step = moment.step](const MapHistory& history) { return nearest_step(history, step); });
+}
+
+Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
+  const std::int64_t last = std::int64_t{iterations_} * passes_ - 1;
+  const std::int64_t pass = std::int64_t{from.iteration} * passes_ + from.direction + directions;
+  if (pass < 0 || pass > last) return from;
+  return {static_cast<int>(pass / passes_), static_cast<int>(pass % passes_), step};
+}
+
+bool Focus::step_by(std::int32_t steps) {
+  if (!map_) return false;
+  const std::int32_t last = map_->history.step_count() - 1;
+  Moment to = moment_;
+  // After the last step comes the next direction's empty map, before that the last step.
+  if (steps > 0 && moment_.step == last)
+    to = moved_by(moment_, 1, -1);
+  else if (steps < 0 && moment_.step == -1)
+    to = moved_by(moment_, -1, std::numeric_limits<std::int32_t>::max());
+  else
+    to.step = std::clamp(moment_.step + steps, -1, last);
+  if (to == moment_) return false;
+  go_to(to);
+  return true;
+}
+
+void Focus::direction_by(int directions) {
+  if (passes_ > 0) go_to(moved_by(wanted_, directions, moment_.step));
+}
+
+void Focus::iteration_by(int iterations) {
+  go_to({wanted_.iteration + iterations, wanted_.direction, moment_.step});
+}
+
+void Focus::set_phase(Phase phase) {
+  leave_newest();
+  if (phase == phase_) return;
+  phase_ = phase;
+  emit moved();
+}
+
+void Focus::phase_by(int phases) {
+  const int phase = static_cast<int>(phase_) + phases;
+  const bool within = 0 <= phase && phase <= static_cast<int>(Phase::after);
+  if (within && moment_.step >= 0) {
+    set_phase(static_cast<Phase>(phase));
+    return;
+  }
+  const Phase now = std::exchange(phase_, phases > 0 ? Phase::before : Phase::after);
+  if (!step_by(phases > 0 ? 1 : -1)) phase_ = now;
+}
+
+void Focus::seek(StepFinder finder, Way way) {
+  if (!map_) return;
+  leave_newest();
+  finder_ = std::move(finder);
+  way_ = way;
+  // Every direction once; the last one is the first again, for what lies on its other side.
+  seek_left_ = passes_ + 1;
+  wanted_ = moment_;
+  const std::int32_t from = moment_.step;
+  const std::int32_t step = finder_(map_->history, from, way_);
+  if (step != MapHistory::none) {
+    moment_.step = wanted_.step = step;
+    end_seek(true);
+  } else {
+    seek_on();
+  }
+}
+
+void Focus::seek_on() {
+  const int by = way_ == Way::forward ? 1 : -1;
+  const Moment last{iterations_ - 1, passes_ - 1, 0};
+  Moment next{wanted_.iteration, wanted_.direction + by, -1};
+  if (next.direction == passes_) next = {next.iteration + 1, 0, -1};
+  if (next.direction < 0) next = {next.iteration - 1, passes_ - 1, -1};
+  if (--seek_left_ <= 0 || next.iteration < 0 || next.iteration > last.iteration) {
+    wanted_ = moment_;
+    end_seek(false);
+    return;
+  }
+  go(next.iteration, next.direction, -1, [this](const MapHistory& history) {
+    return finder_(history, way_ == Way::forward ? -1 : history.step_count(), way_);
+  });
+}
+
+void Focus::end_seek(bool found) {
+  seek_left_ = 0;
+  under_way_ = false;
+  emit wished();
+  if (found) emit moved();
+  emit seek_ended(found);
+}
+
+void Focus::stop() {
+  leave_newest();
+  const bool sought = seeking();
+  wanted_ = moment_;
+  if (sought) {
+    end_seek(false);
+  } else {
+    under_way_ = false;
+    emit wished();
+  }
+}
+
+void Focus::set_following(bool following) {
+  if (following == following_) return;
+  following_ = following;
+  emit wished();
+  if (following) {
+    phase_ = Phase::after;
+    go_to_newest();
+  }
+}
+
+void Focus::leave_newest() {
+  if (!following_) return;
+  following_ = false;
+  emit wished();
+}
+
+void Focus::follow(int iteration, int direction) {
+  const Moment newest{iteration, direction, -1};
+  const bool news = newest != newest_ || !map_;
+  newest_ = newest;
+  if (following_ && news) go_to_newest();
+}
+
+void Focus::go_to_newest() {
+  if (passes_ == 0) return;
+  seek_left_ = 0;
+  go(newest_.iteration, newest_.direction, -1,
+     [](const MapHistory& history) { return history.record().fullest_step(); });
+}
+
+void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
+  wanted_ = {std::clamp(iteration, 0, iterations_ - 1), std::clamp(direction, 0, passes_ - 1),
+             step};
+  arrival_ = std::move(arrival);
+  under_way_ = true;
+  emit wished();
+  if (map_ && map_->direction == wanted_.direction)
+    show_map(map_);
+  else
+    emit map_wanted(wanted_.direction);
+}
+
+void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
+  const bool stale = !under_way_ || map->passes != passes_;
+  const bool on_the_way = map->direction != wanted_.direction;
+  if (stale || (on_the_way && seek_left_ > 0)) return;
+  const std::int32_t step = arrival_(map->history);
+  if (seek_left_ > 0 && step == MapHistory::none) {
+    seek_on();
+    return;
+  }
+  map_ = std::move(map);
+  if (on_the_way) {
+    // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
+    moment_ = {wanted_.iteration, map_->direction, step};
+    emit moved();
+  } else {
+    arrive(step);
+  }
+}
+
+void Focus::arrive(std::int32_t step) {
+  wanted_.step = step;
+  moment_ = wanted_;
+  if (seek_left_ > 0) {
+    end_seek(true);
+    return;
+  }
+  under_way_ = false;
+  emit wished();
+  emit moved();
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,113 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "recorded_map.h"
+#include "step_finder.h"
+
+namespace transillum::viewer {
+
+/// A point in the time of a run; later ones are larger.
+struct Moment {
+  int iteration = 0;       ///< from 0: the step that makes B(n+1) of B(n)
+  int direction = 0;       ///< from 0: number of the pass
+  std::int32_t step = -1;  ///< of the direction, from 0; -1: before its first
+
+  friend auto operator<=>(const Moment&, const Moment&) = default;
+};
+
+/// What of a step is looked at; the order of the paper's pseudo-code (section 3.2).
+enum class Phase {
+  before,  ///< polygon i is taken, V is what the steps before left
+  split,   ///< what it cut out of V: the inside and the outside list
+  after,   ///< V without the inside list and with i
+};
+
+/// The moment that all views show, and the ways to another one. The views know it, and never each
+/// other.
+///
+/// A direction's history has to be recorded first: what is wanted goes out by map_wanted() and
+/// comes back by show_map(); until then the old moment stays, and a newer wish replaces an older.
+class Focus : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  /// A new run of `passes` directions a step, of which nothing has been shown yet.
+  void begin_run(int passes);
+  /// How many iteration steps have begun; no others can be focused.
+  void set_iterations(int count);
+  int iterations() const { return iterations_; }
+  int passes() const { return passes_; }
+
+  /// What is shown; its direction is map()'s. Without a map there is no moment to show.
+  const Moment& moment() const { return moment_; }
+  std::shared_ptr<const RecordedMap> map() const { return map_; }
+  Phase phase() const { return phase_; }
+  /// Where it is going, or moment(); of a direction not recorded yet the step may be unknown (-1).
+  const Moment& wanted() const { return wanted_; }
+  bool arrived() const { return !under_way_; }
+  /// Whether it stays with the newest direction.
+  bool following() const { return following_; }
+  bool seeking() const { return under_way_ && seek_left_ > 0; }
+
+  /// Each of these but follow() ends the following. Out of range means the nearest there is.
+  void go_to(const Moment& moment);
+  /// To an end of the direction at most; from there on to the next one. False at the run's end.
+  bool step_by(std::int32_t steps);
+  /// The same step of another direction, and of another iteration step.
+  void direction_by(int directions);
+  void iteration_by(int iterations);
+  /// One phase on (or back), at the end of a step to the next (previous) one.
+  void phase_by(int phases);
+  void set_phase(Phase phase);
+  /// To the nearest step after (before) this one that `finder` finds, through all directions of the
+  /// run if need be; ends with seek_ended().
+  void seek(StepFinder finder, Way way);
+  /// Stays where it is.
+  void stop();
+  /// Goes to the fullest step of a direction and stays with the newest ones, if `following`.
+  void set_following(bool following);
+  void follow(int iteration, int direction);
+
+  /// The answer to map_wanted().
+  void show_map(std::shared_ptr<const RecordedMap> map);
+
+ signals:
+  void moved();   ///< moment, map or phase
+  void wished();  ///< what is wanted, what can be, whether it follows or seeks
+  void map_wanted(int direction);
+  void seek_ended(bool found);
+
+ private:
+  /// The step to show of a direction once it is known; MapHistory::none: another direction.
+  using Arrival = std::function<std::int32_t(const MapHistory&)>;
+
+  /// `from` where the run does not reach so far.
+  Moment moved_by(const Moment& from, int directions, std::int32_t step) const;
+  void go(int iteration, int direction, std::int32_t step, Arrival arrival);
+  void go_to_newest();
+  void arrive(std::int32_t step);
+  void seek_on();
+  void end_seek(bool found);
+  void leave_newest();
+
+  int passes_ = 0, iterations_ = 1;
+  Moment moment_, wanted_, newest_;
+  std::shared_ptr<const RecordedMap> map_;
+  Phase phase_ = Phase::after;
+  bool following_ = true;
+  bool under_way_ = false;
+  Arrival arrival_;
+  StepFinder finder_;
+  Way way_ = Way::forward;
+  int seek_left_ = 0;  ///< directions still to be searched
+};
+
+}  // namespace transillum::viewer

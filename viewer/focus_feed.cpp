@@ -1,0 +1,57 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "focus_feed.h"
+
+#include <utility>
+
+namespace transillum::viewer {
+
+FocusFeed::FocusFeed(Focus& focus, QObject* parent) : QObject(parent), focus_(focus) {
+  connect(&focus_, &Focus::map_wanted, this, &FocusFeed::record);
+  connect(&recorder_, &MapRecorder::recorded, &focus_, &Focus::show_map);
+  connect(&recorder_, &MapRecorder::failed, this, [this](const QString& message) {
+    focus_.stop();
+    emit failed(message);
+  });
+}
+
+void FocusFeed::clear() {
+  snapshot_ = nullptr;
+  recorder_.clear();
+  focus_.begin_run(0);
+}
+
+void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool new_run = !snapshot_ || snapshot->directions != snapshot_->directions;
+  snapshot_ = std::move(snapshot);
+  if (new_run) {
+    recorder_.clear();
+    focus_.begin_run(snapshot_->progress.passes);
+  }
+  const SolveProgress& progress = snapshot_->progress;
+  focus_.set_iterations(progress.iteration + (progress.direction > 0 ? 1 : 0));
+  follow();
+}
+
+void FocusFeed::set_watched(bool watched) {
+  watched_ = watched;
+  follow();
+}
+
+void FocusFeed::follow() {
+  if (!snapshot_ || !watched_) return;
+  const SolveProgress& progress = snapshot_->progress;
+  // Of a step that has just ended, the last direction.
+  if (progress.direction > 0)
+    focus_.follow(progress.iteration, progress.direction - 1);
+  else if (progress.iteration > 0)
+    focus_.follow(progress.iteration - 1, progress.passes - 1);
+}
+
+void FocusFeed::record(int direction) {
+  if (!snapshot_) return;
+  const auto& omega = (*snapshot_->directions)[static_cast<std::size_t>(direction)];
+  recorder_.request(
+      {snapshot_->loaded, omega, direction, snapshot_->progress.passes, focus_.following()});
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,53 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene_page.h"
+
+#include <QHBoxLayout>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include "banner.h"
+#include "color_bar.h"
+#include "color_controls.h"
+#include "scene_view.h"
+#include "welcome_page.h"
+
+namespace transillum::viewer {
+
+ScenePage::ScenePage(Selection& selection, ColorChoice& colors, QWidget* parent) : QWidget(parent) {
+  banner_ = new Banner;
+  color_controls_ = new ColorControls(colors);
+  scene_view_ = new SceneView(selection, colors);
+  scene_view_->setObjectName("scene_view");
+  auto* welcome = new WelcomePage;
+  connect(welcome, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
+  connect(welcome, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
+  connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
+          &SceneView::set_direction_shown);
+  connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
+          &SceneView::set_outlines_shown);
+  connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
+
+  auto* scene = new QWidget;
+  auto* with_bar = new QHBoxLayout;
+  with_bar->setSpacing(0);
+  with_bar->addWidget(scene_view_, 1);
+  with_bar->addWidget(new ColorBar(colors));
+  auto* scene_layout = new QVBoxLayout(scene);
+  scene_layout->setContentsMargins(0, 0, 0, 0);
+  scene_layout->setSpacing(0);
+  scene_layout->addWidget(color_controls_);
+  scene_layout->addLayout(with_bar, 1);
+  pages_ = new QStackedWidget;
+  pages_->addWidget(welcome);
+  pages_->addWidget(scene);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(banner_);
+  layout->addWidget(pages_, 1);
+}
+
+void ScenePage::show_scene() { pages_->setCurrentIndex(1); }
+
+}  // namespace transillum::viewer

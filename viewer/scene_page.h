@@ -1,0 +1,41 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "color_choice.h"
+#include "selection.h"
+
+class QStackedWidget;
+
+namespace transillum::viewer {
+
+class Banner;
+class ColorControls;
+class SceneView;
+
+/// The middle of the window: what there is to open, then the scene with its colours.
+class ScenePage : public QWidget {
+  Q_OBJECT
+
+ public:
+  ScenePage(Selection& selection, ColorChoice& colors, QWidget* parent = nullptr);
+
+  Banner* banner() const { return banner_; }
+  ColorControls* color_controls() const { return color_controls_; }
+  SceneView* scene_view() const { return scene_view_; }
+  /// Puts the scene where there were scenes to choose from.
+  void show_scene();
+
+ signals:
+  void open_clicked();
+  void built_in_clicked(const QString& name);
+
+ private:
+  Banner* banner_;
+  QStackedWidget* pages_;
+  ColorControls* color_controls_;
+  SceneView* scene_view_;
+};
+
+}  // namespace transillum::viewer
