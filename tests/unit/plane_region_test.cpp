@@ -9,35 +9,35 @@ namespace transillum {
 namespace {
 
 struct Polygon {
-  std::vector<PlanePoint> corners;
+  std::vector<PlaneRegion::Point> corners;
 
-  std::vector<PlaneSide> sides() const {
-    std::vector<PlaneSide> sides;
+  std::vector<PlaneRegion::Side> sides() const {
+    std::vector<PlaneRegion::Side> sides;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const PlanePoint &a = corners[k], &b = corners[(k + 1) % corners.size()];
+      const PlaneRegion::Point &a = corners[k], &b = corners[(k + 1) % corners.size()];
       const double length = std::hypot(b.u - a.u, b.v - a.v);
       sides.push_back(
           {(a.v - b.v) / length, (b.u - a.u) / length, (a.u * b.v - a.v * b.u) / length});
     }
     return sides;
   }
-  PlaneBox box() const {
-    PlaneBox box;
-    for (const PlanePoint& p : corners) box.add(p);
+  PlaneRegion::Box box() const {
+    PlaneRegion::Box box;
+    for (const PlaneRegion::Point& p : corners) box.add(p);
     return box;
   }
-  bool holds(const PlanePoint& p) const {
-    for (const PlaneSide& side : sides()) {
+  bool holds(const PlaneRegion::Point& p) const {
+    for (const PlaneRegion::Side& side : sides()) {
       if (side.distance(p) <= 0) return false;
     }
     return true;
   }
 };
 
-double area(std::span<const PlanePoint> corners) {
+double area(std::span<const PlaneRegion::Point> corners) {
   double twice = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const PlanePoint &a = corners[k], &b = corners[(k + 1) % corners.size()];
+    const PlaneRegion::Point &a = corners[k], &b = corners[(k + 1) % corners.size()];
     twice +=
         (a.u - corners[0].u) * (b.v - corners[0].v) - (a.v - corners[0].v) * (b.u - corners[0].u);
   }
@@ -46,7 +46,7 @@ double area(std::span<const PlanePoint> corners) {
 
 double area(const PlaneRegion& region) {
   double sum = 0;
-  region.for_each([&](std::span<const PlanePoint> part) { sum += area(part); });
+  region.for_each([&](std::span<const PlaneRegion::Point> part) { sum += area(part); });
   return sum;
 }
 
@@ -57,7 +57,7 @@ Polygon rectangle(double u, double v, double width, double height) {
 /// Convex, counter-clockwise: random points of an ellipse.
 Polygon random_polygon(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0, 1);
-  const PlanePoint center{unit(random), unit(random)};
+  const PlaneRegion::Point center{unit(random), unit(random)};
   const double a = 0.6 * unit(random), b = 0.6 * unit(random) * unit(random);
   std::vector<double> angles(3 + random() % 6);
   for (double& angle : angles) angle = 6.28 * unit(random);
@@ -101,11 +101,11 @@ TEST(PlaneRegion, HoldsThePointsThatNoneOfTheOthersHolds) {
     for (int k = 0; k < 8; ++k) taken.push_back(random_polygon(random));
     for (const Polygon& polygon : taken) region.subtract(polygon.sides(), polygon.box());
     for (int k = 0; k < 200; ++k) {
-      const PlanePoint p{unit(random), unit(random)};
+      const PlaneRegion::Point p{unit(random), unit(random)};
       bool expected = whole.holds(p);
       for (const Polygon& polygon : taken) expected = expected && !polygon.holds(p);
       int parts = 0;
-      region.for_each([&](std::span<const PlanePoint> part) {
+      region.for_each([&](std::span<const PlaneRegion::Point> part) {
         parts += Polygon{{part.begin(), part.end()}}.holds(p);
       });
       ASSERT_EQ(parts, expected ? 1 : 0) << trial;
@@ -122,7 +122,7 @@ TEST(PlaneRegion, IsTheSameForAnyOrder) {
   std::vector<Polygon> grid;
   for (int k = 0; k < 25; ++k) {
     grid.push_back(rectangle(0.1 * (k % 5), 0.1 * (k / 5), 0.1, 0.1));
-    for (PlanePoint& p : grid.back().corners) p.u += noise(random), p.v += noise(random);
+    for (PlaneRegion::Point& p : grid.back().corners) p.u += noise(random), p.v += noise(random);
   }
   for (int trial = 0; trial < 20; ++trial) {
     PlaneRegion region;

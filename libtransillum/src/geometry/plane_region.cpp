@@ -5,17 +5,17 @@
 
 namespace transillum {
 
-void PlaneRegion::assign(std::span<const PlanePoint> polygon) {
+void PlaneRegion::assign(std::span<const Point> polygon) {
   constexpr double rounding = 1e-14;
   corners_.assign(polygon.begin(), polygon.end());
   Part part{0, static_cast<std::uint32_t>(corners_.size()), {}};
-  for (const PlanePoint& p : polygon) part.box.add(p);
+  for (const Point& p : polygon) part.box.add(p);
   tolerance_ = rounding * std::max({-part.box.low.u, part.box.high.u, -part.box.low.v,
                                     part.box.high.v, part.box.high.u - part.box.low.u});
   parts_.assign(1, part);
 }
 
-void PlaneRegion::subtract(std::span<const PlaneSide> sides, const PlaneBox& box) {
+void PlaneRegion::subtract(std::span<const Side> sides, const Box& box) {
   left_.clear();
   for (const Part& part : parts_) {
     if (part.box.overlaps(box)) {
@@ -27,21 +27,21 @@ void PlaneRegion::subtract(std::span<const PlaneSide> sides, const PlaneBox& box
   parts_.swap(left_);
 }
 
-bool PlaneRegion::is_outside(const Part& part, const PlaneSide& side) const {
+bool PlaneRegion::is_outside(const Part& part, const Side& side) const {
   const auto points = corners(part);
   return std::all_of(points.begin(), points.end(),
-                     [&](const PlanePoint& p) { return side.distance(p) <= tolerance_; });
+                     [&](const Point& p) { return side.distance(p) <= tolerance_; });
 }
 
 /// What is outside the first side is left; of the rest, what is outside the second; and so on.
-void PlaneRegion::subtract_from(Part part, std::span<const PlaneSide> sides) {
+void PlaneRegion::subtract_from(Part part, std::span<const Side> sides) {
   if (std::any_of(sides.begin(), sides.end(),
-                  [&](const PlaneSide& side) { return is_outside(part, side); })) {
+                  [&](const Side& side) { return is_outside(part, side); })) {
     left_.push_back(part);
     return;
   }
-  for (const PlaneSide& side : sides) {
-    const PlaneSide opposite{-side.a, -side.b, -side.c};
+  for (const Side& side : sides) {
+    const Side opposite{-side.a, -side.b, -side.c};
     if (is_outside(part, opposite)) continue;
     left_.push_back(kept(part, opposite));
     part = kept(part, side);
@@ -50,20 +50,20 @@ void PlaneRegion::subtract_from(Part part, std::span<const PlaneSide> sides) {
 }
 
 /// The part inside a side that cuts it.
-PlaneRegion::Part PlaneRegion::kept(const Part& part, const PlaneSide& side) {
+PlaneRegion::Part PlaneRegion::kept(const Part& part, const Side& side) {
   Part inside{static_cast<std::uint32_t>(corners_.size()), 0, {}};
-  const auto keep = [&](const PlanePoint& p) {
+  const auto keep = [&](const Point& p) {
     corners_.push_back(p);
     inside.box.add(p);
   };
-  const auto distance_to = [&](const PlanePoint& p) {
+  const auto distance_to = [&](const Point& p) {
     const double distance = side.distance(p);
     return std::abs(distance) <= tolerance_ ? 0.0 : distance;
   };
-  PlanePoint last = corners_[part.end - 1];
+  Point last = corners_[part.end - 1];
   double last_distance = distance_to(last);
   for (std::uint32_t k = part.begin; k < part.end; ++k) {
-    const PlanePoint point = corners_[k];
+    const Point point = corners_[k];
     const double distance = distance_to(point);
     if ((last_distance > 0 && distance < 0) || (last_distance < 0 && distance > 0)) {
       const double t = last_distance / (last_distance - distance);

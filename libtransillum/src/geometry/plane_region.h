@@ -9,42 +9,42 @@
 
 namespace transillum {
 
-/// A point of a plane.
-struct PlanePoint {
-  double u = 0, v = 0;
-};
-
-/// Points with a u + b v + c > 0, where a² + b² = 1, are inside.
-struct PlaneSide {
-  double a = 0, b = 0, c = 0;
-
-  double distance(const PlanePoint& p) const { return a * p.u + b * p.v + c; }
-};
-
-/// A rectangle about points; empty until one is added.
-struct PlaneBox {
-  PlanePoint low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-
-  void add(const PlanePoint& p) {
-    low = {std::min(low.u, p.u), std::min(low.v, p.v)};
-    high = {std::max(high.u, p.u), std::max(high.v, p.v)};
-  }
-  bool overlaps(const PlaneBox& other) const {
-    return low.u <= other.high.u && other.low.u <= high.u && low.v <= other.high.v &&
-           other.low.v <= high.v;
-  }
-};
-
 /// What is left of convex polygons of a plane where others are taken away.
 ///
 /// The lines of those come from the caller and are not recomputed from the ends of edges: an edge
 /// that cuts have left nearly without length does no harm.
 class PlaneRegion {
  public:
+  /// A point of a plane.
+  struct Point {
+    double u = 0, v = 0;
+  };
+
+  /// Points with a u + b v + c > 0, where a² + b² = 1, are inside.
+  struct Side {
+    double a = 0, b = 0, c = 0;
+
+    double distance(const Point& p) const { return a * p.u + b * p.v + c; }
+  };
+
+  /// A rectangle about points; empty until one is added.
+  struct Box {
+    Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+
+    void add(const Point& p) {
+      low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+      high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+    }
+    bool overlaps(const Box& other) const {
+      return low.u <= other.high.u && other.low.u <= high.u && low.v <= other.high.v &&
+             other.low.v <= high.v;
+    }
+  };
+
   /// The rest is one convex polygon, of either sense of rotation, which its parts keep.
-  void assign(std::span<const PlanePoint> polygon);
+  void assign(std::span<const Point> polygon);
   /// Takes away what is inside all `sides`, at least one, and in `box`.
-  void subtract(std::span<const PlaneSide> sides, const PlaneBox& box);
+  void subtract(std::span<const Side> sides, const Box& box);
 
   bool empty() const { return parts_.empty(); }
   /// visit(corners) for the convex parts that are left; they do not overlap.
@@ -56,17 +56,17 @@ class PlaneRegion {
  private:
   struct Part {
     std::uint32_t begin, end;  ///< in corners_
-    PlaneBox box;
+    Box box;
   };
-  std::span<const PlanePoint> corners(const Part& part) const {
+  std::span<const Point> corners(const Part& part) const {
     return {corners_.data() + part.begin, part.end - part.begin};
   }
-  bool is_outside(const Part& part, const PlaneSide& side) const;
-  void subtract_from(Part part, std::span<const PlaneSide> sides);
-  Part kept(const Part& part, const PlaneSide& side);
+  bool is_outside(const Part& part, const Side& side) const;
+  void subtract_from(Part part, std::span<const Side> sides);
+  Part kept(const Part& part, const Side& side);
 
   double tolerance_ = 0;  ///< points nearer to a line than this count as on it
-  std::vector<PlanePoint> corners_;
+  std::vector<Point> corners_;
   std::vector<Part> parts_, left_;
 };
 

@@ -42,7 +42,8 @@ class EmbreeScene {
   /// Shows all that 16 rays meet to `filter`, which must set all lanes invalid. `valid`: 64 bytes
   /// aligned, -1 for a ray, 0 for none. Coherent: neighbours that run along each other.
   void all_hits(const int* valid, RTCRay16& rays, bool coherent, Filter filter, void* data) const;
-  /// The nearest hit of each of 16 rays that go much the same way; geomID stays RTC_INVALID_GEOMETRY_ID without.
+  /// The nearest hit of each of 16 rays that go much the same way; geomID stays
+  /// RTC_INVALID_GEOMETRY_ID without.
   void first_hits(const int* valid, RTCRayHit16& rays) const;
   /// The nearest hit of one ray; with `lit_only` that on a lit side.
   void first_hit(RTCRayHit& ray, bool lit_only) const;

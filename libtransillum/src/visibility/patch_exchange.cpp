@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "transillum/bsp_tree.h"
+#include "visibility/merged_pieces.h"
 #include "visibility/point_view.h"
 #include "visibility/shaft.h"
 
@@ -40,21 +41,35 @@ void for_points_of(Outline polygon, int steps, Visit&& visit) {
   }
 }
 
+Bounds bounds_of(Outline polygon) {
+  Bounds box;
+  for (const Vec3& corner : polygon) box.add(corner);
+  return box;
+}
+
+std::vector<Bounds> bounds_of(const std::vector<Corners>& polygons) {
+  std::vector<Bounds> boxes;
+  for (const Corners& polygon : polygons) boxes.push_back(bounds_of(polygon));
+  return boxes;
+}
+
 }  // namespace
 
 ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellation, double density)
     : scene_(scene),
       density_(density),
       tolerance_(std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
-      tree_(scene),
+      blockers_(merged_pieces(scene)),
+      tree_(bounds_of(blockers_)),
       part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
+  std::vector<Bounds> boxes;
+  for (const Piece& piece : scene.pieces()) boxes.push_back(bounds_of(corners_of(piece)));
+  const BoxTree pieces(boxes);
   std::vector<std::vector<Corners>> parts(static_cast<std::size_t>(scene.patch_count()));
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
     if (k % 1024 == 0) cancellation.throw_if_cancelled();
     auto& of_patch = parts[static_cast<std::size_t>(scene.pieces()[k].patch)];
-    for (Corners& part : open_parts(static_cast<std::int32_t>(k))) {
-      of_patch.push_back(std::move(part));
-    }
+    for (Corners& part : open_parts(k, pieces)) of_patch.push_back(std::move(part));
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (Corners& part : parts[i]) parts_.push_back(std::move(part));
@@ -62,11 +77,9 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
   }
 }
 
-Corners ExchangeFinder::corners_of(std::int32_t piece) const {
+Corners ExchangeFinder::corners_of(const Piece& piece) const {
   Corners corners;
-  for (const PointId p : scene_.corners(scene_.pieces()[static_cast<std::size_t>(piece)])) {
-    corners.push_back(scene_.point(p));
-  }
+  for (const PointId p : scene_.corners(piece)) corners.push_back(scene_.point(p));
   return corners;
 }
 
@@ -78,22 +91,21 @@ bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   return rank(upper) < rank(lower);
 }
 
-std::vector<Corners> ExchangeFinder::open_parts(std::int32_t piece) const {
-  const Corners corners = corners_of(piece);
-  const PatchId patch = scene_.pieces()[static_cast<std::size_t>(piece)].patch;
+std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree& pieces) const {
+  const Corners corners = corners_of(scene_.pieces()[piece]);
+  const PatchId patch = scene_.pieces()[piece].patch;
   const HalfSpace front = lit_half_space(corners);
-  Bounds box;
-  for (const Vec3& corner : corners) box.add(corner);
+  const Bounds box = bounds_of(corners);
   const auto overlaps = [&](const CenteredBox& other) {
     const Vec3 apart = other.center - box.center(), sum = other.half + 0.5 * (box.high - box.low);
     return std::abs(apart.x) <= sum.x + tolerance_ && std::abs(apart.y) <= sum.y + tolerance_ &&
            std::abs(apart.z) <= sum.z + tolerance_;
   };
   std::vector<Corners> covering;
-  tree_.for_each(overlaps, [&](std::int32_t other) {
-    const PatchId upper = scene_.pieces()[static_cast<std::size_t>(other)].patch;
-    if (upper == patch || dot(scene_.patch(upper).normal, front.normal) <= 0 ||
-        !covers(upper, patch)) {
+  pieces.for_each(overlaps, [&](std::int32_t number) {
+    const Piece& other = scene_.pieces()[static_cast<std::size_t>(number)];
+    if (other.patch == patch || dot(scene_.patch(other.patch).normal, front.normal) <= 0 ||
+        !covers(other.patch, patch)) {
       return;
     }
     const Corners others = corners_of(other);
@@ -110,9 +122,9 @@ void ExchangeFinder::collect_blockers(const FacingPolygons& facing,
   blockers.clear();
   const Shaft shaft(facing, tolerance_);
   tree_.for_each([&](const CenteredBox& box) { return shaft.reaches(box); },
-                 [&](std::int32_t piece) {
-                   Corners corners = corners_of(piece);
-                   if (shaft.meets(corners)) blockers.push_back(std::move(corners));
+                 [&](std::int32_t number) {
+                   const Corners& blocker = blockers_[static_cast<std::size_t>(number)];
+                   if (shaft.meets(blocker)) blockers.push_back(blocker);
                  });
 }
 

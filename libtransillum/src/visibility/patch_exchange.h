@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "geometry/form_factor.h"
-#include "visibility/piece_tree.h"
+#include "transillum/scene.h"
+#include "visibility/box_tree.h"
 
 namespace transillum {
 
@@ -38,9 +39,9 @@ class ExchangeFinder {
   PatchExchange operator()(PatchId i, PatchId j) const;
 
  private:
-  std::vector<Corners> open_parts(std::int32_t piece) const;
+  std::vector<Corners> open_parts(std::size_t piece, const BoxTree& pieces) const;
   bool covers(PatchId upper, PatchId lower) const;
-  Corners corners_of(std::int32_t piece) const;
+  Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, std::vector<Corners>& blockers) const;
   double partial_exchange(const FacingPolygons& facing, const std::vector<Corners>& blockers) const;
   std::span<const Corners> parts_of(PatchId i) const {
@@ -51,7 +52,8 @@ class ExchangeFinder {
   const Scene& scene_;
   double density_;
   double tolerance_;
-  PieceTree tree_;
+  std::vector<Corners> blockers_;
+  BoxTree tree_;                ///< of blockers_
   std::vector<Corners> parts_;  ///< convex, of patches, less what covers them
   std::vector<std::size_t> part_begin_;
 };

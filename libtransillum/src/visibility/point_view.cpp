@@ -20,14 +20,14 @@ struct Frame {
   Vec3 origin, u, v, depth;
 };
 
-PlaneSide unit_side(double a, double b, double c) {
+PlaneRegion::Side unit_side(double a, double b, double c) {
   const double length = std::hypot(a, b);
-  return length > 0 ? PlaneSide{a / length, b / length, c / length} : PlaneSide{};
+  return length > 0 ? PlaneRegion::Side{a / length, b / length, c / length} : PlaneRegion::Side{};
 }
 
-bool is_line(const PlaneSide& side) { return side.a != 0 || side.b != 0; }
+bool is_line(const PlaneRegion::Side& side) { return side.a != 0 || side.b != 0; }
 
-using Sides = boost::container::small_vector<PlaneSide, 8>;
+using Sides = boost::container::small_vector<PlaneRegion::Side, 8>;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal, Outline polygon
   const double height = front.distance(x);
   if (height <= 0) return 0;
   const Frame frame(x, -front.normal);
-  boost::container::small_vector<PlanePoint, 12> corners;
+  boost::container::small_vector<PlaneRegion::Point, 12> corners;
   for (const Vec3& corner : polygon) {
     const Vec3 p = frame.coordinates(corner);
     corners.push_back({p.x / height, p.y / height});
@@ -54,7 +54,7 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal, Outline polygon
       between = clipped(clipped(between, {{0, 0, 1}, near}), {{0, 0, -1}, -1});
     }
     if (between.empty()) continue;
-    PlaneBox box;
+    PlaneRegion::Box box;
     double orientation = 0;
     Sides sides;
     const Vec3 area = area_vector(between);
@@ -64,7 +64,7 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal, Outline polygon
       const Vec3 &a = between[k], &b = between[k + 1 < between.size() ? k + 1 : 0];
       box.add({a.x / a.z, a.y / a.z});
       const Vec3 across = (orientation > 0 ? 1 : -1) * cross(a, b);
-      const PlaneSide side = unit_side(across.x, across.y, across.z);
+      const PlaneRegion::Side side = unit_side(across.x, across.y, across.z);
       if (is_line(side)) sides.push_back(side);
     }
     region_.subtract({sides.data(), sides.size()}, box);
@@ -73,9 +73,9 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal, Outline polygon
 
   double sum = 0;
   const Vec3 n{dot(normal, frame.u), dot(normal, frame.v), dot(normal, frame.depth)};
-  region_.for_each([&](std::span<const PlanePoint> part) {
+  region_.for_each([&](std::span<const PlaneRegion::Point> part) {
     Corners lifted;
-    for (const PlanePoint& p : part) lifted.push_back({p.u, p.v, 1});
+    for (const PlaneRegion::Point& p : part) lifted.push_back({p.u, p.v, 1});
     sum += point_form_factor({}, n, lifted);
   });
   return sum;
@@ -86,27 +86,29 @@ std::vector<Corners> uncovered(Outline polygon, const std::vector<Corners>& cove
   const Frame frame(polygon[0], front.normal);
   const auto flat = [&](const Vec3& p) {
     const Vec3 q = frame.coordinates(p);
-    return PlanePoint{q.x, q.y};
+    return PlaneRegion::Point{q.x, q.y};
   };
-  boost::container::small_vector<PlanePoint, 12> corners;
+  boost::container::small_vector<PlaneRegion::Point, 12> corners;
   for (const Vec3& corner : polygon) corners.push_back(flat(corner));
   PlaneRegion region;
   region.assign({corners.data(), corners.size()});
   for (const Corners& cover : covers) {
-    PlaneBox box;
+    PlaneRegion::Box box;
     Sides sides;
     for (std::size_t k = 0; k < cover.size(); ++k) {
-      const PlanePoint a = flat(cover[k]), b = flat(cover[k + 1 < cover.size() ? k + 1 : 0]);
+      const PlaneRegion::Point a = flat(cover[k]),
+                               b = flat(cover[k + 1 < cover.size() ? k + 1 : 0]);
       box.add(a);
-      const PlaneSide side = unit_side(a.v - b.v, b.u - a.u, a.u * b.v - a.v * b.u);
+      const PlaneRegion::Side side = unit_side(a.v - b.v, b.u - a.u, a.u * b.v - a.v * b.u);
       if (is_line(side)) sides.push_back(side);
     }
     region.subtract({sides.data(), sides.size()}, box);
   }
   std::vector<Corners> parts;
-  region.for_each([&](std::span<const PlanePoint> part) {
+  region.for_each([&](std::span<const PlaneRegion::Point> part) {
     Corners lifted;
-    for (const PlanePoint& p : part) lifted.push_back(polygon[0] + p.u * frame.u + p.v * frame.v);
+    for (const PlaneRegion::Point& p : part)
+      lifted.push_back(polygon[0] + p.u * frame.u + p.v * frame.v);
     parts.push_back(lifted);
   });
   return parts;

@@ -4,7 +4,7 @@
 #include <boost/container/small_vector.hpp>
 
 #include "geometry/form_factor.h"
-#include "visibility/piece_tree.h"
+#include "visibility/box_tree.h"
 
 namespace transillum {
 

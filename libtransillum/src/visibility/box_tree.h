@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "transillum/scene.h"
+#include "transillum/vec3.h"
 
 namespace transillum {
 
@@ -20,14 +20,14 @@ struct CenteredBox {
   }
 };
 
-/// Finds pieces of patches by where they lie: a binary tree of boxes.
+/// Finds boxes by where they lie: a binary tree of boxes about boxes.
 ///
 /// Threads: immutable once built.
-class PieceTree {
+class BoxTree {
  public:
-  explicit PieceTree(const Scene& scene);
+  explicit BoxTree(const std::vector<Bounds>& boxes);
 
-  /// visit(piece) for the pieces whose box, and every box about it, `reaches` accepts.
+  /// visit(number) for the boxes that `reaches` accepts, as it must every box about them.
   template <class Reaches, class Visit>
   void for_each(Reaches&& reaches, Visit&& visit) const {
     std::array<std::int32_t, 64> open;
@@ -48,11 +48,11 @@ class PieceTree {
  private:
   struct Node {
     CenteredBox box;
-    std::int32_t first;   ///< node, or piece of a leaf
+    std::int32_t first;   ///< node, or the box of a leaf
     std::int32_t second;  ///< node; -1 in a leaf
   };
   struct Item {
-    std::int32_t piece;
+    std::int32_t number;
     Bounds box;
   };
   std::int32_t build(std::vector<Item>& items, std::size_t begin, std::size_t end);

@@ -1,23 +1,19 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/piece_tree.h"
+#include "visibility/box_tree.h"
 
 #include <algorithm>
 
 namespace transillum {
 
-PieceTree::PieceTree(const Scene& scene) {
+BoxTree::BoxTree(const std::vector<Bounds>& boxes) {
   std::vector<Item> items;
-  for (const Piece& piece : scene.pieces()) {
-    Item item{static_cast<std::int32_t>(items.size()), {}};
-    for (const PointId p : scene.corners(piece)) item.box.add(scene.point(p));
-    items.push_back(item);
-  }
+  for (const Bounds& box : boxes) items.push_back({static_cast<std::int32_t>(items.size()), box});
   nodes_.reserve(2 * items.size());
   if (!items.empty()) build(items, 0, items.size());
 }
 
 /// Halves the items along the longest side of their middles' box: depth is log2 of their number.
-std::int32_t PieceTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
+std::int32_t BoxTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
   Bounds all, middles;
   for (std::size_t k = begin; k < end; ++k) {
     all.add(items[k].box.low);
@@ -25,7 +21,7 @@ std::int32_t PieceTree::build(std::vector<Item>& items, std::size_t begin, std::
     middles.add(items[k].box.center());
   }
   const auto id = static_cast<std::int32_t>(nodes_.size());
-  nodes_.push_back({{all.center(), 0.5 * all.high - 0.5 * all.low}, items[begin].piece, -1});
+  nodes_.push_back({{all.center(), 0.5 * all.high - 0.5 * all.low}, items[begin].number, -1});
   if (end - begin == 1) return id;
 
   const Vec3 size = middles.high - middles.low;
@@ -35,7 +31,7 @@ std::int32_t PieceTree::build(std::vector<Item>& items, std::size_t begin, std::
   const auto at = [&](std::size_t k) { return items.begin() + static_cast<std::ptrdiff_t>(k); };
   std::nth_element(at(begin), at(middle), at(end), [&](const Item& a, const Item& b) {
     const double x = a.box.center().*axis, y = b.box.center().*axis;
-    return x != y ? x < y : a.piece < b.piece;
+    return x != y ? x < y : a.number < b.number;
   });
   const std::int32_t first = build(items, begin, middle), second = build(items, middle, end);
   nodes_[static_cast<std::size_t>(id)].first = first;
