@@ -13,7 +13,7 @@ namespace {
 
 // As the command line keeps them, before names become enumerators.
 struct Words {
-  std::string sampling, engine, normalize = "none";
+  std::string sampling, engine, normalize, scheme;
   bool one_way = false, two_way = false;
 };
 
@@ -35,7 +35,13 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
   app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")
       ->excludes(one_way);
-  app.add_option("--normalize", words.normalize, "none | rows")->capture_default_str();
+  app.add_option("--normalize", words.normalize, joined(normalization_names()))
+      ->capture_default_str();
+  app.add_option("--scheme", words.scheme, joined(scheme_names()))->capture_default_str();
+  app.add_option("--burn-in", solve.burn_in, "semi-iterative: steps left out of the mean")
+      ->capture_default_str();
+  app.add_option("--replicas", solve.replicas, "rotated sets that give standard errors")
+      ->capture_default_str();
   auto* iterations = app.add_option("--iterations", solve.iterations, "stop after so many steps")
                          ->check(CLI::PositiveNumber);
   app.add_option("--tolerance", solve.tolerance, "stop at this relative change")
@@ -56,10 +62,8 @@ void finish(CommandLine& line, const Words& words, const CLI::App& app) {
   solve.sampling = sampling_from_name(words.sampling);
   solve.engine = engine_from_name(words.engine);
   solve.two_way = !words.one_way;
-  if (words.normalize == "rows")
-    solve.normalize = Normalization::rows;
-  else if (words.normalize != "none")
-    throw InputError("--normalize: \"" + words.normalize + "\" is none of none, rows");
+  solve.normalize = normalization_from_name(words.normalize);
+  solve.scheme = scheme_from_name(words.scheme);
   solve.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty()) throw InputError("--screenshot needs a SCENE");
@@ -81,6 +85,8 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   Words words;
   words.sampling = name_of(line.solve_options.sampling);
   words.engine = name_of(line.solve_options.engine);
+  words.normalize = name_of(line.solve_options.normalize);
+  words.scheme = name_of(line.solve_options.scheme);
 
   CLI::App app("Watch diffuse light settle in a scene, direction by direction.",
                "transillum-viewer");

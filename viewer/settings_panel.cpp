@@ -20,12 +20,6 @@ namespace transillum::viewer {
 
 namespace {
 
-bool same(const SolveOptions& a, const SolveOptions& b) {
-  return a.directions == b.directions && a.sampling == b.sampling && a.seed == b.seed &&
-         a.rotation == b.rotation && a.engine == b.engine && a.two_way == b.two_way &&
-         a.normalize == b.normalize && a.iterations == b.iterations && a.tolerance == b.tolerance;
-}
-
 bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
 }
@@ -77,8 +71,23 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
   ways_->setToolTip(tr("Both ways: a pass serves its direction and the opposite one"));
   normalize_ = new QComboBox;
-  normalize_->addItems({tr("None, as the paper"), tr("Rows")});
-  normalize_->setToolTip(tr("Rows: divide by the quadrature of the cosine, patch by patch"));
+  normalize_->addItems({tr("None, as the paper"), tr("Rows"), tr("Symmetric")});
+  normalize_->setToolTip(
+      tr("Rows: divide by the quadrature of the cosine, patch by patch\n"
+         "Symmetric: scale rows and columns alike, so that reciprocity stays"));
+  scheme_ = new QComboBox;
+  for (const std::string& name : scheme_names()) scheme_->addItem(capitalized(name));
+  scheme_->setToolTip(
+      tr("Fixed: the same directions in every step\nGrowing: twice as many each step, up to M\n"
+         "Semi-iterative: M others each step, and the mean over steps\n"
+         "Conjugate gradients: one step of passes, then solved at once"));
+  replicas_ = new QSpinBox;
+  replicas_->setObjectName("replicas");
+  replicas_->setRange(1, 64);
+  replicas_->setSpecialValueText(tr("None"));
+  replicas_->setToolTip(
+      tr("Make the directions so many independently rotated sets:\n"
+         "their spread tells how far B may be off"));
   stop_at_ = new QComboBox;
   stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
   tolerance_ = new QLineEdit;
@@ -97,6 +106,8 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   form.addRow(tr("Engine"), engine_);
   form.addRow(tr("Light goes"), ways_);
   form.addRow(tr("Normalize"), normalize_);
+  form.addRow(tr("Scheme"), scheme_);
+  form.addRow(tr("Replicas"), replicas_);
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
@@ -105,12 +116,12 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   stop_row->addWidget(stop_at_, 1);
   stop_row->addWidget(stop_value_, 1);
   form.addRow(tr("Stop at"), stop_row);
-  for (QComboBox* box : {sampling_, engine_, ways_, normalize_, stop_at_}) {
+  for (QComboBox* box : {sampling_, engine_, ways_, normalize_, scheme_, stop_at_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
   }
-  for (QSpinBox* box : {directions_, seed_, iterations_})
+  for (QSpinBox* box : {directions_, seed_, replicas_, iterations_})
     connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
   connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
 }
@@ -142,6 +153,8 @@ SolveOptions SettingsPanel::solve_options() const {
   options.engine = static_cast<Engine>(engine_->currentIndex());
   options.two_way = ways_->currentIndex() == 0;
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
+  options.scheme = static_cast<Scheme>(scheme_->currentIndex());
+  options.replicas = replicas_->value();
   options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
   bool number = false;
   const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
@@ -162,6 +175,8 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   engine_->setCurrentIndex(static_cast<int>(solve.engine));
   ways_->setCurrentIndex(solve.two_way ? 0 : 1);
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
+  scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
+  replicas_->setValue(solve.replicas);
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
   tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
@@ -177,7 +192,7 @@ void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions&
 }
 
 bool SettingsPanel::differ_from_effect() const {
-  return !same(solve_options(), solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+  return !(solve_options() == solve_in_effect_) || !same(scene_options(), scene_in_effect_);
 }
 
 void SettingsPanel::set_restart_enabled(bool enabled) {

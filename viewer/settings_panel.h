@@ -53,6 +53,8 @@ class SettingsPanel : public QWidget {
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
   QLineEdit* tolerance_;
+  QComboBox* scheme_ = nullptr;
+  QSpinBox* replicas_ = nullptr;
   QSpinBox* iterations_;
   QCheckBox* two_sided_;
   QDoubleSpinBox* max_patch_area_;

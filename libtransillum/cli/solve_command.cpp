@@ -25,12 +25,16 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Steps that the semi-iterative scheme takes the mean of, unless told otherwise.
+constexpr int averaged_steps = 16;
+
 struct SolveCall {
   std::string scene;
   SceneOptions scene_options;
   SequenceOptions sequence;
   SolveOptions options;
   bool one_way = false, two_way = false;
+  bool stop_given = false;  ///< --iterations or --tolerance
   std::vector<std::string> out;
   std::string stats;
   bool quiet = false;
@@ -53,6 +57,10 @@ SolveOptions solve_options(const SolveCall& call) {
   options.seed = options.engine_options.seed = call.sequence.seed;
   options.rotation = call.sequence.rotation;
   options.two_way = !call.one_way;
+  // Its changes fall as 1 / steps: the usual tolerance would be met after days.
+  if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
+    options.iterations = options.burn_in + averaged_steps;
+  }
   options.validate();
   return options;
 }
@@ -96,6 +104,7 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
   solution.complete = progress.finished;
   solution.radiosity = progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
   solution.irradiance = solver.irradiance();
+  solution.error = solver.error_estimate();
   solution.statistics = solver.statistics();
   solution.statistics.seconds_bsp = seconds_bsp;
   return solution;
@@ -147,19 +156,22 @@ int run(const SolveCall& call) {
   return interrupted;
 }
 
-void add_stopping_rules(CLI::App& command, SolveOptions& options) {
-  auto* iterations = add_parsed_option(command, "--iterations", "K", "stop after K iteration steps",
-                                       [&options](const std::string& text) {
-                                         options.iterations = static_cast<int>(parse_whole_number(
-                                             "--iterations", text, 1, 1'000'000));
-                                       });
+void add_stopping_rules(CLI::App& command, SolveCall& call) {
+  auto* iterations = add_parsed_option(
+      command, "--iterations", "K", "stop after K iteration steps",
+      [&call](const std::string& text) {
+        call.options.iterations =
+            static_cast<int>(parse_whole_number("--iterations", text, 1, 1'000'000));
+        call.stop_given = true;
+      });
   auto* tolerance = add_parsed_option(
       command, "--tolerance", "T",
       fmt::format("stop when no patch changes by more than T of the largest B (default {})",
-                  options.tolerance),
-      [&options](const std::string& text) {
-        options.tolerance = parse_number("--tolerance", text);
-        if (!(options.tolerance > 0 && options.tolerance < 1)) {
+                  call.options.tolerance),
+      [&call](const std::string& text) {
+        call.options.tolerance = parse_number("--tolerance", text);
+        call.stop_given = true;
+        if (!(call.options.tolerance > 0 && call.options.tolerance < 1)) {
           throw InputError(fmt::format("--tolerance: \"{}\" is not between 0 and 1", text));
         }
       });
@@ -176,14 +188,35 @@ void add_estimator(CLI::App& command, SolveCall& call) {
   one_way->excludes(two_way);
   add_parsed_option(
       command, "--normalize", "NAME",
-      "none | rows: the paper's estimator, or rows divided by their quadrature of "
-      "the cosine (default none)",
-      [&options](const std::string& text) {
-        if (text != "none" && text != "rows") {
-          throw InputError(fmt::format("--normalize: \"{}\" is not none or rows", text));
-        }
-        options.normalize = text == "rows" ? Normalization::rows : Normalization::none;
-      });
+      fmt::format("{}: the paper's estimator, or rows divided by their quadrature of the cosine, "
+                  "or rows and columns scaled alike so that rows sum to 1 (default none)",
+                  fmt::join(normalization_names(), " | ")),
+      [&options](const std::string& text) { options.normalize = normalization_from_name(text); });
+}
+
+void add_scheme(CLI::App& command, SolveOptions& options) {
+  add_parsed_option(
+      command, "--scheme", "NAME",
+      fmt::format("{}: the same directions in every step; twice as many each step up to M; others "
+                  "each step, and the mean over steps; the same, solved on the symmetric form "
+                  "(default {})",
+                  fmt::join(scheme_names(), " | "), name_of(options.scheme)),
+      [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
+  add_parsed_option(command, "--burn-in", "N",
+                    fmt::format("semi-iterative: leave the first N steps out of the mean "
+                                "(default {})",
+                                options.burn_in),
+                    [&options](const std::string& text) {
+                      options.burn_in =
+                          static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
+                    });
+  add_parsed_option(command, "--replicas", "R",
+                    "make the M directions R independently rotated sets; their spread gives "
+                    "standard errors (default 1: none)",
+                    [&options](const std::string& text) {
+                      options.replicas =
+                          static_cast<int>(parse_whole_number("--replicas", text, 1, 64));
+                    });
 }
 
 void add_outputs(CLI::App& command, SolveCall& call) {
@@ -209,7 +242,8 @@ Run add_solve_command(CLI::App& program) {
   add_scene_argument(command, call->scene);
   add_sequence_options(command, call->sequence);
   add_estimator(command, *call);
-  add_stopping_rules(command, call->options);
+  add_scheme(command, call->options);
+  add_stopping_rules(command, *call);
   add_scene_options(command, call->scene_options);
   add_machine_limits(command, call->options.memory, call->options.threads);
   add_outputs(command, *call);

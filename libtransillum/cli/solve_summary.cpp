@@ -52,20 +52,28 @@ std::string convergence_text(const SolveStatistics& statistics) {
                      statistics.steps.back().change, statistics.converged ? ", converged" : "");
 }
 
+std::string error_text(const ErrorEstimate& error) {
+  const Rgb half = error.quantile * error.mean_standard_error;
+  return row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas",
+                                       100 * error.rms, error.replicas)) +
+         row("B mean is within", fmt::format("+- {} of that above, in 95 of 100 runs",
+                                             color_text(half)));
+}
+
 }  // namespace
 
 std::string solve_summary(const Solution& solution) {
   const SolveStatistics& s = solution.statistics;
   const RadiosityRange b = radiosity_range(solution);
-  // Without kept form factors every step makes its passes anew.
-  const int rounds = s.kept_form_factors ? 1 : s.iterations;
   std::string text = row("scene", solution.scene->name());
   text += row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
   text += row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
                                     s.threads));
-  if (solution.complete && rounds > 0) {
-    text += row("time a pass",
-                fmt::format("{:.3g} ms", 1000 * s.seconds_transfers / s.passes / rounds));
+  if (s.passes_made > 0) {
+    text += row("time a pass", fmt::format("{:.3g} ms, {} made",
+                                           1000 * s.seconds_transfers /
+                                               static_cast<double>(s.passes_made),
+                                           s.passes_made));
   }
   text += row("iterations", convergence_text(s));
   text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",
@@ -74,6 +82,7 @@ std::string solve_summary(const Solution& solution) {
   text += row("B min, W/m2", color_text(b.low));
   text += row("B mean, W/m2", color_text(b.mean));
   text += row("B max, W/m2", color_text(b.high));
+  if (solution.error.replicas > 0) text += error_text(solution.error);
   text += row("time", fmt::format("{} (load {}, sorting {}, passes {}, iteration {})",
                                   time_text(s.seconds_total), time_text(s.seconds_load),
                                   time_text(s.seconds_bsp), time_text(s.seconds_transfers),

@@ -37,6 +37,8 @@ struct EngineOptions {
   double lines_per_patch = 100;  ///< rays: lines a direction over the number of patches, (0, 1e6]
   bool gridded = true;           ///< rays: on a jittered grid; else anywhere at random
   std::uint64_t seed = 1;        ///< rays
+
+  friend bool operator==(const EngineOptions&, const EngineOptions&) = default;
 };
 
 /// Keeps scene and tree alive. `tree` is `scene`'s.

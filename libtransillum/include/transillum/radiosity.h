@@ -19,11 +19,30 @@
 
 namespace transillum {
 
-/// Whether rows of the form-factor matrix are divided by their quadrature of the cosine.
+/// What is done to the form-factor matrix so that its rows sum to what they should.
 enum class Normalization {
-  none,  ///< the paper's plain estimator
-  rows,  ///< removes the error of section 5.1; the iteration contracts for every M
+  none,       ///< the paper's plain estimator
+  rows,       ///< rows divided by their quadrature of the cosine: removes the error of section 5.1,
+              ///< the iteration contracts for every M, reciprocity is lost
+  symmetric,  ///< rows and columns scaled alike to the same end: A_i F_ij = A_j F_ji stays.
+              ///< Wants two_way and kept form factors
 };
+/// The names of the command line, in the order of the enumeration.
+const std::vector<std::string>& normalization_names();
+/// @throws InputError naming the choices.
+Normalization normalization_from_name(const std::string& name);
+const std::string& name_of(Normalization normalization);
+
+/// Which directions a step takes, and what it makes of them (section 6).
+enum class Scheme {
+  fixed,                ///< the same M directions in every step (eq. 11)
+  growing,              ///< twice as many each step up to M; none is computed twice (eq. 44)
+  semi_iterative,       ///< M others each step, and the mean over steps (eq. 45)
+  conjugate_gradients,  ///< as fixed, but solved on the symmetric form. Wants two_way, not rows
+};
+const std::vector<std::string>& scheme_names();
+Scheme scheme_from_name(const std::string& name);
+const std::string& name_of(Scheme scheme);
 
 /// Options of a solve; the defaults are the command line's.
 struct SolveOptions {
@@ -35,13 +54,18 @@ struct SolveOptions {
   EngineOptions engine_options = {};
   bool two_way = true;  ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;
-  int iterations = 0;        ///< stop after so many steps; 0: by tolerance
+  Scheme scheme = Scheme::fixed;
+  int burn_in = 8;     ///< semi_iterative: so many steps are left out of the mean
+  int replicas = 1;    ///< 2 … 64: the M directions are so many independently rotated sets, whose
+                       ///< spread gives an error estimate. At most M
+  int iterations = 0;  ///< stop after so many steps; 0: by tolerance
   double tolerance = 1e-6;   ///< relative change of B in the maximum norm (eq. 25)
   std::uint64_t memory = 0;  ///< bytes kept form factors may take; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;
+  friend bool operator==(const SolveOptions&, const SolveOptions&) = default;
 };
 
 /// One finished iteration step of eq. 11.
@@ -56,7 +80,7 @@ struct IterationRecord {
 struct SolveProgress {
   int iteration = 0;             ///< finished steps
   int direction = 0;             ///< passes done in the step under way
-  int passes = 0;                ///< passes a step takes: M
+  int passes = 0;                ///< passes this step takes: M, or less where it grows
   bool finished = false;         ///< converged, or all steps done
   double seconds_transfers = 0;  ///< wall time of passes so far
   double passes_per_second = 0;  ///< of the step under way
@@ -64,13 +88,26 @@ struct SolveProgress {
   Vec3 last_direction;           ///< of the newest pass done
 };
 
+/// How far B may be off by its directions, from the spread of independently rotated replicas of
+/// them: no reference is needed. Rotations make each replica right on average (eq. 47), so
+/// B +- quantile * standard error holds the B of infinitely many directions 95 times in 100.
+struct ErrorEstimate {
+  int replicas = 0;                 ///< 0: there is no estimate, and nothing below
+  std::vector<Rgb> standard_error;  ///< of B, W/m², one a patch
+  double quantile = 0;              ///< Student's, two-sided 95 %, replicas - 1 degrees of freedom
+  double rms = 0;                   ///< RMS of the errors over RMS of B, weighted by area
+  Rgb mean_radiosity;               ///< of B by area, W/m²
+  Rgb mean_standard_error;          ///< of this mean
+};
+
 /// What is known when a solve ends.
 struct SolveStatistics {
   std::int64_t patches = 0, fragments = 0;
-  int directions = 0;  ///< used: M or 2M
-  int passes = 0;      ///< M
+  int directions = 0;            ///< used: M or 2M
+  int passes = 0;                ///< M
+  std::int64_t passes_made = 0;  ///< by the engine, in all steps
   int iterations = 0, threads = 0;
-  std::int64_t transfers = 0;     ///< exchanges found in one step's passes
+  std::int64_t transfers = 0;     ///< exchanges found, of every direction once
   std::int64_t form_factors = 0;  ///< kept entries; 0 where they are recomputed
   bool kept_form_factors = false;
   bool converged = false;
@@ -81,13 +118,13 @@ struct SolveStatistics {
   double energy_balance = 0;  ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
   double rho_max = 0;
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
-  PassCounts counts;                 ///< of the first step's passes, added up
+  PassCounts counts;                 ///< of every direction once, added up
   std::vector<IterationRecord> steps;
   double seconds_load = 0, seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0,
          seconds_total = 0;
 };
 
-/// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) on a fixed set of directions, watched.
+/// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme), watched.
 ///
 /// Threads: one thread at a time may call it. Inside advance() it spreads passes over
 /// options.threads threads and sums them in a fixed order: the same bits for any number.
@@ -137,6 +174,11 @@ class RadiositySolver {
   std::vector<double> form_factor_sums() const;
   /// A patch: share of its seen area, over all passes so far, at which receivers see its back.
   std::vector<double> back_seen_shares() const;
+  /// From replicas, as they are at radiosity(), or at running_estimate() within a step.
+  ErrorEstimate error_estimate() const;
+  /// The direction of pass `pass` of iteration `iteration` (both from 0), as this solver takes
+  /// them; `pass` below the passes of that step.
+  Vec3 direction(int iteration, int pass) const;
   /// Within the step under way: relative change (maximum norm) of the running estimate at each
   /// pass against the one before; entry d belongs to pass d. Empty between steps.
   const std::vector<double>& estimate_changes() const;
@@ -151,6 +193,7 @@ struct Solution {
   std::shared_ptr<const Scene> scene;
   std::vector<Rgb> radiosity;   ///< B, W/m², one a patch
   std::vector<Rgb> irradiance;  ///< H, W/m²
+  ErrorEstimate error;
   SolveStatistics statistics;
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
 };

@@ -5,6 +5,10 @@
 namespace transillum {
 namespace {
 
+void add_color(TextBuffer& text, const Rgb& rgb, char separator) {
+  text.add("{}{}{}{}{}{}", separator, rgb.r, separator, rgb.g, separator, rgb.b);
+}
+
 /// face, patch, area, E, rho and B of patch i; fmt's "{}" of a double is the shortest text that
 /// reads back to the same bits.
 void add_patch_values(TextBuffer& text, const Solution& solution, PatchId i, char separator) {
@@ -13,9 +17,8 @@ void add_patch_values(TextBuffer& text, const Solution& solution, PatchId i, cha
   text.add("{}{}{}{}{}", patch.face, separator, i, separator, patch.area);
   for (const Rgb& rgb :
        {scene.exitance(i), scene.reflectance(i), solution.radiosity[static_cast<std::size_t>(i)]}) {
-    text.add("{}{}{}{}{}{}", separator, rgb.r, separator, rgb.g, separator, rgb.b);
+    add_color(text, rgb, separator);
   }
-  text.add("\n");
 }
 
 bool has_large_outlines(const Scene& scene) {
@@ -29,9 +32,13 @@ bool has_large_outlines(const Scene& scene) {
 
 void write_result_csv(std::ostream& out, const Solution& solution) {
   TextBuffer text(out);
-  text.add("face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b\n");
+  const std::vector<Rgb>& errors = solution.error.standard_error;
+  text.add("face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{}\n",
+           errors.empty() ? "" : ",SE_r,SE_g,SE_b");
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     add_patch_values(text, solution, i, ',');
+    if (!errors.empty()) add_color(text, errors[static_cast<std::size_t>(i)], ',');
+    text.add("\n");
   }
 }
 
@@ -56,6 +63,7 @@ void write_result_ply(std::ostream& out, const Solution& solution) {
     text.add("{} ", outline.size());
     for (const PointId p : outline) text.add("{} ", p);
     add_patch_values(text, solution, i, ' ');
+    text.add("\n");
   }
 }
 

@@ -57,6 +57,10 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
   add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
   add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
+  if (!solution.error.standard_error.empty()) {
+    add_colors(fields, "standard_error", count,
+               [&](PatchId i) { return at(solution.error.standard_error, i); });
+  }
   add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
 }
 

@@ -18,7 +18,10 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["rotation"] = options.rotation ? Json(*options.rotation) : Json();
   json["engine"] = name_of(options.engine);
   json["two_way"] = options.two_way;
-  json["normalize"] = options.normalize == Normalization::rows ? "rows" : "none";
+  json["normalize"] = name_of(options.normalize);
+  json["scheme"] = name_of(options.scheme);
+  json["burn_in"] = options.scheme == Scheme::semi_iterative ? Json(options.burn_in) : Json();
+  json["replicas"] = options.replicas;
   // One of them rules; the other is null.
   json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
   json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
@@ -37,6 +40,19 @@ Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
   return list;
 }
 
+Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
+
+/// Null without replicas.
+Json error_json(const ErrorEstimate& error) {
+  if (error.replicas == 0) return {};
+  return {{"replicas", error.replicas},
+          {"rms", error.rms},
+          {"confidence", 0.95},
+          {"quantile", error.quantile},
+          {"mean_B", list_of(error.mean_radiosity)},
+          {"mean_B_standard_error", list_of(error.mean_standard_error)}};
+}
+
 /// The names of cli.md; what was never measured, for want of a finished step, is null.
 Json statistics_json(const SolveStatistics& statistics) {
   const bool stepped = statistics.iterations > 0;
@@ -45,6 +61,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["fragments"] = statistics.fragments;
   json["directions"] = statistics.directions;
   json["passes"] = statistics.passes;
+  json["passes_made"] = statistics.passes_made;
   json["iterations"] = statistics.iterations;
   json["threads"] = statistics.threads;
   json["transfers"] = statistics.transfers;
@@ -88,6 +105,7 @@ void write_statistics(const std::filesystem::path& path, const SolveOptions& opt
   json["complete"] = solution.complete;
   json["options"] = options_json(options, solution.scene->options());
   json.update(statistics_json(solution.statistics));
+  json["error_estimate"] = error_json(solution.error);
   // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
   // A file name need not be UTF-8, but JSON must be.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);

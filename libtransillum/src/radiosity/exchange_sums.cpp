@@ -43,11 +43,15 @@ void ExchangeSums::add(Run run) {
   if (!crowded && waiting_size_ < sums_.source.size()) return;
   merge();
   // Sums that left little room for passes would have to be merged again and again.
-  if (3 * size() * sizeof(Transfer) > budget_) {
-    overrun_ = true;
-    sums_ = empty_rows();
-    spare_ = {};
-  }
+  if (3 * size() * sizeof(Transfer) > budget_) drop();
+}
+
+void ExchangeSums::drop() {
+  overrun_ = true;
+  sums_ = empty_rows();
+  spare_ = {};
+  waiting_ = {};
+  waiting_size_ = 0;
 }
 
 void ExchangeSums::merge() {
@@ -128,7 +132,6 @@ void ExchangeSums::transpose() {
 }
 
 void ExchangeSums::gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const {
-  std::fill(gathered.begin(), gathered.end(), Rgb{});
   for (std::size_t i = 0; i < patches_; ++i) {
     cancellation_.throw_if_cancelled();
     const Rgb b_i = b[i];

@@ -32,11 +32,13 @@ class ExchangeSums {
   /// Adds a pass. Once the budget is overrun everything is let go, and overrun() stays true.
   void add(Run run);
   bool overrun() const { return overrun_; }
+  /// Lets everything go, as where the budget is overrun.
+  void drop();
   /// After the last pass.
   void finish();
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
-  /// gathered_i = sum_j entry_ij b_j for all i; `gathered` has the size of `b`. After finish().
+  /// gathered_i += sum_j entry_ij b_j for all i; `gathered` has the size of `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
   /// visit(i, j, entry) by rising pairs; a two-way pair comes once, i < j. After finish().
   template <class Visit>

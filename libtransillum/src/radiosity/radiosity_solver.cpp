@@ -1,13 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -15,8 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "radiosity/error_estimate.h"
 #include "radiosity/exchange_sums.h"
-#include "radiosity/hand_over.h"
+#include "radiosity/iterate.h"
+#include "radiosity/pass_plan.h"
+#include "radiosity/pass_runner.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -55,69 +54,100 @@ double quadrature_error_bound(double directions) {
   return 2 * std::numbers::pi / directions * (std::log2(directions) + 7);
 }
 
-/// Stands for what a solver has done before its workers start: an address that they know without
-/// reading anything.
-constexpr char start_of_passes = 0;
+/// The mean of a list that gets longer (eq. 45).
+struct RunningMean {
+  std::vector<Rgb> sum;
+  int count = 0;
 
-/// What a worker makes of one direction.
-struct Pass {
-  Transfers transfers;
-  ExchangeSums::Run run;
-  ClosureDefect closure;
+  void add(const std::vector<Rgb>& values) {
+    sum.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
+    ++count;
+  }
+  std::vector<Rgb> mean() const {
+    std::vector<Rgb> mean(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i) mean[i] = (1.0 / count) * sum[i];
+    return mean;
+  }
+};
+
+/// What is known of the passes that a step rests on.
+struct SeenAreas {
+  std::vector<double> rows;       ///< sum_d sum_j A(i,j,omega_d)
+  std::vector<double> columns;    ///< the same over i; two-way, these are the rows'
+  std::vector<double> projected;  ///< sum_d A_i max(n_i·omega_d, 0)
+  int passes = 0;
+
+  explicit SeenAreas(std::size_t patches) : rows(patches), columns(patches), projected(patches) {}
+  void add(const Transfers& transfers, bool two_way) {
+    for (std::size_t i = 0; i < projected.size(); ++i) {
+      projected[i] += transfers.forward[i].projected;
+      if (two_way) projected[i] += transfers.backward[i].projected;
+    }
+    for (const Transfer& t : transfers.exchanges) {
+      const auto i = static_cast<std::size_t>(t.receiver);
+      const auto j = static_cast<std::size_t>(t.source);
+      rows[i] += t.area;
+      (two_way ? rows : columns)[j] += t.area;
+    }
+    ++passes;
+  }
 };
 
 }  // namespace
 
 struct RadiositySolver::Impl {
-  // What is solved.
+  // What is solved, and how.
   std::shared_ptr<const Scene> scene;
   SolveOptions options;
   std::shared_ptr<const BspTree> tree;
   Cancellation cancellation;
   TransferEngine engine;
-  std::vector<Vec3> directions;  ///< in the order of the passes
+  PassPlan plan;
   int threads = 1;
 
-  // The step under way: sums over its passes so far.
-  int done = 0;
-  std::vector<Rgb> gathered;      ///< sum_d sum_j A(i,j,omega_d) B_j
-  std::vector<double> projected;  ///< sum_d A_i max(n_i·omega_d, 0)
-  std::vector<Rgb> estimate;      ///< of B, from these
+  // The step under way.
+  bool begun = false;
+  std::vector<Vec3> directions;  ///< in the order of the passes
+  int taken_over = 0;            ///< passes that it has from kept sums
+  std::vector<Rgb> estimate;     ///< of B
   std::vector<double> estimate_changes;
   double step_seconds = 0;
 
+  // B of all passes, and of each replica's.
+  Iterate whole;
+  std::vector<Iterate> replicas;
+
   // The steps before.
-  std::vector<Rgb> b, h;
+  RunningMean mean_b, mean_h;  ///< where the scheme is semi-iterative
+  std::vector<RunningMean> replica_means;
+  std::vector<Rgb> b, h;  ///< the answer so far
   std::vector<IterationRecord> steps;
   double last_absolute_change = 0;
   bool finished = false, converged = false;
 
-  // Known once the first step's passes are done.
-  std::vector<double> row_areas;     ///< sum_d sum_j A(i,j,omega_d)
-  std::vector<double> column_areas;  ///< the same over i; two-way, these are the rows'
-  std::vector<double> first_projected, facing_area, back_seen;
-  int first_done = 0;
-  ExchangeSums sums;
+  // Learnt from each direction once.
+  SeenAreas areas;
+  std::vector<ExchangeSums> sums;  ///< a replica each, or one
+  std::vector<double> facing_area, back_seen;
   double closure_relative = 0, closure_grazing = 0, covered = 0, seen = 0;
-  double energy_defect = 0;
   std::int64_t transfer_count = 0;
   PassCounts counts;
+
+  double energy_defect = 0;
+  std::int64_t passes_made = 0;
   double seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0;
 
   Impl(std::shared_ptr<const Scene> solved, const SolveOptions& how,
        std::shared_ptr<const BspTree> ready_tree, const Cancellation& stop)
       : scene(std::move(solved)),
-        options(how),
+        options(validated(how)),
         tree(std::move(ready_tree)),
         cancellation(stop),
-        sums(scene->patch_count(), how.two_way, how.memory ? how.memory : quarter_of_memory(),
-             stop) {
-    options.validate();
-    auto samples = make_directions(options.sampling, options.directions, options.seed);
-    if (options.rotation) samples = rotated(std::move(samples), *options.rotation);
-    for (const int k : progressive_order(options.sampling, options.directions)) {
-      directions.push_back(samples[static_cast<std::size_t>(k)].direction);
-    }
+        plan(how),
+        directions(plan.directions(0)),
+        whole(*scene, how),
+        areas(static_cast<std::size_t>(scene->patch_count())) {
     threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     if (!tree) {
       const auto start = Clock::now();
@@ -125,66 +155,111 @@ struct RadiositySolver::Impl {
       seconds_bsp = seconds_since(start);
     }
     engine = make_engine(options.engine, scene, tree, options.engine_options);
-
+    if (options.replicas > 1) {
+      for (int r = 0; r < options.replicas; ++r) replicas.emplace_back(*scene, options);
+      replica_means.resize(replicas.size());
+    }
+    const std::uint64_t memory = options.memory ? options.memory : quarter_of_memory();
+    for (int r = 0; r < options.replicas; ++r) {
+      sums.emplace_back(scene->patch_count(), options.two_way,
+                        memory / static_cast<std::uint64_t>(options.replicas), cancellation);
+    }
     const auto patches = static_cast<std::size_t>(scene->patch_count());
-    for (PatchId i = 0; i < scene->patch_count(); ++i) b.push_back(scene->exitance(i));
+    b = estimate = whole.b();
     h.resize(patches);
-    gathered.resize(patches);
-    projected.resize(patches);
-    estimate = b;
-    row_areas.resize(patches);
-    column_areas.resize(patches);
     facing_area.resize(patches);
     back_seen.resize(patches);
   }
 
-  bool in_first_step() const { return steps.empty(); }
-  /// Whether the step under way comes from kept sums, without passes.
-  bool from_sums() const { return !in_first_step() && !sums.overrun(); }
-  int ways() const { return options.two_way ? 2 : 1; }
+  static const SolveOptions& validated(const SolveOptions& options) {
+    options.validate();
+    return options;
+  }
 
-  /// A pure function of k and `first`, that is of what no pass changes: any thread may.
-  Pass make_pass(int k, bool first) const {
+  int ways() const { return options.two_way ? 2 : 1; }
+  int step() const { return static_cast<int>(steps.size()); }
+  /// Passes that the step under way takes, and that it has.
+  int wanted() const { return plan.passes(step()); }
+  int done() const { return begun ? whole.passes() : 0; }
+  bool keeps_sums() const {
+    return !plan.renews() &&
+           std::none_of(sums.begin(), sums.end(), [](const auto& s) { return s.overrun(); });
+  }
+  KeptSums all_sums() const {
+    KeptSums all;
+    for (const ExchangeSums& part : sums) all.push_back(&part);
+    return all;
+  }
+  std::size_t replica_of(int k) const { return static_cast<std::size_t>(k) % sums.size(); }
+  /// Calls visit(iterate, its sums) for B of all passes and of each replica's.
+  template <class Visit>
+  void for_each_iterate(Visit visit) {
+    visit(whole, all_sums());
+    for (std::size_t r = 0; r < replicas.size(); ++r) visit(replicas[r], KeptSums{&sums[r]});
+  }
+
+  /// Takes over what kept sums have of this step; the rest is left to passes.
+  void begin_step() {
+    const auto start = Clock::now();
+    if (plan.renews() && !steps.empty()) {
+      directions = plan.directions(step());
+      areas = SeenAreas(b.size());
+    }
+    const bool from_sums = keeps_sums() && areas.passes > 0;
+    if (from_sums && options.scheme == Scheme::conjugate_gradients && steps.size() == 1) {
+      for_each_iterate([&](Iterate& iterate, const KeptSums& kept) {
+        iterate.leap(kept, 0.1 * options.tolerance, cancellation);
+      });
+    }
+    for_each_iterate([&](Iterate& iterate, const KeptSums& kept) {
+      cancellation.throw_if_cancelled();
+      if (from_sums) {
+        iterate.begin(kept);
+      } else {
+        iterate.begin();
+      }
+    });
+    begun = true;
+    taken_over = whole.passes();
+    if (taken_over > 0) find_estimate();
+    const double seconds = seconds_since(start);
+    seconds_iterate += seconds;
+    step_seconds += seconds;
+  }
+
+  /// Whether pass k of the step under way is the first along its direction. That of no pass
+  /// under way changes it, so any thread may ask.
+  bool is_new(int k, int known) const { return plan.renews() || k >= known; }
+
+  /// A pure function of k and `known`, the passes that were learnt from before.
+  Pass make_pass(int k, int known) const {
     Pass pass;
     pass.transfers = engine(directions[static_cast<std::size_t>(k)], cancellation);
-    if (first) {
-      pass.run = sums.make_run(pass.transfers.exchanges);
+    if (is_new(k, known)) {
+      if (!plan.renews()) pass.run = sums.front().make_run(pass.transfers.exchanges);
       pass.closure = closure_defect(pass.transfers, *scene);
     }
     return pass;
   }
 
-  /// Adds a pass to the step under way; in order of the passes, on one thread at a time.
-  void absorb(Pass pass) {
+  /// Adds pass k to the step under way; in order of the passes, on one thread at a time.
+  void absorb(int k, Pass pass) {
     const auto start = Clock::now();
-    if (in_first_step()) sums.add(std::move(pass.run));
-    const Transfers& transfers = pass.transfers;
-    for (const Transfer& t : transfers.exchanges) {
-      const auto i = static_cast<std::size_t>(t.receiver);
-      const auto j = static_cast<std::size_t>(t.source);
-      gathered[i] += t.area * b[j];
-      if (options.two_way) gathered[j] += t.area * b[i];
-    }
-    for (std::size_t i = 0; i < projected.size(); ++i) {
-      projected[i] += transfers.forward[i].projected;
-      if (options.two_way) projected[i] += transfers.backward[i].projected;
-    }
-    if (in_first_step()) absorb_first(pass);
-    ++done;
-    update_estimate();
+    const bool news = is_new(k, areas.passes);
+    if (news && keeps_sums()) keep(k, std::move(pass.run));
+    whole.add(pass.transfers);
+    if (!replicas.empty()) replicas[replica_of(k)].add(pass.transfers);
+    if (news) learn(pass);
+    ++passes_made;
+    estimate_changes.push_back(find_estimate());
     seconds_iterate += seconds_since(start);
   }
 
   /// What needs to be learnt from each direction only once.
-  void absorb_first(const Pass& pass) {
+  void learn(const Pass& pass) {
     const Transfers& transfers = pass.transfers;
-    for (const Transfer& t : transfers.exchanges) {
-      const auto i = static_cast<std::size_t>(t.receiver);
-      const auto j = static_cast<std::size_t>(t.source);
-      row_areas[i] += t.area;
-      (options.two_way ? row_areas : column_areas)[j] += t.area;
-    }
-    for (std::size_t i = 0; i < projected.size(); ++i) {
+    areas.add(transfers, options.two_way);
+    for (std::size_t i = 0; i < b.size(); ++i) {
       const Coverage& forward = transfers.forward[i];
       const Coverage& backward = transfers.backward[i];
       facing_area[i] += forward.projected + backward.projected;
@@ -198,75 +273,89 @@ struct RadiositySolver::Impl {
     transfer_count += static_cast<std::int64_t>(transfers.exchanges.size());
   }
 
-  /// What turns gathered_i into the irradiance H_i.
-  double row_scale(std::size_t i, const std::vector<double>& projections, int passes) const {
-    if (options.normalize == Normalization::rows) {
-      return projections[i] > 0 ? 1 / projections[i] : 0.0;
+  void keep(int k, ExchangeSums::Run run) {
+    sums[replica_of(k)].add(std::move(run));
+    // Where one part does not fit, the others are of no use.
+    if (!keeps_sums()) {
+      for (ExchangeSums& part : sums) part.drop();
     }
-    return 4.0 / (passes * ways() * scene->patches()[i].area);
   }
 
-  void update_estimate() {
+  /// Returns how much the estimate changes, relative to its largest value.
+  double find_estimate() {
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
-      const auto id = static_cast<PatchId>(i);
-      const Rgb value = scene->exitance(id) +
-                        scene->reflectance(id) * (row_scale(i, projected, done) * gathered[i]);
+      Rgb value = whole.estimate(static_cast<PatchId>(i));
+      if (mean_b.count > 0) value = (1.0 / (mean_b.count + 1)) * (mean_b.sum[i] + value);
       change = std::max(change, max_abs(value - estimate[i]));
       largest = std::max(largest, max_abs(value));
       estimate[i] = value;
     }
-    estimate_changes.push_back(share(change, largest));
-  }
-
-  void begin_step() {
-    done = 0;
-    std::fill(gathered.begin(), gathered.end(), Rgb{});
-    std::fill(projected.begin(), projected.end(), 0.0);
-    estimate_changes.clear();
-    estimate = b;
-    step_seconds = 0;
+    return share(change, largest);
   }
 
   /// B(n+1) from what was gathered, and the rule of eq. 25.
   void finish_step() {
-    if (in_first_step()) {
-      const auto start = Clock::now();
-      sums.finish();
-      seconds_iterate += seconds_since(start);
-      first_projected = projected;
-      first_done = done;
+    const auto start = Clock::now();
+    if (whole.passes() > taken_over && keeps_sums()) {
+      for (ExchangeSums& part : sums) part.finish();
+      for_each_iterate([](Iterate& iterate, const KeptSums& kept) { iterate.keep(kept); });
     }
-    std::vector<Rgb> next(b.size());
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      const auto id = static_cast<PatchId>(i);
-      h[i] = row_scale(i, first_projected, first_done) * gathered[i];
-      next[i] = scene->exitance(id) + scene->reflectance(id) * h[i];
+    if (options.normalize == Normalization::symmetric && !keeps_sums()) {
+      throw std::runtime_error(
+          "a symmetric normalization wants kept form factors, and they take more than --memory "
+          "allows");
     }
     measure_energy();
-    const double absolute = max_distance(next, b);
+    const bool complete = whole.passes() == options.directions;
+    double absolute = whole.finish();
+    for (Iterate& replica : replicas) replica.finish();
+    if (plan.renews()) {
+      absolute = average();
+    } else {
+      b = whole.b();
+      h = whole.h();
+    }
+    const double seconds = seconds_since(start);
+    seconds_iterate += seconds;
+    step_seconds += seconds;
     IterationRecord record;
-    record.change = share(absolute, max_norm(next));
+    record.change = share(absolute, max_norm(b));
     record.contraction = steps.empty() ? 0.0 : share(absolute, last_absolute_change);
     record.seconds = step_seconds;
     last_absolute_change = absolute;
-    b = std::move(next);
     steps.push_back(record);
-    converged = record.change <= options.tolerance;
-    finished =
-        options.iterations > 0 ? static_cast<int>(steps.size()) >= options.iterations : converged;
-    begin_step();
+    converged = complete && record.change <= options.tolerance && !in_burn_in();
+    finished = options.iterations > 0 ? step() >= options.iterations : converged;
+    begun = false;
+    estimate_changes.clear();
+    estimate = b;
+    step_seconds = 0;
     check_contraction();
+  }
+
+  /// Whether the steps so far count for nothing in the mean.
+  bool in_burn_in() const { return plan.renews() && mean_b.count == 0; }
+
+  /// The answer of the semi-iterative scheme; returns how much the step has changed it.
+  double average() {
+    if (step() >= options.burn_in) {
+      mean_b.add(whole.b());
+      mean_h.add(whole.h());
+      for (std::size_t r = 0; r < replicas.size(); ++r) replica_means[r].add(replicas[r].b());
+    }
+    std::vector<Rgb> next = in_burn_in() ? whole.b() : mean_b.mean();
+    h = in_burn_in() ? whole.h() : mean_h.mean();
+    const double change = max_distance(next, b);
+    b = std::move(next);
+    return change;
   }
 
   /// Power received against power sent, before any scaling of rows (oracle 4).
   void measure_energy() {
-    Rgb received, sent;
-    const auto& columns = options.two_way ? row_areas : column_areas;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      received += gathered[i];
-      sent += columns[i] * b[i];
-    }
+    Rgb received;
+    for (const Rgb& value : whole.gathered()) received += value;
+    const Rgb sent = whole.sent(options.two_way ? areas.rows : areas.columns);
     energy_defect = share(max_abs(received - sent), max_abs(sent));
   }
 
@@ -287,10 +376,10 @@ struct RadiositySolver::Impl {
   /// One pass on this thread.
   bool advance_direction(const RadiositySolver& self, const Observer& observer) {
     const auto start = Clock::now();
-    Pass pass = make_pass(done, in_first_step());
-    const double engine_seconds = seconds_since(start);
-    seconds_transfers += engine_seconds;
-    absorb(std::move(pass));
+    const int k = done();
+    Pass pass = make_pass(k, areas.passes);
+    seconds_transfers += seconds_since(start);
+    absorb(k, std::move(pass));
     step_seconds += seconds_since(start);
     return !observer || observer(self);
   }
@@ -298,77 +387,32 @@ struct RadiositySolver::Impl {
   /// All passes that the step still lacks, over all threads; absorbed in order, so the sums are
   /// the same bits whatever the number of threads.
   bool advance_passes(const RadiositySolver& self, const Observer& observer) {
-    const int passes = options.directions;
-    std::atomic<bool> going{true};
-    int next = done;
+    bool going = true;
     auto last = Clock::now();
-    double absorbing = -seconds_iterate;
-    double wall = 0;
-    // Passes under way have places that they take in turn: at most as many are let in, and they
-    // leave in order, so a pass finds its place left by the one before it there.
-    std::vector<Pass> under_way(static_cast<std::size_t>(2 * threads));
-    const auto place_of = [&](int k) {
-      return &under_way[static_cast<std::size_t>(k) % under_way.size()];
-    };
-    const auto source = [&](tbb::flow_control& control) {
-      take_over_at(&start_of_passes);
-      const Turn turn(&next);
-      if (next >= passes || !going) {
-        control.stop();
-        return passes;
-      }
-      const Turn handed_on(place_of(next));
-      return next++;
-    };
-    const bool first = in_first_step();
-    const auto work = [&, first](int k) {
-      take_over_at(&start_of_passes);
-      const Turn turn(place_of(k));
-      *place_of(k) = make_pass(k, first);
-      return k;
-    };
-    const auto sink = [&](int k) {
-      take_over_at(&start_of_passes);
-      const Turn turn(this), handed_on(place_of(k));
-      absorb(std::move(*place_of(k)));
-      const double now = seconds_since(last);
-      last = Clock::now();
-      wall += now;
-      step_seconds += now;
-      if (observer && !observer(self)) going = false;
-    };
+    double wall = 0, absorbing = -seconds_iterate;
+    const int known = plan.renews() ? 0 : areas.passes;
     const auto conclude = [&] {
-      take_over_at(&next);
-      take_over_at(this);
-      for (const Pass& place : under_way) take_over_at(&place);
       absorbing += seconds_iterate;
       seconds_transfers += std::max(0.0, wall - absorbing / threads);
     };
-    // More threads than cores, where that is asked for, need the permission.
-    const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
-                                         static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    const auto filters = tbb::make_filter<void, int>(tbb::filter_mode::serial_in_order, source) &
-                         tbb::make_filter<int, int>(tbb::filter_mode::parallel, work) &
-                         tbb::make_filter<int, void>(tbb::filter_mode::serial_in_order, sink);
-    hand_over_at(&start_of_passes);
     try {
-      arena.execute([&] { tbb::parallel_pipeline(under_way.size(), filters); });
+      PassRunner(threads).run(
+          done(), wanted(), [this, known](int k) { return make_pass(k, known); },
+          [&](int k, Pass pass) {
+            absorb(k, std::move(pass));
+            const double now = seconds_since(last);
+            last = Clock::now();
+            wall += now;
+            step_seconds += now;
+            if (observer && !observer(self)) going = false;
+            return going;
+          });
     } catch (...) {
       conclude();
       throw;
     }
     conclude();
     return going;
-  }
-
-  /// A step without passes, from the kept sums.
-  void gather_from_sums() {
-    const auto start = Clock::now();
-    sums.gather(b, gathered);
-    const double seconds = seconds_since(start);
-    seconds_iterate += seconds;
-    step_seconds += seconds;
   }
 };
 
@@ -384,12 +428,11 @@ bool RadiositySolver::advance(Until until, const Observer& observer) {
   Impl& s = *impl_;
   while (!s.finished) {
     s.cancellation.throw_if_cancelled();
-    if (s.from_sums()) {
-      s.gather_from_sums();
-    } else if (s.done < s.options.directions) {
+    if (!s.begun) s.begin_step();
+    if (s.done() < s.wanted()) {
       const bool go_on = until == Until::direction ? s.advance_direction(*this, observer)
                                                    : s.advance_passes(*this, observer);
-      if (s.done < s.options.directions && (!go_on || until == Until::direction)) return true;
+      if (s.done() < s.wanted() && (!go_on || until == Until::direction)) return true;
     }
     s.finish_step();
     const bool go_on = !observer || observer(*this);
@@ -408,17 +451,19 @@ SolveProgress RadiositySolver::progress() const {
   const Impl& s = *impl_;
   SolveProgress progress;
   progress.iteration = static_cast<int>(s.steps.size());
-  progress.direction = s.done;
-  progress.passes = s.options.directions;
+  progress.direction = s.done();
+  progress.passes = s.finished ? s.plan.passes(s.step() - 1) : s.wanted();
   progress.finished = s.finished;
   progress.seconds_transfers = s.seconds_transfers;
-  if (s.done > 0 && s.step_seconds > 0) {
-    progress.passes_per_second = s.done / s.step_seconds;
-    progress.seconds_left = (s.options.directions - s.done) / progress.passes_per_second;
+  if (s.done() > s.taken_over && s.step_seconds > 0) {
+    progress.passes_per_second = (s.done() - s.taken_over) / s.step_seconds;
+    progress.seconds_left = (progress.passes - s.done()) / progress.passes_per_second;
   }
-  const int newest = s.done > 0 ? s.done - 1 : s.options.directions - 1;
-  if (s.done > 0 || !s.steps.empty()) {
-    progress.last_direction = s.directions[static_cast<std::size_t>(newest)];
+  if (s.done() > 0) {
+    progress.last_direction = s.directions[static_cast<std::size_t>(s.done() - 1)];
+  } else if (!s.steps.empty()) {
+    progress.last_direction =
+        s.directions[static_cast<std::size_t>(s.plan.passes(s.step() - 1) - 1)];
   }
   return progress;
 }
@@ -432,12 +477,15 @@ SolveStatistics RadiositySolver::statistics() const {
   statistics.fragments = static_cast<std::int64_t>(s.tree->fragments().size());
   statistics.directions = s.options.directions * s.ways();
   statistics.passes = s.options.directions;
+  statistics.passes_made = s.passes_made;
   statistics.iterations = static_cast<int>(s.steps.size());
   statistics.threads = s.threads;
   statistics.transfers = s.transfer_count;
   statistics.counts = s.counts;
-  statistics.kept_form_factors = !s.sums.overrun();
-  statistics.form_factors = static_cast<std::int64_t>(s.sums.size());
+  statistics.kept_form_factors = s.keeps_sums();
+  for (const ExchangeSums& part : s.sums) {
+    statistics.form_factors += static_cast<std::int64_t>(part.size());
+  }
   statistics.converged = s.converged;
   statistics.closure_defect_max = s.closure_relative;
   statistics.closure_defect_grazing = s.closure_grazing;
@@ -471,16 +519,31 @@ std::vector<Rgb> RadiositySolver::running_estimate() const { return impl_->estim
 
 FormFactors RadiositySolver::form_factors() const {
   const Impl& s = *impl_;
-  if (s.in_first_step()) throw std::runtime_error("there are no form factors yet");
-  if (s.sums.overrun()) {
+  if (s.plan.renews()) {
+    throw std::runtime_error("the semi-iterative scheme keeps no form factors");
+  }
+  if (s.steps.empty() || s.begun) throw std::runtime_error("there are no form factors yet");
+  if (!s.keeps_sums()) {
     throw std::runtime_error("the form factors take more than --memory allows");
   }
+  // Several lists of sums become one.
+  ExchangeSums joined(s.scene->patch_count(), s.options.two_way, ~std::uint64_t{0}, s.cancellation);
+  if (s.sums.size() > 1) {
+    for (const ExchangeSums& part : s.sums) {
+      ExchangeSums::Run run;
+      run.reserve(part.size());
+      part.for_each([&](PatchId i, PatchId j, double area) { run.push_back({i, j, area}); });
+      joined.add(std::move(run));
+    }
+    joined.finish();
+  }
+  const ExchangeSums& sums = s.sums.size() > 1 ? joined : s.sums.front();
   // Rows are filled in the order of the pairs, first with what lies left of the diagonal: so their
   // sources rise.
   const bool two_way = s.options.two_way;
   FormFactors result;
   result.row_begin.resize(s.b.size() + 1);
-  s.sums.for_each([&](PatchId i, PatchId j, double) {
+  sums.for_each([&](PatchId i, PatchId j, double) {
     ++result.row_begin[static_cast<std::size_t>(i) + 1];
     if (two_way) ++result.row_begin[static_cast<std::size_t>(j) + 1];
   });
@@ -489,27 +552,49 @@ FormFactors RadiositySolver::form_factors() const {
   result.value.resize(result.row_begin.back());
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);
   const auto put = [&](PatchId i, PatchId j, double area) {
-    const auto row = static_cast<std::size_t>(i);
-    const std::size_t k = next[row]++;
+    const std::size_t k = next[static_cast<std::size_t>(i)]++;
     result.source[k] = j;
-    result.value[k] = s.row_scale(row, s.first_projected, s.first_done) * area;
+    result.value[k] = s.whole.form_factor_scale(i, j) * area;
   };
-  if (two_way) s.sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
-  s.sums.for_each(put);
+  if (two_way) sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
+  sums.for_each(put);
   return result;
 }
 
 std::vector<double> RadiositySolver::form_factor_sums() const {
   const Impl& s = *impl_;
-  const bool first = s.in_first_step();
-  const int passes = first ? s.done : s.first_done;
-  std::vector<double> form_factor_sums(s.row_areas.size());
-  if (passes == 0) return form_factor_sums;
+  std::vector<double> form_factor_sums(s.areas.rows.size());
+  if (s.areas.passes == 0) return form_factor_sums;
   for (std::size_t i = 0; i < form_factor_sums.size(); ++i) {
-    form_factor_sums[i] =
-        s.row_scale(i, first ? s.projected : s.first_projected, passes) * s.row_areas[i];
+    form_factor_sums[i] = s.whole.form_factor_sum(static_cast<PatchId>(i), s.areas.rows[i],
+                                                  s.areas.projected[i], s.areas.passes);
   }
   return form_factor_sums;
+}
+
+ErrorEstimate RadiositySolver::error_estimate() const {
+  const Impl& s = *impl_;
+  if (s.replicas.empty()) return {};
+  // The answer of the semi-iterative scheme is a mean, and so is that of its replicas.
+  const bool averaged = s.mean_b.count > 0;
+  const bool under_way = s.begun && !averaged;
+  std::vector<std::vector<Rgb>> b;
+  for (std::size_t r = 0; r < s.replicas.size(); ++r) {
+    const Iterate& replica = s.replicas[r];
+    if (under_way && replica.passes() == 0) return {};
+    b.push_back(averaged ? s.replica_means[r].mean() : replica.b());
+    if (!under_way) continue;
+    for (PatchId i = 0; i < s.scene->patch_count(); ++i) {
+      b.back()[static_cast<std::size_t>(i)] = replica.estimate(i);
+    }
+  }
+  return estimate_error(*s.scene, under_way ? s.estimate : s.b, b);
+}
+
+Vec3 RadiositySolver::direction(int iteration, int pass) const {
+  const Impl& s = *impl_;
+  const auto k = static_cast<std::size_t>(pass);
+  return s.plan.renews() ? s.plan.directions(iteration).at(k) : s.directions.at(k);
 }
 
 std::vector<double> RadiositySolver::back_seen_shares() const {
@@ -537,6 +622,7 @@ Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
   solution.complete = progress.finished;
   solution.radiosity = progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
   solution.irradiance = solver.irradiance();
+  solution.error = solver.error_estimate();
   solution.statistics = solver.statistics();
   solution.statistics.seconds_total = seconds_since(start);
   return solution;

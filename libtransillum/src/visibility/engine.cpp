@@ -1,11 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/engine.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <utility>
 
+#include "choice.h"
 #include "transillum/errors.h"
 #include "visibility/engines.h"
 
@@ -17,13 +15,7 @@ const std::vector<std::string>& engine_names() {
 }
 
 Engine engine_from_name(const std::string& name) {
-  const auto& names = engine_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(
-        fmt::format("unknown engine \"{}\"; choose one of {}", name, fmt::join(names, ", ")));
-  }
-  return static_cast<Engine>(found - names.begin());
+  return choice_from_name<Engine>(engine_names(), "engine", name);
 }
 
 const std::string& name_of(Engine engine) {

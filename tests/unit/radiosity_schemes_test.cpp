@@ -1,0 +1,253 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "transillum/errors.h"
+#include "transillum/radiosity.h"
+
+namespace transillum {
+namespace {
+
+using ::testing::HasSubstr;
+using Until = RadiositySolver::Until;
+
+std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
+
+/// RMS over patches and channels of a - b, over that of b.
+double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  double apart = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Rgb d = a[i] - b[i];
+    apart += d.r * d.r + d.g * d.g + d.b * d.b;
+    size += b[i].r * b[i].r + b[i].g * b[i].g + b[i].b * b[i].b;
+  }
+  return std::sqrt(apart / size);
+}
+
+/// Of many directions, and by nothing that is tested here.
+const std::vector<Rgb>& box_reference() {
+  static const auto b = solve(box(), {.directions = 8192, .tolerance = 1e-9}).radiosity;
+  return b;
+}
+
+TEST(Schemes, GrowingEndsWhereFixedDoesWithEachDirectionTakenOnce) {
+  const SolveOptions fixed{.directions = 300, .tolerance = 1e-9};
+  SolveOptions growing = fixed;
+  growing.scheme = Scheme::growing;
+  const Solution a = solve(box(), fixed), b = solve(box(), growing);
+  EXPECT_LT(distance(a.radiosity, b.radiosity), 1e-8);
+  EXPECT_EQ(b.statistics.passes_made, 300);
+  EXPECT_GT(b.statistics.iterations, 4);
+  // Sums that do not fit are no excuse for another answer.
+  growing.memory = 1;
+  const Solution c = solve(box(), growing);
+  EXPECT_LT(distance(a.radiosity, c.radiosity), 1e-8);
+  EXPECT_GT(c.statistics.passes_made, 18 + 37 + 75 + 150 + 300);
+}
+
+TEST(Schemes, GrowingStepsDouble) {
+  RadiositySolver solver(box(), {.directions = 300, .scheme = Scheme::growing});
+  std::vector<int> passes;
+  for (int step = 0; step < 6; ++step) {
+    passes.push_back(solver.progress().passes);
+    solver.advance(Until::iteration);
+  }
+  EXPECT_EQ(passes, (std::vector<int>{18, 37, 75, 150, 300, 300}));
+}
+
+TEST(Schemes, ConjugateGradientsSolveWhatIterationSolves) {
+  for (const Normalization normalize : {Normalization::none, Normalization::symmetric}) {
+    SolveOptions options{.directions = 64, .normalize = normalize, .tolerance = 1e-12};
+    const Solution by_steps = solve(box(), options);
+    options.scheme = Scheme::conjugate_gradients;
+    const Solution at_once = solve(box(), options);
+    EXPECT_LT(distance(at_once.radiosity, by_steps.radiosity), 1e-10);
+    EXPECT_LT(distance(at_once.irradiance, by_steps.irradiance), 1e-10);
+    EXPECT_LE(at_once.statistics.iterations, 3);
+    EXPECT_GT(by_steps.statistics.iterations, 10);
+  }
+}
+
+TEST(Schemes, SemiIterativeMeansComeNearTheTruth) {
+  SolveOptions options{
+      .directions = 16, .sampling = Sampling::random, .scheme = Scheme::semi_iterative};
+  options.iterations = 40;
+  const double early = distance(solve(box(), options).radiosity, box_reference());
+  options.iterations = 8 + 16 * 32;
+  const Solution late = solve(box(), options);
+  // 16 times as many directions are in the mean: a quarter of the error, by luck half or an eighth.
+  EXPECT_LT(distance(late.radiosity, box_reference()), 0.5 * early);
+  EXPECT_EQ(late.statistics.passes_made, 16 * options.iterations);
+  EXPECT_FALSE(late.statistics.kept_form_factors);
+}
+
+TEST(Schemes, OracleOfEnergyHoldsInEach) {
+  for (const Scheme scheme :
+       {Scheme::fixed, Scheme::growing, Scheme::semi_iterative, Scheme::conjugate_gradients}) {
+    const Solution solution =
+        solve(box(), {.directions = 40, .scheme = scheme, .burn_in = 1, .iterations = 6});
+    EXPECT_LT(solution.statistics.energy_defect, 1e-14) << name_of(scheme);
+    EXPECT_GT(solution.statistics.energy_balance, 0.5) << name_of(scheme);
+  }
+}
+
+TEST(Schemes, GiveTheSameBitsForAnyNumberOfThreadsAndAnyPauses) {
+  for (const Scheme scheme :
+       {Scheme::fixed, Scheme::growing, Scheme::semi_iterative, Scheme::conjugate_gradients}) {
+    SolveOptions options{.directions = 70,
+                         .sampling = Sampling::scrambled_hammersley,
+                         .scheme = scheme,
+                         .burn_in = 2,
+                         .replicas = 3,
+                         .iterations = 5,
+                         .threads = 1};
+    const Solution one = solve(box(), options);
+    options.threads = 3;
+    const Solution three = solve(box(), options);
+    EXPECT_TRUE(one.radiosity == three.radiosity) << name_of(scheme);
+    EXPECT_TRUE(one.error.standard_error == three.error.standard_error) << name_of(scheme);
+    RadiositySolver paused(box(), options);
+    while (paused.advance(Until::direction)) {
+    }
+    EXPECT_TRUE(one.radiosity == paused.radiosity()) << name_of(scheme);
+  }
+}
+
+TEST(Schemes, TellTheDirectionOfAnyPass) {
+  for (const Scheme scheme : {Scheme::fixed, Scheme::growing, Scheme::semi_iterative}) {
+    RadiositySolver solver(
+        box(), {.directions = 35, .scheme = scheme, .burn_in = 1, .replicas = 2, .iterations = 3});
+    int seen = 0;
+    solver.advance(Until::finished, [&](const RadiositySolver& s) {
+      const SolveProgress now = s.progress();
+      if (now.direction == 0) return true;
+      EXPECT_EQ(s.direction(now.iteration, now.direction - 1), now.last_direction);
+      ++seen;
+      return true;
+    });
+    EXPECT_GE(seen, 35);
+  }
+}
+
+TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
+  RadiositySolver solver(
+      box(), {.directions = 24, .normalize = Normalization::symmetric, .tolerance = 1e-13});
+  solver.advance(Until::finished);
+  const FormFactors f = solver.form_factors();
+  const Scene& scene = solver.scene();
+  std::vector<std::vector<double>> dense(
+      static_cast<std::size_t>(scene.patch_count()),
+      std::vector<double>(static_cast<std::size_t>(scene.patch_count())));
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
+      dense[i][static_cast<std::size_t>(f.source[k])] = f.value[k];
+      sum += f.value[k];
+    }
+    EXPECT_NEAR(sum, 1, 1e-8) << "patch " << i;
+  }
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double there = scene.patches()[i].area * dense[i][j];
+      EXPECT_NEAR(there, scene.patches()[j].area * dense[j][i], 1e-14 * there);
+    }
+  }
+  // What is sent is received, and what is received is what was sent out and reflected.
+  EXPECT_NEAR(solver.statistics().energy_balance, 1, 1e-8);
+  for (const double sum : solver.form_factor_sums()) EXPECT_NEAR(sum, 1, 1e-8);
+}
+
+TEST(Normalize, SymmetricMakesTheFurnaceExact) {
+  const Solution solution =
+      solve(load_scene("furnace"),
+            {.directions = 50, .normalize = Normalization::symmetric, .tolerance = 1e-13});
+  for (const Rgb& b : solution.radiosity) EXPECT_NEAR(max_abs(b), 2, 1e-8);
+}
+
+TEST(Normalize, SymmetricSaysThatItWantsMemory) {
+  try {
+    solve(box(), {.directions = 9, .normalize = Normalization::symmetric, .memory = 1});
+    FAIL() << "solved";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--memory"));
+  }
+}
+
+/// 95 of 100 intervals shall hold the truth.
+TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const auto& truth = box_reference();
+  const auto scene = box();
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  int held = 0, asked = 0, means_held = 0;
+  double estimated = 0, actual = 0;
+  Rgb true_mean;
+  double area = 0;
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    true_mean += scene->patch(i).area * truth[static_cast<std::size_t>(i)];
+    area += scene->patch(i).area;
+  }
+  true_mean = (1 / area) * true_mean;
+  constexpr int runs = 60;
+  for (int run = 0; run < runs; ++run) {
+    RadiositySolver solver(scene,
+                           {.directions = 8 * 24,
+                            .seed = static_cast<std::uint64_t>(1000 * run),
+                            .replicas = 8,
+                            .tolerance = 1e-6},
+                           tree);
+    solver.advance(Until::finished);
+    const ErrorEstimate error = solver.error_estimate();
+    EXPECT_EQ(error.replicas, 8);
+    EXPECT_NEAR(error.quantile, 2.3646, 1e-4);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const Rgb off = solver.radiosity()[i] - truth[i];
+      // A patch that reflects nothing is known.
+      if (error.standard_error[i].r == 0) continue;
+      ++asked;
+      held += std::abs(off.r) <= error.quantile * error.standard_error[i].r;
+    }
+    means_held += std::abs(error.mean_radiosity.r - true_mean.r) <=
+                  error.quantile * error.mean_standard_error.r;
+    estimated += error.rms * error.rms;
+    actual += std::pow(distance(solver.radiosity(), truth), 2);
+  }
+  RecordProperty("patches_held", std::to_string(static_cast<double>(held) / asked));
+  RecordProperty("means_held", std::to_string(static_cast<double>(means_held) / runs));
+  EXPECT_GT(held, 0.91 * asked);
+  EXPECT_LT(held, 0.98 * asked);
+  EXPECT_GE(means_held, 51);  // 57 expected; a chance of 1 in 100
+}
+
+TEST(Replicas, AreNothingWithoutBeingAskedFor) {
+  const Solution solution = solve(box(), {.directions = 20});
+  EXPECT_EQ(solution.error.replicas, 0);
+  EXPECT_TRUE(solution.error.standard_error.empty());
+}
+
+TEST(SchemeOptions, NameWhatDoesNotGoTogether) {
+  const auto message = [](const SolveOptions& options) {
+    try {
+      options.validate();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message({.replicas = 65}), HasSubstr("replicas: 65 is not from 1 to 64"));
+  EXPECT_THAT(message({.directions = 3, .replicas = 4}), HasSubstr("the 3 directions"));
+  EXPECT_THAT(message({.burn_in = -1}), HasSubstr("burn-in: -1"));
+  EXPECT_THAT(message({.scheme = Scheme::semi_iterative, .burn_in = 5, .iterations = 5}),
+              HasSubstr("leave none for the mean"));
+  EXPECT_THAT(message({.two_way = false, .normalize = Normalization::symmetric}),
+              HasSubstr("both ways"));
+  EXPECT_THAT(message({.normalize = Normalization::symmetric, .scheme = Scheme::semi_iterative}),
+              HasSubstr("semi-iterative"));
+  EXPECT_THAT(message({.two_way = false, .scheme = Scheme::conjugate_gradients}),
+              HasSubstr("both ways"));
+  EXPECT_THAT(message({.normalize = Normalization::rows, .scheme = Scheme::conjugate_gradients}),
+              HasSubstr("symmetric matrix"));
+}
+
+}  // namespace
+}  // namespace transillum
