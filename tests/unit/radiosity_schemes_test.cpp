@@ -214,6 +214,7 @@ TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
   }
   RecordProperty("patches_held", std::to_string(static_cast<double>(held) / asked));
   RecordProperty("means_held", std::to_string(static_cast<double>(means_held) / runs));
+  EXPECT_NEAR(std::sqrt(estimated / actual), 1, 0.15);
   EXPECT_GT(held, 0.91 * asked);
   EXPECT_LT(held, 0.98 * asked);
   EXPECT_GE(means_held, 51);  // 57 expected; a chance of 1 in 100

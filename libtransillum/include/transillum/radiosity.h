@@ -95,7 +95,7 @@ struct ErrorEstimate {
   int replicas = 0;                 ///< 0: there is no estimate, and nothing below
   std::vector<Rgb> standard_error;  ///< of B, W/m², one a patch
   double quantile = 0;              ///< Student's, two-sided 95 %, replicas - 1 degrees of freedom
-  double rms = 0;                   ///< RMS of the errors over RMS of B, weighted by area
+  double rms = 0;                   ///< RMS of the errors over RMS of B, over patches and channels
   Rgb mean_radiosity;               ///< of B by area, W/m²
   Rgb mean_standard_error;          ///< of this mean
 };

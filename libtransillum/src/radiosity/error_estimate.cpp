@@ -56,8 +56,8 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
     const auto patch = static_cast<std::size_t>(i);
     const Mean mean = mean_of(replicas.size(), [&](std::size_t r) { return replicas[r][patch]; });
     error.standard_error.push_back(mean.standard_error);
-    errors += scene.patch(i).area * sum_of_squares(mean.standard_error);
-    values += scene.patch(i).area * sum_of_squares(b[patch]);
+    errors += sum_of_squares(mean.standard_error);
+    values += sum_of_squares(b[patch]);
   }
   error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
   std::vector<Rgb> means;

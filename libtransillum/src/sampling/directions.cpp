@@ -1,14 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/directions.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
+#include "choice.h"
 #include "sampling/sequences.h"
-#include "transillum/errors.h"
 
 namespace transillum {
 
@@ -20,13 +18,7 @@ const std::vector<std::string>& sampling_names() {
 }
 
 Sampling sampling_from_name(const std::string& name) {
-  const auto& names = sampling_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw InputError(
-        fmt::format("unknown sampling \"{}\"; choose one of {}", name, fmt::join(names, ", ")));
-  }
-  return static_cast<Sampling>(found - names.begin());
+  return choice_from_name<Sampling>(sampling_names(), "sampling", name);
 }
 
 const std::string& name_of(Sampling sampling) {
