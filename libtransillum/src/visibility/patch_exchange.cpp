@@ -128,6 +128,30 @@ void ExchangeFinder::collect_blockers(const FacingPolygons& facing,
                  });
 }
 
+/// Whether one blocker alone hides all of both: it meets every line between a corner of one and a
+/// corner of the other, so it meets all lines between them, as they and it are convex.
+bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& blocker) const {
+  const HalfSpace front = lit_half_space(blocker);
+  const bool p_is_before = front.distance(facing.p[0]) > 0;
+  const Corners& before = p_is_before ? facing.p : facing.q;
+  const Corners& behind = p_is_before ? facing.q : facing.p;
+  const auto is_before = [&](const Vec3& x) { return front.distance(x) > tolerance_; };
+  const auto is_behind = [&](const Vec3& x) { return front.distance(x) < -tolerance_; };
+  if (!std::all_of(before.begin(), before.end(), is_before) ||
+      !std::all_of(behind.begin(), behind.end(), is_behind)) {
+    return false;
+  }
+  for (const Vec3& x : before) {
+    for (std::size_t k = 0; k < blocker.size(); ++k) {
+      // Seen from before the edges run counter-clockwise.
+      const Vec3 out = cross(blocker[k] - x, blocker[k + 1 < blocker.size() ? k + 1 : 0] - x);
+      const auto is_outside = [&](const Vec3& y) { return dot(out, y - x) > 0; };
+      if (std::any_of(behind.begin(), behind.end(), is_outside)) return false;
+    }
+  }
+  return true;
+}
+
 double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
                                         const std::vector<Corners>& blockers) const {
   constexpr double few = 0.2, most_steps = 32;
@@ -140,13 +164,11 @@ double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
   const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
   const double steps =
       density_ * std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
-  PointView view;
+  PointView view(large, blockers);
   double sum = 0;
   for_points_of(small,
                 steps < few ? 0 : static_cast<int>(std::clamp(std::ceil(steps), 1.0, most_steps)),
-                [&](const Vec3& x, double weight) {
-                  sum += weight * view.form_factor(x, normal, large, blockers);
-                });
+                [&](const Vec3& x, double weight) { sum += weight * view.form_factor(x, normal); });
   return sum;
 }
 
@@ -162,7 +184,10 @@ PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j) const {
         exchange.area += polygon_exchange(facing);
       } else {
         exchange.whole = false;
-        exchange.area += partial_exchange(facing, blockers);
+        const bool hidden =
+            std::any_of(blockers.begin(), blockers.end(),
+                        [&](const Corners& blocker) { return is_hidden(facing, blocker); });
+        if (!hidden) exchange.area += partial_exchange(facing, blockers);
       }
     }
   }

@@ -43,6 +43,7 @@ class ExchangeFinder {
   bool covers(PatchId upper, PatchId lower) const;
   Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, std::vector<Corners>& blockers) const;
+  bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
   double partial_exchange(const FacingPolygons& facing, const std::vector<Corners>& blockers) const;
   std::span<const Corners> parts_of(PatchId i) const {
     const auto k = static_cast<std::size_t>(i);
