@@ -15,6 +15,7 @@
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
+#include "transillum/directions.h"
 #include "transillum/engine.h"
 
 namespace transillum {
@@ -310,6 +311,37 @@ TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
                                      << omega.y << ", " << omega.z << ", " << found.where;
     }
   }
+}
+
+/// Of all patches and directions, both ways.
+double worst_closure(const Fast& fast, const std::vector<Vec3>& directions) {
+  double worst = 0;
+  for (const Vec3& omega : directions) {
+    worst = std::max(worst, closure_defect(fast.run(omega, {}), *fast.scene).relative);
+  }
+  return worst;
+}
+
+TEST(FastEngine, LeavesNothingOpenWhereRoundingIsWorst) {
+  // Of 1,024 and of 4,096 directions those that were worst, and why.
+  const auto few = make_directions(Sampling::fibonacci, 1024, 1);
+  const auto many = make_directions(Sampling::fibonacci, 4096, 1);
+  const std::vector<Vec3> directions{
+      few[380].direction,    // a bin's edge runs through a sphere's pole, flat to a meridian
+      few[467].direction,    // small triangles on a large wall
+      few[492].direction,    // a wall that is done with leaves out a sliver of a small face
+      few[991].direction,    // the same
+      many[4031].direction,  // the same: 1.0e-10
+      many[488].direction    // a needle that the tree has cut
+  };
+  EXPECT_LT(worst_closure(Fast(load_scene("sphere-flake")), directions), 4e-12);
+}
+
+TEST(FastEngine, SeesSmallFacesWholeFromAHugeOne) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.tetrahedra(20, 0.1, 23, grey).box({-50, -50, -50}, {50, 50, 50}, true, grey);
+  EXPECT_LT(worst_closure(Fast(sketch.scene()), testing::test_directions(50, 16)), 1e-11);
 }
 
 /// Share of the decisions that took whole numbers, over some random directions.

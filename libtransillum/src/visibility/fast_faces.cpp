@@ -11,7 +11,8 @@ namespace {
 
 using Corners = std::vector<FaceCorner>;
 
-constexpr double thinnest = 32;  ///< steps
+constexpr double thinnest = 32;                               ///< steps
+constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
 
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
 /// edge-on may not, and takes no part.
@@ -160,7 +161,37 @@ bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& o
   boxes.push_back(box);
   faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), outline.patch, front,
                    outline.plain, needle, area});
+  if (needle && !outline.plain) faces.back().area = needle_area(outlines, faces.back());
   return true;
+}
+
+FastFaces::Place FastFaces::place_of(const FastOutlines& outlines, const Face& face,
+                                     std::uint32_t corner, const GridPoint& origin) const {
+  const FaceCorner& leaving = corners[corner];
+  const Place rounded{static_cast<long double>(leaving.at.x - origin.x),
+                      static_cast<long double>(leaving.at.y - origin.y)};
+  if (!face.needle || leaving.point != FaceCorner::no_point) return rounded;
+  const FaceCorner& arriving = corners[corner > face.begin ? corner - 1 : face.end - 1];
+  const Meeting meeting =
+      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), leaving.at);
+  // Lines that all but coincide may meet anywhere.
+  const auto most = static_cast<long double>(farthest_off);
+  if (meeting.parallel || std::abs(meeting.x) > most || std::abs(meeting.y) > most) return rounded;
+  return {rounded.x + meeting.x, rounded.y + meeting.y};
+}
+
+double FastFaces::needle_area(const FastOutlines& outlines, const Face& face) const {
+  const GridPoint& origin = corners[face.begin].at;
+  const Place first = place_of(outlines, face, face.begin, origin);
+  Place before = place_of(outlines, face, face.begin + 1, origin);
+  long double twice = 0;
+  for (std::uint32_t k = face.begin + 2; k < face.end; ++k) {
+    const Place place = place_of(outlines, face, k, origin);
+    twice +=
+        (before.x - first.x) * (place.y - first.y) - (before.y - first.y) * (place.x - first.x);
+    before = place;
+  }
+  return static_cast<double>(twice / 2);
 }
 
 }  // namespace transillum

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "visibility/exact_side.h"
 #include "visibility/grid_projection.h"
 
 namespace transillum {
@@ -108,7 +109,24 @@ struct FastFaces {
   FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
             const Vec3& omega, const Cancellation& cancellation);
 
+  /// Where a corner lies, steps from `origin`: of a needle that the tree has cut it is where its
+  /// edges' lines meet, for the step by which its place on the grid is off them is much of the
+  /// needle's width.
+  struct Place {
+    long double x, y;
+  };
+  Place place_of(const FastOutlines& outlines, const Face& face, std::uint32_t corner,
+                 const GridPoint& origin) const;
+  /// The line of a corner's edge, in its direction.
+  GridLine line_of(const FastOutlines& outlines, const FaceCorner& corner) const {
+    const BspTree::Line& line = outlines.lines[static_cast<std::size_t>(corner.line)];
+    const GridPoint& a = grid.points[static_cast<std::size_t>(line.a)];
+    const GridPoint& b = grid.points[static_cast<std::size_t>(line.b)];
+    return corner.forward ? GridLine{a, b} : GridLine{b, a};
+  }
+
  private:
+  double needle_area(const FastOutlines& outlines, const Face& face) const;
   bool add(const FastOutlines& outlines, const FastOutlines::Outline& outline);
 };
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace transillum {
@@ -71,8 +72,13 @@ void FastView<Real>::find_window(Piece& piece) const {
 
 template <class Real>
 void FastView<Real>::look_from(std::int32_t face) {
+  start(face, faces_.corners[faces_.faces[static_cast<std::size_t>(face)].begin].at);
+}
+
+template <class Real>
+void FastView<Real>::start(std::int32_t face, const GridPoint& origin) {
   const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
-  origin_ = faces_.corners[own.begin].at;
+  origin_ = origin;
   edge_count_ = 0;
   unused_.insert(unused_.end(), left_.begin(), left_.end());
   left_.assign(1, new_piece());
@@ -88,7 +94,8 @@ void FastView<Real>::look_from(std::int32_t face) {
 
 template <class Real>
 bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
-  look_from(face);
+  // What is seen in the bin may be small beside the face.
+  start(face, {bin.x + bin.size / 2, bin.y + bin.size / 2});
   bin_ = bin;
   Piece& piece = pieces_[left_[0]];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
@@ -100,6 +107,7 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
     piece = rest_[0];
   }
   kept_edges_ = edge_count_;
+  reach_ = reach_of(piece);
   left_area_ = area_ = area_of(piece);
   find_window(piece);
   window_ = piece.window;
@@ -124,8 +132,13 @@ void FastView<Real>::load_corners(const FastFaces::Face& face, Piece& piece) con
   piece.error = 0;
   for (std::uint32_t k = face.begin; k < face.end; ++k) {
     const FaceCorner& corner = faces_.corners[k];
-    piece.add(static_cast<Real>(corner.at.x - origin_.x),
-              static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
+    if constexpr (std::is_same_v<Real, long double>) {
+      const FastFaces::Place at = faces_.place_of(outlines_, face, k, origin_);
+      piece.add(at.x, at.y, 0, corner.point);
+    } else {
+      piece.add(static_cast<Real>(corner.at.x - origin_.x),
+                static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
+    }
   }
 }
 
@@ -460,7 +473,7 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
     x = static_cast<Real>(p.x - origin_.x);
     y = static_cast<Real>(p.y - origin_.y);
     error = 0;
-  } else if (!(flatness < 0x1p16) && edge.line != halving && cutting.line != halving) {
+  } else if (!(flatness < 0x1p6) && edge.line != halving && cutting.line != halving) {
     // The lines meet at a flat angle.
     ++counts_.exact_decisions;
     const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);

@@ -15,8 +15,8 @@
 namespace transillum {
 
 /// What one face, or a part of it, sees: its polygon is eaten up by the faces it is shown, the
-/// nearest first. Coordinates are relative to the face, where small differences keep their
-/// digits; `Real` is double, or long double where a needle is involved.
+/// nearest first. Coordinates are relative to the face or the bin, where small differences keep
+/// their digits; `Real` is double, or long double where a needle is involved.
 ///
 /// Whether a corner lies left of a line is the sign of a determinant: in Real where that is
 /// certain, and else in whole numbers from the grid points that corner and line come from.
@@ -38,7 +38,9 @@ class FastView {
   const FaceWindow& window() const { return window_; }
 
   /// Whether nothing is left but for rounding.
-  bool done() const { return left_.empty() || left_area_ <= Real{0x1p-40} * area_; }
+  bool done() const {
+    return left_.empty() || left_area_ <= std::min(Real{0x1p-40} * area_, Real{64} * reach_);
+  }
 
  private:
   static constexpr std::size_t most_corners = 48;  ///< of a piece
@@ -70,6 +72,7 @@ class FastView {
       point[count++] = on_grid;
     }
   };
+  void start(std::int32_t face, const GridPoint& origin);
   void find_window(Piece& piece) const;
   void load_corners(const FastFaces::Face& face, Piece& piece) const;
   void load_edges(const FastFaces::Face& face, Piece& piece);
