@@ -25,7 +25,7 @@ void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   if (new_run) {
     recorder_.clear();
-    focus_.begin_run(snapshot_->progress.passes);
+    focus_.begin_run(static_cast<int>(snapshot_->directions->size()));
   }
   const SolveProgress& progress = snapshot_->progress;
   focus_.set_iterations(progress.iteration + (progress.direction > 0 ? 1 : 0));

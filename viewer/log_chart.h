@@ -39,7 +39,7 @@ class LogChart : public QWidget {
   void set_hint(const QString& hint) { hint_ = hint; }
 
   QSize sizeHint() const override { return {420, 210}; }
-  QSize minimumSizeHint() const override { return {240, 130}; }
+  QSize minimumSizeHint() const override { return {240, 112}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -22,6 +22,7 @@
 #include "banner.h"
 #include "color_controls.h"
 #include "convergence_view.h"
+#include "direction_view.h"
 #include "help_dialogs.h"
 #include "map_view.h"
 #include "number_text.h"
@@ -41,7 +42,7 @@ namespace transillum::viewer {
 namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 2;
+constexpr int layout_version = 3;
 
 constexpr PatchId few_patches = 64;
 
@@ -100,8 +101,8 @@ QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidge
 }
 
 QList<QDockWidget*> MainWindow::docks() const {
-  return {settings_dock_, inspector_dock_,   summary_dock_,
-          map_dock_,      convergence_dock_, timeline_dock_};
+  return {settings_dock_,    inspector_dock_, summary_dock_, map_dock_,
+          convergence_dock_, direction_dock_, timeline_dock_};
 }
 
 void MainWindow::make_docks() {
@@ -115,6 +116,8 @@ void MainWindow::make_docks() {
   inspector_dock_ = add_dock(tr("Patch"), "inspector_dock", scrollable(inspector_));
   map_dock_ = add_dock(tr("Visibility map"), "map_dock", map_view_);
   convergence_dock_ = add_dock(tr("Convergence"), "convergence_dock", convergence_view_);
+  direction_view_ = new DirectionView(focus_, selection_, colors_);
+  direction_dock_ = add_dock(tr("Directions"), "direction_dock", direction_view_);
   timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
   timeline_dock_ = add_dock(tr("Timeline"), "timeline_dock", timeline_);
   timeline_dock_->setTitleBarWidget(new QWidget);  // no room for one on a projector
@@ -204,9 +207,13 @@ void MainWindow::reset_layout() {
   addDockWidget(Qt::RightDockWidgetArea, map_dock_);
   addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
   addDockWidget(Qt::BottomDockWidgetArea, timeline_dock_);
+  tabifyDockWidget(inspector_dock_, summary_dock_);
+  tabifyDockWidget(convergence_dock_, direction_dock_);
   for (QDockWidget* dock : docks()) dock->show();
+  inspector_dock_->raise();
+  convergence_dock_->raise();
   resizeDocks({settings_dock_, map_dock_}, {290, 410}, Qt::Horizontal);
-  resizeDocks({settings_dock_, inspector_dock_, summary_dock_}, {385, 290, 225}, Qt::Vertical);
+  resizeDocks({settings_dock_, inspector_dock_}, {455, 345}, Qt::Vertical);
   resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
 }
 
@@ -273,6 +280,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   selection_.select(no_patch);
   focus_feed_.clear();
   map_view_->clear();
+  direction_view_->clear();
   page_->show_scene();
   scene_view_->show_scene(loaded_);
   // Few large patches of like brightness run into one another without outlines.
@@ -305,6 +313,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   scene_view_->show_snapshot(snapshot_);
   map_view_->show_snapshot(snapshot_);
   convergence_view_->show_snapshot(*snapshot_);
+  direction_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
@@ -326,7 +335,7 @@ bool MainWindow::settled() const {
   const bool resting =
       session_.state() == SessionState::paused || session_.state() == SessionState::finished;
   return resting && snapshot_ && focus_.arrived() &&
-         (map_dock_->isHidden() || map_view_->up_to_date());
+         (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 
 QString MainWindow::banner_text() const { return page_->banner()->text(); }

@@ -17,6 +17,7 @@ class QMenu;
 namespace transillum::viewer {
 
 class ConvergenceView;
+class DirectionView;
 class MapView;
 class PatchInspector;
 class ProgressLine;
@@ -93,13 +94,14 @@ class MainWindow : public QMainWindow {
   SceneView* scene_view_;
   MapView* map_view_;
   ConvergenceView* convergence_view_;
+  DirectionView* direction_view_;
   PatchInspector* inspector_;
   SettingsPanel* settings_;
   SolveSummary* summary_;
   ProgressLine* progress_;
   TimelineBar* timeline_;
   QDockWidget *settings_dock_, *inspector_dock_, *summary_dock_, *map_dock_, *convergence_dock_,
-      *timeline_dock_;
+      *direction_dock_, *timeline_dock_;
 };
 
 }  // namespace transillum::viewer

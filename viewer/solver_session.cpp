@@ -282,6 +282,9 @@ void SolverSession::post_snapshot() {
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
   snapshot->progress = solver_->progress();
+  // A semi-iterative step has directions of its own.
+  if (*directions_ != solver_->directions())
+    directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
   snapshot->directions = directions_;
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();

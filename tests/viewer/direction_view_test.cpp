@@ -1,0 +1,109 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "direction_view.h"
+
+#include <QDockWidget>
+#include <cmath>
+#include <numeric>
+
+#include "solved_window.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+struct Shown : SolvedWindow {
+  explicit Shown(const char* scene) : SolvedWindow(scene) {
+    window->session().run();
+    (void)wait_for([this] { return window->snapshot()->progress.finished && window->settled(); });
+    window->findChild<QDockWidget*>("direction_dock")->raise();
+    view = window->findChild<DirectionView*>();
+    (void)wait_for([this] { return view->isVisible(); });
+  }
+  void select(PatchId patch) {
+    window->selection().select(patch);
+    QVERIFY(wait_for([this] { return view->up_to_date(); }));
+  }
+  DirectionView* view;
+};
+
+double luminance(const Rgb& b) { return 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b; }
+
+}  // namespace
+
+class DirectionViewTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void shows_each_direction_and_its_opposite() {
+    const Shown shown("cornell-box");
+    const auto points = shown.view->points();
+    QCOMPARE(points.size(), std::size_t{64});
+    for (std::size_t k = 0; k < points.size(); k += 2) {
+      QVERIFY(norm(points[k].omega + points[k + 1].omega) < 1e-15);
+      QVERIFY(points[k + 1].opposite);
+    }
+    QVERIFY(shown.view->received().empty());
+    QVERIFY(color_count(shown.view->grab().toImage()) > 4);
+  }
+
+  /// Eq. 11: what a patch receives is the sum over directions.
+  void parts_add_up_to_the_irradiance() {
+    Shown shown("cornell-box");
+    const Solution solution = solve(load_scene("cornell-box"), {.directions = 32});
+    for (const PatchId patch : {0, 3, 7}) {
+      shown.select(patch);
+      const auto received = shown.view->received();
+      QCOMPARE(received.size(), std::size_t{64});
+      const double sum = std::accumulate(received.begin(), received.end(), 0.0);
+      const double irradiance = luminance(solution.irradiance[static_cast<std::size_t>(patch)]);
+      // The view takes the newest B, H is of the one before: as far apart as the tolerance says.
+      QVERIFY2(std::abs(sum - irradiance) <= 1e-4 * irradiance,
+               qPrintable(QString("patch %1: %2, not %3").arg(patch).arg(sum).arg(irradiance)));
+    }
+  }
+
+  void light_comes_from_where_the_patch_looks() {
+    Shown shown("cornell-box");
+    shown.select(0);
+    const Vec3 normal = shown.window->snapshot()->loaded->scene->patch(0).normal;
+    const auto points = shown.view->points();
+    const auto received = shown.view->received();
+    int lit = 0;
+    for (std::size_t k = 0; k < received.size(); ++k) {
+      if (!(received[k] > 0)) continue;
+      ++lit;
+      QVERIFY(dot(points[k].omega, normal) > 0);
+    }
+    QVERIFY(lit > 8);
+  }
+
+  void a_click_takes_the_focus_there() {
+    Shown shown("cornell-box");
+    const auto directions = shown.window->snapshot()->directions;
+    const QSize size = shown.view->size();
+    for (int y = 60; y < size.height() - 60; y += 3) {
+      for (int x = 20; x < size.width() - 20; x += 3) {
+        QTest::mouseClick(shown.view, Qt::LeftButton, {}, {x, y});
+        if (!shown.window->focus().following()) {
+          QVERIFY(wait_for([&] { return shown.window->focus().arrived(); }));
+          return;
+        }
+      }
+    }
+    QFAIL("no point was hit");
+  }
+
+  void forgets_with_the_scene() {
+    Shown shown("cornell-box");
+    shown.select(3);
+    QVERIFY(!shown.view->received().empty());
+    shown.window->open("furnace");
+    QVERIFY(wait_for([&] { return shown.window->selection().patch() == no_patch; }));
+    QVERIFY(shown.view->received().empty());
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(DirectionViewTest)
+#include "direction_view_test.moc"

@@ -1,0 +1,116 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "direction_sights.h"
+
+#include <QMetaObject>
+#include <chrono>
+#include <utility>
+
+#include "thread_priority.h"
+#include "transillum/engine.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+DirectionSights::Sights sights_of(PatchId patch, const Transfers& transfers, bool two_way) {
+  DirectionSights::Sights sights;
+  for (const Transfer& t : transfers.exchanges) {
+    if (t.receiver == patch) sights.forward.push_back({t.source, t.area});
+    if (two_way && t.source == patch) sights.backward.push_back({t.receiver, t.area});
+  }
+  return sights;
+}
+
+}  // namespace
+
+DirectionSights::DirectionSights(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
+
+DirectionSights::~DirectionSights() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+    cancellation_.cancel();
+  }
+  wake_.notify_one();
+  worker_.join();
+}
+
+void DirectionSights::request(Request request) {
+  const bool goes_on = request.patch == wanted_.patch && request.directions == wanted_.directions &&
+                       request.two_way == wanted_.two_way && request.engine == wanted_.engine;
+  if (goes_on && request.count <= wanted_.count) return;
+  if (!goes_on) found_.clear();
+  wanted_ = request;
+  {
+    const std::lock_guard lock(mutex_);
+    // What is under way is dropped: it would come back later with more.
+    ++number_;
+    cancellation_.cancel();
+    request_ = std::move(request);
+    request_first_ = static_cast<int>(found_.size());
+  }
+  wake_.notify_one();
+}
+
+void DirectionSights::clear() {
+  wanted_ = {};
+  found_.clear();
+  const std::lock_guard lock(mutex_);
+  ++number_;
+  request_.reset();
+  cancellation_.cancel();
+}
+
+void DirectionSights::work() {
+  give_way_to_the_window();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return quit_ || request_; });
+    if (quit_) return;
+    const Request request = *std::exchange(request_, std::nullopt);
+    const int first = request_first_;
+    const quint64 number = number_;
+    cancellation_ = Cancellation();
+    const Cancellation cancellation = cancellation_;
+    lock.unlock();
+    try {
+      look(request, first, cancellation, number);
+    } catch (const std::exception&) {
+      // Cancelled, or the engine's failure, which the solver has told already.
+    }
+    lock.lock();
+  }
+}
+
+void DirectionSights::look(const Request& request, int first, const Cancellation& cancellation,
+                           quint64 number) {
+  using Clock = std::chrono::steady_clock;
+  const TransferEngine engine = make_engine(request.engine, request.loaded->scene,
+                                            request.loaded->tree, request.engine_options);
+  std::vector<Sights> more;
+  auto delivered = Clock::now();
+  for (int k = first; k < request.count; ++k) {
+    const Vec3& omega = (*request.directions)[static_cast<std::size_t>(k)];
+    more.push_back(sights_of(request.patch, engine(omega, cancellation), request.two_way));
+    const bool last = k + 1 == request.count;
+    if (!last && Clock::now() - delivered < std::chrono::milliseconds(200)) continue;
+    delivered = Clock::now();
+    QMetaObject::invokeMethod(
+        this,
+        [this, number, part = std::exchange(more, {})]() mutable {
+          deliver(std::move(part), number);
+        },
+        Qt::QueuedConnection);
+  }
+}
+
+void DirectionSights::deliver(std::vector<Sights> more, quint64 number) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (number != number_) return;
+  }
+  for (Sights& sights : more) found_.push_back(std::move(sights));
+  emit grown();
+}
+
+}  // namespace transillum::viewer
