@@ -2,17 +2,19 @@
 #include "convergence_view.h"
 
 #include <QVBoxLayout>
+#include <numbers>
 
 #include "log_chart.h"
 #include "number_text.h"
 #include "theme.h"
+#include "transillum/bounds.h"
 
 namespace transillum::viewer {
 
 ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
   steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
   steps_->set_hint(tr("A point for every finished iteration"));
-  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Change of B"));
+  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
   passes_->set_hint(tr("A point for every direction"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -33,9 +35,17 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
 
   passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
   const int passes = snapshot.progress.passes;
-  passes_->show_lines(
-      {{tr("estimate against the last"), theme::accent, snapshot.estimate_changes, false}}, {},
-      passes);
+  // Predicted and actual: how well the directions so far integrate a cosine (section 4).
+  std::vector<double> errors, bounds;
+  const int ways = snapshot.options.two_way ? 2 : 1;
+  for (std::size_t d = 0; d < snapshot.quadrature_errors.size(); ++d) {
+    errors.push_back(snapshot.quadrature_errors[d] / std::numbers::pi);
+    bounds.push_back(quadrature_error_bound(static_cast<double>(d + 1) * ways) / std::numbers::pi);
+  }
+  passes_->show_lines({{tr("change of B"), theme::accent, snapshot.estimate_changes, false},
+                       {tr("ε/π"), theme::good, std::move(errors), false},
+                       {tr("bound (eq. 21)"), theme::warm, std::move(bounds), false}},
+                      {}, passes);
 }
 
 }  // namespace transillum::viewer

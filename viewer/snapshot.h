@@ -25,10 +25,12 @@ struct SolverSnapshot {
   SolveProgress progress;
   std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass; one list a run
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;            ///< running estimate, W/m², one a patch
-  std::vector<double> form_factor_sums;  ///< one a patch
-  std::vector<double> estimate_changes;  ///< of the newest step that has passes, one a pass
-  int estimate_iteration = 0;            ///< 0-based number of that step
+  std::vector<Rgb> radiosity;             ///< running estimate, W/m², one a patch
+  std::vector<double> form_factor_sums;   ///< one a patch
+  std::vector<double> estimate_changes;   ///< of the newest step that has passes, one a pass
+  std::vector<double> quadrature_errors;  ///< eps after each pass
+  ErrorEstimate error;                    ///< from replicas, if any
+  int estimate_iteration = 0;             ///< 0-based number of that step
 };
 
 /// What the session is doing.

@@ -23,6 +23,9 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   energy_ = grid->add_row(tr("Energy defect"), {}, tr("Power received against power sent"));
   contraction_ = grid->add_row(tr("Contraction"), {},
                                tr("Of the newest iteration, and its bound by eq. 22 with eq. 21"));
+  error_ = grid->add_row(tr("Error of B"), {},
+                         tr("RMS over patches, from the spread of replicas; set some under\n"
+                            "Solve settings to have one"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 8, 12, 10);
   layout->addWidget(grid);
@@ -45,6 +48,9 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass              ? none
                     : s.escaped < rounding ? tr("no: closed")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
+  error_->setText(snapshot.error.replicas > 0
+                      ? tr("%1 %").arg(number_text(100 * snapshot.error.rms))
+                      : tr("no replicas"));
   energy_->setText(any_step ? number_text(s.energy_defect) : none);
   contraction_->setText(s.steps.size() > 1 ? tr("%1, bound %2")
                                                  .arg(number_text(s.steps.back().contraction),

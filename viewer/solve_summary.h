@@ -20,7 +20,7 @@ class SolveSummary : public QWidget {
 
  private:
   QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *energy_,
-      *contraction_;
+      *contraction_, *error_;
 };
 
 }  // namespace transillum::viewer

@@ -290,6 +290,8 @@ void SolverSession::post_snapshot() {
   snapshot->radiosity = solver_->running_estimate();
   snapshot->form_factor_sums = solver_->form_factor_sums();
   snapshot->estimate_changes = solver_->estimate_changes();
+  snapshot->quadrature_errors = solver_->quadrature_errors();
+  snapshot->error = solver_->error_estimate();
   snapshot->estimate_iteration = snapshot->progress.iteration;
   if (snapshot->estimate_changes.empty() && snapshot->progress.iteration > 0) {
     snapshot->estimate_changes = step_changes_;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <thread>
 
 #include "support/scenes.h"
@@ -125,6 +126,27 @@ TEST(RadiositySolver, ContractsAsPredicted) {
   }
   EXPECT_LE(solution.statistics.iterations,
             static_cast<int>(std::ceil(std::log(1e-10) / std::log(predicted))) + 1);
+}
+
+/// Eq. 17 for the normals of a box are those of the axes.
+TEST(RadiositySolver, TellsHowWellItsDirectionsIntegrateACosine) {
+  RadiositySolver solver(load_scene("furnace"), {.directions = 30, .two_way = false});
+  solver.advance(Until::iteration);
+  const auto& errors = solver.quadrature_errors();
+  ASSERT_EQ(errors.size(), 30u);
+  for (std::size_t m = 1; m <= errors.size(); ++m) {
+    double worst = 0;
+    for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      for (const double sign : {1.0, -1.0}) {
+        double sum = 0;
+        for (std::size_t d = 0; d < m; ++d)
+          sum += std::max(0.0, sign * dot(n, solver.directions()[d]));
+        worst = std::max(worst, std::abs(4 * std::numbers::pi / static_cast<double>(m) * sum -
+                                         std::numbers::pi));
+      }
+    }
+    EXPECT_NEAR(errors[m - 1], worst, 1e-12);
+  }
 }
 
 TEST(SolveOptions, NamesWhatIsOutOfRange) {

@@ -182,6 +182,9 @@ class RadiositySolver {
   /// Within the step under way: relative change (maximum norm) of the running estimate at each
   /// pass against the one before; entry d belongs to pass d. Empty between steps.
   const std::vector<double>& estimate_changes() const;
+  /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
+  /// bounds. Of the semi-iterative scheme's newest set only.
+  const std::vector<double>& quadrature_errors() const;
 
  private:
   struct Impl;

@@ -16,6 +16,7 @@
 #include "radiosity/iterate.h"
 #include "radiosity/pass_plan.h"
 #include "radiosity/pass_runner.h"
+#include "transillum/bounds.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -48,11 +49,6 @@ double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 /// Relative to `scale`, where there is any.
 double share(double part, double scale) { return scale > 0 ? part / scale : 0.0; }
-
-/// eps(M) by eq. 21.
-double quadrature_error_bound(double directions) {
-  return 2 * std::numbers::pi / directions * (std::log2(directions) + 7);
-}
 
 /// The mean of a list that gets longer (eq. 45).
 struct RunningMean {
@@ -130,6 +126,7 @@ struct RadiositySolver::Impl {
   SeenAreas areas;
   std::vector<ExchangeSums> sums;  ///< a replica each, or one
   std::vector<double> facing_area, back_seen;
+  std::vector<double> quadrature_errors;  ///< after each of the passes in `areas`
   double closure_relative = 0, closure_grazing = 0, covered = 0, seen = 0;
   std::int64_t transfer_count = 0;
   PassCounts counts;
@@ -204,6 +201,7 @@ struct RadiositySolver::Impl {
     if (plan.renews() && !steps.empty()) {
       directions = plan.directions(step());
       areas = SeenAreas(b.size());
+      quadrature_errors.clear();
     }
     const bool from_sums = keeps_sums() && areas.passes > 0;
     if (from_sums && options.scheme == Scheme::conjugate_gradients && steps.size() == 1) {
@@ -259,7 +257,10 @@ struct RadiositySolver::Impl {
   void learn(const Pass& pass) {
     const Transfers& transfers = pass.transfers;
     areas.add(transfers, options.two_way);
+    double worst = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
+      const double exact = areas.passes * ways() * scene->patches()[i].area / 4;
+      worst = std::max(worst, std::abs(areas.projected[i] / exact - 1));
       const Coverage& forward = transfers.forward[i];
       const Coverage& backward = transfers.backward[i];
       facing_area[i] += forward.projected + backward.projected;
@@ -267,6 +268,7 @@ struct RadiositySolver::Impl {
       seen += forward.projected + backward.projected;
       covered += forward.covered + backward.covered;
     }
+    quadrature_errors.push_back(std::numbers::pi * worst);
     closure_relative = std::max(closure_relative, pass.closure.relative);
     closure_grazing = std::max(closure_grazing, pass.closure.grazing);
     counts += transfers.counts;
@@ -501,7 +503,7 @@ SolveStatistics RadiositySolver::statistics() const {
   }
   statistics.energy_balance = share(absorbed, emitted);
   statistics.predicted_contraction =
-      statistics.rho_max * (1 + quadrature_error_bound(statistics.directions) / std::numbers::pi);
+      contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
   statistics.steps = s.steps;
   statistics.seconds_bsp = s.seconds_bsp;
   statistics.seconds_transfers = s.seconds_transfers;
@@ -514,6 +516,9 @@ const std::vector<Rgb>& RadiositySolver::radiosity() const { return impl_->b; }
 const std::vector<Rgb>& RadiositySolver::irradiance() const { return impl_->h; }
 const std::vector<double>& RadiositySolver::estimate_changes() const {
   return impl_->estimate_changes;
+}
+const std::vector<double>& RadiositySolver::quadrature_errors() const {
+  return impl_->quadrature_errors;
 }
 std::vector<Rgb> RadiositySolver::running_estimate() const { return impl_->estimate; }
 
