@@ -3,11 +3,8 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkGenericCell.h>
-#include <vtkIdList.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStaticCellLocator.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <utility>
@@ -45,10 +42,6 @@ SceneMesh::SceneMesh(std::shared_ptr<const Scene> scene) : scene_(std::move(scen
   surface_->SetPoints(points_of(*scene_));
   surface_->SetPolys(polygons);
   surface_->GetCellData()->SetScalars(colors_);
-
-  locator_ = vtkSmartPointer<vtkStaticCellLocator>::New();
-  locator_->SetDataSet(surface_);
-  locator_->BuildLocator();
 }
 
 void SceneMesh::color(std::span<const Color8> colors) {
@@ -57,32 +50,6 @@ void SceneMesh::color(std::span<const Color8> colors) {
     colors_->SetTypedTuple(cell++, colors[static_cast<std::size_t>(piece.patch)].data());
   colors_->Modified();
   surface_->Modified();
-}
-
-PatchId SceneMesh::first_front_hit(const Vec3& begin, const Vec3& end) const {
-  const Vec3 ray = end - begin;
-  const double length = norm(ray);
-  const double tolerance = 1e-9 * scene_->bounds().diagonal();
-  const double finish[3] = {end.x, end.y, end.z};
-  vtkNew<vtkGenericCell> cell;
-  double from = 0;  // share of the ray behind us
-  // Step over back sides one by one; there are few of them on any line that somebody looks along.
-  for (int step = 0; step < 1000; ++step) {
-    const Vec3 p = begin + from * ray;
-    const double start[3] = {p.x, p.y, p.z};
-    double t = 0, hit[3], local[3];
-    int sub_cell = 0;
-    vtkIdType cell_id = -1;
-    if (!locator_->IntersectWithLine(start, finish, tolerance, t, hit, local, sub_cell, cell_id,
-                                     cell))
-      break;
-    const Piece& piece = scene_->pieces()[static_cast<std::size_t>(cell_id)];
-    if (dot(scene_->patch(piece.patch).normal, ray) < 0) return piece.patch;
-    const double nudge = 1e-6 * scene_->bounds().diagonal() / length;
-    from += t * (1 - from) + nudge;
-    if (from >= 1) break;
-  }
-  return no_patch;
 }
 
 vtkSmartPointer<vtkPolyData> patch_outline(const Scene& scene, PatchId patch, double lift) {

@@ -3,7 +3,6 @@
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStaticCellLocator.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <memory>
@@ -23,15 +22,11 @@ class SceneMesh {
   vtkPolyData* surface() const { return surface_; }
   /// One colour a patch. Only the cells' colours change, never their shape.
   void color(std::span<const Color8> colors);
-  /// The first patch that the line from `begin` to `end` meets with its lit side; no_patch if none.
-  /// Back sides are culled in the picture, so the line passes through them here.
-  PatchId first_front_hit(const Vec3& begin, const Vec3& end) const;
 
  private:
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkUnsignedCharArray> colors_;
-  vtkSmartPointer<vtkStaticCellLocator> locator_;
 };
 
 /// The outline of a patch, `lift` metres in front of it.

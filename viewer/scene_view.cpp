@@ -196,7 +196,7 @@ void SceneView::render() {
 }
 
 PatchId SceneView::patch_at(const QPoint& position) const {
-  if (!mesh_) return no_patch;
+  if (!loaded_) return no_patch;
   // VTK counts device pixels from the bottom.
   const double scale = canvas_->devicePixelRatioF();
   const double x = (position.x() + 0.5) * scale;
@@ -207,7 +207,10 @@ PatchId SceneView::patch_at(const QPoint& position) const {
     const double* p = renderer_->GetWorldPoint();
     return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
   };
-  return mesh_->first_front_hit(world(0), world(1));
+  // Back sides are culled in the picture.
+  const Vec3 begin = world(0);
+  const auto hit = loaded_->picker->first_lit_hit(begin, world(1) - begin);
+  return hit ? hit->patch : no_patch;
 }
 
 bool SceneView::eventFilter(QObject* watched, QEvent* event) {

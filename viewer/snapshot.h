@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "transillum/bsp_tree.h"
+#include "transillum/picking.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
 
-/// A scene with its order. Immutable, shared by all threads.
+/// A scene with its order, and what finds its patches along rays. Immutable, shared by all threads.
 struct LoadedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
+  std::shared_ptr<const Picker> picker;
   double seconds_load = 0;
   double seconds_bsp = 0;
 };
