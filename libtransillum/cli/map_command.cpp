@@ -65,11 +65,7 @@ Run add_map_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("map", "Writes or draws one direction's visibility map");
   add_scene_argument(command, call->scene);
-  add_parsed_option(
-      command, "--direction", "X,Y,Z",
-      "omega, from the receivers toward the sources; of any length",
-      [call](const std::string& text) { call->direction = parse_direction("--direction", text); })
-      ->required();
+  add_direction_option(command, call->direction);
   add_parsed_option(command, "--receiver", "I",
                     "what patch I sees (default: what is seen from below the whole scene)",
                     [call](const std::string& text) {

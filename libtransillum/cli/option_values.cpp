@@ -29,6 +29,30 @@ std::string_view without_plus(std::string_view text) {
   throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, wanted));
 }
 
+/// Three finite numbers with commas between, not all 0; returns the unit vector.
+Vec3 parse_direction(const std::string& option, const std::string& text) {
+  const auto wrong = [&] {
+    refuse(option, text, "three finite numbers X,Y,Z with commas between, not all 0");
+  };
+  std::array<double, 3> xyz{};
+  std::string_view rest = text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) wrong();
+    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) wrong();
+    if (k < 2) rest.remove_prefix(comma + 1);
+  }
+  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
+  const double largest = max_abs(direction);
+  if (largest == 0) wrong();
+  // Scaled first, or the squares of huge numbers overflow and those of tiny ones vanish; by a
+  // power of two, so that a unit vector keeps its bits.
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
+                         std::ldexp(xyz[2], -exponent)});
+}
+
 }  // namespace
 
 std::int64_t parse_whole_number(const std::string& option, const std::string& text,
@@ -55,29 +79,6 @@ double parse_number(const std::string& option, const std::string& text) {
     refuse(option, text, "a finite number");
   }
   return number;
-}
-
-Vec3 parse_direction(const std::string& option, const std::string& text) {
-  const auto wrong = [&] {
-    refuse(option, text, "three finite numbers X,Y,Z with commas between, not all 0");
-  };
-  std::array<double, 3> xyz{};
-  std::string_view rest = text;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) wrong();
-    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) wrong();
-    if (k < 2) rest.remove_prefix(comma + 1);
-  }
-  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
-  const double largest = max_abs(direction);
-  if (largest == 0) wrong();
-  // Scaled first, or the squares of huge numbers overflow and those of tiny ones vanish; by a
-  // power of two, so that a unit vector keeps its bits.
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
-                         std::ldexp(xyz[2], -exponent)});
 }
 
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text) {
@@ -107,6 +108,14 @@ void add_scene_argument(CLI::App& command, std::string& scene) {
                   "built-in with parameters, such as sphere-flake:levels=1")
       ->required()
       ->type_name("");
+}
+
+void add_direction_option(CLI::App& command, Vec3& direction) {
+  add_parsed_option(
+      command, "--direction", "X,Y,Z",
+      "omega, from the receivers toward the sources; of any length",
+      [&direction](const std::string& text) { direction = parse_direction("--direction", text); })
+      ->required();
 }
 
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options) {

@@ -18,14 +18,14 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 /// Finite.
 double parse_number(const std::string& option, const std::string& text);
-/// Three finite numbers with commas between, not all 0; returns the unit vector.
-Vec3 parse_direction(const std::string& option, const std::string& text);
 /// Bytes: a number with K, M, G or T (powers of 1024) behind it or nothing.
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
 
 // Options that several commands share.
 
 void add_scene_argument(CLI::App& command, std::string& scene);
+/// --direction, required; a unit vector of it
+void add_direction_option(CLI::App& command, Vec3& direction);
 /// --engine and --lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// --memory and --threads

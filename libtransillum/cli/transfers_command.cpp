@@ -52,11 +52,7 @@ Run add_transfers_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("transfers", "Writes one direction's areas A(i,j,omega)");
   add_scene_argument(command, call->scene);
-  add_parsed_option(
-      command, "--direction", "X,Y,Z",
-      "omega, from the receivers toward the sources; of any length",
-      [call](const std::string& text) { call->direction = parse_direction("--direction", text); })
-      ->required();
+  add_direction_option(command, call->direction);
   add_engine_options(command, call->engine, call->engine_options);
   add_scene_options(command, call->scene_options);
   command
