@@ -149,7 +149,7 @@ class GlobalMap {
   Transfers run() {
     for_each_tile(look_at_fragments(), most_busy_in_a_tile, cancellation_,
                   [this](const std::vector<TilePolygon>& tile) { walk(tile); });
-    return sums_.finish(omega_);
+    return sums_.finish(omega_, cancellation_);
   }
 
  private:

@@ -57,7 +57,7 @@ class LocalMap {
       if (step_ % 64 == 0) cancellation_.throw_if_cancelled();
       process(tree_.fragment(order[static_cast<std::size_t>(step_)]));
     }
-    return sums_.finish(omega_);
+    return sums_.finish(omega_, cancellation_);
   }
 
  private:

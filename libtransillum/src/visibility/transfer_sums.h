@@ -2,9 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 #include <vector>
 
+#include "transillum/cancellation.h"
 #include "transillum/transfers.h"
 #include "visibility/map_number.h"
 
@@ -39,18 +40,18 @@ class TransferSums {
   }
 
   /// The sums, rounded once; leaves nothing behind.
-  Transfers finish(const Vec3& omega) {
+  /// @throws Cancelled
+  Transfers finish(const Vec3& omega, const Cancellation& cancellation) {
     Transfers transfers;
     transfers.direction = omega;
-    for (const OfPatch& patch : patches_) {
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (i % 4096 == 0) cancellation.throw_if_cancelled();
+      const OfPatch& patch = patches_[i];
       transfers.forward.push_back(rounded(patch.sides[0]));
       transfers.backward.push_back(rounded(patch.sides[1]));
       transfers.back_seen.push_back(nearest_double(patch.back_seen));
     }
-    merge_exchanges();
-    for (const Exchange& e : exchanges_) {
-      transfers.exchanges.push_back({e.receiver, e.source, nearest_double(e.area)});
-    }
+    add_exchanges(transfers.exchanges, cancellation);
     exchanges_.clear();
     return transfers;
   }
@@ -74,22 +75,26 @@ class TransferSums {
   }
 
   /// One entry a pair, by receiver and source; parts summed in the order they were found.
-  void merge_exchanges() {
-    auto& all = exchanges_;
-    std::stable_sort(all.begin(), all.end(), [](const Exchange& a, const Exchange& b) {
-      return std::pair(a.receiver, a.source) < std::pair(b.receiver, b.source);
-    });
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (kept > 0 && all[kept - 1].receiver == all[k].receiver &&
-          all[kept - 1].source == all[k].source) {
-        all[kept - 1].area += all[k].area;
-      } else {
-        if (kept != k) all[kept] = std::move(all[k]);
-        ++kept;
+  void add_exchanges(std::vector<Transfer>& summed, const Cancellation& cancellation) const {
+    // Dealt out by receiver, then each row sorted.
+    std::vector<std::size_t> end(patches_.size() + 1, 0);
+    for (const Exchange& e : exchanges_) ++end[static_cast<std::size_t>(e.receiver) + 1];
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<const Exchange*> dealt(exchanges_.size());
+    for (const Exchange& e : exchanges_) dealt[end[static_cast<std::size_t>(e.receiver)]++] = &e;
+    auto begin = dealt.begin();
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (i % 256 == 0) cancellation.throw_if_cancelled();
+      const auto row_end = dealt.begin() + static_cast<std::ptrdiff_t>(end[i]);
+      std::stable_sort(begin, row_end,
+                       [](const Exchange* a, const Exchange* b) { return a->source < b->source; });
+      while (begin != row_end) {
+        const PatchId source = (*begin)->source;
+        Area area{};
+        for (; begin != row_end && (*begin)->source == source; ++begin) area += (*begin)->area;
+        summed.push_back({static_cast<PatchId>(i), source, nearest_double(area)});
       }
     }
-    all.erase(all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
   }
 
   std::vector<OfPatch> patches_;
