@@ -28,6 +28,7 @@ struct PassCounts {
   std::int64_t cuts = 0;             ///< of a polygon by a line
   std::int64_t decisions = 0;        ///< on which side of a line a corner lies
   std::int64_t exact_decisions = 0;  ///< of them, those that took whole numbers
+  std::int64_t exact_looks = 0;      ///< polygons looked at by pieces, their signs exact
   // Seconds of the thread that made the pass.
   double seconds_order = 0;  ///< ordering and projecting
   double seconds_bins = 0;   ///< dealing out to bins

@@ -83,7 +83,8 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["counters"] = {{"pairs", counts.pairs},
                       {"cuts", counts.cuts},
                       {"decisions", counts.decisions},
-                      {"exact_decisions", counts.exact_decisions}};
+                      {"exact_decisions", counts.exact_decisions},
+                      {"exact_looks", counts.exact_looks}};
   json["thread_seconds"] = {{"order", counts.seconds_order},
                             {"bins", counts.seconds_bins},
                             {"clip", counts.seconds_clip}};

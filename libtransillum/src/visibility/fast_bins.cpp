@@ -26,9 +26,13 @@ double high(const FaceBox& box, std::size_t axis) { return -box.ends[axis + 4]; 
 
 }  // namespace
 
-FastBins::FastBins(const FastFaces& faces, bool backs_only, const Cancellation& cancellation)
-    : input_(faces), backs_only_(backs_only) {
-  const std::size_t count = faces.faces.size();
+void FastBins::fill(const Cancellation& cancellation) {
+  const std::size_t count = input_.faces.size();
+  bins_.clear();
+  faces_of_.clear();
+  boxes_.clear();
+  before_.clear();
+  open_.clear();
   last_.assign(count, none);
   counts_.assign(count, 0);
   faces_of_.reserve(4 * count);
@@ -87,10 +91,10 @@ FastBins::Cells FastBins::cells_of(std::int32_t face, const Region& region, int 
 /// Whether the face may have area in a square. A no is certain.
 bool FastBins::reaches(std::int32_t face, std::int64_t x, std::int64_t y, std::int64_t size) const {
   const FastFaces::Face& f = input_.faces[static_cast<std::size_t>(face)];
-  const FaceCorner* const corners = input_.corners.data();
+  const GridPoint* const corners = input_.corners.data();
   for (std::uint32_t k = f.begin; k < f.end; ++k) {
-    const GridPoint& a = corners[k].at;
-    const GridPoint& b = corners[k + 1 < f.end ? k + 1 : f.begin].at;
+    const GridPoint& a = corners[k];
+    const GridPoint& b = corners[k + 1 < f.end ? k + 1 : f.begin];
     const auto dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
     // The corner of the square that lies farthest to the left of the edge.
     const auto px = static_cast<double>((dy < 0 ? x + size : x) - a.x);

@@ -24,7 +24,11 @@ class FastBins {
   };
 
   /// @param backs_only front-facing faces are not found by their boxes.
-  FastBins(const FastFaces& faces, bool backs_only, const Cancellation& cancellation);
+  FastBins(const FastFaces& faces, bool backs_only) : input_(faces), backs_only_(backs_only) {}
+
+  /// Deals the faces out anew.
+  /// @throws Cancelled
+  void fill(const Cancellation& cancellation);
 
   const std::vector<Bin>& bins() const { return bins_; }
   /// The face of an entry; -1 at the ends.

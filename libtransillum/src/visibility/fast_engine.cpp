@@ -10,15 +10,16 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <type_traits>
+#include <mutex>
 #include <utility>
 
 #include "invariant.h"
 #include "scene/closed_surface.h"
 #include "visibility/engines.h"
+#include "visibility/exact_view.h"
 #include "visibility/fast_bins.h"
 #include "visibility/fast_faces.h"
-#include "visibility/fast_view.h"
+#include "visibility/outline_view.h"
 
 namespace transillum {
 namespace {
@@ -39,42 +40,33 @@ struct FastScene {
       : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*tree) {}
 };
 
+/// Makes one pass after the other; what a pass needs is kept for the next one.
 class FastPass {
  public:
-  FastPass(const FastScene& shared, const Vec3& omega, const Cancellation& cancellation)
-      : cancellation_(cancellation),
+  explicit FastPass(const FastScene& shared)
+      : shared_(shared),
         in_air_(shared.in_air),
-        start_(Clock::now()),
-        faces_(*shared.scene, *shared.tree, shared.outlines, omega, cancellation),
-        ordered_(Clock::now()),
-        bins_(faces_, in_air_, cancellation),
-        binned_(Clock::now()),
-        view_(shared.outlines, faces_, transfers_.counts),
-        wide_view_(shared.outlines, faces_, transfers_.counts),
-        area_unit_(faces_.grid.step * faces_.grid.step) {
-    const auto patches = static_cast<std::size_t>(shared.scene->patch_count());
-    transfers_.direction = omega;
-    transfers_.forward.resize(patches);
-    transfers_.backward.resize(patches);
-    transfers_.back_seen.resize(patches);
-    seen_from_front_.resize(faces_.faces.size());
-  }
+        bins_(faces_, in_air_),
+        outline_view_(faces_, transfers_.counts),
+        exact_view_(shared.outlines, faces_, transfers_.counts) {}
 
-  Transfers run() {
-    for (const FastFaces::Face& face : faces_.faces) {
-      auto& side = face.front ? transfers_.forward : transfers_.backward;
-      side[static_cast<std::size_t>(face.patch)].projected += area_unit_ * face.area;
-    }
-    look_all<Way::up>();
-    if (!in_air_) look_all<Way::down>();
+  Transfers run(const Vec3& omega, const Cancellation& cancellation) {
+    const Clock::time_point start = Clock::now();
+    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
+    const Clock::time_point ordered = Clock::now();
+    bins_.fill(cancellation);
+    const Clock::time_point binned = Clock::now();
+    begin(omega);
+    look_all<Way::up>(cancellation);
+    if (!in_air_) look_all<Way::down>(cancellation);
     TRANSILLUM_INVARIANT(nothing_is_covered_twice(), "more is covered than projected");
     sort_exchanges();
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
       return std::chrono::duration<double>(to - from).count();
     };
-    transfers_.counts.seconds_order = seconds(start_, ordered_);
-    transfers_.counts.seconds_bins = seconds(ordered_, binned_);
-    transfers_.counts.seconds_clip = seconds(binned_, Clock::now());
+    transfers_.counts.seconds_order = seconds(start, ordered);
+    transfers_.counts.seconds_bins = seconds(ordered, binned);
+    transfers_.counts.seconds_clip = seconds(binned, Clock::now());
     return std::move(transfers_);
   }
 
@@ -87,6 +79,22 @@ class FastPass {
     };
     return std::all_of(transfers_.forward.begin(), transfers_.forward.end(), holds) &&
            std::all_of(transfers_.backward.begin(), transfers_.backward.end(), holds);
+  }
+
+  void begin(const Vec3& omega) {
+    const auto patches = static_cast<std::size_t>(shared_.scene->patch_count());
+    transfers_ = {};
+    transfers_.direction = omega;
+    transfers_.forward.resize(patches);
+    transfers_.backward.resize(patches);
+    transfers_.back_seen.resize(patches);
+    found_.clear();
+    seen_from_front_.assign(faces_.faces.size(), 0);
+    area_unit_ = faces_.grid.step * faces_.grid.step;
+    for (const FastFaces::Face& face : faces_.faces) {
+      auto& side = face.front ? transfers_.forward : transfers_.backward;
+      side[static_cast<std::size_t>(face.patch)].projected += area_unit_ * face.area;
+    }
   }
 
   enum class Way { up, down };
@@ -102,14 +110,14 @@ class FastPass {
 
   /// Bin by bin, so that what is looked at next is near.
   template <Way way>
-  void look_all() {
+  void look_all(const Cancellation& cancellation) {
     std::int32_t looks = 0;
     for (const FastBins::Bin& bin : bins_.bins()) {
       fetch(bin);
       for (FastBins::Entry e = bin.begin; e < bin.end; ++e) {
         const std::int32_t face = bins_.face(e);
         if (!has_to_look(way, face)) continue;
-        if (++looks % 256 == 0) cancellation_.throw_if_cancelled();
+        if (++looks % 256 == 0) cancellation.throw_if_cancelled();
         if (bins_.entry_count(face) > most_bins) {
           look<way>(face, &bin, e);
         } else if (bins_.entry_before(e) == FastBins::none) {
@@ -123,9 +131,8 @@ class FastPass {
   void fetch(const FastBins::Bin& bin) const {
     for (FastBins::Entry e = bin.begin; e < bin.end; ++e) {
       const FastFaces::Face& face = faces_.faces[static_cast<std::size_t>(bins_.face(e))];
-      const FaceCorner* const corners = faces_.corners.data() + face.begin;
-      __builtin_prefetch(corners);
-      __builtin_prefetch(corners + 2);
+      __builtin_prefetch(faces_.corners.data() + face.begin);
+      __builtin_prefetch(faces_.corners.data() + face.end - 1);
     }
   }
 
@@ -138,14 +145,14 @@ class FastPass {
 
   template <Way way>
   void look(std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
-    const bool needle = faces_.faces[static_cast<std::size_t>(face)].needle;
-    if (needle || !look_with<way>(view_, face, bin, entry)) {
-      look_with<way>(wide_view_, face, bin, entry);
+    if (!look_with<way>(outline_view_, face, bin, entry)) {
+      ++transfers_.counts.exact_looks;
+      look_with<way>(exact_view_, face, bin, entry);
     }
     for (const Sight& sight : sights_) book<way>(face, sight);
   }
 
-  /// Fills sights_. Returns false where what is seen is too thin for this view's numbers.
+  /// Fills sights_. Returns false where what is seen is too much for the view.
   template <Way way, class View>
   bool look_with(View& view, std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
     sights_.clear();
@@ -154,13 +161,13 @@ class FastPass {
     } else if (!view.look_from(face, *bin)) {
       return true;
     }
-    constexpr bool wide = std::is_same_v<View, FastView<long double>>;
+    if (view.failed()) return false;
     begin_search<way>(face, bin != nullptr, entry, view.window());
     for (std::int32_t other = next<way>(view.window()); other >= 0;
          other = next<way>(view.window())) {
-      const double area = view.show(other, faces_.boxes[static_cast<std::size_t>(other)]);
+      const double area = view.show(other);
+      if (view.failed()) return false;
       if (!(area > 0)) continue;
-      if (!wide && faces_.faces[static_cast<std::size_t>(other)].needle) return false;
       sights_.push_back({other, area});
       if (view.done()) break;
     }
@@ -224,7 +231,7 @@ class FastPass {
       } else {
         transfers_.backward[j].covered += area;
         seen_from_front_[static_cast<std::size_t>(sight.face)] += sight.area;
-        transfers_.exchanges.push_back({own.patch, other.patch, area});
+        found_.push_back({own.patch, other.patch, area});
       }
     } else if (!other.front) {
       transfers_.backward[i].covered += area;
@@ -235,46 +242,80 @@ class FastPass {
   /// By receiver, then source, one entry a pair; parts summed in the order they were found.
   void sort_exchanges() {
     const std::size_t patches = transfers_.forward.size();
-    std::vector<Transfer>& found = transfers_.exchanges;
-    std::vector<std::uint32_t> end(patches + 1, 0);
-    for (const Transfer& t : found) ++end[static_cast<std::size_t>(t.receiver) + 1];
-    for (std::size_t i = 0; i < patches; ++i) end[i + 1] += end[i];
-    std::vector<Transfer> sorted(found.size());
-    for (const Transfer& t : found) sorted[end[static_cast<std::size_t>(t.receiver)]++] = t;
-    std::size_t kept = 0, begin = 0;
+    row_ends_.assign(patches + 1, 0);
+    for (const Transfer& t : found_) ++row_ends_[static_cast<std::size_t>(t.receiver) + 1];
+    for (std::size_t i = 0; i < patches; ++i) row_ends_[i + 1] += row_ends_[i];
+    sorted_.resize(found_.size());
+    for (const Transfer& t : found_) {
+      sorted_[row_ends_[static_cast<std::size_t>(t.receiver)]++] = t;
+    }
+    std::vector<Transfer>& exchanges = transfers_.exchanges;
+    exchanges.reserve(found_.size());
+    std::size_t begin = 0;
     for (std::size_t i = 0; i < patches; ++i) {
-      const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin);
-      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(end[i]);
-      std::stable_sort(first, last,
-                       [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
-      const std::size_t row = kept;
-      for (auto t = first; t != last; ++t) {
-        if (kept > row && sorted[kept - 1].source == t->source) {
-          sorted[kept - 1].area += t->area;
+      sort_by_source(sorted_.data() + begin, sorted_.data() + row_ends_[i]);
+      const std::size_t row = exchanges.size();
+      for (; begin < row_ends_[i]; ++begin) {
+        const Transfer& t = sorted_[begin];
+        if (exchanges.size() > row && exchanges.back().source == t.source) {
+          exchanges.back().area += t.area;
         } else {
-          sorted[kept++] = *t;
+          exchanges.push_back(t);
         }
       }
-      begin = end[i];
     }
-    sorted.resize(kept);
-    found.swap(sorted);
   }
 
-  const Cancellation& cancellation_;
+  /// Equal ones stay in their order.
+  static void sort_by_source(Transfer* first, Transfer* last) {
+    constexpr std::ptrdiff_t few = 24;
+    if (last - first > few) {
+      std::stable_sort(first, last,
+                       [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
+      return;
+    }
+    for (Transfer* next = first; next < last; ++next) {
+      const Transfer moved = *next;
+      Transfer* to = next;
+      for (; to > first && to[-1].source > moved.source; --to) *to = to[-1];
+      *to = moved;
+    }
+  }
+
+  const FastScene& shared_;
   bool in_air_;
   Transfers transfers_;
-  Clock::time_point start_;
   FastFaces faces_;
-  Clock::time_point ordered_;
   FastBins bins_;
-  Clock::time_point binned_;
-  FastView<double> view_;
-  FastView<long double> wide_view_;
-  double area_unit_;                     ///< m² a step squared
-  std::vector<double> seen_from_front_;  ///< a face: steps squared
+  OutlineView outline_view_;
+  ExactView exact_view_;
+  double area_unit_ = 1;                  ///< m² a step squared
+  std::vector<double> seen_from_front_;   ///< a face: steps squared
+  std::vector<Transfer> found_, sorted_;  ///< exchanges, sight by sight
+  std::vector<std::uint32_t> row_ends_;
   std::vector<Sight> sights_;
   std::vector<Cursor> cursors_;
+};
+
+/// Passes that no thread is making; one is kept for each that has made one at the same time.
+class IdlePasses {
+ public:
+  /// None where all are under way.
+  std::unique_ptr<FastPass> take() {
+    const std::lock_guard lock(mutex_);
+    if (passes_.empty()) return nullptr;
+    std::unique_ptr<FastPass> pass = std::move(passes_.back());
+    passes_.pop_back();
+    return pass;
+  }
+  void give_back(std::unique_ptr<FastPass> pass) {
+    const std::lock_guard lock(mutex_);
+    passes_.push_back(std::move(pass));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<FastPass>> passes_;
 };
 
 /// Whether a pass tells that lit sides look at lit sides only. Where surfaces are closed, what
@@ -286,7 +327,7 @@ bool is_in_air(const FastScene& shared) {
   const Vec3 omega = normalized(Vec3{0.5772156649, 0.3141592653, 0.7390851332});
   if (!is_closed_surface(*shared.scene)) return false;
   const Cancellation never;
-  const Transfers transfers = FastPass(shared, omega, never).run();
+  const Transfers transfers = FastPass(shared).run(omega, never);
   for (PatchId i = 0; i < shared.scene->patch_count(); ++i) {
     // Rounding lets slivers of backs be seen beside the edges of what hides them.
     const double most = 1e-13 * shared.scene->patch(i).area;
@@ -301,8 +342,14 @@ TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
   shared->in_air = is_in_air(*shared);
-  return [shared = std::move(shared)](const Vec3& omega, const Cancellation& cancellation) {
-    return FastPass(*shared, omega, cancellation).run();
+  auto idle = std::make_shared<IdlePasses>();
+  return [shared = std::move(shared), idle = std::move(idle)](const Vec3& omega,
+                                                              const Cancellation& cancellation) {
+    std::unique_ptr<FastPass> pass = idle->take();
+    if (!pass) pass = std::make_unique<FastPass>(*shared);
+    Transfers transfers = pass->run(omega, cancellation);
+    idle->give_back(std::move(pass));
+    return transfers;
   };
 }
 

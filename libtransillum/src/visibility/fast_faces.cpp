@@ -9,18 +9,16 @@
 namespace transillum {
 namespace {
 
-using Corners = std::vector<FaceCorner>;
-
 constexpr double thinnest = 32;                               ///< steps
 constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
 
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
 /// edge-on may not, and takes no part.
-bool is_convex(const FaceCorner* outline, std::size_t count) {
+bool is_convex(const GridPoint* outline, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& a = outline[k].at;
-    const GridPoint& b = outline[(k + 1) % count].at;
-    const GridPoint& c = outline[(k + 2) % count].at;
+    const GridPoint& a = outline[k];
+    const GridPoint& b = outline[(k + 1) % count];
+    const GridPoint& c = outline[(k + 2) % count];
     const WideInteger turn = exact_turn(a, b, c);
     if (turn >= 0) continue;
     const auto square = [](std::int64_t v) {
@@ -33,38 +31,36 @@ bool is_convex(const FaceCorner* outline, std::size_t count) {
   return true;
 }
 
-FaceBox box_of(const FaceCorner* outline, std::size_t count) {
-  std::int64_t low[4], high[4];
-  std::fill(low, low + 4, std::numeric_limits<std::int64_t>::max());
-  std::fill(high, high + 4, std::numeric_limits<std::int64_t>::min());
-  for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& p = outline[k].at;
-    const std::int64_t along[4] = {p.x, p.y, p.x + p.y, p.x - p.y};
-    for (int d = 0; d < 4; ++d) {
-      low[d] = std::min(low[d], along[d]);
-      high[d] = std::max(high[d], along[d]);
-    }
+/// Twice the area, > 0 where the outline turns left; exact where little of the products is left.
+double twice_area_of(const GridPoint* outline, std::size_t count) {
+  double sum = 0, size = 0;
+  for (std::size_t k = 2; k < count; ++k) {
+    const auto ax = static_cast<double>(outline[k - 1].x - outline[0].x);
+    const auto ay = static_cast<double>(outline[k - 1].y - outline[0].y);
+    const auto bx = static_cast<double>(outline[k].x - outline[0].x);
+    const auto by = static_cast<double>(outline[k].y - outline[0].y);
+    sum += ax * by - ay * bx;
+    size += std::abs(ax * by) + std::abs(ay * bx);
   }
-  FaceBox box;
-  for (std::size_t d = 0; d < 4; ++d) {
-    box.ends[d] = rounded_down(static_cast<double>(low[d]));
-    box.ends[d + 4] = rounded_down(static_cast<double>(-high[d]));
+  if (std::abs(sum) > 0x1p-5 * size) return sum;
+  WideInteger exact = 0;
+  for (std::size_t k = 2; k < count; ++k) {
+    exact += exact_turn(outline[0], outline[k - 1], outline[k]);
   }
-  return box;
+  return static_cast<double>(exact);
 }
 
-/// Turns a clockwise outline round: the edge that left a corner now arrives there.
-void reverse(FaceCorner* outline, std::size_t count) {
-  std::reverse(outline, outline + count);
-  // Corner k now holds the edge that arrives at it.
-  const LineId last_line = outline[0].line;
-  const bool last_forward = outline[0].forward;
-  for (std::size_t k = 0; k + 1 < count; ++k) {
-    outline[k].line = outline[k + 1].line;
-    outline[k].forward = !outline[k + 1].forward;
+FaceBox box_of(const GridPoint* outline, std::size_t count) {
+  std::array<double, 8> ends;
+  ends.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto x = static_cast<double>(outline[k].x), y = static_cast<double>(outline[k].y);
+    const std::array<double, 8> along{x, y, x + y, x - y, -x, -y, -x - y, y - x};
+    for (std::size_t d = 0; d < 8; ++d) ends[d] = std::min(ends[d], along[d]);
   }
-  outline[count - 1].line = last_line;
-  outline[count - 1].forward = !last_forward;
+  FaceBox box;
+  for (std::size_t d = 0; d < 8; ++d) box.ends[d] = rounded_down(ends[d]);
+  return box;
 }
 
 }  // namespace
@@ -109,48 +105,40 @@ void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) 
   outlines.push_back(outline);
 }
 
-FastFaces::FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-                     const Vec3& omega, const Cancellation& cancellation)
-    : grid(scene, tree, omega) {
+void FastFaces::project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
+                        const Vec3& omega, const Cancellation& cancellation) {
+  grid.project(scene, tree, omega);
   cancellation.throw_if_cancelled();
+  boxes.clear();
+  faces.clear();
+  corners.clear();
   boxes.reserve(outlines.outlines.size());
   faces.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
+  std::size_t fragments = 0;
   for (const FragmentId f : tree.order(omega)) {
-    if (faces.size() % 4096 == 0) cancellation.throw_if_cancelled();
+    if (++fragments % 4096 == 0) cancellation.throw_if_cancelled();
     const auto fragment = static_cast<std::size_t>(f);
     for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
-      if (!add(outlines, outlines.outlines[k])) {
-        corners.resize(faces.empty() ? 0 : faces.back().end);
-      }
+      if (!add(outlines, k)) corners.resize(faces.empty() ? 0 : faces.back().end);
     }
   }
 }
 
 /// Returns false, and leaves corners behind, where the outline is seen edge-on.
-bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& outline) {
+bool FastFaces::add(const FastOutlines& outlines, std::uint32_t which) {
+  const FastOutlines::Outline& outline = outlines.outlines[which];
   const auto begin = static_cast<std::uint32_t>(corners.size());
   for (std::uint32_t k = outline.begin; k < outline.end; ++k) {
-    const FastOutlines::Corner& corner = outlines.corners[k];
-    corners.push_back({grid.points[static_cast<std::size_t>(corner.point)],
-                       corner.exact ? corner.point : FaceCorner::no_point, corner.line,
-                       corner.forward});
+    corners.push_back(grid.points[static_cast<std::size_t>(outlines.corners[k].point)]);
   }
-  FaceCorner* const first = corners.data() + begin;
+  GridPoint* const first = corners.data() + begin;
   const std::size_t count = corners.size() - begin;
-
-  WideInteger twice_area = 0;
-  for (std::size_t k = 2; k < count; ++k) {
-    twice_area += exact_turn(first[0].at, first[k - 1].at, first[k].at);
-  }
-  if (twice_area == 0) return false;
+  const double twice_area = twice_area_of(first, count);
   const bool front = twice_area > 0;
-  if (!front) {
-    twice_area = -twice_area;
-    reverse(first, count);
-  }
+  if (!front) std::reverse(first, first + count);
   const FaceBox box = box_of(first, count);
-  const double area = 0.5 * static_cast<double>(twice_area);
+  const double area = 0.5 * std::abs(twice_area);
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
@@ -159,33 +147,49 @@ bool FastFaces::add(const FastOutlines& outlines, const FastOutlines::Outline& o
   const bool needle = area < 0x1p-11 * size;
   if (needle && !is_convex(first, count)) return false;
   boxes.push_back(box);
-  faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), outline.patch, front,
-                   outline.plain, needle, area});
-  if (needle && !outline.plain) faces.back().area = needle_area(outlines, faces.back());
+  faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front,
+                   needle && !outline.plain, area});
+  if (faces.back().cut_needle) faces.back().area = cut_needle_area(outlines, faces.back());
   return true;
 }
 
+FastOutlines::Corner FastFaces::corner_of(const FastOutlines& outlines, const Face& face,
+                                          std::uint32_t k) {
+  const FastOutlines::Corner* const corners =
+      outlines.corners.data() + outlines.outlines[face.outline].begin;
+  if (face.front) return corners[k];
+  const std::uint32_t count = face.end - face.begin;
+  FastOutlines::Corner corner = corners[count - 1 - k];
+  const FastOutlines::Corner& next = corners[k + 1 < count ? count - 2 - k : count - 1];
+  corner.line = next.line;
+  corner.forward = !next.forward;
+  return corner;
+}
+
 FastFaces::Place FastFaces::place_of(const FastOutlines& outlines, const Face& face,
-                                     std::uint32_t corner, const GridPoint& origin) const {
-  const FaceCorner& leaving = corners[corner];
-  const Place rounded{static_cast<long double>(leaving.at.x - origin.x),
-                      static_cast<long double>(leaving.at.y - origin.y)};
-  if (!face.needle || leaving.point != FaceCorner::no_point) return rounded;
-  const FaceCorner& arriving = corners[corner > face.begin ? corner - 1 : face.end - 1];
+                                     std::uint32_t k, const GridPoint& origin) const {
+  const GridPoint& at = corners[face.begin + k];
+  const Place rounded{static_cast<long double>(at.x - origin.x),
+                      static_cast<long double>(at.y - origin.y)};
+  if (!face.cut_needle) return rounded;
+  const FastOutlines::Corner leaving = corner_of(outlines, face, k);
+  if (leaving.exact) return rounded;
+  const FastOutlines::Corner arriving =
+      corner_of(outlines, face, k > 0 ? k - 1 : face.end - face.begin - 1);
   const Meeting meeting =
-      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), leaving.at);
+      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), at);
   // Lines that all but coincide may meet anywhere.
   const auto most = static_cast<long double>(farthest_off);
   if (meeting.parallel || std::abs(meeting.x) > most || std::abs(meeting.y) > most) return rounded;
   return {rounded.x + meeting.x, rounded.y + meeting.y};
 }
 
-double FastFaces::needle_area(const FastOutlines& outlines, const Face& face) const {
-  const GridPoint& origin = corners[face.begin].at;
-  const Place first = place_of(outlines, face, face.begin, origin);
-  Place before = place_of(outlines, face, face.begin + 1, origin);
+double FastFaces::cut_needle_area(const FastOutlines& outlines, const Face& face) const {
+  const GridPoint& origin = corners[face.begin];
+  const Place first = place_of(outlines, face, 0, origin);
+  Place before = place_of(outlines, face, 1, origin);
   long double twice = 0;
-  for (std::uint32_t k = face.begin + 2; k < face.end; ++k) {
+  for (std::uint32_t k = 2; k < face.end - face.begin; ++k) {
     const Place place = place_of(outlines, face, k, origin);
     twice +=
         (before.x - first.x) * (place.y - first.y) - (before.y - first.y) * (place.x - first.x);

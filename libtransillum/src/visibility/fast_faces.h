@@ -16,20 +16,11 @@
 
 namespace transillum {
 
-/// A corner of a convex face on the plane, counter-clockwise.
-struct FaceCorner {
-  static constexpr PointId no_point = -1;
-
-  GridPoint at;   ///< made by a cut of the tree: a step or two off its lines
-  PointId point;  ///< or no_point, where it is but the meeting of its edges' lines
-  LineId line;    ///< of the edge to the next corner
-  bool forward;   ///< that edge runs along its line from a to b
-};
-
 /// The fragments of a tree as the fast engine takes them: with no more than most_corners corners,
 /// cut along diagonals where they have more. Made once a tree.
 struct FastOutlines {
   static constexpr std::size_t most_corners = 16;
+  static constexpr PointId no_point = -1;
   struct Outline {
     PatchId patch;
     std::uint32_t begin, end;  ///< in `corners`
@@ -37,9 +28,9 @@ struct FastOutlines {
   };
   struct Corner {
     PointId point;
-    LineId line;
-    bool forward;
-    bool exact;  ///< both its edges' lines were made to run through it
+    LineId line;   ///< of the edge to the next corner
+    bool forward;  ///< that edge runs along its line from a to b
+    bool exact;    ///< both its edges' lines were made to run through it
   };
   std::vector<BspTree::Line> lines;  ///< the tree's, then diagonals
   std::vector<Corner> corners;
@@ -89,36 +80,45 @@ inline float rounded_down(double steps) {
   return static_cast<float>(steps - 0x1p-23 * std::abs(steps) - 1);
 }
 
+inline float rounded_up(double steps) {
+  return static_cast<float>(steps + 0x1p-23 * std::abs(steps) + 1);
+}
+
 /// All fragments of a tree seen along one direction, farthest toward it first; those seen edge-on
 /// are left out.
 struct FastFaces {
   struct Face {
     std::uint32_t begin, end;  ///< in `corners`
+    std::uint32_t outline;     ///< whose corners they are, the other way round where not front
     PatchId patch;
-    bool front;   ///< it receives for omega
-    bool plain;   ///< each edge's line runs through its own two corners
-    bool needle;  ///< so thin that areas want more digits than a double has
-    double area;  ///< of the projection, in steps squared; > 0
+    bool front;       ///< it receives for omega
+    bool cut_needle;  ///< thin, and cut by the tree: see place_of()
+    double area;      ///< of the projection, in steps squared; > 0
   };
   GridProjection grid;
   std::vector<FaceBox> boxes;
   std::vector<Face> faces;
-  std::vector<FaceCorner> corners;
+  std::vector<GridPoint> corners;  ///< counter-clockwise; made by a cut of the tree: a step off
 
+  /// Fills all of this anew.
   /// @throws Cancelled
-  FastFaces(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-            const Vec3& omega, const Cancellation& cancellation);
+  void project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
+               const Vec3& omega, const Cancellation& cancellation);
 
-  /// Where a corner lies, steps from `origin`: of a needle that the tree has cut it is where its
-  /// edges' lines meet, for the step by which its place on the grid is off them is much of the
-  /// needle's width.
+  /// What corner k of a face is made of. Of one seen from behind the outline is turned round: the
+  /// edge that arrived at a corner leaves it.
+  static FastOutlines::Corner corner_of(const FastOutlines& outlines, const Face& face,
+                                        std::uint32_t k);
+  /// Where it lies, steps from `origin`: of a needle that the tree has cut it is where its edges'
+  /// lines meet, for the step by which its place on the grid is off them is much of the needle's
+  /// width.
   struct Place {
     long double x, y;
   };
-  Place place_of(const FastOutlines& outlines, const Face& face, std::uint32_t corner,
+  Place place_of(const FastOutlines& outlines, const Face& face, std::uint32_t k,
                  const GridPoint& origin) const;
   /// The line of a corner's edge, in its direction.
-  GridLine line_of(const FastOutlines& outlines, const FaceCorner& corner) const {
+  GridLine line_of(const FastOutlines& outlines, const FastOutlines::Corner& corner) const {
     const BspTree::Line& line = outlines.lines[static_cast<std::size_t>(corner.line)];
     const GridPoint& a = grid.points[static_cast<std::size_t>(line.a)];
     const GridPoint& b = grid.points[static_cast<std::size_t>(line.b)];
@@ -126,8 +126,8 @@ struct FastFaces {
   }
 
  private:
-  double needle_area(const FastOutlines& outlines, const Face& face) const;
-  bool add(const FastOutlines& outlines, const FastOutlines::Outline& outline);
+  double cut_needle_area(const FastOutlines& outlines, const Face& face) const;
+  bool add(const FastOutlines& outlines, std::uint32_t outline);
 };
 
 }  // namespace transillum

@@ -6,8 +6,8 @@
 
 namespace transillum {
 
-GridProjection::GridProjection(const Scene& scene, const BspTree& tree, const Vec3& omega)
-    : frame(plane_frame(scene, omega)) {
+void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3& omega) {
+  frame = plane_frame(scene, omega);
   // Of more than 53 bits, as the grid is.
   using Wide = long double;
   const double radius = 0.5 * scene.bounds().diagonal();
@@ -20,6 +20,7 @@ GridProjection::GridProjection(const Scene& scene, const BspTree& tree, const Ve
   };
   const auto u = scaled(frame.u), v = scaled(frame.v);
 
+  points.clear();
   points.reserve(tree.points().size());
   for (const Vec3& p : scene.points()) {
     const Wide x = static_cast<Wide>(p.x) - frame.origin.x;

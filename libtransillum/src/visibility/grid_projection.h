@@ -22,7 +22,7 @@ struct GridProjection {
   double step = 1;  ///< metres, a power of two
   std::vector<GridPoint> points;
 
-  GridProjection(const Scene& scene, const BspTree& tree, const Vec3& omega);
+  void project(const Scene& scene, const BspTree& tree, const Vec3& omega);
 };
 
 }  // namespace transillum

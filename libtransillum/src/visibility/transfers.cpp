@@ -11,6 +11,7 @@ PassCounts& PassCounts::operator+=(const PassCounts& other) {
   cuts += other.cuts;
   decisions += other.decisions;
   exact_decisions += other.exact_decisions;
+  exact_looks += other.exact_looks;
   seconds_order += other.seconds_order;
   seconds_bins += other.seconds_bins;
   seconds_clip += other.seconds_clip;

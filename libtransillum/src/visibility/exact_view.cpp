@@ -1,22 +1,20 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast_view.h"
+#include "visibility/exact_view.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace transillum {
 namespace {
 
 /// Bounds the error of a determinant of differences of numbers of this size, over the size.
-template <class Real>
-constexpr Real rounding = 8 * std::numeric_limits<Real>::epsilon();
+constexpr long double rounding = 8 * std::numeric_limits<long double>::epsilon();
 
 /// Corners of cut faces lie up to so many steps off the lines that they are on.
-constexpr int off_line = 2;
+constexpr long double off_line = 2;
 
 /// Largest |x| + |y| of some corners.
 template <class Polygon>
@@ -30,8 +28,7 @@ auto reach_of(const Polygon& polygon) {
 
 }  // namespace
 
-template <class Real>
-typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& other) {
+ExactView::Piece& ExactView::Piece::operator=(const Piece& other) {
   count = other.count;
   error = other.error;
   window = other.window;
@@ -43,8 +40,7 @@ typename FastView<Real>::Piece& FastView<Real>::Piece::operator=(const Piece& ot
   return *this;
 }
 
-template <class Real>
-void FastView<Real>::find_window(Piece& piece) const {
+void ExactView::find_window(Piece& piece) const {
   Real x0 = piece.x[0], x1 = x0, y0 = piece.y[0], y1 = y0;
   Real s0 = x0 + y0, s1 = s0, d0 = x0 - y0, d1 = d0;
   for (std::size_t k = 1; k < piece.count; ++k) {
@@ -70,13 +66,11 @@ void FastView<Real>::find_window(Piece& piece) const {
   }
 }
 
-template <class Real>
-void FastView<Real>::look_from(std::int32_t face) {
-  start(face, faces_.corners[faces_.faces[static_cast<std::size_t>(face)].begin].at);
+void ExactView::look_from(std::int32_t face) {
+  start(face, faces_.corners[faces_.faces[static_cast<std::size_t>(face)].begin]);
 }
 
-template <class Real>
-void FastView<Real>::start(std::int32_t face, const GridPoint& origin) {
+void ExactView::start(std::int32_t face, const GridPoint& origin) {
   const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
   origin_ = origin;
   edge_count_ = 0;
@@ -92,8 +86,7 @@ void FastView<Real>::start(std::int32_t face, const GridPoint& origin) {
   window_ = piece.window;
 }
 
-template <class Real>
-bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
+bool ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   // What is seen in the bin may be small beside the face.
   start(face, {bin.x + bin.size / 2, bin.y + bin.size / 2});
   bin_ = bin;
@@ -115,8 +108,7 @@ bool FastView<Real>::look_from(std::int32_t face, const FastBins::Bin& bin) {
 }
 
 /// A place for one more piece.
-template <class Real>
-std::uint32_t FastView<Real>::new_piece() {
+std::uint32_t ExactView::new_piece() {
   if (unused_.empty()) {
     pieces_.emplace_back();
     return static_cast<std::uint32_t>(pieces_.size() - 1);
@@ -126,59 +118,49 @@ std::uint32_t FastView<Real>::new_piece() {
   return place;
 }
 
-template <class Real>
-void FastView<Real>::load_corners(const FastFaces::Face& face, Piece& piece) const {
+void ExactView::load_corners(const FastFaces::Face& face, Piece& piece) const {
   piece.count = 0;
   piece.error = 0;
-  for (std::uint32_t k = face.begin; k < face.end; ++k) {
-    const FaceCorner& corner = faces_.corners[k];
-    if constexpr (std::is_same_v<Real, long double>) {
-      const FastFaces::Place at = faces_.place_of(outlines_, face, k, origin_);
-      piece.add(at.x, at.y, 0, corner.point);
-    } else {
-      piece.add(static_cast<Real>(corner.at.x - origin_.x),
-                static_cast<Real>(corner.at.y - origin_.y), 0, corner.point);
-    }
+  for (std::uint32_t k = 0; k < face.end - face.begin; ++k) {
+    const FastFaces::Place at = faces_.place_of(outlines_, face, k, origin_);
+    const FastOutlines::Corner corner = FastFaces::corner_of(outlines_, face, k);
+    piece.add(at.x, at.y, 0, corner.exact ? corner.point : made_by_cut);
   }
 }
 
-template <class Real>
-void FastView<Real>::load_edges(const FastFaces::Face& face, Piece& piece) {
-  const FaceCorner* const corners = faces_.corners.data() + face.begin;
-  const std::size_t count = face.end - face.begin;
-  for (std::size_t k = 0; k < count; ++k) {
-    const FaceCorner& corner = corners[k];
-    if (face.plain) {
+void ExactView::load_edges(const FastFaces::Face& face, Piece& piece) {
+  const bool plain = outlines_.outlines[face.outline].plain;
+  for (std::uint32_t k = 0; k < piece.count; ++k) {
+    const FastOutlines::Corner corner = FastFaces::corner_of(outlines_, face, k);
+    if (plain) {
       // From whole numbers: differences of far corners have lost digits.
-      const FaceCorner& next = corners[k + 1 < count ? k + 1 : 0];
-      piece.edge[k] = add_edge(piece.x[k], piece.y[k], static_cast<Real>(next.at.x - corner.at.x),
-                               static_cast<Real>(next.at.y - corner.at.y), corner.line,
-                               corner.point, next.point);
+      const std::uint32_t next = k + 1 < piece.count ? k + 1 : 0;
+      const GridPoint &from = faces_.corners[face.begin + k],
+                      &to = faces_.corners[face.begin + next];
+      piece.edge[k] =
+          add_edge(piece.x[k], piece.y[k], static_cast<Real>(to.x - from.x),
+                   static_cast<Real>(to.y - from.y), corner.line, corner.point, piece.point[next]);
     } else {
       const BspTree::Line& points = outlines_.lines[static_cast<std::size_t>(corner.line)];
-      const PointId from = corner.forward ? points.a : points.b;
-      const PointId to = corner.forward ? points.b : points.a;
-      piece.edge[k] = add_edge({faces_.grid.points[static_cast<std::size_t>(from)],
-                                faces_.grid.points[static_cast<std::size_t>(to)]},
-                               corner.line, from, to);
+      piece.edge[k] =
+          add_edge(faces_.line_of(outlines_, corner), corner.line,
+                   corner.forward ? points.a : points.b, corner.forward ? points.b : points.a);
     }
   }
 }
 
-template <class Real>
-DirectedRef FastView<Real>::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
-                                     PointId to) {
+ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
+                                       PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
-  const Real slack = rounding<Real> * (reach_ + std::abs(x) + std::abs(y)) + Real{off_line};
+  const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + off_line;
   // Not shrunk between faces, so that nothing is made anew.
   if (edges_.size() <= edge_count_) edges_.resize(2 * edge_count_ + 16);
   edges_[edge_count_] = {dx, dy, dy * x - dx * y, length, slack, line, from, to};
   return static_cast<EdgeRef>(2 * edge_count_++);
 }
 
-template <class Real>
-DirectedRef FastView<Real>::add_edge(const GridLine& through, LineId line, PointId from,
-                                     PointId to) {
+ExactView::EdgeRef ExactView::add_edge(const GridLine& through, LineId line, PointId from,
+                                       PointId to) {
   return add_edge(static_cast<Real>(through.a.x - origin_.x),
                   static_cast<Real>(through.a.y - origin_.y),
                   static_cast<Real>(through.b.x - through.a.x),
@@ -186,8 +168,7 @@ DirectedRef FastView<Real>::add_edge(const GridLine& through, LineId line, Point
 }
 
 /// An edge of a bin's square, the square on its left.
-template <class Real>
-GridLine FastView<Real>::bin_line(LineId line) const {
+GridLine ExactView::bin_line(LineId line) const {
   const std::int64_t x1 = bin_.x + bin_.size, y1 = bin_.y + bin_.size;
   switch (line) {
     case low_x:
@@ -201,8 +182,7 @@ GridLine FastView<Real>::bin_line(LineId line) const {
   }
 }
 
-template <class Real>
-GridLine FastView<Real>::grid_line(const Edge& edge) const {
+GridLine ExactView::grid_line(const Edge& edge) const {
   if (edge.line < 0) return bin_line(edge.line);
   return {faces_.grid.points[static_cast<std::size_t>(edge.from)],
           faces_.grid.points[static_cast<std::size_t>(edge.to)]};
@@ -210,8 +190,7 @@ GridLine FastView<Real>::grid_line(const Edge& edge) const {
 
 /// Sides of the corners of `piece` with what is not sure settled; what is on the line is on
 /// neither.
-template <class Real>
-Sides FastView<Real>::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
+ExactView::Sides ExactView::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
   const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
   for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
        unsure &= unsure - 1) {
@@ -223,16 +202,29 @@ Sides FastView<Real>::settled(const Piece& piece, EdgeRef ref, Sides sides) cons
   return sides;
 }
 
+/// The sides of the corners of `piece` as far as they are sure.
+ExactView::Sides ExactView::sure_sides(const Piece& piece, EdgeRef ref, Real error) const {
+  const Edge& edge = edge_of(ref);
+  const Real limit = edge.length * (edge.slack + error);
+  Sides sides;
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    const Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+    sides.left |= static_cast<std::uint64_t>(side > limit) << k;
+    sides.right |= static_cast<std::uint64_t>(side < -limit) << k;
+  }
+  if (ref & 1) std::swap(sides.left, sides.right);
+  return sides;
+}
+
 /// Finds the edges of `by` that have corners of `piece` on their right, as bits of `cuts`. Returns
 /// false where one has none on its left: they share no area.
-template <class Real>
-bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
-                               std::uint64_t& cuts) {
-  const std::size_t found = find_sides(piece.x.data(), piece.y.data(), piece.count, edges_.data(),
-                                       by.edge.data(), by.count, error, sides_of_edges_.data());
-  counts_.decisions += static_cast<std::int64_t>((found + (found < by.count)) * piece.count);
-  if (found < by.count) return false;
+bool ExactView::find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts) {
   const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+  for (std::size_t k = 0; k < by.count; ++k) {
+    sides_of_edges_[k] = sure_sides(piece, by.edge[k], error);
+    counts_.decisions += static_cast<std::int64_t>(piece.count);
+    if (sides_of_edges_[k].right == all) return false;
+  }
   cuts = 0;
   for (std::size_t k = 0; k < by.count; ++k) {
     Sides sides = sides_of_edges_[k];
@@ -247,8 +239,7 @@ bool FastView<Real>::find_cuts(const Piece& piece, const Piece& by, Real error,
 }
 
 /// The sides of the corners of `piece`; leaves the determinants in sides_, their signs right.
-template <class Real>
-Sides FastView<Real>::measure(const Piece& piece, EdgeRef ref) {
+ExactView::Sides ExactView::measure(const Piece& piece, EdgeRef ref) {
   Sides sides;
   const Edge& edge = edge_of(ref);
   const Real sign = ref & 1 ? -1 : 1;
@@ -266,8 +257,7 @@ Sides FastView<Real>::measure(const Piece& piece, EdgeRef ref) {
 
 /// The determinant of corner k of `piece` and an edge's line where it is too small for Real: its
 /// sign right, and its value too, which says where a cut goes.
-template <class Real>
-Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const {
+ExactView::Real ExactView::exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const {
   const Edge& edge = edge_of(ref);
   const Edge& leaving = edge_of(piece.edge[k]);
   const Edge& arriving = edge_of(piece.edge[k > 0 ? k - 1 : piece.count - 1]);
@@ -288,8 +278,8 @@ Real FastView<Real>::exact_side_of(const Piece& piece, std::size_t k, EdgeRef re
                         : exact_side(line, faces_.grid.points[static_cast<std::size_t>(point)]));
 }
 
-template <class Real>
-double FastView<Real>::show(std::int32_t face, const FaceBox& box) {
+double ExactView::show(std::int32_t face) {
+  const FaceBox& box = faces_.boxes[static_cast<std::size_t>(face)];
   const FastFaces::Face& shown = faces_.faces[static_cast<std::size_t>(face)];
   bool loaded = false;
   Real area = 0;
@@ -324,8 +314,7 @@ double FastView<Real>::show(std::int32_t face, const FaceBox& box) {
   return static_cast<double>(area);
 }
 
-template <class Real>
-void FastView<Real>::find_whole_window() {
+void ExactView::find_whole_window() {
   if (left_.empty()) return;
   FaceWindow whole = pieces_[left_[0]].window;
   for (std::size_t p = 1; p < left_.size(); ++p) whole.add(pieces_[left_[p]].window);
@@ -334,16 +323,14 @@ void FastView<Real>::find_whole_window() {
 
 /// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside into
 /// parts_. Returns false where they share nothing.
-template <class Real>
-bool FastView<Real>::eat(std::uint32_t place, Real& area) {
+bool ExactView::eat(std::uint32_t place, Real& area) {
   std::uint64_t cuts = 0, cuts_of_shown = 0;
   if (!find_cuts(pieces_[place], shown_, pieces_[place].error, cuts)) return false;
   if (cuts == 0) {
     area += area_of(pieces_[place]);
     return true;
   }
-  if (!find_cuts(shown_, pieces_[place], rounding<Real> * shown_reach_, cuts_of_shown))
-    return false;
+  if (!find_cuts(shown_, pieces_[place], rounding * shown_reach_, cuts_of_shown)) return false;
   const std::size_t parts = parts_.size();
   std::size_t used = 0;
   const Piece* rest = &pieces_[place];
@@ -374,8 +361,7 @@ bool FastView<Real>::eat(std::uint32_t place, Real& area) {
 }
 
 /// Cuts a piece with many corners from one to another, and adds the other half to parts_.
-template <class Real>
-void FastView<Real>::halve(std::uint32_t place) {
+void ExactView::halve(std::uint32_t place) {
   const std::uint32_t other = new_piece();
   const Piece whole = pieces_[place];
   Piece &first = pieces_[place], &second = pieces_[other];
@@ -401,9 +387,7 @@ void FastView<Real>::halve(std::uint32_t place) {
 ///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; of both parts
 ///           \\           /
 ///            … ─── … ──        outside
-template <class Real>
-void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside,
-                           Piece& outside) {
+void ExactView::split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside) {
   ++counts_.cuts;
   const std::size_t count = piece.count;
   const auto after = [count](std::size_t k) { return k + 1 < count ? k + 1 : 0; };
@@ -443,17 +427,15 @@ void FastView<Real>::split(const Piece& piece, EdgeRef by, Sides sides, Piece& i
 }
 
 /// The point of the grid through which two lines both run by their making, if any.
-template <class Real>
-PointId FastView<Real>::common_point(const Edge& p, const Edge& q) {
+PointId ExactView::common_point(const Edge& p, const Edge& q) {
   if (p.from == q.from || p.from == q.to) return p.from;
   return p.to == q.from || p.to == q.to ? p.to : made_by_cut;
 }
 
 /// Adds the point where the edge from corner `from` to corner `to` crosses the line `by` to both
 /// parts.
-template <class Real>
-void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by,
-                                  Piece& inside, Piece& outside) {
+void ExactView::add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by,
+                             Piece& inside, Piece& outside) {
   const Real here = sides_[from], there = sides_[to];
   const Real across = 1 / (here - there);
   const Real dx = piece.x[to] - piece.x[from], dy = piece.y[to] - piece.y[from];
@@ -463,7 +445,7 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   const Edge& cutting = edge_of(by);
   // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
   // farther from where they meet.
-  const Real nearness = edge.slack + cutting.slack + rounding<Real> * (std::abs(x) + std::abs(y));
+  const Real nearness = edge.slack + cutting.slack + rounding * (std::abs(x) + std::abs(y));
   const Real flatness =
       edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
   Real error = nearness * flatness;
@@ -494,17 +476,13 @@ void FastView<Real>::add_crossing(const Piece& piece, std::size_t from, std::siz
   outside.error = std::max(outside.error, error);
 }
 
-template <class Real>
-Real FastView<Real>::area_of(const Piece& piece) {
+ExactView::Real ExactView::area_of(const Piece& piece) {
   Real twice = 0;
   const Real x0 = piece.x[0], y0 = piece.y[0];
   for (std::size_t k = 2; k < piece.count; ++k) {
     twice += (piece.x[k - 1] - x0) * (piece.y[k] - y0) - (piece.y[k - 1] - y0) * (piece.x[k] - x0);
   }
-  return std::max(Real{0}, twice / 2);
+  return std::max(0.0L, twice / 2);
 }
-
-template class FastView<double>;
-template class FastView<long double>;
 
 }  // namespace transillum

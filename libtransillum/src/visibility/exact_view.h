@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -10,20 +11,18 @@
 #include "visibility/exact_side.h"
 #include "visibility/fast_bins.h"
 #include "visibility/fast_faces.h"
-#include "visibility/side_masks.h"
 
 namespace transillum {
 
-/// What one face, or a part of it, sees: its polygon is eaten up by the faces it is shown, the
-/// nearest first. Coordinates are relative to the face or the bin, where small differences keep
-/// their digits; `Real` is double, or long double where a needle is involved.
+/// What one face, or a part of it, sees, where an OutlineView fails or a needle is involved: its
+/// polygon is eaten up by the faces it is shown, the nearest first. Coordinates are relative to
+/// the face or the bin, where small differences keep their digits.
 ///
-/// Whether a corner lies left of a line is the sign of a determinant: in Real where that is
+/// Whether a corner lies left of a line is the sign of a determinant: in long double where that is
 /// certain, and else in whole numbers from the grid points that corner and line come from.
-template <class Real>
-class FastView {
+class ExactView {
  public:
-  FastView(const FastOutlines& outlines, const FastFaces& faces, PassCounts& counts)
+  ExactView(const FastOutlines& outlines, const FastFaces& faces, PassCounts& counts)
       : outlines_(outlines), faces_(faces), counts_(counts) {}
 
   /// Looks from all of a face.
@@ -31,33 +30,49 @@ class FastView {
   /// Looks from the part of a face that lies in a bin. Returns false where there is none.
   bool look_from(std::int32_t face, const FastBins::Bin& bin);
 
-  /// Eats up what `face`, with its box, covers of what is left, and returns its area, steps
+  /// Eats up what `face` covers of what is left, and returns its area, steps
   /// squared.
-  double show(std::int32_t face, const FaceBox& box);
+  double show(std::int32_t face);
   /// What is left lies in here.
   const FaceWindow& window() const { return window_; }
 
+  /// Never; as OutlineView has it.
+  static constexpr bool failed() { return false; }
+
   /// Whether nothing is left but for rounding.
   bool done() const {
-    return left_.empty() || left_area_ <= std::min(Real{0x1p-40} * area_, Real{64} * reach_);
+    return left_.empty() || left_area_ <= std::min(0x1p-40L * area_, 64 * reach_);
   }
 
  private:
   static constexpr std::size_t most_corners = 48;  ///< of a piece
   static constexpr std::size_t many_corners = 24;  ///< a piece of more is cut in half
-  static constexpr PointId made_by_cut = FaceCorner::no_point;
+  static constexpr PointId made_by_cut = FastOutlines::no_point;
   // Lines of a bin's square and of a piece cut in half, in place of LineIds.
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving = -6;
 
-  using Edge = DirectedLine<Real>;
-  using EdgeRef = DirectedRef;  ///< in edges_
+  using Real = long double;
+  /// A directed line of the plane. What an edge bounds lies on its left: dx y - dy x + c > 0.
+  struct Edge {
+    Real dx, dy, c;
+    Real length;  ///< |dx| + |dy|
+    Real slack;   ///< how far from the line a point of the looking polygon may seem by rounding
+    LineId line;
+    PointId from, to;  ///< points of the grid that it was made to run through, in its direction
+  };
+  /// Index in edges_, doubled, and 1 more where the edge is meant the other way round.
+  using EdgeRef = std::int32_t;
+  /// On which sides of a line some corners lie, one bit a corner.
+  struct Sides {
+    std::uint64_t left = 0, right = 0;
+  };
 
   /// A convex polygon, counter-clockwise.
   struct Piece {
     std::size_t count = 0;
     Real error = 0;  ///< of corners made by cuts: along x or y at most
     FaceWindow window;
-    alignas(64) std::array<Real, most_corners> x{}, y{};
+    std::array<Real, most_corners> x, y;
     std::array<EdgeRef, most_corners> edge;   ///< to the next corner
     std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
 
@@ -72,8 +87,8 @@ class FastView {
       point[count++] = on_grid;
     }
   };
-  void start(std::int32_t face, const GridPoint& origin);
   void find_window(Piece& piece) const;
+  void start(std::int32_t face, const GridPoint& origin);
   void load_corners(const FastFaces::Face& face, Piece& piece) const;
   void load_edges(const FastFaces::Face& face, Piece& piece);
   EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from, PointId to);
@@ -82,6 +97,7 @@ class FastView {
   GridLine grid_line(const Edge& edge) const;
   const Edge& edge_of(EdgeRef ref) const { return edges_[static_cast<std::size_t>(ref >> 1)]; }
 
+  Sides sure_sides(const Piece& piece, EdgeRef ref, Real error) const;
   Sides settled(const Piece& piece, EdgeRef ref, Sides sides) const;
   bool find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts);
   Sides measure(const Piece& piece, EdgeRef ref);
@@ -117,8 +133,5 @@ class FastView {
   std::array<Sides, most_corners> sides_of_edges_;
   std::array<Real, most_corners> sides_;  ///< of the corners measure() was given
 };
-
-extern template class FastView<double>;
-extern template class FastView<long double>;
 
 }  // namespace transillum

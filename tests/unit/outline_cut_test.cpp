@@ -1,0 +1,245 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The inner loop of the fast engine: known cuts, and all ways give the same bits.
+#include "visibility/outline_cut.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace transillum {
+namespace {
+
+using Points = std::vector<std::pair<double, double>>;
+
+void add(Outline& outline, const Points& polygon) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const auto& [ax, ay] = polygon[k];
+    const auto& [bx, by] = polygon[(k + 1) % polygon.size()];
+    outline.add(ax, ay, bx, by);
+  }
+}
+
+/// From points of whole numbers.
+Cutter cutter_of(const OutlineWay& way, const Points& polygon, double tolerance = 0) {
+  std::vector<GridPoint> corners;
+  for (const auto& [x, y] : polygon) corners.push_back({std::llrint(x), std::llrint(y)});
+  Cutter cutter;
+  way.set(cutter, corners.data(), corners.size(), {0, 0}, HUGE_VAL);
+  cutter.tolerance = tolerance;
+  return cutter;
+}
+
+Points regular(std::size_t corners, double x, double y, double radius, double turn) {
+  Points points;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double angle =
+        turn + 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
+    points.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle));
+  }
+  return points;
+}
+
+Points square(double x, double y, double size) {
+  return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
+}
+
+class OutlineCutWays : public ::testing::TestWithParam<OutlineWay> {
+ protected:
+  /// Cuts, and checks what does not depend on the case.
+  bool cut(const Outline& outline, const Cutter& cutter) {
+    return GetParam().cut(outline, cutter, cut_, outside_);
+  }
+  std::uint64_t all_in() const {
+    std::uint64_t bits = 0;
+    for (std::size_t m = 0; m < 4; ++m) bits |= cut_.comes_in[m];
+    return bits;
+  }
+  OutlineCut cut_;
+  Outline outside_;
+};
+
+/// The cutter sticks into the square from its right: two segments of its outline stay, one falls
+/// into three.
+TEST_P(OutlineCutWays, TheMiddleOfASide) {
+  Outline outline;
+  add(outline, square(0, 0, 4));
+  const Cutter cutter = cutter_of(GetParam(), {{3, 1}, {6, 1}, {6, 2}, {3, 2}});
+  ASSERT_TRUE(cut(outline, cutter));
+  // Segment 1 goes up along x = 4: in over the lower edge, out over the upper one.
+  EXPECT_THAT(std::vector(cut_.comes_in.begin(), cut_.comes_in.begin() + 4),
+              ::testing::ElementsAre(2, 0, 0, 0));
+  EXPECT_THAT(std::vector(cut_.goes_out.begin(), cut_.goes_out.begin() + 4),
+              ::testing::ElementsAre(0, 0, 2, 0));
+  EXPECT_EQ(cut_.in_x[1], 4);
+  EXPECT_EQ(cut_.in_y[1], 1);
+  EXPECT_EQ(cut_.out_x[1], 4);
+  EXPECT_EQ(cut_.out_y[1], 2);
+  // Its left corners are in the square, and its right ones are not.
+  EXPECT_THAT(std::vector(cut_.winding.begin(), cut_.winding.begin() + 4),
+              ::testing::ElementsAre(1, 0, 0, 1));
+  EXPECT_EQ(cut_.twice_area, 4);  // about (0, 0): from (4, 1) to (4, 2)
+  EXPECT_EQ(outside_.count, 5U);
+  EXPECT_EQ(GetParam().extent(outside_), (Extent{4, 4, 8, 4, 0, 0, 0, 4}));
+}
+
+TEST_P(OutlineCutWays, ACutterWithin) {
+  Outline outline;
+  add(outline, square(0, 0, 4));
+  ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(1, 1, 1))));
+  EXPECT_EQ(all_in(), 0U);
+  for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(cut_.winding[m], 1);
+  EXPECT_EQ(outside_.count, 4U);
+}
+
+TEST_P(OutlineCutWays, AnOutlineWithin) {
+  Outline outline;
+  add(outline, square(1, 1, 1));
+  ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(0, 0, 4))));
+  for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(cut_.winding[m], 0);
+  EXPECT_EQ(cut_.twice_area, 2);
+  EXPECT_EQ(outside_.count, 0U);
+}
+
+TEST_P(OutlineCutWays, NothingInCommon) {
+  Outline outline;
+  add(outline, square(0, 0, 4));
+  EXPECT_FALSE(cut(outline, cutter_of(GetParam(), square(5, 0, 4))));
+  // No line of the cutter tells them apart.
+  ASSERT_TRUE(cut(outline, cutter_of(GetParam(), {{5, 2}, {20, 1}, {20, 3}})));
+  EXPECT_EQ(all_in(), 0U);
+  for (std::size_t m = 0; m < 3; ++m) EXPECT_EQ(cut_.winding[m], 0);
+}
+
+/// What is within the tolerance of a line is on its inner side, and is cut where it ends.
+TEST_P(OutlineCutWays, PointsOnLines) {
+  Outline outline;
+  add(outline, square(0, 0, 4));
+  ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(5, 0, 4), 1)));
+  // Segment 1 is on the cutter's left line, 0 and 2 end there.
+  EXPECT_EQ(cut_.comes_in[3], 1U);
+  EXPECT_EQ(cut_.goes_out[3], 4U);
+  EXPECT_EQ(cut_.in_x[0], 4);
+  EXPECT_EQ(cut_.out_x[2], 4);
+  EXPECT_EQ(outside_.count, 3U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OutlineCutWays, ::testing::ValuesIn(outline_ways()),
+                         [](const auto& test) {
+                           std::string name = test.param.name;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+struct Input {
+  Points polygon;
+  double tolerance, pivot_x;
+};
+
+struct Result {
+  Cutter cutter;
+  bool cut = false;
+  OutlineCut found;
+  Outline outside;
+  Extent extent;
+};
+
+Result result_of(const OutlineWay& way, const Outline& outline, const Input& input) {
+  Result result;
+  result.cutter = cutter_of(way, input.polygon, input.tolerance);
+  result.cutter.pivot_x = input.pivot_x;
+  result.cut = way.cut(outline, result.cutter, result.found, result.outside);
+  result.extent = way.extent(outline);
+  return result;
+}
+
+void expect_same(const Result& a, const Result& b) {
+  const std::size_t lines = a.cutter.count;
+  for (std::size_t m = 0; m < lines; ++m) {
+    ASSERT_EQ(a.cutter.x[m], b.cutter.x[m]);
+    ASSERT_EQ(a.cutter.y[m], b.cutter.y[m]);
+    ASSERT_EQ(a.cutter.dx[m], b.cutter.dx[m]);
+    ASSERT_EQ(a.cutter.dy[m], b.cutter.dy[m]);
+    ASSERT_EQ(a.cutter.c[m], b.cutter.c[m]);
+    ASSERT_EQ(a.cutter.middle[m], b.cutter.middle[m]);
+    ASSERT_EQ(a.cutter.length[m], b.cutter.length[m]);
+  }
+  ASSERT_EQ(a.cutter.perimeter, b.cutter.perimeter);
+  ASSERT_EQ(a.extent, b.extent);
+  ASSERT_EQ(a.cut, b.cut);
+  if (!a.cut) return;
+  ASSERT_EQ(a.found.twice_area, b.found.twice_area);
+  for (std::size_t m = 0; m < lines; ++m) {
+    ASSERT_EQ(a.found.comes_in[m], b.found.comes_in[m]);
+    ASSERT_EQ(a.found.goes_out[m], b.found.goes_out[m]);
+    ASSERT_EQ(a.found.winding[m], b.found.winding[m]);
+    for (std::size_t k = 0; k < Outline::most; ++k) {
+      if ((a.found.comes_in[m] >> k & 1) != 0) {
+        ASSERT_EQ(a.found.in_x[k], b.found.in_x[k]);
+        ASSERT_EQ(a.found.in_y[k], b.found.in_y[k]);
+      }
+      if ((a.found.goes_out[m] >> k & 1) != 0) {
+        ASSERT_EQ(a.found.out_x[k], b.found.out_x[k]);
+        ASSERT_EQ(a.found.out_y[k], b.found.out_y[k]);
+      }
+    }
+  }
+  ASSERT_EQ(a.outside.count, b.outside.count);
+  for (std::size_t k = 0; k < a.outside.count; ++k) {
+    ASSERT_EQ(a.outside.ax[k], b.outside.ax[k]);
+    ASSERT_EQ(a.outside.ay[k], b.outside.ay[k]);
+    ASSERT_EQ(a.outside.bx[k], b.outside.bx[k]);
+    ASSERT_EQ(a.outside.by[k], b.outside.by[k]);
+  }
+}
+
+/// Polygons of up to 64 segments; every other time of small numbers, so that points lie on lines.
+TEST(OutlineCut, AllWaysGiveTheSameBits) {
+  const auto ways = outline_ways();
+  EXPECT_STREQ(ways.back().name, "one by one");
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 1);
+  int cuts = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const bool small = round % 2 == 0;
+    const double size = small ? 3 : 0x1p40;
+    const auto number = [&] { return std::round(size * place(random)); };
+    Points star;
+    const std::size_t corners = 3 + random() % 62;
+    for (std::size_t k = 0; k < corners; ++k) star.emplace_back(number(), number());
+    Outline outline;
+    add(outline, star);
+    const Input input{
+        small ? square(number(), number(), 2)
+              : regular(3 + random() % 14, number(), number(), 0.7 * size, place(random)),
+        small ? 0.5 : 0.01 * size, number()};
+    const Result expected = result_of(ways.back(), outline, input);
+    cuts += expected.cut;
+    for (const OutlineWay& way : ways) {
+      SCOPED_TRACE(way.name);
+      expect_same(expected, result_of(way, outline, input));
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(cuts, 10000);
+}
+
+/// A line through far points is as exact where it passes near as one through near points.
+TEST(OutlineCut, FarLines) {
+  constexpr std::int64_t far = std::int64_t{1} << 56;
+  const std::vector<GridPoint> corners{{-far - 1, -far + 2}, {far - 3, far + 1}, {-far, far}};
+  for (const OutlineWay& way : outline_ways()) {
+    Cutter cutter;
+    way.set(cutter, corners.data(), corners.size(), {0, 0}, 1000);
+    // dy x - dx y, both of 113 bits, comes to 5 - 7 far.
+    EXPECT_NEAR(cutter.c[0], -7 * static_cast<double>(far), 0x1p50) << way.name;
+  }
+}
+
+}  // namespace
+}  // namespace transillum
