@@ -126,6 +126,8 @@ struct FastFaces {
   }
 
  private:
+  void fetch(const FastOutlines& outlines, const std::vector<FragmentId>& order,
+             std::size_t place) const;
   double cut_needle_area(const FastOutlines& outlines, const Face& face) const;
   bool add(const FastOutlines& outlines, std::uint32_t outline);
 };
