@@ -19,6 +19,7 @@ Run add_transfers_command(CLI::App& program);
 Run add_map_command(CLI::App& program);
 Run add_factors_command(CLI::App& program);
 Run add_directions_command(CLI::App& program);
+Run add_bounds_command(CLI::App& program);
 Run add_info_command(CLI::App& program);
 
 }  // namespace transillum::cli

@@ -1,28 +1,76 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "commands.h"
+#include "direction_statistics.h"
+#include "interruption.h"
+#include "messages.h"
+#include "output_files.h"
 #include "sequence_options.h"
+#include "transillum/errors.h"
 #include "transillum/files.h"
 
 namespace transillum::cli {
 namespace {
 
+/// More take minutes to measure.
+constexpr int most_measured = 1 << 20;
+
 struct DirectionsCall {
   SequenceOptions sequence;
   std::string out;
+  CLI::Option* stats = nullptr;
+  std::string stats_file;
+  std::string scene;
 };
 
+void check(const DirectionsCall& call) {
+  std::vector<std::string> files;
+  if (!call.out.empty()) files.push_back(call.out);
+  if (!call.stats_file.empty()) {
+    check_statistics_path(call.stats_file);
+    files.push_back(call.stats_file);
+  }
+  check_output_files(files, call.scene);
+  const bool measured = call.stats->count() > 0;
+  if (!call.scene.empty() && !measured) {
+    throw InputError("--scene: only --stats has a use for it");
+  }
+  if (measured && call.sequence.directions > most_measured) {
+    throw InputError(fmt::format("--stats: {} directions are more than {}",
+                                 call.sequence.directions, most_measured));
+  }
+}
+
+void measure(const DirectionsCall& call, const std::vector<DirectionSample>& samples) {
+  const Cancellation& cancellation = cancel_on_signals();
+  std::shared_ptr<const Scene> scene;
+  if (!call.scene.empty()) {
+    scene = load_scene(call.scene, {}, cancellation);
+    print_warnings(*scene);
+  }
+  const auto statistics = measure_directions(call.sequence, samples, scene, cancellation);
+  if (call.stats_file.empty()) {
+    fmt::print("{}", text_of(statistics));
+  } else {
+    write_direction_statistics(call.stats_file, statistics);
+  }
+}
+
 int run(const DirectionsCall& call) {
-  if (!call.out.empty()) check_writable(call.out);
+  check(call);
   const SequenceOptions& sequence = call.sequence;
   auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
   if (sequence.rotation) samples = rotated(std::move(samples), *sequence.rotation);
-  if (call.out.empty()) {
-    write_directions_csv(std::cout, samples);
-  } else {
+  if (call.stats->count() > 0) measure(call, samples);
+  if (!call.out.empty()) {
     write_directions_csv(call.out, samples);
+  } else if (call.stats->count() == 0) {
+    write_directions_csv(std::cout, samples);
   }
   return success;
 }
@@ -31,12 +79,27 @@ int run(const DirectionsCall& call) {
 
 Run add_directions_command(CLI::App& program) {
   auto call = std::make_shared<DirectionsCall>();
-  CLI::App& command =
-      *program.add_subcommand("directions", "Writes the points of a sequence and their directions");
+  CLI::App& command = *program.add_subcommand(
+      "directions",
+      "Writes the points of a sequence and their directions, or tells how good they are");
   add_sequence_options(command, call->sequence);
   command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: to standard output)")
       ->type_name("FILE.csv");
-  command.footer("Example: transillum directions --sampling hammersley -m 64 --out points.csv");
+  call->stats =
+      command
+          .add_option("--stats", call->stats_file,
+                      "instead of the points: their discrepancies and the error eps(M) of the "
+                      "quadrature of the cosine, beside the paper's bounds; to standard output, or "
+                      "as JSON to a file")
+          ->type_name("[FILE.json]")
+          ->expected(0, 1);
+  command
+      .add_option("--scene", call->scene,
+                  "with --stats: eps(M) for the patches of this scene instead of all normals")
+      ->type_name("SCENE");
+  command.footer(
+      "Examples: transillum directions --sampling hammersley -m 64 --out points.csv\n"
+      "          transillum directions -m 1024 --stats --scene cornell-box");
   return [call] { return run(*call); };
 }
 

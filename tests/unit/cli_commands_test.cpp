@@ -366,6 +366,90 @@ TEST(CliDirections, RotateTurnsTheWholeSet) {
   EXPECT_NEAR(angle(turned[1], turned[7]), angle(straight[1], straight[7]), 1e-15);
 }
 
+TEST(CliDirections, StatsTellDiscrepanciesAndErrors) {
+  const ProgramResult text = run_program({"directions", "-m", "64", "--stats"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("star discrepancy +3.617e-02 "));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("cap discrepancy +7.289e-02 .*exact"));
+  EXPECT_THAT(text.out, ::testing::ContainsRegex("two-way .* RMS, .* largest\n"));
+  EXPECT_THAT(text.out, ::testing::Not(HasSubstr("u,v,x")));
+
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"directions", "-m", "300", "--sampling", "hammersley", "--stats",
+                         folder / "d.json", "--scene", "furnace", "--out", folder / "d.csv"})
+                .out,
+            "");
+  const auto json = nlohmann::json::parse(read_file(folder / "d.json"));
+  EXPECT_EQ(json.at("directions"), 300);
+  EXPECT_LE(json.at("star_discrepancy").at("value"), json.at("star_discrepancy").at("bound"));
+  EXPECT_FALSE(json.at("cap_discrepancy").at("exact"));
+  const auto& one_way = json.at("eps").at("one_way");
+  EXPECT_EQ(one_way.at("patches").size(), 12U);
+  double largest = 0;
+  for (const double e : one_way.at("patches")) largest = std::max(largest, std::abs(e));
+  EXPECT_EQ(one_way.at("max"), largest);
+  EXPECT_EQ(numbers(read_file(folder / "d.csv")).size(), 300U);
+}
+
+TEST(CliBounds, PrintsTheThreeTables) {
+  const ProgramResult result = run_program({"bounds"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const auto row = [](const char* pattern) { return ::testing::ContainsRegex(pattern); };
+  EXPECT_THAT(result.out, row("0.2 +5 +5 +1\n"));
+  EXPECT_THAT(result.out, row("0.9 +272 +272 +12\n"));
+  EXPECT_THAT(result.out, row("0.6 +5700 +5855 +88\n"));
+  EXPECT_THAT(result.out, row("0.6 +1.80e\\+07 +1.76e\\+07 +8.08e\\+06\n"));
+
+  // The paper's figures only where the question is the paper's.
+  const ProgramResult other = run_program(
+      {"bounds", "--reflectance", "0.6", "--accuracy", "0.02", "--size-ratio", "9", "-m", "256"});
+  EXPECT_THAT(other.out, row("0.6 +37 +37 "));
+  EXPECT_THAT(other.out, row("0.6 +- +[0-9]+ +[0-9]+\n"));
+  EXPECT_THAT(other.out, row("contraction a step .* 0.635156 +0.60"));
+  EXPECT_THAT(other.out, HasSubstr("To reach 2 % you need at most"));
+}
+
+TEST(CliBounds, TakesReflectanceAndSizeFromAScene) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"bounds", "furnace", "--out", folder / "b.json"}).out, "");
+  const auto json = nlohmann::json::parse(read_file(folder / "b.json"));
+  EXPECT_EQ(json.at("scene").at("rho_max"), 0.5);
+  EXPECT_EQ(json.at("size_ratio"), json.at("scene").at("size_ratio"));
+  ASSERT_EQ(json.at("tables").size(), 1U);
+  EXPECT_EQ(json.at("tables")[0].at("converges").at("formula"), 24);
+  EXPECT_EQ(json.at("tables")[0].at("homogeneous").at("formula"), 3777);
+  EXPECT_NEAR(json.at("prediction").at("contraction").at("bound"), 0.5 * (1 + 2. / 1024 * 17),
+              1e-12);
+}
+
+TEST(CliBounds, EstimatesFromARunWhatIsStillToDo) {
+  const TemporaryFolder folder;
+  write_text(folder / "run.json",
+             R"({"scene": "rooms", "passes": 400, "options": {"sampling": "random"},
+                 "error_estimate": {"replicas": 4, "rms": 0.02}})");
+  const ProgramResult result = run_program({"bounds", "furnace", "--run", folder / "run.json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("rooms: 2 % RMS error of B with 400 passes, random"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("M = 1600 +for 1 %"));
+
+  write_text(folder / "plain.json",
+             R"({"passes": 400, "options": {"sampling": "random"}, "error_estimate": null})");
+  for (const char* file : {"plain.json", "none.json"}) {
+    const ProgramResult wrong = run_program({"bounds", "--run", folder / file});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr(file));
+  }
+  for (const char* text :
+       {"", "{", "[]", "{}", R"({"options": 3})", R"({"options": {"sampling": "x"}, "passes": 4})",
+        R"({"options": {"sampling": "random"}, "passes": 4,
+                               "error_estimate": {"replicas": 4, "rms": 0}})"}) {
+    write_text(folder / "bad.json", text);
+    const ProgramResult wrong = run_program({"bounds", "--run", folder / "bad.json"});
+    EXPECT_EQ(wrong.status, 2) << text;
+    EXPECT_THAT(wrong.err, HasSubstr("bad.json")) << text;
+  }
+}
+
 TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
   const ProgramResult closed = run_program({"info", "furnace"});
   EXPECT_EQ(closed.status, 0) << closed.err;

@@ -109,6 +109,14 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
        "/no/such/folder"},
       {{"directions", "-m", "0"}, "--directions"},
       {{"directions", "-m", "4", "--sampling", "sobl"}, "sampling"},
+      {{"directions", "--scene", "furnace"}, "--stats"},
+      {{"directions", "-m", "2000000", "--stats"}, "--stats"},
+      {{"directions", "--stats", "d.txt"}, ".json"},
+      {{"directions", "--stats", "--scene", "nowhere.obj"}, "nowhere.obj"},
+      {{"bounds", "--reflectance", "1"}, "--reflectance"},
+      {{"bounds", "--accuracy", "0"}, "--accuracy"},
+      {{"bounds", "--size-ratio", "nan"}, "--size-ratio"},
+      {{"bounds", "--out", "b.txt"}, ".json"},
   };
   for (const WrongCall& call : calls) expect_refused(call.arguments, call.complaint);
 }

@@ -1,0 +1,115 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "bounds_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "transillum/discrepancy.h"
+#include "transillum/errors.h"
+
+namespace transillum::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The paper's row for rho, if it has one; and its figures only where they mean the same.
+void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double size_ratio) {
+  const PaperTables& paper = paper_tables();
+  const auto found = std::find(paper.rho.begin(), paper.rho.end(), row.rho);
+  if (found == paper.rho.end()) return;
+  const auto k = static_cast<std::size_t>(found - paper.rho.begin());
+  row.paper_contract = paper.to_contract[k];
+  if (question.accuracy != PaperTables::accuracy) return;
+  row.paper_homogeneous = paper.if_homogeneous[k];
+  if (size_ratio == PaperTables::size_ratio) row.paper_heterogeneous = paper.if_heterogeneous[k];
+}
+
+BoundsRow make_row(double rho, const BoundsQuestion& question, double size_ratio,
+                   const Cancellation& cancellation) {
+  const ActualSets& sets = question.sets;
+  const double accuracy = question.accuracy;
+  BoundsRow row;
+  row.rho = rho;
+  add_paper_figures(row, question, size_ratio);
+  row.contract = directions_to_contract(rho);
+  row.homogeneous = directions_if_homogeneous(rho, accuracy);
+  row.heterogeneous = directions_if_heterogeneous(rho, accuracy, size_ratio);
+  row.actual_contract = actual_directions_to_contract(sets, rho, cancellation);
+  row.actual_homogeneous = actual_directions_if_homogeneous(sets, rho, accuracy, cancellation);
+  row.estimated_heterogeneous =
+      estimated_directions_if_heterogeneous(sets, rho, accuracy, size_ratio, cancellation);
+  return row;
+}
+
+BoundsPrediction predict(double rho, const BoundsQuestion& question, double size_ratio,
+                         const Cancellation& cancellation) {
+  BoundsPrediction p;
+  p.rho = rho;
+  p.eps_bound = quadrature_error_bound(question.directions);
+  p.eps = measured_quadrature_error(question.sets, question.directions, cancellation);
+  p.contraction_bound = contraction_bound(rho, p.eps_bound);
+  p.contraction = contraction_bound(rho, p.eps);
+  p.steps_bound = steps_to(question.tolerance, p.contraction_bound);
+  p.steps = steps_to(question.tolerance, p.contraction);
+  p.homogeneous_bound = homogeneous_error_bound(rho, p.eps_bound);
+  p.homogeneous = homogeneous_error_bound(rho, p.eps);
+  p.heterogeneous_bound =
+      heterogeneous_error_bound(rho, size_ratio, star_discrepancy_bound(question.directions));
+  return p;
+}
+
+RunEstimate read_run(const std::string& path, double accuracy) {
+  std::ifstream in(path);
+  if (!in) throw InputError(path + ": cannot be read");
+  const Json json = Json::parse(in, nullptr, false);
+  const auto fail = [&path](const char* what) -> double {
+    throw InputError(fmt::format("{}: {}", path, what));
+  };
+  if (!json.is_object() || !json.contains("options")) fail("no statistics of a solve (--stats)");
+  try {
+    RunEstimate run;
+    run.scene = json.value("scene", "");
+    run.sampling = sampling_from_name(json.at("options").at("sampling"));
+    run.passes = json.at("passes");
+    const Json estimate = json.value("error_estimate", Json());
+    if (!estimate.is_object()) fail("has no error estimate; solve with --replicas 4");
+    run.error = estimate.at("rms");
+    // One of R independent sets, each of M/R passes, errs by sqrt(R) more than their mean.
+    const double replicas = estimate.at("replicas");
+    if (!(run.error > 0 && run.passes >= 1 && replicas >= 1)) fail("its error estimate is 0");
+    run.estimated_passes = estimated_passes(run.sampling, run.passes / replicas,
+                                            run.error * std::sqrt(replicas), accuracy);
+    return run;
+  } catch (const Json::exception&) {
+    throw InputError(path + ": not the statistics that solve --stats writes");
+  }
+}
+
+}  // namespace
+
+BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancellation) {
+  BoundsReport report;
+  report.question = question;
+  if (!question.run.empty()) report.run = read_run(question.run, question.accuracy);
+  if (question.scene) report.measures = measure(*question.scene, cancellation);
+  report.size_ratio = question.size_ratio.value_or(report.measures ? report.measures->size_ratio
+                                                                   : PaperTables::size_ratio);
+  std::optional<double> rho = question.rho;
+  if (!rho && report.measures) rho = report.measures->rho_max;
+  const auto add_row = [&](double r) {
+    report.rows.push_back(make_row(r, question, report.size_ratio, cancellation));
+  };
+  if (rho) {
+    add_row(*rho);
+  } else {
+    for (const double r : paper_tables().rho) add_row(r);
+  }
+  if (rho) report.prediction = predict(*rho, question, report.size_ratio, cancellation);
+  return report;
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,106 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "direction_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+#include "transillum/bounds.h"
+#include "transillum/files.h"
+
+namespace transillum::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Normals that stand for all where there is no scene.
+constexpr int spread = 2048;
+
+std::vector<Vec3> normals_of(const Scene& scene) {
+  std::vector<Vec3> normals;
+  for (const Patch& patch : scene.patches()) normals.push_back(patch.normal);
+  return normals;
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("{:<18} {}\n", name, value);
+}
+
+std::string errors_text(const DirectionStatistics& s, const std::vector<double>& errors) {
+  const QuadratureErrors summary = summary_of(errors);
+  std::string text = fmt::format("{:.2e} RMS, {:.2e} largest", summary.rms, summary.max);
+  if (s.scene) {
+    const auto worst = std::max_element(
+        errors.begin(), errors.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    text += fmt::format(", at patch {}", worst - errors.begin());
+  }
+  return text;
+}
+
+Json errors_json(const DirectionStatistics& s, const std::vector<double>& errors) {
+  const QuadratureErrors summary = summary_of(errors);
+  Json json{{"rms", summary.rms}, {"max", summary.max}};
+  if (s.scene) json["patches"] = errors;
+  return json;
+}
+
+}  // namespace
+
+DirectionStatistics measure_directions(const SequenceOptions& set,
+                                       const std::vector<DirectionSample>& samples,
+                                       std::shared_ptr<const Scene> scene,
+                                       const Cancellation& cancellation) {
+  DirectionStatistics s;
+  s.set = set;
+  s.star = star_discrepancy(samples, cancellation);
+  s.cap = cap_discrepancy(samples, cancellation);
+  const std::vector<Vec3> normals = scene ? normals_of(*scene) : spread_normals(spread);
+  s.one_way = quadrature_errors(normals, samples, false, cancellation);
+  s.two_way = quadrature_errors(normals, samples, true, cancellation);
+  s.scene = std::move(scene);
+  return s;
+}
+
+std::string text_of(const DirectionStatistics& s) {
+  const int m = s.set.directions;
+  std::string text = row("directions", fmt::format("{}, {}{}", m, name_of(s.set.sampling),
+                                                   s.set.rotation ? ", rotated" : ""));
+  text += row("star discrepancy", fmt::format("{:.3e} on the unit square, exact (eq. 3)", s.star));
+  text += row("", fmt::format("{:.3e} at most for hammersley (eq. 20)", star_discrepancy_bound(m)));
+  text += row("cap discrepancy", fmt::format("{:.3e} on the sphere, {}", s.cap.value,
+                                             s.cap.exact ? "exact" : "a lower bound"));
+  text += fmt::format(
+      "\nError eps(M) of the quadrature of the cosine, which should be pi (eq. 17), over {} {}:\n",
+      s.one_way.size(),
+      s.scene ? "patches of " + s.scene->name() : std::string("normals spread over the sphere"));
+  text += row("  one-way", errors_text(s, s.one_way));
+  text += row("  two-way", errors_text(s, s.two_way));
+  text += row("  bound",
+              fmt::format("{:.2e} for hammersley, one-way (eq. 21)", quadrature_error_bound(m)));
+  return text;
+}
+
+void write_direction_statistics(const std::string& path, const DirectionStatistics& s) {
+  Json json;
+  json["program"] = "transillum " TRANSILLUM_VERSION;
+  json["directions"] = s.set.directions;
+  json["sampling"] = name_of(s.set.sampling);
+  json["seed"] = s.set.seed;
+  json["rotation"] = s.set.rotation ? Json(*s.set.rotation) : Json();
+  json["star_discrepancy"] = {{"value", s.star},
+                              {"bound", star_discrepancy_bound(s.set.directions)}};
+  json["cap_discrepancy"] = {{"value", s.cap.value}, {"exact", s.cap.exact}};
+  json["scene"] = s.scene ? Json(s.scene->name()) : Json();
+  json["eps"] = {{"normals", s.one_way.size()},
+                 {"bound", quadrature_error_bound(s.set.directions)},
+                 {"one_way", errors_json(s, s.one_way)},
+                 {"two_way", errors_json(s, s.two_way)}};
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+}  // namespace transillum::cli
