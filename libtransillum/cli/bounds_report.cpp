@@ -62,6 +62,14 @@ BoundsPrediction predict(double rho, const BoundsQuestion& question, double size
   return p;
 }
 
+Sampling sampling_of(const std::string& name, const std::string& path) {
+  try {
+    return sampling_from_name(name);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
 RunEstimate read_run(const std::string& path, double accuracy) {
   std::ifstream in(path);
   if (!in) throw InputError(path + ": cannot be read");
@@ -73,7 +81,7 @@ RunEstimate read_run(const std::string& path, double accuracy) {
   try {
     RunEstimate run;
     run.scene = json.value("scene", "");
-    run.sampling = sampling_from_name(json.at("options").at("sampling"));
+    run.sampling = sampling_of(json.at("options").at("sampling"), path);
     run.passes = json.at("passes");
     const Json estimate = json.value("error_estimate", Json());
     if (!estimate.is_object()) fail("has no error estimate; solve with --replicas 4");

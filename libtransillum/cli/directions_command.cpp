@@ -98,8 +98,8 @@ Run add_directions_command(CLI::App& program) {
                   "with --stats: eps(M) for the patches of this scene instead of all normals")
       ->type_name("SCENE");
   command.footer(
-      "Examples: transillum directions --sampling hammersley -m 64 --out points.csv\n"
-      "          transillum directions -m 1024 --stats --scene cornell-box");
+      "Example: transillum directions --sampling hammersley -m 64 --out points.csv\n"
+      "         transillum directions -m 1024 --stats --scene cornell-box");
   return [call] { return run(*call); };
 }
 

@@ -405,7 +405,7 @@ TEST(CliBounds, PrintsTheThreeTables) {
       {"bounds", "--reflectance", "0.6", "--accuracy", "0.02", "--size-ratio", "9", "-m", "256"});
   EXPECT_THAT(other.out, row("0.6 +37 +37 "));
   EXPECT_THAT(other.out, row("0.6 +- +[0-9]+ +[0-9]+\n"));
-  EXPECT_THAT(other.out, row("contraction a step .* 0.635156 +0.60"));
+  EXPECT_THAT(other.out, row("contraction a step .* 0.670312 +0.60"));
   EXPECT_THAT(other.out, HasSubstr("To reach 2 % you need at most"));
 }
 
