@@ -27,8 +27,8 @@ double rms_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return std::sqrt(difference / norm);
 }
 
-/// The whole flake takes 0.9 % with 150 passes (ALGORITHM.md, section 7); this small one, with
-/// larger patches, 0.25 %. Random directions take 3.5 %, Hammersley's one way 1.6 %.
+/// The whole flake comes to 0.9 % with 150 passes (ALGORITHM.md, 7.3); this small one, with larger
+/// patches, to 0.25 %. Random directions: 3.5 %, the paper's set: 1.6 %.
 TEST(DirectionsNeeded, DefaultSetReachesOnePercentOnTheFlakeWithin150Passes) {
   const auto scene = grey_flake();
   const auto reference =
