@@ -66,10 +66,10 @@ std::string tables_text(const BoundsReport& report) {
   }
   return text +
          fmt::format(
-             "\npaper: as printed there. formula: Hammersley's points, eq. 20 and 21. {}: the "
-             "same\nequations with what was measured of these sets instead: eps(M) over all "
-             "normals,\nand the star discrepancy, continued to larger M.\n",
-             name_of(question.sets.sampling));
+             "\npaper: as printed there. formula: Hammersley's points, by eq. 20 and 21. {}: the "
+             "same\nequations with what was measured of M such directions{}: eps(M) over all "
+             "normals, and\nthe star discrepancy of the points, continued to larger M.\n",
+             name_of(question.sets.sampling), question.sets.two_way ? " used both ways" : "");
 }
 
 std::string prediction_text(const BoundsReport& report) {

@@ -432,6 +432,14 @@ TEST(CliBounds, EstimatesFromARunWhatIsStillToDo) {
   EXPECT_THAT(result.out, HasSubstr("rooms: 2 % RMS error of B with 400 passes, random"));
   EXPECT_THAT(result.out, ::testing::ContainsRegex("M = 1600 +for 1 %"));
 
+  ASSERT_EQ(run_program({"solve", "furnace", "-m", "64", "--replicas", "4", "--stats",
+                         folder / "solved.json"})
+                .status,
+            0);
+  const ProgramResult solved =
+      run_program({"bounds", "furnace", "--run", folder / "solved.json", "--accuracy", "0.0001"});
+  EXPECT_THAT(solved.out, ::testing::ContainsRegex("furnace: .* 64 passes, fibonacci"));
+
   write_text(folder / "plain.json",
              R"({"passes": 400, "options": {"sampling": "random"}, "error_estimate": null})");
   for (const char* file : {"plain.json", "none.json"}) {
