@@ -86,7 +86,7 @@ void ExactView::start(std::int32_t face, const GridPoint& origin) {
   window_ = piece.window;
 }
 
-bool ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
+void ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   // What is seen in the bin may be small beside the face.
   start(face, {bin.x + bin.size / 2, bin.y + bin.size / 2});
   bin_ = bin;
@@ -94,7 +94,11 @@ bool ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
     const EdgeRef ref = add_edge(bin_line(line), line, made_by_cut, made_by_cut);
     const Sides sides = measure(piece, ref);
-    if (sides.left == 0) return false;
+    if (sides.left == 0) {
+      unused_.push_back(left_[0]);
+      left_.clear();
+      return;
+    }
     if (sides.right == 0) continue;
     split(piece, ref, sides, rest_[0], rest_[1]);
     piece = rest_[0];
@@ -104,7 +108,6 @@ bool ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   left_area_ = area_ = area_of(piece);
   find_window(piece);
   window_ = piece.window;
-  return area_ > 0;
 }
 
 /// A place for one more piece.

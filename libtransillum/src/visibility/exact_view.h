@@ -27,8 +27,8 @@ class ExactView {
 
   /// Looks from all of a face.
   void look_from(std::int32_t face);
-  /// Looks from the part of a face that lies in a bin. Returns false where there is none.
-  bool look_from(std::int32_t face, const FastBins::Bin& bin);
+  /// Looks from the part of a face that lies in a bin, if any.
+  void look_from(std::int32_t face, const FastBins::Bin& bin);
 
   /// Eats up what `face` covers of what is left, and returns its area, steps
   /// squared.

@@ -156,19 +156,17 @@ class FastPass {
   template <Way way, class View>
   bool look_with(View& view, std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
     sights_.clear();
-    if (!bin) {
+    if (bin) {
+      view.look_from(face, *bin);
+    } else {
       view.look_from(face);
-    } else if (!view.look_from(face, *bin)) {
-      return true;
     }
-    if (view.failed()) return false;
     begin_search<way>(face, bin != nullptr, entry, view.window());
     for (std::int32_t other = next<way>(view.window()); other >= 0;
          other = next<way>(view.window())) {
       const double area = view.show(other);
       if (view.failed()) return false;
-      if (!(area > 0)) continue;
-      sights_.push_back({other, area});
+      if (area > 0) sights_.push_back({other, area});
       if (view.done()) break;
     }
     return true;

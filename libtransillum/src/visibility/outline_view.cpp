@@ -44,23 +44,53 @@ std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long d
   return n;
 }
 
+/// What a box reaches.
+FaceWindow window_of(const FaceBox& box) {
+  FaceWindow window;
+  for (std::size_t d = 0; d < 4; ++d) {
+    window.ends[d] = -box.ends[d + 4];
+    window.ends[d + 4] = -box.ends[d];
+  }
+  return window;
+}
+
 }  // namespace
 
-/// Looks from a region of this area, all of a face or a part.
-void OutlineView::begin(const FastFaces::Face& own, double area, double reach) {
+void OutlineView::look_from(std::int32_t face) {
+  own_ = &faces_.faces[static_cast<std::size_t>(face)];
+  bin_ = nullptr;
+  outlined_ = failed_ = false;
+  window_ = window_of(faces_.boxes[static_cast<std::size_t>(face)]);
+}
+
+void OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
+  look_from(face);
+  bin_ = &bin;
+  const auto x = static_cast<double>(bin.x), y = static_cast<double>(bin.y);
+  const auto size = static_cast<double>(bin.size);
+  const auto limit = [&](std::size_t d, double end) {
+    window_.ends[d] = std::min(window_.ends[d], rounded_up(end));
+  };
+  limit(0, x + size);
+  limit(1, y + size);
+  limit(4, -x);
+  limit(5, -y);
+}
+
+/// A region of this area is what looks.
+void OutlineView::begin(double area, double reach) {
   const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
   far_ends_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
   area_ = left_area_ = area;
   cutter_.tolerance = rounding * reach;
   reach_ = reach;
-  failed_ = own.cut_needle || too_much * (cutter_.tolerance * reach) > own.area;
+  failed_ = own_->cut_needle || too_much * (cutter_.tolerance * reach) > own_->area;
   find_window();
 }
 
-void OutlineView::look_from(std::int32_t face) {
-  const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
-  const GridPoint* const corners = faces_.corners.data() + own.begin;
-  const std::size_t count = own.end - own.begin;
+void OutlineView::outline_whole() {
+  const GridPoint* const corners = faces_.corners.data() + own_->begin;
+  const std::size_t count = own_->end - own_->begin;
   origin_ = corners[0];
   left_->count = 0;
   double reach = 0, from_x = 0, from_y = 0;
@@ -73,23 +103,21 @@ void OutlineView::look_from(std::int32_t face) {
     from_y = y;
   }
   left_->add(from_x, from_y, 0, 0);
-  begin(own, own.area, reach);
+  begin(own_->area, reach);
 }
 
-bool OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
-  const FastFaces::Face& own = faces_.faces[static_cast<std::size_t>(face)];
-  const std::int64_t half = bin.size / 2;
-  origin_ = {bin.x + half, bin.y + half};
+void OutlineView::outline_in_bin() {
+  const std::int64_t half = bin_->size / 2;
+  origin_ = {bin_->x + half, bin_->y + half};
   WidePolygon polygon, clipped;
-  std::size_t count = own.end - own.begin;
+  std::size_t count = own_->end - own_->begin;
   for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& p = faces_.corners[own.begin + k];
+    const GridPoint& p = faces_.corners[own_->begin + k];
     polygon[k] = {static_cast<long double>(p.x - origin_.x),
                   static_cast<long double>(p.y - origin_.y)};
   }
-  for (int side = 0; side < 4; ++side) {
+  for (int side = 0; side < 4 && count > 0; ++side) {
     count = clip(polygon, count, side, static_cast<long double>(half), clipped);
-    if (count < 3) return false;
     polygon = clipped;
   }
   left_->count = 0;
@@ -101,11 +129,11 @@ bool OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
     twice_area +=
         (p.x - polygon[0].x) * (q.y - polygon[0].y) - (p.y - polygon[0].y) * (q.x - polygon[0].x);
   }
-  begin(own, static_cast<double>(twice_area / 2), static_cast<double>(bin.size));
-  return area_ > 0;
+  begin(static_cast<double>(twice_area / 2), static_cast<double>(bin_->size));
 }
 
 void OutlineView::find_window() {
+  if (left_->count == 0) return;
   extent_ = extent_of(*left_);
   for (std::size_t d = 0; d < 8; ++d) {
     window_.ends[d] = rounded_up(far_ends_[d] + extent_[d]);
@@ -114,6 +142,15 @@ void OutlineView::find_window() {
 
 double OutlineView::show(std::int32_t face) {
   const FastFaces::Face& shown = faces_.faces[static_cast<std::size_t>(face)];
+  if (!outlined_) {
+    outlined_ = true;
+    if (bin_) {
+      outline_in_bin();
+    } else {
+      outline_whole();
+    }
+    if (failed_ || left_->count == 0) return 0;
+  }
   set_cutter(cutter_, faces_.corners.data() + shown.begin, shown.end - shown.begin, origin_,
              4 * reach_);
   // A point that is near to what both polygons share.

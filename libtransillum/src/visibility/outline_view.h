@@ -22,8 +22,8 @@ class OutlineView {
 
   /// Looks from all of a face.
   void look_from(std::int32_t face);
-  /// Looks from the part of a face that lies in a bin. Returns false where there is none.
-  bool look_from(std::int32_t face, const FastBins::Bin& bin);
+  /// Looks from the part of a face that lies in a bin, if any.
+  void look_from(std::int32_t face, const FastBins::Bin& bin);
 
   /// Takes what `face` covers out of what is left, and returns its area, steps squared.
   double show(std::int32_t face);
@@ -38,7 +38,9 @@ class OutlineView {
   bool failed() const { return failed_; }
 
  private:
-  void begin(const FastFaces::Face& own, double area, double reach);
+  void outline_whole();
+  void outline_in_bin();
+  void begin(double area, double reach);
   bool add_edges(double& twice_area);
   void find_window();
 
@@ -49,6 +51,9 @@ class OutlineView {
   const FastFaces& faces_;
   PassCounts& counts_;
 
+  const FastFaces::Face* own_ = nullptr;  ///< what looks
+  const FastBins::Bin* bin_ = nullptr;    ///< and where, if not all of it
+  bool outlined_ = false;                 ///< only once something is shown
   GridPoint origin_;
   double reach_ = 0;  ///< largest |x| + |y| of what looks
   double area_ = 0, left_area_ = 0;
