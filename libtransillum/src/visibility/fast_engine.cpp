@@ -45,10 +45,9 @@ class FastPass {
  public:
   explicit FastPass(const FastScene& shared)
       : shared_(shared),
-        in_air_(shared.in_air),
-        bins_(faces_, in_air_),
-        outline_view_(faces_, transfers_.counts),
-        exact_view_(shared.outlines, faces_, transfers_.counts) {}
+        bins_(faces_, shared.in_air),
+        exact_view_(shared.outlines, faces_, transfers_.counts),
+        outline_view_(faces_, transfers_.counts) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
@@ -58,7 +57,7 @@ class FastPass {
     const Clock::time_point binned = Clock::now();
     begin(omega);
     look_all<Way::up>(cancellation);
-    if (!in_air_) look_all<Way::down>(cancellation);
+    if (!shared_.in_air) look_all<Way::down>(cancellation);
     TRANSILLUM_INVARIANT(nothing_is_covered_twice(), "more is covered than projected");
     sort_exchanges();
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
@@ -281,18 +280,17 @@ class FastPass {
   }
 
   const FastScene& shared_;
-  bool in_air_;
-  Transfers transfers_;
-  FastFaces faces_;
-  FastBins bins_;
-  OutlineView outline_view_;
-  ExactView exact_view_;
   double area_unit_ = 1;                  ///< m² a step squared
   std::vector<double> seen_from_front_;   ///< a face: steps squared
   std::vector<Transfer> found_, sorted_;  ///< exchanges, sight by sight
   std::vector<std::uint32_t> row_ends_;
   std::vector<Sight> sights_;
   std::vector<Cursor> cursors_;
+  Transfers transfers_;
+  FastFaces faces_;
+  FastBins bins_;
+  ExactView exact_view_;
+  OutlineView outline_view_;
 };
 
 /// Passes that no thread is making; one is kept for each that has made one at the same time.
