@@ -13,7 +13,7 @@ namespace {
 
 // As the command line keeps them, before names become enumerators.
 struct Words {
-  std::string sampling, engine, normalize, scheme;
+  std::string sampling, engine, normalize, scheme, first_shot = "none";
   bool one_way = false, two_way = false;
 };
 
@@ -38,6 +38,8 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--normalize", words.normalize, joined(normalization_names()))
       ->capture_default_str();
   app.add_option("--scheme", words.scheme, joined(scheme_names()))->capture_default_str();
+  app.add_option("--first-shot", words.first_shot, "none | auto | R²/A of sources shot first")
+      ->capture_default_str();
   app.add_option("--burn-in", solve.burn_in, "semi-iterative: steps left out of the mean")
       ->capture_default_str();
   app.add_option("--replicas", solve.replicas, "rotated sets that give standard errors")
@@ -64,6 +66,7 @@ void finish(CommandLine& line, const Words& words, const CLI::App& app) {
   solve.two_way = !words.one_way;
   solve.normalize = normalization_from_name(words.normalize);
   solve.scheme = scheme_from_name(words.scheme);
+  solve.first_shot = first_shot_from_name(words.first_shot);
   solve.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty()) throw InputError("--screenshot needs a SCENE");

@@ -163,6 +163,7 @@ void SolverSession::load(const OpenRequest& request) {
                                              });
     loaded->seconds_bsp = seconds_since(tree_begin);
 
+    if (request.solve_options.first_shot) report(tr("Shooting small sources"), -1);
     auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.solve_options,
                                                     loaded->tree, cancellation);
     {

@@ -80,6 +80,25 @@ void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
   }
 }
 
+struct FirstShot {
+  std::shared_ptr<const DirectLight> light;  ///< null where there is none
+  double seconds = 0;
+};
+
+FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                      const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+  FirstShot shot;
+  if (!options.first_shot) return shot;
+  const auto start = Clock::now();
+  shot.light = std::make_shared<const DirectLight>(
+      shoot(*scene, find_small_sources(*scene, *options.first_shot), options.threads, cancellation,
+            [&](double share) {
+              if (!quiet) display.show("shooting", share);
+            }));
+  shot.seconds = seconds_since(start);
+  return shot;
+}
+
 /// Runs the solver to its end, or to the signal.
 Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                        const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
@@ -88,7 +107,8 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
     if (!quiet) display.show("sorting", share);
   });
   const double seconds_bsp = seconds_since(start);
-  RadiositySolver solver(scene, options, tree, cancellation);
+  const auto shot = shoot_first(scene, options, cancellation, display, quiet);
+  RadiositySolver solver(scene, options, tree, cancellation, shot.light);
   try {
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
       if (!quiet) show_progress(display, watched);
@@ -107,6 +127,7 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
   solution.error = solver.error_estimate();
   solution.statistics = solver.statistics();
   solution.statistics.seconds_bsp = seconds_bsp;
+  solution.statistics.seconds_first_shot = shot.seconds;
   return solution;
 }
 
@@ -202,6 +223,12 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
                   "(default {})",
                   fmt::join(scheme_names(), " | "), name_of(options.scheme)),
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
+  add_parsed_option(
+      command, "--first-shot", "RATIO",
+      fmt::format("none | auto | a number: shoot small bright sources first, from this R2/A on, R "
+                  "the scene's diagonal and A a source's area; auto: {} (default none)",
+                  small_source_ratio),
+      [&options](const std::string& text) { options.first_shot = first_shot_from_name(text); });
   add_parsed_option(command, "--burn-in", "N",
                     fmt::format("semi-iterative: leave the first N steps out of the mean "
                                 "(default {})",

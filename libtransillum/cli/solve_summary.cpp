@@ -54,10 +54,10 @@ std::string convergence_text(const SolveStatistics& statistics) {
 
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
-  return row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas",
-                                       100 * error.rms, error.replicas)) +
-         row("B mean is within", fmt::format("+- {} of that above, in 95 of 100 runs",
-                                             color_text(half)));
+  return row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas", 100 * error.rms,
+                                       error.replicas)) +
+         row("B mean is within",
+             fmt::format("+- {} of that above, in 95 of 100 runs", color_text(half)));
 }
 
 }  // namespace
@@ -70,10 +70,15 @@ std::string solve_summary(const Solution& solution) {
   text += row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
                                     s.threads));
   if (s.passes_made > 0) {
-    text += row("time a pass", fmt::format("{:.3g} ms, {} made",
-                                           1000 * s.seconds_transfers /
-                                               static_cast<double>(s.passes_made),
-                                           s.passes_made));
+    text += row("time a pass",
+                fmt::format("{:.3g} ms, {} made",
+                            1000 * s.seconds_transfers / static_cast<double>(s.passes_made),
+                            s.passes_made));
+  }
+  if (s.shot_sources > 0) {
+    text += row("first shot",
+                fmt::format("{} patches, {:.3g} % of the power emitted, in {}", s.shot_sources,
+                            100 * s.shot_power_share, time_text(s.seconds_first_shot)));
   }
   text += row("iterations", convergence_text(s));
   text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",

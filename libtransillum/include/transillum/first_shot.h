@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "transillum/cancellation.h"
@@ -12,6 +14,10 @@ namespace transillum {
 /// From this R²/A on a source counts as small: of 2,048 directions fewer than one meets it from a
 /// point half a scene away.
 inline constexpr double small_source_ratio = 1000;
+
+/// The ratio that a command line names: `auto`, that above; a number from 0; or `none`.
+/// @throws InputError naming the choices.
+std::optional<double> first_shot_from_name(const std::string& name);
 
 /// The patches of small bright sources, rising (paper, section 5.2). A source is all emitting
 /// patches that hang together by common points; it is small where R²/A >= `ratio`, R the scene's

@@ -13,6 +13,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
 #include "transillum/engine.h"
+#include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -55,6 +56,8 @@ struct SolveOptions {
   bool two_way = true;  ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;
   Scheme scheme = Scheme::fixed;
+  /// Small bright sources are shot first, from this R²/A on (find_small_sources); none: no shot.
+  std::optional<double> first_shot = {};
   int burn_in = 8;     ///< semi_iterative: so many steps are left out of the mean
   int replicas = 1;    ///< 2 … 64: the M directions are so many independently rotated sets, whose
                        ///< spread gives an error estimate. At most M
@@ -90,7 +93,8 @@ struct SolveProgress {
 
 /// How far B may be off by its directions, from the spread of independently rotated replicas of
 /// them: no reference is needed. Rotations make each replica right on average (eq. 47), so
-/// B +- quantile * standard error holds the B of infinitely many directions 95 times in 100.
+/// B +- quantile * standard error holds the B of infinitely many directions 95 times in 100. The
+/// first shot's own error is not in it.
 struct ErrorEstimate {
   int replicas = 0;                 ///< 0: there is no estimate, and nothing below
   std::vector<Rgb> standard_error;  ///< of B, W/m², one a patch
@@ -120,8 +124,10 @@ struct SolveStatistics {
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
   PassCounts counts;                 ///< of every direction once, added up
   std::vector<IterationRecord> steps;
-  double seconds_load = 0, seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0,
-         seconds_total = 0;
+  std::int64_t shot_sources = 0;  ///< patches whose emission was shot first
+  double shot_power_share = 0;    ///< of them in all power emitted
+  double seconds_load = 0, seconds_bsp = 0, seconds_first_shot = 0, seconds_transfers = 0,
+         seconds_iterate = 0, seconds_total = 0;
 };
 
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme), watched.
@@ -131,10 +137,13 @@ struct SolveStatistics {
 class RadiositySolver {
  public:
   /// @param tree of the scene; built here when null.
+  /// @param shot light of the scene's small sources, where options.first_shot is set; shot here
+  /// when null.
   /// @throws InputError, Cancelled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   std::shared_ptr<const BspTree> tree = nullptr,
-                  const Cancellation& cancellation = {});
+                  const Cancellation& cancellation = {},
+                  std::shared_ptr<const DirectLight> shot = nullptr);
   ~RadiositySolver();
   RadiositySolver(RadiositySolver&&) noexcept;
   RadiositySolver& operator=(RadiositySolver&&) noexcept;
@@ -161,7 +170,8 @@ class RadiositySolver {
   const std::vector<Vec3>& directions() const;
   SolveStatistics statistics() const;
 
-  /// B of the last finished step, W/m², one a patch; E before the first.
+  /// B of the last finished step, W/m², one a patch; before the first E, and what the first
+  /// shot adds.
   const std::vector<Rgb>& radiosity() const;
   /// The step under way, estimated from the passes done so far; radiosity() between steps.
   std::vector<Rgb> running_estimate() const;

@@ -22,6 +22,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["scheme"] = name_of(options.scheme);
   json["burn_in"] = options.scheme == Scheme::semi_iterative ? Json(options.burn_in) : Json();
   json["replicas"] = options.replicas;
+  json["first_shot"] = options.first_shot ? Json(*options.first_shot) : Json();
   // One of them rules; the other is null.
   json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
   json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
@@ -67,6 +68,8 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["transfers"] = statistics.transfers;
   json["form_factors"] = statistics.form_factors;
   json["kept_form_factors"] = statistics.kept_form_factors;
+  json["first_shot"] = {{"sources", statistics.shot_sources},
+                        {"power_share", statistics.shot_power_share}};
   json["converged"] = statistics.converged;
   json["closure_defect_max"] = statistics.closure_defect_max;
   json["closure_defect_grazing"] = statistics.closure_defect_grazing;
@@ -90,6 +93,7 @@ Json statistics_json(const SolveStatistics& statistics) {
                             {"clip", counts.seconds_clip}};
   json["seconds"] = {{"load", statistics.seconds_load},
                      {"bsp", statistics.seconds_bsp},
+                     {"first_shot", statistics.seconds_first_shot},
                      {"transfers", statistics.seconds_transfers},
                      {"iterate", statistics.seconds_iterate},
                      {"total", statistics.seconds_total}};

@@ -6,9 +6,13 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numeric>
 
+#include "transillum/errors.h"
 #include "visibility/patch_exchange.h"
 
 namespace transillum {
@@ -59,6 +63,18 @@ Rgb received(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
 }
 
 }  // namespace
+
+std::optional<double> first_shot_from_name(const std::string& name) {
+  if (name == "none") return {};
+  if (name == "auto") return small_source_ratio;
+  double ratio = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), ratio);
+  if (error != std::errc() || end != name.data() + name.size() || !(ratio >= 0) ||
+      !std::isfinite(ratio)) {
+    throw InputError(fmt::format("first shot: \"{}\" is not none, auto or a number from 0", name));
+  }
+  return ratio;
+}
 
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
   constexpr double least_share = 1e-4;

@@ -23,11 +23,18 @@ void add_symmetric_product(const KeptSums& sums, const std::vector<double>& valu
 
 }  // namespace
 
-Iterate::Iterate(const Scene& scene, const SolveOptions& options)
-    : scene_(scene), two_way_(options.two_way), normalization_(options.normalize) {
+Iterate::Iterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot)
+    : scene_(scene),
+      shot_(shot),
+      two_way_(options.two_way),
+      normalization_(options.normalize),
+      h_(shot.irradiance) {
   const auto patches = static_cast<std::size_t>(scene.patch_count());
-  for (PatchId i = 0; i < scene.patch_count(); ++i) b_.push_back(scene.exitance(i));
-  h_.resize(patches);
+  b_.resize(patches);
+  unshot_.resize(patches);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    set_radiosity(i, radiosity(i, h_[static_cast<std::size_t>(i)]));
+  }
   gathered_.resize(patches);
   projected_.resize(patches);
 }
@@ -48,8 +55,8 @@ void Iterate::add(const Transfers& transfers) {
   for (const Transfer& t : transfers.exchanges) {
     const auto i = static_cast<std::size_t>(t.receiver);
     const auto j = static_cast<std::size_t>(t.source);
-    gathered_[i] += t.area * b_[j];
-    if (two_way_) gathered_[j] += t.area * b_[i];
+    gathered_[i] += t.area * unshot_[j];
+    if (two_way_) gathered_[j] += t.area * unshot_[i];
   }
   for (std::size_t i = 0; i < projected_.size(); ++i) {
     projected_[i] += transfers.forward[i].projected;
@@ -69,11 +76,11 @@ void Iterate::keep(const KeptSums& sums) {
 void Iterate::gather(const KeptSums& sums) {
   std::fill(gathered_.begin(), gathered_.end(), Rgb{});
   if (scales_.empty()) {
-    for (const ExchangeSums* part : sums) part->gather(b_, gathered_);
+    for (const ExchangeSums* part : sums) part->gather(unshot_, gathered_);
     return;
   }
   std::vector<Rgb> scaled(b_.size());
-  for (std::size_t i = 0; i < b_.size(); ++i) scaled[i] = scales_[i] * b_[i];
+  for (std::size_t i = 0; i < b_.size(); ++i) scaled[i] = scales_[i] * unshot_[i];
   for (const ExchangeSums* part : sums) part->gather(scaled, gathered_);
   for (std::size_t i = 0; i < b_.size(); ++i) gathered_[i] = scales_[i] * gathered_[i];
 }
@@ -116,7 +123,21 @@ double Iterate::row_scale(std::size_t i, double projected, int passes) const {
 
 Rgb Iterate::estimate(PatchId i) const {
   const auto row = static_cast<std::size_t>(i);
-  return scene_.exitance(i) + scene_.reflectance(i) * (row_scale(row) * gathered_[row]);
+  return radiosity(i, irradiance(i, row_scale(row) * gathered_[row]));
+}
+
+Rgb Iterate::irradiance(PatchId i, const Rgb& brought) const {
+  return shot_.irradiance[static_cast<std::size_t>(i)] + brought;
+}
+
+Rgb Iterate::radiosity(PatchId i, const Rgb& irradiance) const {
+  return scene_.exitance(i) + scene_.reflectance(i) * irradiance;
+}
+
+void Iterate::set_radiosity(PatchId i, const Rgb& b) {
+  const auto row = static_cast<std::size_t>(i);
+  b_[row] = b;
+  unshot_[row] = b - shot_.exitance[row];
 }
 
 double Iterate::form_factor_scale(PatchId i, PatchId j) const {
@@ -132,7 +153,7 @@ double Iterate::form_factor_sum(PatchId i, double row_areas, double projected, i
 Rgb Iterate::sent(const std::vector<double>& column_areas) const {
   const std::vector<double>& columns = row_sums_.empty() ? column_areas : row_sums_;
   Rgb sent;
-  for (std::size_t i = 0; i < b_.size(); ++i) sent += columns[i] * b_[i];
+  for (std::size_t i = 0; i < b_.size(); ++i) sent += columns[i] * unshot_[i];
   return sent;
 }
 
@@ -140,10 +161,10 @@ double Iterate::finish() {
   double change = 0;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     const auto row = static_cast<std::size_t>(i);
-    h_[row] = row_scale(row) * gathered_[row];
-    const Rgb next = scene_.exitance(i) + scene_.reflectance(i) * h_[row];
+    h_[row] = irradiance(i, row_scale(row) * gathered_[row]);
+    const Rgb next = radiosity(i, h_[row]);
     change = std::max(change, max_abs(next - b_[row]));
-    b_[row] = next;
+    set_radiosity(i, next);
   }
   return change;
 }
@@ -152,14 +173,16 @@ void Iterate::leap(const KeptSums& sums, double tolerance, const Cancellation& c
   const double unit = 4.0 / (kept_passes_ * 2);
   const auto patches = static_cast<std::size_t>(scene_.patch_count());
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
+  std::vector<Rgb> result(patches);
   const auto channel = [&](auto rho_of) {
-    // With y_i = sqrt(rho_i A_i) H_i and w_i = d_i sqrt(rho_i / A_i):
-    // y - unit w S (w y) = unit w S (d E), a symmetric matrix.
+    // With E what is known of B and not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i sqrt(rho_i /
+    // A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const auto row = static_cast<std::size_t>(i);
       const double scale = scales_.empty() ? 1.0 : scales_[row];
       weights[row] = scale * std::sqrt(unit * rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      emitted[row] = scale * rho_of(scene_.exitance(i));
+      const Rgb known = radiosity(i, shot_.irradiance[row]);
+      emitted[row] = scale * (rho_of(known) - rho_of(shot_.exitance[row]));
     }
     std::vector<double> right(patches);
     add_symmetric_product(sums, emitted, right);
@@ -176,12 +199,16 @@ void Iterate::leap(const KeptSums& sums, double tolerance, const Cancellation& c
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const auto row = static_cast<std::size_t>(i);
       const double share = std::sqrt(rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      rho_of(b_[row]) = rho_of(scene_.exitance(i)) + share * unknown[row];
+      const Rgb known = radiosity(i, shot_.irradiance[row]);
+      rho_of(result[row]) = rho_of(known) + share * unknown[row];
     }
   };
   const auto channels = {&Rgb::r, &Rgb::g, &Rgb::b};
   for (const auto member : channels) {
     channel([member](auto& color) -> auto& { return color.*member; });
+  }
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    set_radiosity(i, result[static_cast<std::size_t>(i)]);
   }
 }
 

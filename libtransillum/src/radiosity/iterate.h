@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "radiosity/exchange_sums.h"
+#include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -17,7 +18,9 @@ using KeptSums = std::vector<const ExchangeSums*>;
 /// that of one replica's.
 class Iterate {
  public:
-  Iterate(const Scene& scene, const SolveOptions& options);
+  /// Keeps references. `shot`: light that goes on top, and what of B then need not be gathered,
+  ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
+  Iterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot);
 
   const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished step, W/m²
   const std::vector<Rgb>& h() const { return h_; }  ///< the irradiance that made it
@@ -40,7 +43,8 @@ class Iterate {
   double form_factor_scale(PatchId i, PatchId j) const;
   /// sum_j F_ij, given what some passes have seen of i: unscaled.
   double form_factor_sum(PatchId i, double row_areas, double projected, int passes) const;
-  /// Power sent by B, in the units of gathered(), given the unscaled sums of columns' areas.
+  /// Power sent by what is gathered of B, in the units of gathered(), given the unscaled sums of
+  /// columns' areas.
   Rgb sent(const std::vector<double>& column_areas) const;
   /// Ends the step: h and b are what was gathered. Returns the largest change of B.
   double finish();
@@ -49,16 +53,22 @@ class Iterate {
   void leap(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
 
  private:
+  /// H and B of a patch, given what directions bring.
+  Rgb irradiance(PatchId i, const Rgb& brought) const;
+  Rgb radiosity(PatchId i, const Rgb& irradiance) const;
+  void set_radiosity(PatchId i, const Rgb& b);
   void gather(const KeptSums& sums);
   void find_scales(const KeptSums& sums);
   double row_scale(std::size_t i, double projected, int passes) const;
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Scene& scene_;
+  const DirectLight& shot_;
   bool two_way_;
   Normalization normalization_;
   std::vector<Rgb> b_, h_;
-  std::vector<Rgb> gathered_;      ///< sum_d sum_j A(i,j,omega_d) B_j, scaled where symmetric
+  std::vector<Rgb> unshot_;        ///< b less what was shot: what directions carry
+  std::vector<Rgb> gathered_;      ///< sum_d sum_j A(i,j,omega_d) unshot_j, scaled where symmetric
   std::vector<double> projected_;  ///< sum_d A_i max(n_i·omega_d, 0)
   int passes_ = 0;
   std::vector<double> kept_projected_;

@@ -109,6 +109,9 @@ struct RadiositySolver::Impl {
   std::vector<double> estimate_changes;
   double step_seconds = 0;
 
+  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros where there is none
+  double seconds_first_shot = 0;
+
   // B of all passes, and of each replica's.
   Iterate whole;
   std::vector<Iterate> replicas;
@@ -135,14 +138,16 @@ struct RadiositySolver::Impl {
   double seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0;
 
   Impl(std::shared_ptr<const Scene> solved, const SolveOptions& how,
-       std::shared_ptr<const BspTree> ready_tree, const Cancellation& stop)
+       std::shared_ptr<const BspTree> ready_tree, const Cancellation& stop,
+       std::shared_ptr<const DirectLight> ready_shot)
       : scene(std::move(solved)),
         options(validated(how)),
         tree(std::move(ready_tree)),
         cancellation(stop),
         plan(how),
         directions(plan.directions(0)),
-        whole(*scene, how),
+        shot(std::move(ready_shot)),
+        whole(*scene, how, *light_of_shot()),
         areas(static_cast<std::size_t>(scene->patch_count())) {
     threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
     if (!tree) {
@@ -152,7 +157,7 @@ struct RadiositySolver::Impl {
     }
     engine = make_engine(options.engine, scene, tree, options.engine_options);
     if (options.replicas > 1) {
-      for (int r = 0; r < options.replicas; ++r) replicas.emplace_back(*scene, options);
+      for (int r = 0; r < options.replicas; ++r) replicas.emplace_back(*scene, options, *shot);
       replica_means.resize(replicas.size());
     }
     const std::uint64_t memory = options.memory ? options.memory : quarter_of_memory();
@@ -162,7 +167,7 @@ struct RadiositySolver::Impl {
     }
     const auto patches = static_cast<std::size_t>(scene->patch_count());
     b = estimate = whole.b();
-    h.resize(patches);
+    h = whole.h();
     facing_area.resize(patches);
     back_seen.resize(patches);
   }
@@ -170,6 +175,19 @@ struct RadiositySolver::Impl {
   static const SolveOptions& validated(const SolveOptions& options) {
     options.validate();
     return options;
+  }
+
+  /// The first shot's light; shoots where that is still to be done.
+  const std::shared_ptr<const DirectLight>& light_of_shot() {
+    if (!shot) {
+      const auto start = Clock::now();
+      std::vector<PatchId> sources;
+      if (options.first_shot) sources = find_small_sources(*scene, *options.first_shot);
+      shot = std::make_shared<const DirectLight>(
+          shoot(*scene, sources, options.threads, cancellation));
+      seconds_first_shot = seconds_since(start);
+    }
+    return shot;
   }
 
   int ways() const { return options.two_way ? 2 : 1; }
@@ -419,8 +437,10 @@ struct RadiositySolver::Impl {
 
 RadiositySolver::RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                                  std::shared_ptr<const BspTree> tree,
-                                 const Cancellation& cancellation)
-    : impl_(std::make_unique<Impl>(std::move(scene), options, std::move(tree), cancellation)) {}
+                                 const Cancellation& cancellation,
+                                 std::shared_ptr<const DirectLight> shot)
+    : impl_(std::make_unique<Impl>(std::move(scene), options, std::move(tree), cancellation,
+                                   std::move(shot))) {}
 RadiositySolver::~RadiositySolver() = default;
 RadiositySolver::RadiositySolver(RadiositySolver&&) noexcept = default;
 RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = default;
@@ -504,10 +524,14 @@ SolveStatistics RadiositySolver::statistics() const {
   statistics.predicted_contraction =
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
   statistics.steps = s.steps;
+  statistics.shot_sources = static_cast<std::int64_t>(s.shot->sources.size());
+  statistics.shot_power_share = s.shot->power_share;
   statistics.seconds_bsp = s.seconds_bsp;
+  statistics.seconds_first_shot = s.seconds_first_shot;
   statistics.seconds_transfers = s.seconds_transfers;
   statistics.seconds_iterate = s.seconds_iterate;
-  statistics.seconds_total = s.seconds_bsp + s.seconds_transfers + s.seconds_iterate;
+  statistics.seconds_total =
+      s.seconds_bsp + s.seconds_first_shot + s.seconds_transfers + s.seconds_iterate;
   return statistics;
 }
 

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "choice.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
@@ -69,6 +71,9 @@ void SolveOptions::validate() const {
     if (normalize == Normalization::rows) {
       throw InputError("scheme: conjugate-gradients wants a symmetric matrix; rows makes it none");
     }
+  }
+  if (first_shot && !(*first_shot >= 0 && std::isfinite(*first_shot))) {
+    throw InputError(fmt::format("first shot: {} is not a number from 0", *first_shot));
   }
   if (threads < 0 || threads > 4096) {
     throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
