@@ -115,6 +115,22 @@ TEST(CliSolve, ThreadsAndMemoryDoNotChangeABit) {
   }
 }
 
+TEST(CliSolve, TellsOfTheFirstShot) {
+  const TemporaryFolder folder;
+  for (const auto& [how, sources] : {std::pair{"none", 0}, {"auto", 16}, {"1e9", 0}, {"0", 16}}) {
+    const ProgramResult result = run_program(
+        {"solve", "stars:n=2", "-m", "8", "--first-shot", how, "--stats", folder / "s.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const bool told = result.out.find("first shot       16 patches, 100 %") != std::string::npos;
+    EXPECT_EQ(told, sources > 0) << result.out;
+    const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+    EXPECT_EQ(json.at("first_shot").at("sources"), sources);
+    EXPECT_EQ(json.at("first_shot").at("power_share"), sources > 0 ? 1.0 : 0.0);
+    EXPECT_EQ(json.at("options").at("first_shot").is_null(), std::string(how) == "none");
+    EXPECT_TRUE(json.at("seconds").at("first_shot").is_number());
+  }
+}
+
 TEST(CliSolve, StatisticsHaveTheNamesOfTheContract) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "16", "--iterations", "4", "--threads", "1",

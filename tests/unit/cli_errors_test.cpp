@@ -63,6 +63,7 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"solve", "furnace", "--tolerance", "nan"}, "--tolerance"},
       {{"solve", "furnace", "--tolerance", "1"}, "--tolerance"},
       {{"solve", "furnace", "--normalize", "columns"}, "none, rows, symmetric"},
+      {{"solve", "furnace", "--first-shot", "maybe"}, "none, auto or a number"},
       {{"solve", "furnace", "--scheme", "fast"}, "fixed, growing, semi-iterative"},
       {{"solve", "furnace", "--scheme", "semi-iterative", "--burn-in", "9", "--iterations", "9"},
        "burn-in: 9 of 9"},

@@ -60,7 +60,7 @@ struct FacingPolygons {
 /// By Stokes' theorem it is (1 / 2 pi) times the sum over pairs of edges of their direction's
 /// cosine times the integral of ln r along both. Edges of one plane have an elementary integral;
 /// for skew ones the outer integral is taken by Gauss' rule, on steps that shrink toward
-/// singularities (decisions/0017-exact-form-factors.md).
+/// singularities (decisions/0020-exact-form-factors.md).
 double polygon_exchange(const FacingPolygons& facing);
 inline double polygon_exchange(Outline p, Outline q) { return polygon_exchange({p, q}); }
 
