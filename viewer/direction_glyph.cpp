@@ -91,10 +91,13 @@ DirectionGlyph::DirectionGlyph(vtkRenderer& renderer) {
 void DirectionGlyph::show(const Vec3& omega, bool two_way, const Vec3& center, double radius,
                           double distance, const Vec3& eye) {
   const Vec3 side = dot(omega, eye - center) >= 0 ? omega : -omega;
+  show_at(omega, two_way, center + distance * side, radius);
+}
+
+void DirectionGlyph::show_at(const Vec3& omega, bool two_way, const Vec3& middle, double radius) {
   const Vec3 other = std::abs(omega.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
   const Vec3 u = normalized(cross(other, omega));
   const Vec3 v = cross(omega, u);
-  const Vec3 middle = center + distance * side;
   const double half = 0.34 * radius;
   const Vec3 corners[4] = {middle - half * u - half * v, middle + half * u - half * v,
                            middle + half * u + half * v, middle - half * u + half * v};

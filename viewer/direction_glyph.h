@@ -20,6 +20,8 @@ class DirectionGlyph {
   /// with `radius`.
   void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, double distance,
             const Vec3& eye);
+  /// The plane through `middle`.
+  void show_at(const Vec3& omega, bool two_way, const Vec3& middle, double radius);
   void hide();
   void set_line_width(double pixels);
 

@@ -20,6 +20,7 @@ void Focus::begin_run(int passes) {
   iterations_ = 1;
   moment_ = wanted_ = newest_ = {};
   map_ = nullptr;
+  set_probe(std::nullopt);
   following_ = true;
   under_way_ = false;
   seek_left_ = 0;
@@ -78,6 +79,11 @@ void Focus::set_phase(Phase phase) {
   if (phase == phase_) return;
   phase_ = phase;
   emit moved();
+}
+
+void Focus::set_probe(const std::optional<Vec2>& probe) {
+  probe_ = probe;
+  emit probed();
 }
 
 void Focus::phase_by(int phases) {
@@ -196,7 +202,9 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
     seek_on();
     return;
   }
+  const bool another = map != map_;
   map_ = std::move(map);
+  if (another && probe_) set_probe(std::nullopt);
   if (on_the_way) {
     // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
     moment_ = {wanted_.iteration, map_->direction, step};

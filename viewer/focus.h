@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "recorded_map.h"
 #include "step_finder.h"
@@ -57,6 +58,10 @@ class Focus : public QObject {
   bool following() const { return following_; }
   bool seeking() const { return under_way_ && seek_left_ > 0; }
 
+  /// The point of the plane whose line is asked about; forgotten with its direction.
+  const std::optional<Vec2>& probe() const { return probe_; }
+  void set_probe(const std::optional<Vec2>& probe);
+
   /// Each of these but follow() ends the following. Out of range means the nearest there is.
   void go_to(const Moment& moment);
   /// To an end of the direction at most; from there on to the next one. False at the run's end.
@@ -84,6 +89,7 @@ class Focus : public QObject {
   void wished();  ///< what is wanted, what can be, whether it follows or seeks
   void map_wanted(int direction);
   void seek_ended(bool found);
+  void probed();
 
  private:
   /// The step to show of a direction once it is known; MapHistory::none: another direction.
@@ -102,6 +108,7 @@ class Focus : public QObject {
   Moment moment_, wanted_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;
+  std::optional<Vec2> probe_;
   bool following_ = true;
   bool under_way_ = false;
   Arrival arrival_;

@@ -11,15 +11,15 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
-#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
-#include <QStyle>
 #include <QToolBar>
 #include <algorithm>
 #include <utility>
 
+#include "algorithm_view.h"
 #include "banner.h"
+#include "breakpoint_panel.h"
 #include "color_controls.h"
 #include "convergence_view.h"
 #include "direction_view.h"
@@ -34,8 +34,10 @@
 #include "solve_actions.h"
 #include "solve_summary.h"
 #include "step_actions.h"
+#include "step_panel.h"
 #include "theme.h"
 #include "timeline_bar.h"
+#include "timeline_lanes.h"
 
 namespace transillum::viewer {
 
@@ -51,26 +53,11 @@ QString dropped_file(const QMimeData& data) {
   return urls.size() == 1 && urls.front().isLocalFile() ? urls.front().toLocalFile() : QString();
 }
 
-QScrollArea* scrollable(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setWidget(content);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  // Never so narrow that something is cut off at the right.
-  area->setMinimumWidth(content->minimumSizeHint().width() +
-                        area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
-  return area;
-}
-
 }  // namespace
 
 MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), remember_(remember) {
   setWindowTitle(tr("transillum"));
   setAcceptDrops(true);
-  setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
-  setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
-  setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
   actions_ = new SolveActions(this);
   step_actions_ = new StepActions(focus_, selection_, this);
   make_center();
@@ -83,47 +70,53 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   restore_layout();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  map_dock_->disconnect(this);  // it hides when most of the window is gone
+}
 
 void MainWindow::make_center() {
-  page_ = new ScenePage(selection_, colors_);
+  page_ = new ScenePage(focus_, selection_, colors_);
   scene_view_ = page_->scene_view();
   connect(page_, &ScenePage::open_clicked, this, &MainWindow::choose_file);
   connect(page_, &ScenePage::built_in_clicked, this, [this](const QString& name) { open(name); });
   setCentralWidget(page_);
 }
 
-QDockWidget* MainWindow::add_dock(const QString& title, const char* name, QWidget* content) {
-  auto* dock = new QDockWidget(title, this);
-  dock->setObjectName(QString::fromLatin1(name));
-  dock->setWidget(content);
-  return dock;
-}
-
-QList<QDockWidget*> MainWindow::docks() const {
-  return {settings_dock_,    inspector_dock_, summary_dock_, map_dock_,
-          convergence_dock_, direction_dock_, timeline_dock_};
-}
-
 void MainWindow::make_docks() {
+  constexpr auto inspect = DockLayouts::Layout::inspect, debug = DockLayouts::Layout::debug;
+  constexpr auto left = Qt::LeftDockWidgetArea, right = Qt::RightDockWidgetArea;
+  settings_ = new SettingsPanel;
+  summary_ = new SolveSummary;
+  inspector_ = new PatchInspector(selection_, colors_);
   map_view_ = new MapView(focus_, selection_, colors_);
   convergence_view_ = new ConvergenceView;
-  inspector_ = new PatchInspector(selection_, colors_);
-  settings_ = new SettingsPanel;
-  settings_dock_ = add_dock(tr("Solve settings"), "settings_dock", scrollable(settings_));
-  summary_ = new SolveSummary;
-  summary_dock_ = add_dock(tr("Figures"), "summary_dock", scrollable(summary_));
-  inspector_dock_ = add_dock(tr("Patch"), "inspector_dock", scrollable(inspector_));
-  map_dock_ = add_dock(tr("Visibility map"), "map_dock", map_view_);
-  convergence_dock_ = add_dock(tr("Convergence"), "convergence_dock", convergence_view_);
   direction_view_ = new DirectionView(focus_, selection_, colors_);
-  direction_dock_ = add_dock(tr("Directions"), "direction_dock", direction_view_);
+  algorithm_ = new AlgorithmView(focus_, selection_);
+  breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
+  auto* events = new StepPanel(focus_, selection_);
   timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
-  timeline_dock_ = add_dock(tr("Timeline"), "timeline_dock", timeline_);
-  timeline_dock_->setTitleBarWidget(new QWidget);  // no room for one on a projector
+  timeline_->lanes()->set_marks(
+      [this](const MapHistory& history) { return breakpoints_.steps_in(history); });
+
+  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
+  docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_), {{debug, left, 560}});
+  docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
+  docks_.add(tr("Figures"), "summary_dock", scrollable(summary_),
+             {{inspect, left, 345, true}});
+  docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
+  map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
+                         {{inspect, right, 450}, {debug, right, 480}});
+  docks_.add(tr("Convergence"), "convergence_dock", convergence_view_, {{inspect, right, 400}});
+  docks_.add(tr("Directions"), "direction_dock", direction_view_, {{inspect, right, 400, true}});
+  docks_.add(tr("Events"), "event_dock", events, {{debug, right, 260}});
+  QDockWidget* timeline_dock = docks_.add(
+      tr("Timeline"), "timeline_dock", timeline_,
+      {{inspect, Qt::BottomDockWidgetArea, 132}, {debug, Qt::BottomDockWidgetArea, 132}});
+  timeline_dock->setTitleBarWidget(new QWidget);  // no room for one on a projector
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
   connect(map_dock_, &QDockWidget::visibilityChanged, this,
           [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
+  connect(&breakpoints_, &Breakpoints::changed, timeline_->lanes(), &TimelineLanes::count_columns);
 }
 
 void MainWindow::make_menus() {
@@ -139,10 +132,13 @@ void MainWindow::make_menus() {
 
   actions_->add_to(*menuBar()->addMenu(tr("&Solve")));
 
-  step_actions_->add_to(*menuBar()->addMenu(tr("S&tep")));
+  QMenu* step = menuBar()->addMenu(tr("S&tep"));
+  step_actions_->add_to(*step);
+  step->addSeparator();
+  breakpoint_panel_->add_to(*step);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
-  for (QDockWidget* dock : docks()) view->addAction(dock->toggleViewAction());
+  docks_.add_to(*view);
   view->addSeparator();
   view->addAction(tr("Reset view"), scene_view_, &SceneView::reset_view,
                   QKeySequence(Qt::Key_Home));
@@ -151,7 +147,6 @@ void MainWindow::make_menus() {
   view->addAction(
       tr("Select nothing"), this, [this] { selection_.select(no_patch); },
       QKeySequence(Qt::Key_Escape));
-  view->addAction(tr("Reset layout"), this, &MainWindow::reset_layout);
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help->addAction(
@@ -196,39 +191,20 @@ void MainWindow::connect_session() {
   connect(actions_, &SolveActions::stop, &session_, &SolverSession::stop);
 }
 
-void MainWindow::reset_layout() {
-  for (QDockWidget* dock : docks()) {
-    removeDockWidget(dock);
-    dock->setFloating(false);
-  }
-  addDockWidget(Qt::LeftDockWidgetArea, settings_dock_);
-  addDockWidget(Qt::LeftDockWidgetArea, inspector_dock_);
-  addDockWidget(Qt::LeftDockWidgetArea, summary_dock_);
-  addDockWidget(Qt::RightDockWidgetArea, map_dock_);
-  addDockWidget(Qt::RightDockWidgetArea, convergence_dock_);
-  addDockWidget(Qt::BottomDockWidgetArea, timeline_dock_);
-  tabifyDockWidget(inspector_dock_, summary_dock_);
-  tabifyDockWidget(convergence_dock_, direction_dock_);
-  for (QDockWidget* dock : docks()) dock->show();
-  inspector_dock_->raise();
-  convergence_dock_->raise();
-  resizeDocks({settings_dock_, map_dock_}, {290, 410}, Qt::Horizontal);
-  resizeDocks({settings_dock_, inspector_dock_}, {455, 345}, Qt::Vertical);
-  resizeDocks({map_dock_, convergence_dock_}, {450, 400}, Qt::Vertical);
-}
-
 void MainWindow::restore_layout() {
   QSize size(1600, 1000);
   // A picture for a script has its size whatever the screen's is.
   if (remember_) size = size.boundedTo(screen()->availableSize());
   resize(size);
-  reset_layout();
+  docks_.arrange(DockLayouts::Layout::inspect);
   if (!remember_) return;
-  const QSettings settings;
+  QSettings settings;
+  breakpoints_.load(settings);
   restoreGeometry(settings.value("window/geometry").toByteArray());
   // After an update of Qt or of the docks the old state may not fit any more.
   const QByteArray state = settings.value("window/state").toByteArray();
-  if (!state.isEmpty() && !restoreState(state, layout_version)) reset_layout();
+  if (!state.isEmpty() && !restoreState(state, layout_version))
+    docks_.arrange(DockLayouts::Layout::inspect);
 }
 
 void MainWindow::set_options(const SolveOptions& solve, const SceneOptions& scene) {
@@ -315,6 +291,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   convergence_view_->show_snapshot(*snapshot_);
   direction_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
+  algorithm_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
   actions_->show_state(session_.state(), at_start());
@@ -360,6 +337,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("window/geometry", saveGeometry());
     settings.setValue("window/state", saveState(layout_version));
+    breakpoints_.save(settings);
   }
   QMainWindow::closeEvent(event);
 }

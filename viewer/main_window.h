@@ -5,7 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "breakpoints.h"
 #include "color_choice.h"
+#include "dock_layouts.h"
 #include "focus.h"
 #include "focus_feed.h"
 #include "selection.h"
@@ -16,6 +18,8 @@ class QMenu;
 
 namespace transillum::viewer {
 
+class AlgorithmView;
+class BreakpointPanel;
 class ConvergenceView;
 class DirectionView;
 class MapView;
@@ -45,6 +49,7 @@ class MainWindow : public QMainWindow {
   bool settled() const;
   SolverSession& session() { return session_; }
   Focus& focus() { return focus_; }
+  Breakpoints& breakpoints() { return breakpoints_; }
   Selection& selection() { return selection_; }
   ColorChoice& colors() { return colors_; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
@@ -61,12 +66,9 @@ class MainWindow : public QMainWindow {
  private:
   void make_center();
   void make_docks();
-  QList<QDockWidget*> docks() const;
   void make_menus();
   void fill_open_menu(QMenu& menu);
-  QDockWidget* add_dock(const QString& title, const char* name, QWidget* content);
   void connect_session();
-  void reset_layout();
   void restore_layout();
   void choose_file();
   void run();
@@ -83,6 +85,8 @@ class MainWindow : public QMainWindow {
   SolverSession session_;
   Focus focus_;
   FocusFeed focus_feed_{focus_};
+  Breakpoints breakpoints_;
+  DockLayouts docks_{*this};
   std::string asked_spec_, spec_;  // the scene asked for last, and the open one
   SceneOptions asked_scene_options_, scene_options_;
   std::shared_ptr<const LoadedScene> loaded_;
@@ -100,8 +104,9 @@ class MainWindow : public QMainWindow {
   SolveSummary* summary_;
   ProgressLine* progress_;
   TimelineBar* timeline_;
-  QDockWidget *settings_dock_, *inspector_dock_, *summary_dock_, *map_dock_, *convergence_dock_,
-      *direction_dock_, *timeline_dock_;
+  AlgorithmView* algorithm_;
+  BreakpointPanel* breakpoint_panel_;
+  QDockWidget* map_dock_;
 };
 
 }  // namespace transillum::viewer

@@ -112,6 +112,11 @@ PatchId MapCanvas::patch_at(const QPointF& position) const {
   return row == MapRecord::no_row ? no_patch : record.rows[static_cast<std::size_t>(row)].patch;
 }
 
+std::optional<Vec2> MapCanvas::point_at(const QPointF& position) const {
+  if (!picture_) return std::nullopt;
+  return picture_->request.transform.to_metres(position);
+}
+
 void MapCanvas::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
@@ -130,6 +135,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
   draw_selection(painter, now);
+  draw_probe(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
   draw_legend(painter);
@@ -148,6 +154,18 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
   for (const QPen& pen : {QPen(Qt::black, 4), QPen(theme::selection, 2)}) {
     painter.setPen(pen);
     for (const QPolygonF& fragment : fragments) painter.drawPolygon(fragment);
+  }
+}
+
+void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
+  if (!content_.probe) return;
+  const QPointF at = shown.to_pixels(*content_.probe);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(Qt::black, 3.5), QPen(theme::on_dark, 1.5)}) {
+    painter.setPen(pen);
+    painter.drawEllipse(at, 5, 5);
+    for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
+      painter.drawLine(at + 5 * way, at + 10 * way);
   }
 }
 
@@ -231,7 +249,10 @@ void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
 void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   unsetCursor();
-  if (!dragging_) selection_.select(patch_at(event->pos()));
+  if (!dragging_) {
+    selection_.select(patch_at(event->pos()));
+    emit clicked(event->pos());
+  }
   dragging_ = false;
 }
 

@@ -30,6 +30,7 @@ class MapCanvas : public QWidget {
     Phase phase = Phase::after;
     bool step_shown = false;
     bool labels = false;
+    std::optional<Vec2> probe;
     std::shared_ptr<const std::vector<Color8>> patch_colors;
   };
   void show_map(Content content);
@@ -41,12 +42,15 @@ class MapCanvas : public QWidget {
   bool up_to_date() const { return !painting_ && !stale_; }
   /// The patch drawn at a point, in logical pixels; no_patch for none.
   PatchId patch_at(const QPointF& position) const;
+  /// Metres on the plane of a point in logical pixels; nothing without a picture.
+  std::optional<Vec2> point_at(const QPointF& position) const;
   std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
 
   QSize sizeHint() const override { return {420, 380}; }
 
  signals:
   void painted();
+  void clicked(const QPointF& position);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -62,6 +66,7 @@ class MapCanvas : public QWidget {
   void repaint_map();
   void take(std::shared_ptr<const MapPicture> picture);
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
+  void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
   void draw_legend(QPainter& painter) const;

@@ -4,6 +4,7 @@
 #include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -62,9 +63,28 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_moment);
   connect(&focus_, &Focus::moved, this, &MapView::show_moment);
   connect(&focus_, &Focus::wished, this, &MapView::show_title);
+  connect(&focus_, &Focus::probed, this, &MapView::show_moment);
   connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
+  canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::offer_runs);
+  connect(canvas_, &MapCanvas::clicked, this,
+          [this](const QPointF& position) { focus_.set_probe(canvas_->point_at(position)); });
   connect(&colors_, &ColorChoice::changed, this, &MapView::show_moment);
   show_title();
+}
+
+void MapView::offer_runs(const QPoint& position) {
+  const auto point = canvas_->point_at(position);
+  if (!point || !focus_.map()) return;
+  auto* menu = new QMenu(this);
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(tr("Run to the next polygon over this point"), this,
+                  [this, point] { focus_.seek(find_changes_at(*point), Way::forward); });
+  menu->addAction(tr("Run back to the last polygon over this point"), this,
+                  [this, point] { focus_.seek(find_changes_at(*point), Way::backward); });
+  menu->addAction(tr("List the patches along this line"), this,
+                  [this, point] { focus_.set_probe(point); });
+  menu->popup(canvas_->mapToGlobal(position));
 }
 
 QWidget* MapView::make_controls() {
@@ -134,7 +154,7 @@ void MapView::show_moment() {
   auto patch_colors = std::make_shared<std::vector<Color8>>();
   colors_.scale().color(snapshot_->radiosity, *patch_colors);
   canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
-                     labels_->isChecked(), std::move(patch_colors)});
+                     labels_->isChecked(), focus_.probe(), std::move(patch_colors)});
 }
 
 void MapView::show_title() {

@@ -34,6 +34,7 @@ class MapView : public QWidget {
 
  private:
   QWidget* make_controls();
+  void offer_runs(const QPoint& position);
   void show_moment();
   void show_title();
 

@@ -13,10 +13,11 @@
 
 namespace transillum::viewer {
 
-ScenePage::ScenePage(Selection& selection, ColorChoice& colors, QWidget* parent) : QWidget(parent) {
+ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
+    : QWidget(parent) {
   banner_ = new Banner;
   color_controls_ = new ColorControls(colors);
-  scene_view_ = new SceneView(selection, colors);
+  scene_view_ = new SceneView(focus, selection, colors);
   scene_view_->setObjectName("scene_view");
   auto* welcome = new WelcomePage;
   connect(welcome, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);

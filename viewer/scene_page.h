@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "color_choice.h"
+#include "focus.h"
 #include "selection.h"
 
 class QStackedWidget;
@@ -19,7 +20,8 @@ class ScenePage : public QWidget {
   Q_OBJECT
 
  public:
-  ScenePage(Selection& selection, ColorChoice& colors, QWidget* parent = nullptr);
+  ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors,
+            QWidget* parent = nullptr);
 
   Banner* banner() const { return banner_; }
   ColorControls* color_controls() const { return color_controls_; }

@@ -52,8 +52,9 @@ Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
 
 }  // namespace
 
-SceneView::SceneView(Selection& selection, const ColorChoice& colors, QWidget* parent)
-    : QWidget(parent), selection_(selection), colors_(colors) {
+SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
+                     QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
   canvas_ = new QVTKOpenGLNativeWidget(this);
   canvas_->setObjectName("scene_canvas");
   canvas_->setMinimumSize(200, 150);
@@ -82,12 +83,14 @@ SceneView::SceneView(Selection& selection, const ColorChoice& colors, QWidget* p
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
+  step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
 
   canvas_->installEventFilter(this);
   connect(&selection_, &Selection::changed, this, [this] {
     show_selection();
     render();
   });
+  connect(&focus_, &Focus::moved, this, &SceneView::show_step);
   connect(&colors_, &ColorChoice::changed, this, [this] {
     recolor();
     render();
@@ -138,7 +141,7 @@ void SceneView::reset_view() {
   if (!loaded_) return;
   const double aspect = static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
   const ViewPoint view = initial_view(*loaded_->scene, aspect);
-  focus_ = view.target;
+  focus_point_ = view.target;
   radius_ = view.radius;
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
@@ -152,10 +155,37 @@ void SceneView::reset_view() {
 void SceneView::recolor() {
   if (!mesh_ || !snapshot_) return;
   colors_.scale().color(snapshot_->radiosity, patch_colors_);
+  if (stepping()) dim_what_is_to_come(*focus_.map(), focus_.moment().step, patch_colors_);
   mesh_->color(patch_colors_);
 }
 
+bool SceneView::stepping() const {
+  return !focus_.following() && focus_.map() && focus_.map()->loaded == loaded_;
+}
+
+void SceneView::show_step() {
+  const bool now = stepping();
+  if (!now && !stepped_) return;  // a newer direction changes nothing but by its snapshot
+  stepped_ = now;
+  recolor();
+  show_direction();
+  render();
+}
+
 void SceneView::show_direction() {
+  const bool on_a_step = stepping() && focus_.moment().step >= 0;
+  if (on_a_step)
+    step_glyph_->show(*focus_.map(), focus_.moment().step);
+  else
+    step_glyph_->hide();
+  if (on_a_step && direction_shown_) {
+    // The plane sweeps with the polygons, from where the light comes.
+    const Vec3& omega = focus_.map()->record().frame.omega;
+    const Vec3 center = center_of_step(*focus_.map(), focus_.moment().step);
+    glyph_->show_at(omega, snapshot_ && snapshot_->options.two_way,
+                    focus_point_ + dot(center - focus_point_, omega) * omega, radius_);
+    return;
+  }
   const bool any = snapshot_ && norm(snapshot_->progress.last_direction) > 0.5;
   if (!any || !direction_shown_) {
     glyph_->hide();
@@ -165,8 +195,8 @@ void SceneView::show_direction() {
   const Vec3& omega = snapshot_->progress.last_direction;
   double reach = 0;
   for (const Vec3& p : loaded_->scene->points())
-    reach = std::max(reach, std::abs(dot(p - focus_, omega)));
-  glyph_->show(omega, snapshot_->options.two_way, focus_, radius_,
+    reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));
+  glyph_->show(omega, snapshot_->options.two_way, focus_point_, radius_,
                std::min(0.86 * radius_, 1.06 * reach),
                vec3(renderer_->GetActiveCamera()->GetPosition()));
 }
@@ -189,6 +219,7 @@ void SceneView::render() {
   halo_->GetProperty()->SetLineWidth(5 * scale);
   outline_->GetProperty()->SetLineWidth(2.5F * scale);
   glyph_->set_line_width(1.5 * scale);
+  step_glyph_->set_line_width(2.5 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
   renderer_->SetUseFXAA(smooth_ && !pressed_);
   renderer_->ResetCameraClippingRange();

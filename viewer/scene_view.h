@@ -14,20 +14,24 @@
 
 #include "color_choice.h"
 #include "direction_glyph.h"
+#include "focus.h"
 #include "scene_mesh.h"
 #include "selection.h"
 #include "snapshot.h"
+#include "step_glyph.h"
 
 class QVTKOpenGLNativeWidget;
 
 namespace transillum::viewer {
 
 /// The scene in space, coloured by radiosity. A click selects a patch, a drag turns the scene.
+/// Stepped through, what is still to come is dimmed, and the polygon in focus lit up.
 class SceneView : public QWidget {
   Q_OBJECT
 
  public:
-  SceneView(Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+  SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
+            QWidget* parent = nullptr);
   ~SceneView() override;
 
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
@@ -48,19 +52,23 @@ class SceneView : public QWidget {
  private:
   void recolor();
   void show_direction();
+  bool stepping() const;
+  void show_step();
   void show_selection();
   void render();
 
+  const Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::unique_ptr<SceneMesh> mesh_;
   std::vector<Color8> patch_colors_;
-  Vec3 focus_;
+  Vec3 focus_point_;
   double radius_ = 1;
   bool direction_shown_ = true;
   bool smooth_ = true;
+  bool stepped_ = false;  ///< a step is drawn
   QPoint press_position_;
   bool pressed_ = false;
 
@@ -70,6 +78,7 @@ class SceneView : public QWidget {
   vtkSmartPointer<vtkActor> surface_;
   vtkSmartPointer<vtkActor> halo_, outline_;
   std::unique_ptr<DirectionGlyph> glyph_;
+  std::unique_ptr<StepGlyph> step_glyph_;
 };
 
 }  // namespace transillum::viewer

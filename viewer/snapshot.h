@@ -27,7 +27,9 @@ struct SolverSnapshot {
   SolveProgress progress;
   std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass; one list a run
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;             ///< running estimate, W/m², one a patch
+  std::vector<Rgb> radiosity;  ///< running estimate, W/m², one a patch
+  /// B(n), one a patch, for each n from 0 whose step has begun; null where memory would not do.
+  std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   std::vector<double> form_factor_sums;   ///< one a patch
   std::vector<double> estimate_changes;   ///< of the newest step that has passes, one a pass
   std::vector<double> quadrature_errors;  ///< eps after each pass

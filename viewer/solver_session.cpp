@@ -14,6 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// All B(n) together; later ones are not kept.
+constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
+
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
       .count();
@@ -209,7 +212,17 @@ void SolverSession::begin_solve(const SolveOptions& options) {
 void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
   directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
+  kept_radiosity_.clear();
   more_to_do_ = true;
+}
+
+void SolverSession::keep_radiosity() {
+  const auto iteration = static_cast<std::size_t>(solver_->progress().iteration);
+  if (iteration < kept_radiosity_.size()) return;
+  const std::vector<Rgb>& radiosity = solver_->radiosity();
+  kept_radiosity_.resize(iteration + 1);
+  if (radiosity.size() * (iteration + 1) * sizeof(Rgb) <= most_kept_bytes)
+    kept_radiosity_[iteration] = std::make_shared<const std::vector<Rgb>>(radiosity);
 }
 
 void SolverSession::advance(const Goal& goal) {
@@ -266,6 +279,7 @@ void SolverSession::advance_exactly(int passes) {
 }
 
 void SolverSession::on_pass(const RadiositySolver& solver) {
+  keep_radiosity();
   const SolveProgress progress = solver.progress();
   if (progress.direction == progress.passes) {
     // Finishing the step will clear them.
@@ -280,6 +294,7 @@ void SolverSession::on_pass(const RadiositySolver& solver) {
 
 void SolverSession::post_snapshot() {
   const std::int64_t begin = now_ns();
+  keep_radiosity();
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
@@ -290,6 +305,7 @@ void SolverSession::post_snapshot() {
   snapshot->directions = directions_;
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();
+  snapshot->kept_radiosity = kept_radiosity_;
   snapshot->form_factor_sums = solver_->form_factor_sums();
   snapshot->estimate_changes = solver_->estimate_changes();
   snapshot->quadrature_errors = solver_->quadrature_errors();

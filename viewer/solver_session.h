@@ -77,6 +77,7 @@ class SolverSession : public QObject {
   void advance(const Goal& goal);
   void advance_exactly(int passes);
   void on_pass(const RadiositySolver& solver);
+  void keep_radiosity();
   void post(std::function<void()> message);
   void post_state(SessionState state);
   void post_snapshot();
@@ -105,6 +106,7 @@ class SolverSession : public QObject {
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
   std::shared_ptr<const std::vector<Vec3>> directions_;
+  std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
   bool more_to_do_ = false;
   std::int64_t last_snapshot_ns_ = 0;
   double snapshot_cost_ms_ = 0;

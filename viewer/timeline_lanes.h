@@ -28,6 +28,8 @@ class TimelineLanes : public QWidget {
   /// Steps to be marked above the lane of steps, of each history shown.
   using Marks = std::function<std::vector<std::int32_t>(const MapHistory&)>;
   void set_marks(Marks marks);
+  /// Anew, where what the marks depend on has changed.
+  void count_columns();
   /// How many directions of the newest iteration step are done.
   void set_progress(int iteration, int directions);
 
@@ -49,7 +51,6 @@ class TimelineLanes : public QWidget {
     bool selected = false, marked = false;
   };
   void scrub(double x);
-  void count_columns();
   void draw_lane(QPainter& painter, Lane lane, const QString& name, int at, int count,
                  const QString& value) const;
   void draw_columns(QPainter& painter) const;

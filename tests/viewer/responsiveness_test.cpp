@@ -2,6 +2,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "window_support.h"
@@ -47,6 +48,43 @@ class ResponsivenessTest : public QObject {
     closing.start();
     window->close();
     QVERIFY(closing.elapsed() < 1000);
+  }
+
+  void a_seek_shows_soon() {
+    const auto window = make_window(64);
+    window->open("sphere-flake", {Goal::Kind::passes, 2});
+    QVERIFY(wait_for(
+        [&] {
+          return window->snapshot() && window->snapshot()->progress.direction >= 2 &&
+                 window->settled();
+        },
+        60000));
+    Focus& focus = window->focus();
+    focus.go_to({0, 1, 100});
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    const auto median_of_seeks = [&](int count, const std::function<Moment(int)>& to) {
+      std::vector<double> times;  // ms
+      for (int k = 0; k < count; ++k) {
+        QElapsedTimer timer;
+        timer.start();
+        focus.go_to(to(k));
+        while (!window->settled()) QCoreApplication::processEvents(QEventLoop::AllEvents, 1);
+        window->repaint();
+        times.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+      }
+      std::sort(times.begin(), times.end());
+      return times[times.size() / 2];
+    };
+    const std::int32_t steps = focus.map()->history.step_count();
+    const double same = median_of_seeks(15, [&](int k) {
+      return Moment{0, 1, steps * ((7 * k) % 15) / 15};
+    });
+    const double other = median_of_seeks(5, [&](int k) { return Moment{0, 3 + k, steps / 2}; });
+    qInfo("seek on the sphere-flake, ms in the median: same direction %.0f, another %.0f", same,
+          other);
+    // The goals are 50 and 500 on an idle machine; the bounds are for busy ones.
+    QVERIFY(same < 1000);
+    QVERIFY(other < 5000);
   }
 };
 

@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Stepping through visibility maps with the pointer and the keys.
+#include <QListWidget>
 #include <QMouseEvent>
+#include <QSpinBox>
+#include <QTableView>
 #include <QToolButton>
 
 #include "solved_window.h"
@@ -35,6 +38,12 @@ struct Stepping : SolvedWindow {
     return wait_for([this] { return window->settled(); });
   }
 };
+
+/// To be looked at: TRANSILLUM_PICTURES names the folder.
+void save_picture(QWidget& window, const QString& name) {
+  const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
+  if (!folder.isEmpty()) window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
+}
 
 }  // namespace
 
@@ -143,6 +152,87 @@ class SteppingTest : public QObject {
     s.window->findChild<QToolButton*>("map_labels")->click();
     QVERIFY(s.settles());
     QVERIFY(canvas->grab().toImage() != after);
+  }
+
+  void all_views_show_the_step() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    s.trigger("layout_debug");
+    s.focus.go_to({0, 3, -1});
+    QVERIFY(s.settles());
+    const QImage scene_before = s.scene_view->canvas()->grab().toImage();
+    s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
+                   return history.step(k).exchanges > 1 && history.outside_at(k).size() > 1;
+                 }),
+                 Way::forward);
+    s.focus.set_phase(Phase::split);
+    QVERIFY(s.settles());
+    const MapHistory::Step& step = s.focus.map()->history.step(s.focus.moment().step);
+    QVERIFY(s.text("value_i").startsWith(QString::number(step.patch)));
+    QVERIFY(s.text("value_gathered").size() > 3);
+    const auto* events = s.window->findChild<QTableView*>("step_events");
+    QCOMPARE(events->model()->rowCount(), step.cut + 1);
+    const QImage scene = s.scene_view->canvas()->grab().toImage();
+    QVERIFY(scene != scene_before);
+    QVERIFY(share_of(scene, theme::processed) > 0);
+    // A click in the table selects the patch that the polygon met.
+    const QModelIndex met = events->model()->index(1, 3);
+    QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(met).center());
+    QCOMPARE(s.window->selection().patch(), met.data().toInt());
+    QTest::qWait(100);
+    save_picture(*s.window, "step");
+  }
+
+  void a_click_in_the_map_lists_the_line() {
+    const Stepping s("furnace");
+    QVERIFY(s.ready);
+    s.trigger("layout_debug");
+    s.focus.go_to({0, 3, 1 << 30});
+    QVERIFY(s.settles());
+    MapCanvas* canvas = s.map_view->canvas();
+    QTest::mouseClick(canvas, Qt::LeftButton, {},
+                      QPoint(canvas->width() / 2, canvas->height() / 2 - 12));
+    const auto* line = s.window->findChild<QTableView*>("line_events");
+    QVERIFY(line->isVisible());
+    QVERIFY(line->model()->rowCount() >= 2);
+    const int last = line->model()->rowCount() - 1;
+    QCOMPARE(line->model()->index(last, 1).data().toInt(), s.window->selection().patch());
+    // Back to where the line's first polygon came.
+    QTest::mouseDClick(line->viewport(), Qt::LeftButton, {},
+                       line->visualRect(line->model()->index(0, 1)).center());
+    QCOMPARE(s.focus.moment().step + 1, line->model()->index(0, 0).data().toInt());
+  }
+
+  void breakpoints_stop_a_run() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    s.trigger("layout_debug");
+    s.focus.go_to({0, 3, -1});
+    QVERIFY(s.settles());
+    s.window->selection().select(9);
+    QCOMPARE(s.window->findChild<QSpinBox*>("breakpoint_patch")->value(), 9);
+    s.window->findChild<QToolButton*>("add_breakpoint")->click();
+    QCOMPARE(s.window->breakpoints().list().size(), std::size_t{1});
+    std::vector<Moment> stops;
+    for (int k = 0; k < 6; ++k) {
+      s.trigger("run_on");
+      QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+      stops.push_back(s.focus.moment());
+      const auto steps = s.focus.map()->history.steps_of(9);
+      QVERIFY(std::find(steps.begin(), steps.end(), s.focus.moment().step) != steps.end());
+    }
+    QVERIFY(stops.front().direction < stops.back().direction || stops.size() == 6);
+    for (int k = 4; k >= 0; --k) {
+      s.trigger("run_back");
+      QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+      QVERIFY(s.focus.moment() == stops[static_cast<std::size_t>(k)]);
+    }
+    auto* list = s.window->findChild<QListWidget*>("breakpoint_list");
+    list->item(0)->setCheckState(Qt::Unchecked);
+    QVERIFY(!s.window->findChild<QAction*>("run_on")->isEnabled());
+    list->setCurrentRow(0);
+    s.window->findChild<QToolButton*>("remove_breakpoint")->click();
+    QCOMPARE(list->count(), 0);
   }
 
   void a_new_run_starts_anew() {

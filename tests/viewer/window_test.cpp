@@ -214,9 +214,12 @@ class WindowTest : public QObject {
     auto* map = window->findChild<QDockWidget*>("map_dock");
     map->close();
     QVERIFY(!map->isVisible());
-    for (QAction* action : window->findChildren<QAction*>())
-      if (action->text() == "Reset layout") action->trigger();
+    window->findChild<QAction*>("layout_inspect")->trigger();
     QVERIFY(map->isVisible());
+    window->findChild<QAction*>("layout_debug")->trigger();
+    QVERIFY(map->isVisible());
+    QVERIFY(window->findChild<QDockWidget*>("algorithm_dock")->isVisible());
+    QVERIFY(!window->findChild<QDockWidget*>("settings_dock")->isVisible());
   }
 };
 

@@ -1,0 +1,260 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Breakpoints, events and the state of the algorithm: what the debugger says, without a window.
+#include "breakpoints.h"
+
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+#include <map>
+
+#include "algorithm_state.h"
+#include "step_events.h"
+#include "transillum/directions.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+using Kind = Breakpoint::Kind;
+
+std::shared_ptr<const LoadedScene> loaded(const std::string& spec) {
+  auto result = std::make_shared<LoadedScene>();
+  result->scene = load_scene(spec);
+  result->tree = std::make_shared<BspTree>(*result->scene);
+  return result;
+}
+
+struct Direction {
+  std::shared_ptr<const LoadedScene> scene;
+  Transfers transfers;
+  std::shared_ptr<RecordedMap> map = std::make_shared<RecordedMap>();
+
+  explicit Direction(const std::string& spec, const Vec3& along = {0.3, 0.5, 0.8})
+      : scene(loaded(spec)) {
+    RecordedDirection recorded = record_local_map(*scene->scene, *scene->tree, normalized(along));
+    transfers = std::move(recorded.transfers);
+    map->loaded = scene;
+    map->history = MapHistory(std::move(recorded.record));
+    map->passes = 1;
+  }
+  const MapHistory& history() const { return map->history; }
+};
+
+std::vector<std::int32_t> steps_where(const MapHistory& history, const Breakpoint& breakpoint) {
+  Breakpoints breakpoints;
+  breakpoints.add(breakpoint);
+  return breakpoints.steps_in(history);
+}
+
+}  // namespace
+
+class BreakpointsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_patch_breaks_where_it_takes_part() {
+    const Direction d("cornell-box");
+    for (PatchId patch = 0; patch < d.scene->scene->patch_count(); ++patch) {
+      const auto expected = d.history().steps_of(patch);
+      const auto steps = steps_where(d.history(), {Kind::patch, patch});
+      QVERIFY(std::equal(steps.begin(), steps.end(), expected.begin(), expected.end()));
+      std::vector<std::int32_t> cut;
+      for (const MapRecord::Row& row : d.history().record().rows)
+        if (row.patch == patch && row.made == row.consumed &&
+            (cut.empty() || cut.back() != row.made))
+          cut.push_back(row.made);
+      QCOMPARE(steps_where(d.history(), {Kind::cut, patch}), cut);
+    }
+  }
+
+  void a_pair_breaks_where_it_exchanges() {
+    const Direction d("cornell-box");
+    QVERIFY(!d.transfers.exchanges.empty());
+    for (const Transfer& transfer : d.transfers.exchanges) {
+      const auto steps = steps_where(d.history(), {Kind::pair, transfer.receiver, transfer.source});
+      QVERIFY(!steps.empty());
+      QCOMPARE(steps_where(d.history(), {Kind::pair, transfer.source, transfer.receiver}), steps);
+      for (const std::int32_t k : steps) QCOMPARE(d.history().step(k).patch, transfer.receiver);
+    }
+    QVERIFY(steps_where(d.history(), {Kind::pair, 0, 0}).empty());
+  }
+
+  void figures_break_where_they_pass_their_bound() {
+    const Direction d("cornell-box");
+    const MapHistory& history = d.history();
+    int most = 0;
+    double least = HUGE_VAL;
+    for (std::int32_t k = 0; k < history.step_count(); ++k) {
+      most = std::max(most, history.step(k).map_size);
+      if (history.step(k).row != MapRecord::no_row)
+        least = std::min(least, history.step(k).smallest);
+    }
+    QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(most)}).empty());
+    // Once for each time that V grows so large, not for as long as it is.
+    for (const std::int32_t k : steps_where(history, {Kind::large_map, 0, 0, most / 2.0})) {
+      QVERIFY(history.step(k).map_size > most / 2.0);
+      QVERIFY(k == 0 || history.step(k - 1).map_size <= most / 2.0);
+    }
+    QVERIFY(!steps_where(history, {Kind::large_map, 0, 0, most - 1.0}).empty());
+    QVERIFY(steps_where(history, {Kind::small_fragment, 0, 0, least}).empty());
+    QVERIFY(!steps_where(history, {Kind::small_fragment, 0, 0, least + 1e-9}).empty());
+  }
+
+  void a_closed_scene_has_no_open_receiver() {
+    const Breakpoint open{Kind::open_receiver, 0, 0, 1e-9};
+    QVERIFY(steps_where(Direction("furnace").history(), open).empty());
+    // A bound below any share: every receiver.
+    const Direction d("furnace");
+    std::vector<std::int32_t> receivers;
+    for (std::int32_t k = 0; k < d.history().step_count(); ++k)
+      if (d.history().step(k).front_facing) receivers.push_back(k);
+    QCOMPARE(steps_where(d.history(), {Kind::open_receiver, 0, 0, -1}), receivers);
+  }
+
+  void those_switched_off_do_not_break() {
+    const Direction d("cornell-box");
+    Breakpoints breakpoints;
+    breakpoints.add({Kind::patch, 3});
+    breakpoints.add({Kind::patch, 5});
+    const QSignalSpy changed(&breakpoints, &Breakpoints::changed);
+    breakpoints.set_enabled(0, false);
+    QCOMPARE(changed.count(), 1);
+    QCOMPARE(breakpoints.steps_in(d.history()), steps_where(d.history(), {Kind::patch, 5}));
+    breakpoints.set_enabled(1, false);
+    QVERIFY(!breakpoints.any_enabled());
+    QVERIFY(breakpoints.steps_in(d.history()).empty());
+    breakpoints.remove(0);
+    QCOMPARE(breakpoints.list().size(), std::size_t{1});
+    QCOMPARE(breakpoints.list()[0].patch, 5);
+  }
+
+  void they_run_on_and_back_to_the_same_steps() {
+    const Direction d("cornell-box");
+    Breakpoints breakpoints;
+    breakpoints.add({Kind::patch, 3});
+    breakpoints.add({Kind::cut, 7});
+    const auto steps = breakpoints.steps_in(d.history());
+    QVERIFY(steps.size() > 2);
+    std::vector<std::int32_t> back;
+    const StepFinder finder = breakpoints.finder();
+    for (std::int32_t k = finder(d.history(), d.history().step_count(), Way::backward);
+         k != MapHistory::none; k = finder(d.history(), k, Way::backward))
+      back.insert(back.begin(), k);
+    QCOMPARE(back, steps);
+  }
+
+  void they_are_kept() {
+    const QTemporaryDir folder;
+    Breakpoints before, after;
+    before.add({Kind::pair, 12, 7});
+    before.add({Kind::small_fragment, 0, 0, 1.25e-9, false});
+    before.add({Kind::large_map, 0, 0, 1000});
+    {
+      QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
+      before.save(settings);
+    }
+    QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
+    after.load(settings);
+    QVERIFY(after.list() == before.list());
+    // What a later version may have written is left out.
+    settings.setValue("breakpoints/2/kind", "of-another-world");
+    after.load(settings);
+    QCOMPARE(after.list().size(), std::size_t{2});
+  }
+
+  void events_of_a_step_are_its_meetings() {
+    const Direction d("cornell-box");
+    std::map<std::pair<PatchId, PatchId>, double> exchanged;
+    for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
+      const auto events = events_of_step(d.history(), k);
+      QCOMPARE(events.size(), static_cast<std::size_t>(d.history().step(k).cut + 1));
+      QCOMPARE(events.front().above, no_patch);
+      std::size_t parts = 0;
+      for (const StepEvent& event : events) {
+        QCOMPARE(event.step, k);
+        parts += static_cast<std::size_t>(event.parts);
+        if (event.kind == StepEvent::Kind::exchange)
+          exchanged[{event.below, event.above}] += event.area;
+      }
+      QCOMPARE(parts, d.history().outside_at(k).size());
+    }
+    QCOMPARE(exchanged.size(), d.transfers.exchanges.size());
+    for (const Transfer& transfer : d.transfers.exchanges)
+      QVERIFY(std::abs(exchanged[{transfer.receiver, transfer.source}] - transfer.area) < 1e-12);
+  }
+
+  void events_of_a_patch_are_those_of_all_steps_that_name_it() {
+    const Direction d("cornell-box");
+    for (const PatchId patch : {0, 5, 11}) {
+      std::size_t expected = 0;
+      for (std::int32_t k = 0; k < d.history().step_count(); ++k)
+        for (const StepEvent& event : events_of_step(d.history(), k))
+          expected += event.below == patch || event.above == patch;
+      const auto events = events_of_patch(d.history(), patch);
+      QCOMPARE(events.size(), expected);
+      for (std::size_t k = 1; k < events.size(); ++k) QVERIFY(events[k - 1].step <= events[k].step);
+    }
+  }
+
+  void a_line_meets_patches_one_after_the_other() {
+    const Direction d("furnace", {0, 0.2, 1});
+    const Vec3 middle = d.scene->scene->bounds().center();
+    const auto events =
+        events_at_point(d.history(), d.map->record().frame.project(middle + Vec3{0.21, 0.13, 0}));
+    QVERIFY(events.size() >= 2);
+    QCOMPARE(events.front().above, no_patch);
+    for (std::size_t k = 1; k < events.size(); ++k) {
+      QCOMPARE(events[k].above, events[k - 1].below);
+      QVERIFY(events[k - 1].step < events[k].step);
+    }
+    QVERIFY(events_at_point(d.history(), {1e3, 1e3}).empty());
+  }
+
+  void the_algorithm_adds_up_to_one_iteration() {
+    // Summed over the steps of a direction, line `gather` is eq. 11 for that direction.
+    const Direction d("cornell-box");
+    const Scene& scene = *d.scene->scene;
+    SolverSnapshot snapshot;
+    snapshot.loaded = d.scene;
+    snapshot.progress.passes = 10;
+    snapshot.options.two_way = true;
+    std::vector<Rgb> radiosity;
+    for (PatchId p = 0; p < scene.patch_count(); ++p)
+      radiosity.push_back({1.0 + p, 2.0 + p, 0.5 * p});
+    snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
+
+    Focus focus;
+    focus.begin_run(1);
+    std::vector<Rgb> sums(radiosity.size());
+    const auto at = [&](std::int32_t k) {
+      focus.go_to({0, 0, k});
+      if (!focus.map()) focus.show_map(d.map);
+    };
+    at(-1);
+    QVERIFY(!algorithm_state(focus, snapshot, no_patch));
+    QVERIFY(current_lines(focus) == std::vector<CodeLine>{CodeLine::empty_map});
+    for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
+      at(k);
+      const auto state = algorithm_state(focus, snapshot, no_patch);
+      QVERIFY(state.has_value());
+      QCOMPARE(state->directions, 20);
+      QCOMPARE(state->map_after, state->map_before - state->inside + state->outside +
+                                     (d.history().step(k).row != MapRecord::no_row));
+      if (state->gathered) sums[static_cast<std::size_t>(state->i)] += *state->gathered;
+      QCOMPARE(current_lines(focus).back() == CodeLine::leave_hole, state->front_facing);
+    }
+    std::vector<Rgb> expected(radiosity.size());
+    for (const Transfer& t : d.transfers.exchanges) {
+      const auto i = static_cast<std::size_t>(t.receiver), j = static_cast<std::size_t>(t.source);
+      expected[i] += (4 * t.area / (20 * scene.patch(t.receiver).area)) *
+                     (scene.reflectance(t.receiver) * radiosity[j]);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) QVERIFY(max_abs(sums[i] - expected[i]) < 1e-12);
+  }
+};
+
+QTEST_GUILESS_MAIN(BreakpointsTest)
+#include "breakpoints_test.moc"

@@ -1,0 +1,48 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QMainWindow>
+#include <QObject>
+#include <vector>
+
+class QDockWidget;
+class QMenu;
+
+namespace transillum::viewer {
+
+/// The docks round the scene, and the ways to lay them out.
+class DockLayouts : public QObject {
+  Q_OBJECT
+
+ public:
+  enum class Layout { inspect, debug };
+
+  explicit DockLayouts(QMainWindow& window);
+
+  /// Where a dock lies in a layout: at a side of the window, so many pixels high there.
+  struct Place {
+    Layout layout;
+    Qt::DockWidgetArea area;
+    int height;
+    bool behind = false;  ///< a tab behind the dock added before it
+  };
+  /// Docks of one side lie below one another in the order they were added.
+  QDockWidget* add(const QString& title, const char* name, QWidget* content,
+                   std::vector<Place> places);
+  void arrange(Layout layout);
+  /// Docks to show and hide, and the layouts.
+  void add_to(QMenu& menu);
+
+ private:
+  struct Dock {
+    QDockWidget* widget;
+    std::vector<Place> places;
+  };
+  QMainWindow& window_;
+  std::vector<Dock> docks_;
+};
+
+/// `content` with a scroll bar where it is too high, and never too narrow for it.
+QWidget* scrollable(QWidget* content);
+
+}  // namespace transillum::viewer
