@@ -15,10 +15,11 @@ std::int32_t nearest_step(const MapHistory& history, std::int32_t step) {
 
 }  // namespace
 
-void Focus::begin_run(int passes) {
+void Focus::begin_run(int passes, int first_iteration) {
   passes_ = passes;
-  iterations_ = 1;
-  moment_ = wanted_ = newest_ = {};
+  first_iteration_ = first_iteration;
+  iterations_ = first_iteration + 1;
+  moment_ = wanted_ = newest_ = {first_iteration, 0, -1};
   map_ = nullptr;
   set_probe(std::nullopt);
   following_ = true;
@@ -29,7 +30,7 @@ void Focus::begin_run(int passes) {
 }
 
 void Focus::set_iterations(int count) {
-  count = std::max(count, 1);
+  count = std::max(count, first_iteration_ + 1);
   if (count == iterations_) return;
   iterations_ = count;
   emit wished();
@@ -44,9 +45,10 @@ void Focus::go_to(const Moment& moment) {
 }
 
 Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
+  const std::int64_t first = std::int64_t{first_iteration_} * passes_;
   const std::int64_t last = std::int64_t{iterations_} * passes_ - 1;
   const std::int64_t pass = std::int64_t{from.iteration} * passes_ + from.direction + directions;
-  if (pass < 0 || pass > last) return from;
+  if (pass < first || pass > last) return from;
   return {static_cast<int>(pass / passes_), static_cast<int>(pass % passes_), step};
 }
 
@@ -121,7 +123,7 @@ void Focus::seek_on() {
   Moment next{wanted_.iteration, wanted_.direction + by, -1};
   if (next.direction == passes_) next = {next.iteration + 1, 0, -1};
   if (next.direction < 0) next = {next.iteration - 1, passes_ - 1, -1};
-  if (--seek_left_ <= 0 || next.iteration < 0 || next.iteration > last.iteration) {
+  if (--seek_left_ <= 0 || next.iteration < first_iteration_ || next.iteration > last.iteration) {
     wanted_ = moment_;
     end_seek(false);
     return;
@@ -182,8 +184,8 @@ void Focus::go_to_newest() {
 }
 
 void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
-  wanted_ = {std::clamp(iteration, 0, iterations_ - 1), std::clamp(direction, 0, passes_ - 1),
-             step};
+  wanted_ = {std::clamp(iteration, first_iteration_, iterations_ - 1),
+             std::clamp(direction, 0, passes_ - 1), step};
   arrival_ = std::move(arrival);
   under_way_ = true;
   emit wished();

@@ -40,8 +40,9 @@ class Focus : public QObject {
  public:
   using QObject::QObject;
 
-  /// A new run of `passes` directions a step, of which nothing has been shown yet.
-  void begin_run(int passes);
+  /// New directions, `passes` a step, of which nothing has been shown yet; steps before
+  /// `first_iteration` had others.
+  void begin_run(int passes, int first_iteration = 0);
   /// How many iteration steps have begun; no others can be focused.
   void set_iterations(int count);
   int iterations() const { return iterations_; }
@@ -104,7 +105,7 @@ class Focus : public QObject {
   void end_seek(bool found);
   void leave_newest();
 
-  int passes_ = 0, iterations_ = 1;
+  int passes_ = 0, first_iteration_ = 0, iterations_ = 1;
   Moment moment_, wanted_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "focus_feed.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace transillum::viewer {
@@ -23,12 +24,15 @@ void FocusFeed::clear() {
 void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool new_run = !snapshot_ || snapshot->directions != snapshot_->directions;
   snapshot_ = std::move(snapshot);
+  const SolveProgress& progress = snapshot_->progress;
+  const int begun = progress.iteration + (progress.direction > 0 ? 1 : 0);
   if (new_run) {
     recorder_.clear();
-    focus_.begin_run(static_cast<int>(snapshot_->directions->size()));
+    const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
+    focus_.begin_run(static_cast<int>(snapshot_->directions->size()),
+                     renews ? std::max(begun - 1, 0) : 0);
   }
-  const SolveProgress& progress = snapshot_->progress;
-  focus_.set_iterations(progress.iteration + (progress.direction > 0 ? 1 : 0));
+  focus_.set_iterations(begun);
   follow();
 }
 
@@ -40,18 +44,20 @@ void FocusFeed::set_watched(bool watched) {
 void FocusFeed::follow() {
   if (!snapshot_ || !watched_) return;
   const SolveProgress& progress = snapshot_->progress;
-  // Of a step that has just ended, the last direction.
-  if (progress.direction > 0)
+  // Of a step that has just ended, the last direction; a growing one had fewer than there are.
+  if (progress.direction > 0) {
     focus_.follow(progress.iteration, progress.direction - 1);
-  else if (progress.iteration > 0)
-    focus_.follow(progress.iteration - 1, progress.passes - 1);
+  } else if (progress.iteration > 0) {
+    const auto& all = *snapshot_->directions;
+    const auto last = std::find(all.rbegin(), all.rend(), progress.last_direction);
+    focus_.follow(progress.iteration - 1, static_cast<int>(all.rend() - last) - 1);
+  }
 }
 
 void FocusFeed::record(int direction) {
   if (!snapshot_) return;
   const auto& omega = (*snapshot_->directions)[static_cast<std::size_t>(direction)];
-  recorder_.request(
-      {snapshot_->loaded, omega, direction, snapshot_->progress.passes, focus_.following()});
+  recorder_.request({snapshot_->loaded, omega, direction, focus_.passes(), focus_.following()});
 }
 
 }  // namespace transillum::viewer

@@ -101,8 +101,7 @@ void MainWindow::make_docks() {
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_), {{debug, left, 560}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
-  docks_.add(tr("Figures"), "summary_dock", scrollable(summary_),
-             {{inspect, left, 345, true}});
+  docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{inspect, right, 450}, {debug, right, 480}});

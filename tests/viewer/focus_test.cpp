@@ -143,6 +143,18 @@ class FocusTest : public QObject {
     QVERIFY(w.at({0, 0, -1}));
   }
 
+  void steps_with_directions_of_their_own_are_out_of_reach() {
+    Watched w;
+    w.focus.begin_run(passes, 3);
+    QCOMPARE(w.focus.iterations(), 4);
+    w.focus.go_to({0, 0, 1});
+    QVERIFY(w.at({3, 0, 1}));
+    w.focus.direction_by(-1);
+    QVERIFY(w.at({3, 0, 1}));
+    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::backward);
+    QVERIFY(w.at({3, 0, 1}));
+  }
+
   void the_old_moment_stays_until_the_new_one_is_recorded() {
     Watched w;
     w.focus.go_to({0, 0, 1});

@@ -198,8 +198,9 @@ class SteppingTest : public QObject {
     const int last = line->model()->rowCount() - 1;
     QCOMPARE(line->model()->index(last, 1).data().toInt(), s.window->selection().patch());
     // Back to where the line's first polygon came.
-    QTest::mouseDClick(line->viewport(), Qt::LeftButton, {},
-                       line->visualRect(line->model()->index(0, 1)).center());
+    const QPoint first = line->visualRect(line->model()->index(0, 1)).center();
+    QTest::mouseClick(line->viewport(), Qt::LeftButton, {}, first);
+    QTest::mouseDClick(line->viewport(), Qt::LeftButton, {}, first);
     QCOMPARE(s.focus.moment().step + 1, line->model()->index(0, 0).data().toInt());
   }
 
