@@ -77,10 +77,10 @@ void Focus::iteration_by(int iterations) {
 }
 
 void Focus::set_phase(Phase phase) {
+  const bool news = following_ || phase != phase_;
   leave_newest();
-  if (phase == phase_) return;
   phase_ = phase;
-  emit moved();
+  if (news) emit moved();
 }
 
 void Focus::set_probe(const std::optional<Vec2>& probe) {
@@ -160,6 +160,8 @@ void Focus::set_following(bool following) {
   if (following) {
     phase_ = Phase::after;
     go_to_newest();
+  } else {
+    emit moved();  // the step is marked from now on
   }
 }
 
