@@ -13,7 +13,7 @@
 namespace transillum {
 
 /// What one face, or a part of it, sees: its region is cut by the faces it is shown, the nearest
-/// first (decisions/0018-outlines.md). All that is kept of what is left is its outline, in
+/// first (decisions/0023-outlines.md). All that is kept of what is left is its outline, in
 /// doubles relative to the face. Where rounding makes that inconsistent it says so, and an
 /// ExactView has to look.
 class OutlineView {
