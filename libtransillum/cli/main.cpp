@@ -58,9 +58,9 @@ struct Program {
     app.set_version_flag("--version", "transillum " TRANSILLUM_VERSION);
     app.require_subcommand(1);
     app.formatter(std::make_shared<HelpFormat>());
-    for (auto add :
-         {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
-          add_factors_command, add_directions_command, add_bounds_command, add_info_command}) {
+    for (auto add : {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
+                     add_factors_command, add_directions_command, add_bounds_command,
+                     add_study_command, add_info_command}) {
       Run run = add(app);
       commands.emplace_back(app.get_subcommands({}).back(), std::move(run));
     }

@@ -15,6 +15,7 @@
 #include "solve_summary.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/study.h"
 
 namespace transillum::cli {
 namespace {
@@ -24,9 +25,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// Steps that the semi-iterative scheme takes the mean of, unless told otherwise.
-constexpr int averaged_steps = 16;
 
 struct SolveCall {
   std::string scene;
@@ -59,7 +57,7 @@ SolveOptions solve_options(const SolveCall& call) {
   options.two_way = !call.one_way;
   // Its changes fall as 1 / steps: the usual tolerance would be met after days.
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
-    options.iterations = options.burn_in + averaged_steps;
+    options.iterations = options.burn_in + averaged_steps_by_default;
   }
   options.validate();
   return options;

@@ -46,7 +46,7 @@ TEST(CliHelp, EveryCommandExplainsItself) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
   for (const char* command :
-       {"scene", "solve", "transfers", "map", "factors", "directions", "info"}) {
+       {"scene", "solve", "transfers", "map", "factors", "directions", "study", "info"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));

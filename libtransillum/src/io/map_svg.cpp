@@ -1,9 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/clean_text.h"
 #include "io/map_drawing.h"
 #include "io/map_writers.h"
 #include "io/text_buffer.h"
@@ -25,16 +25,6 @@ constexpr const char* style = R"(  <style>
 )";
 
 std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
-
-/// Valid UTF-8 without control characters: names of files and materials may be anything.
-std::string clean_text(const std::string& text) {
-  using nlohmann::json;
-  const std::string valid = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-  auto clean = json::parse(valid).get<std::string>();
-  std::replace_if(
-      clean.begin(), clean.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return clean;
-}
 
 std::string escaped(const std::string& text) {
   std::string result;

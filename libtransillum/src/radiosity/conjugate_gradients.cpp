@@ -3,7 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
-#include <stdexcept>
+
+#include "transillum/not_convergent.h"
 
 namespace {
 
@@ -82,7 +83,7 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   const Eigen::VectorXd solution =
       solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), size));
   if (solver.info() != Eigen::Success || !solution.allFinite()) {
-    throw std::runtime_error(
+    throw NotConvergent(
         "conjugate gradients do not converge: rows of form factors sum to too much; take more "
         "directions, or --normalize symmetric");
   }

@@ -16,6 +16,7 @@
 #include "radiosity/pass_plan.h"
 #include "radiosity/pass_runner.h"
 #include "transillum/bounds.h"
+#include "transillum/not_convergent.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -385,7 +386,7 @@ struct RadiositySolver::Impl {
     const bool growing = std::all_of(steps.end() - patience / 2, steps.end(),
                                      [](const IterationRecord& s) { return s.contraction >= 1; });
     if (growing) {
-      throw std::runtime_error(fmt::format(
+      throw NotConvergent(fmt::format(
           "the iteration does not converge: each change is {:.3g} times the one before; take more "
           "directions than {}, or --normalize rows",
           steps.back().contraction, options.directions));

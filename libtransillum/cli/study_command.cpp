@@ -1,0 +1,301 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands.h"
+#include "interruption.h"
+#include "messages.h"
+#include "option_values.h"
+#include "output_files.h"
+#include "progress_display.h"
+#include "study_summary.h"
+#include "transillum/errors.h"
+#include "transillum/reference_cache.h"
+#include "transillum/study.h"
+#include "transillum/study_files.h"
+
+namespace transillum::cli {
+namespace {
+
+struct StudyCall {
+  std::string scene;
+  SceneOptions scene_options;
+  std::vector<int> directions{16, 64, 256, 1024};
+  std::vector<Sampling> samplings{Sampling::random, Sampling::hammersley, Sampling::fibonacci};
+  std::vector<Normalization> normalizations{Normalization::none};
+  std::vector<Scheme> schemes{Scheme::fixed};
+  bool one_way = false, two_way = false;
+  StudyOptions study;
+  int reference = 0;  ///< passes; 0: four times the most that are studied
+  std::string cache = ReferenceCache::default_folder().string();
+  std::string out;
+  std::vector<std::string> plots;
+  bool quiet = false;
+};
+
+/// All combinations that go together; what does not is named, unless nothing is left.
+std::vector<StudySeries> all_series(const StudyCall& call) {
+  std::vector<StudySeries> all;
+  std::string refusal;
+  for (const Sampling sampling : call.samplings) {
+    for (const bool two_way : {false, true}) {
+      if (!(two_way ? call.two_way || !call.one_way : call.one_way)) continue;
+      for (const Normalization normalize : call.normalizations) {
+        for (const Scheme scheme : call.schemes) {
+          const StudySeries series{sampling, two_way, normalize, scheme};
+          try {
+            call.study.solve_options(series, call.directions.front()).validate();
+            all.push_back(series);
+          } catch (const InputError& error) {
+            refusal = error.what();
+          }
+        }
+      }
+    }
+  }
+  if (all.empty()) throw InputError(refusal);
+  if (!refusal.empty()) print_message("left out: " + refusal);
+  return all;
+}
+
+StudyOptions study_options(const StudyCall& call) {
+  StudyOptions options = call.study;
+  options.directions = call.directions;
+  options.series = all_series(call);
+  options.validate();
+  return options;
+}
+
+SolveOptions reference_of(const StudyCall& call) {
+  const int most = *std::max_element(call.directions.begin(), call.directions.end());
+  SolveOptions options =
+      reference_options(call.reference > 0 ? call.reference : std::min(4 * most, max_directions));
+  options.memory = call.study.solve.memory;
+  options.threads = call.study.solve.threads;
+  return options;
+}
+
+/// What all parts of the work share.
+struct Workshop {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const BspTree> tree;
+  Cancellation cancellation;
+  ProgressDisplay display;
+  bool quiet = false;
+
+  void show(const std::string& what, double share, double rate, double seconds_left) {
+    if (quiet) return;
+    display.show(what, share,
+                 fmt::format("{:.1f} passes/s, {} left", rate, time_text(seconds_left)));
+  }
+};
+
+std::vector<Rgb> solve_reference(Workshop& work, const SolveOptions& options) {
+  RadiositySolver solver(work.scene, options, work.tree, work.cancellation);
+  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+    const SolveProgress now = watched.progress();
+    if (now.direction > 0) {
+      work.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
+                static_cast<double>(now.direction) / now.passes, now.passes_per_second,
+                now.seconds_left);
+    }
+    return true;
+  });
+  return solver.radiosity();
+}
+
+/// From the cache, or solved for and kept there.
+std::vector<Rgb> reference_radiosity(const StudyCall& call, Workshop& work) {
+  const SolveOptions options = reference_of(call);
+  const ReferenceCache cache(call.cache);
+  if (auto kept = cache.find(*work.scene, options)) return *std::move(kept);
+  std::vector<Rgb> radiosity = solve_reference(work, options);
+  try {
+    cache.store(*work.scene, options, radiosity);
+  } catch (const std::exception& error) {
+    print_message(fmt::format("warning: the reference is not kept: {}", error.what()));
+  }
+  return radiosity;
+}
+
+void report_failures(const Study& study, const std::vector<std::string>& names) {
+  for (const StudyPoint& point : study.points) {
+    if (point.failure.empty()) continue;
+    print_message(fmt::format("left out: {} with {} passes: {}", names[point.series], point.passes,
+                              point.failure));
+  }
+}
+
+int run(const StudyCall& call) {
+  const StudyOptions options = study_options(call);
+  for (const std::string& file : call.plots) check_plot_path(file);
+  std::vector<std::string> files = call.plots;
+  if (!call.out.empty()) files.push_back(call.out);
+  check_output_files(files, call.scene);
+
+  Workshop work;
+  work.cancellation = cancel_on_signals();
+  work.quiet = call.quiet;
+  work.scene = load_scene(call.scene, call.scene_options, work.cancellation);
+  print_warnings(*work.scene);
+  work.tree = std::make_shared<const BspTree>(*work.scene, work.cancellation, [&](double share) {
+    if (!call.quiet) work.display.show("sorting", share);
+  });
+  const std::vector<Rgb> reference = reference_radiosity(call, work);
+  const std::vector<std::string> names = names_of(options.series);
+  const Study study = run_study(
+      work.scene, work.tree, options, reference,
+      [&](const StudyProgress& now) {
+        work.show(fmt::format("{}, {} passes", names[now.series], now.directions), now.share,
+                  now.passes_per_second, now.seconds_left);
+      },
+      work.cancellation);
+  work.display.clear();
+  if (study.points.empty()) throw Cancelled();  // there is nothing to save
+
+  report_failures(study, names);
+  if (!call.out.empty()) write_study_csv(call.out, options.series, study);
+  for (const std::string& file : call.plots) {
+    write_study_plot(file, call.scene, options.series, study);
+  }
+  const std::string summary = study_summary(*work.scene, options, study);
+  if (call.out.empty()) {
+    fmt::print("{}", summary);
+  } else if (!call.quiet) {
+    fmt::print(stderr, "{}", summary);
+  }
+  if (study.complete) return success;
+  print_message(files.empty() ? "interrupted; these are the points so far"
+                              : "interrupted; the points so far are saved");
+  return interrupted;
+}
+
+/// An option that takes values with commas between, each once.
+template <typename Value, typename Parse>
+void add_list_option(CLI::App& command, const std::string& name, const std::string& type,
+                     const std::string& help, std::vector<Value>& values, Parse parse) {
+  add_parsed_option(command, name, type, help, [=, &values](const std::string& text) {
+    values.clear();
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      for (const Value& value : parse(text.substr(begin, end - begin))) {
+        if (std::find(values.begin(), values.end(), value) != values.end()) {
+          throw InputError(
+              fmt::format("{}: \"{}\" is there twice", name, text.substr(begin, end - begin)));
+        }
+        values.push_back(value);
+      }
+      begin = end + 1;
+    }
+  });
+}
+
+/// `64`, or `16..1024` for 16, 32, 64 … 1024.
+std::vector<int> parse_directions(const std::string& text) {
+  const auto number = [](const std::string& digits) {
+    return static_cast<int>(parse_whole_number("--directions", digits, 1, max_directions));
+  };
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos) return {number(text)};
+  const int first = number(text.substr(0, dots)), last = number(text.substr(dots + 2));
+  if (last < first) {
+    throw InputError(fmt::format("--directions: \"{}\" ends before it begins", text));
+  }
+  std::vector<int> doubled;
+  for (int m = first; m <= last; m *= 2) doubled.push_back(m);
+  return doubled;
+}
+
+void add_series_options(CLI::App& command, StudyCall& call) {
+  add_list_option(command, "-m,--directions", "M,M,...",
+                  "passes of each solve; 16..1024 stands for 16,32,64,...,1024 (default "
+                  "16,64,256,1024)",
+                  call.directions, parse_directions);
+  add_list_option(
+      command, "--sampling", "NAME,...",
+      fmt::format("{} (default random,hammersley,fibonacci)", fmt::join(sampling_names(), " | ")),
+      call.samplings,
+      [](const std::string& text) { return std::vector{sampling_from_name(text)}; });
+  command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
+  command.add_flag("--two-way", call.two_way,
+                   "use each direction and its opposite in one pass (default); with --one-way: "
+                   "study both");
+  add_list_option(command, "--normalize", "NAME,...",
+                  fmt::format("{} (default none)", fmt::join(normalization_names(), " | ")),
+                  call.normalizations, [](const std::string& text) {
+                    return std::vector{normalization_from_name(text)};
+                  });
+  add_list_option(command, "--scheme", "NAME,...",
+                  fmt::format("{} (default fixed)", fmt::join(scheme_names(), " | ")), call.schemes,
+                  [](const std::string& text) { return std::vector{scheme_from_name(text)}; });
+  add_parsed_option(command, "--rotations", "R",
+                    "solve each with R rotated sets: the RMS of their errors, the largest maximum "
+                    "(default 1: the set as it is)",
+                    [&call](const std::string& text) {
+                      call.study.rotations =
+                          static_cast<int>(parse_whole_number("--rotations", text, 1, 1000));
+                    });
+  add_parsed_option(
+      command, "--seed", "S",
+      fmt::format("for samplings that are seeded, and rotations (default {})",
+                  call.study.solve.seed),
+      [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
+  add_engine_options(command, call.study.solve.engine, call.study.solve.engine_options);
+}
+
+void add_reference_options(CLI::App& command, StudyCall& call) {
+  add_parsed_option(command, "--reference", "M",
+                    "compare with M passes of fibonacci, under a rotation of their own (default: "
+                    "four times the most that are studied)",
+                    [&call](const std::string& text) {
+                      call.reference = static_cast<int>(
+                          parse_whole_number("--reference", text, 1, max_directions));
+                    });
+  auto* cache = command
+                    .add_option("--cache", call.cache,
+                                "keep references there (default: $XDG_CACHE_HOME/transillum or "
+                                "~/.cache/transillum); files in it may be deleted at any time")
+                    ->type_name("FOLDER");
+  command
+      .add_flag_callback(
+          "--no-cache", [&call] { call.cache.clear(); }, "neither look for references nor keep any")
+      ->excludes(cache);
+}
+
+}  // namespace
+
+Run add_study_command(CLI::App& program) {
+  auto call = std::make_shared<StudyCall>();
+  CLI::App& command =
+      *program.add_subcommand("study", "Measures the error of B against the number of passes");
+  add_scene_argument(command, call->scene);
+  add_series_options(command, *call);
+  add_reference_options(command, *call);
+  add_scene_options(command, call->scene_options);
+  add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
+  command
+      .add_option("-o,--out", call->out,
+                  "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds (default: a "
+                  "table on standard output)")
+      ->type_name("FILE.csv");
+  command
+      .add_option("--plot", call->plots,
+                  "errors against passes, with slopes and the bound; .svg or .png by its ending; "
+                  "may be given several times")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
+  command.footer(
+      "rms_error is the RMS of the error of B over the RMS of B, weighted by area; max_error the\n"
+      "largest over the largest B; bound eq. 37 with eq. 21; seconds processor time, of all\n"
+      "threads. Where more than the sampling differs, its name goes on: hammersley/one-way.\n"
+      "Ctrl-C saves the points so far and exits with 130.\n"
+      "Example: transillum study cornell-box --directions 16..1024 --sampling random,fibonacci \\\n"
+      "  --out study.csv --plot study.svg");
+  return [call] { return run(*call); };
+}
+
+}  // namespace transillum::cli

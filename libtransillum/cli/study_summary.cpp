@@ -1,0 +1,70 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "study_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "progress_display.h"
+#include "transillum/bounds.h"
+
+namespace transillum::cli {
+namespace {
+
+constexpr std::size_t column = 8;
+
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "-";
+  return fmt::format("{:.{}g}", 100 * share, share >= 1 ? 3 : 2);
+}
+
+std::string cost_text(const std::optional<StudyCost>& cost) {
+  if (!cost) return "-";
+  return fmt::format("{}{:.0f}, {}", cost->at_most ? "<= " : "", cost->passes,
+                     time_text(cost->seconds));
+}
+
+}  // namespace
+
+std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study) {
+  const std::vector<std::string> names = names_of(options.series);
+  std::map<std::int64_t, double> bounds;
+  for (const StudyPoint& point : study.points) bounds[point.passes] = point.bound;
+
+  std::size_t width = std::string("bound (eq. 37)").size();
+  for (const std::string& name : names) width = std::max(width, name.size());
+  std::string text = fmt::format("RMS error of B in %, by passes\n{:<{}}", "", width);
+  for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", passes, column);
+  text += fmt::format("{:>{}}{:>16}{:>16}\n", "slope", column, "to 1 %", "to 0.1 %");
+
+  for (std::size_t series = 0; series < names.size(); ++series) {
+    const auto points = points_of(study, series);
+    text += fmt::format("{:<{}}", names[series], width);
+    for (const auto& [passes, bound] : bounds) {
+      const auto at = std::find_if(points.begin(), points.end(),
+                                   [m = passes](auto& point) { return point.passes == m; });
+      text += fmt::format("{:>{}}", at == points.end() ? "" : percent(at->rms_error), column);
+    }
+    const auto law = fitted_power_law(points);
+    text +=
+        fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-", column,
+                    cost_text(cost_of(points, 0.01)), cost_text(cost_of(points, 0.001)));
+  }
+  text += fmt::format("{:<{}}", "bound (eq. 37)", width);
+  for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", percent(bound), column);
+
+  const SceneMeasures measures = measure(scene);
+  const auto most = static_cast<double>(bounds.rbegin()->first);
+  text += fmt::format(
+      "\nIn any environment (eq. 43; rho {:.3g}, R2/A {:.3g}) {:.0f} directions are proven to be "
+      "within {:.2g} %.\n",
+      measures.rho_max, measures.size_ratio, most,
+      100 * heterogeneous_error_bound(measures.rho_max, measures.size_ratio,
+                                      star_discrepancy_bound(most)));
+  return text;
+}
+
+}  // namespace transillum::cli

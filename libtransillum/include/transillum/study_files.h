@@ -1,0 +1,30 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "transillum/study.h"
+
+namespace transillum {
+
+// Files of studies; written as all others are (files.h).
+
+/// sampling,directions,passes,rms_error,max_error,bound,seconds; the first column has the names of
+/// the series. Points without errors are left out.
+void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series, const Study& study);
+void write_study_csv(const std::filesystem::path& path, const std::vector<StudySeries>& series,
+                     const Study& study);
+
+/// check_writable, and @throws InputError unless `path` ends in .svg or .png.
+void check_plot_path(const std::filesystem::path& path);
+/// The RMS errors against the passes, both logarithmic, with the bound of eq. 37 and a legend with
+/// fitted slopes; series differ in marker and dashes as well as in colour. Points without errors,
+/// or with none, are left out.
+/// @param scene what the title calls it
+void write_study_plot(const std::filesystem::path& path, const std::string& scene,
+                      const std::vector<StudySeries>& series, const Study& study);
+
+}  // namespace transillum

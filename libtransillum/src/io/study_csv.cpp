@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/ostream.h>
+
+#include <ostream>
+
+#include "transillum/files.h"
+#include "transillum/study_files.h"
+
+namespace transillum {
+
+void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series,
+                     const Study& study) {
+  const std::vector<std::string> names = names_of(series);
+  out << "sampling,directions,passes,rms_error,max_error,bound,seconds\n";
+  for (const StudyPoint& point : study.points) {
+    if (!point.failure.empty()) continue;
+    fmt::print(out, "{},{},{},{},{},{},{}\n", names[point.series], point.directions, point.passes,
+               point.rms_error, point.max_error, point.bound, point.seconds);
+  }
+}
+
+void write_study_csv(const std::filesystem::path& path, const std::vector<StudySeries>& series,
+                     const Study& study) {
+  write_file_whole(path, [&](std::ostream& out) { write_study_csv(out, series, study); });
+}
+
+}  // namespace transillum

@@ -1,0 +1,275 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <utility>
+
+#include "bit_mixing.h"
+#include "transillum/bounds.h"
+#include "transillum/errors.h"
+#include "transillum/not_convergent.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Nobody's favourite, so that no --rotate gives the reference's directions.
+constexpr std::uint64_t reference_rotation = 0xf3a9c51e0b7d2648U;
+constexpr double reference_tolerance = 1e-10;
+
+double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
+
+/// Of all threads of this process: what others do on the machine does not count.
+double processor_seconds() {
+  std::timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// All passes of a solve that keeps its form factors.
+std::int64_t passes_of(const SolveOptions& options) {
+  return std::int64_t{options.directions} *
+         (options.scheme == Scheme::semi_iterative ? options.iterations : 1);
+}
+
+/// One solve after the other, with an eye on the time.
+class StudyRun {
+ public:
+  StudyRun(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+           const StudyOptions& options, const std::vector<Rgb>& reference,
+           const StudyObserver& observer, const Cancellation& cancellation)
+      : scene_(std::move(scene)),
+        tree_(std::move(tree)),
+        options_(options),
+        reference_(reference),
+        observer_(observer),
+        cancellation_(cancellation),
+        rho_max_(measure(*scene_, cancellation).rho_max) {
+    for (const StudySeries& series : options.series) {
+      for (const int m : options.directions) {
+        all_passes_ +=
+            static_cast<double>(passes_of(options.solve_options(series, m))) * options.rotations;
+      }
+    }
+  }
+
+  StudyPoint point(std::size_t series, int m) {
+    const SolveOptions solve = options_.solve_options(options_.series[series], m);
+    StudyPoint point;
+    point.series = series;
+    point.passes = passes_of(solve);
+    point.directions = point.passes * (solve.two_way ? 2 : 1);
+    point.bound = homogeneous_error_bound(
+        rho_max_, quadrature_error_bound(static_cast<double>(point.passes)));
+    try {
+      for (int rotation = 0; rotation < options_.rotations; ++rotation) {
+        add_solve(point, m, rotation);
+      }
+      point.rms_error = std::sqrt(point.rms_error);
+    } catch (const NotConvergent& error) {
+      point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
+      point.failure = error.what();
+    }
+    return point;
+  }
+
+ private:
+  /// Adds one solve's share to the sums in `point`.
+  void add_solve(StudyPoint& point, int m, int rotation) {
+    const double start = processor_seconds();
+    const auto options = options_.solve_options(options_.series[point.series], m, rotation);
+    RadiositySolver solver(scene_, options, tree_, cancellation_);
+    const double before = done_passes_;
+    solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+      tell(point, m, before, watched.progress());
+      return true;
+    });
+    done_passes_ = before + static_cast<double>(point.passes);
+    const RadiosityError error = radiosity_error(*scene_, solver.radiosity(), reference_);
+    const double share = 1.0 / options_.rotations;
+    point.rms_error += share * error.rms * error.rms;
+    point.max_error = std::max(point.max_error, error.max);
+    point.seconds += share * (processor_seconds() - start);
+  }
+
+  void tell(const StudyPoint& point, int m, double before, const SolveProgress& progress) {
+    const bool renews = options_.series[point.series].scheme == Scheme::semi_iterative;
+    const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
+    done_passes_ = std::max(done_passes_, before + std::min(in_solve, double(point.passes)));
+    if (!observer_) return;
+    StudyProgress now;
+    now.series = point.series;
+    now.directions = m;
+    now.share = done_passes_ / all_passes_;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (seconds > 0 && done_passes_ > 0) {
+      now.passes_per_second = done_passes_ / seconds;
+      now.seconds_left = (all_passes_ - done_passes_) / now.passes_per_second;
+    }
+    observer_(now);
+  }
+
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const BspTree> tree_;
+  const StudyOptions& options_;
+  const std::vector<Rgb>& reference_;
+  const StudyObserver& observer_;
+  Cancellation cancellation_;
+  double rho_max_;
+  double all_passes_ = 0, done_passes_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
+                               const std::vector<Rgb>& reference) {
+  double squares = 0, reference_squares = 0, largest = 0, reference_largest = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto patch = static_cast<std::size_t>(i);
+    const double area = scene.patch(i).area;
+    const Rgb difference = b[patch] - reference[patch];
+    squares += area * sum_of_squares(difference);
+    reference_squares += area * sum_of_squares(reference[patch]);
+    largest = std::max(largest, max_abs(difference));
+    reference_largest = std::max(reference_largest, max_abs(reference[patch]));
+  }
+  return {std::sqrt(squares / reference_squares), largest / reference_largest};
+}
+
+SolveOptions reference_options(int passes) {
+  SolveOptions options;
+  options.directions = passes;
+  options.rotation = reference_rotation;
+  options.tolerance = reference_tolerance;
+  return options;
+}
+
+std::vector<std::string> names_of(std::span<const StudySeries> series) {
+  std::vector<std::string> names;
+  for (const StudySeries& s : series) names.push_back(name_of(s.sampling));
+  const auto tell_apart = [&](auto value_of, auto text_of) {
+    const auto differs = [&](const StudySeries& s) { return value_of(s) != value_of(series[0]); };
+    if (std::none_of(series.begin(), series.end(), differs)) return;
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      names[k] += "/" + std::string(text_of(value_of(series[k])));
+    }
+  };
+  tell_apart([](const StudySeries& s) { return s.two_way; },
+             [](bool two_way) { return two_way ? "two-way" : "one-way"; });
+  tell_apart([](const StudySeries& s) { return s.normalize; },
+             [](Normalization n) { return name_of(n); });
+  tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
+  return names;
+}
+
+SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int rotation) const {
+  SolveOptions options = solve;
+  options.directions = passes;
+  options.sampling = of.sampling;
+  options.two_way = of.two_way;
+  options.normalize = of.normalize;
+  options.scheme = of.scheme;
+  if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
+    options.iterations = options.burn_in + averaged_steps_by_default;
+  }
+  if (rotations > 1) {
+    options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));
+    options.engine_options.seed = options.seed;
+    options.rotation = mixed(options.seed);
+  }
+  return options;
+}
+
+void StudyOptions::validate() const {
+  if (series.empty()) throw InputError("study: there is no series");
+  if (directions.empty()) throw InputError("study: there is no number of directions");
+  if (rotations < 1 || rotations > 1000) {
+    throw InputError(fmt::format("rotations: {} is not from 1 to 1000", rotations));
+  }
+  for (const StudySeries& one : series) {
+    for (const int m : directions) solve_options(one, m).validate();
+  }
+}
+
+Study run_study(const std::shared_ptr<const Scene>& scene,
+                const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
+                const std::vector<Rgb>& reference, const StudyObserver& observer,
+                const Cancellation& cancellation) {
+  options.validate();
+  if (reference.size() != static_cast<std::size_t>(scene->patch_count())) {
+    throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
+                                 reference.size(), scene->patch_count()));
+  }
+  if (std::all_of(reference.begin(), reference.end(),
+                  [](const Rgb& b) { return max_abs(b) == 0; })) {
+    throw InputError(fmt::format("{}: there is no light, and no error of it", scene->name()));
+  }
+  std::vector<int> ascending = options.directions;
+  std::sort(ascending.begin(), ascending.end());
+  Study study;
+  try {
+    StudyRun run(scene, tree, options, reference, observer, cancellation);
+    for (const int m : ascending) {
+      for (std::size_t series = 0; series < options.series.size(); ++series) {
+        study.points.push_back(run.point(series, m));
+      }
+    }
+    study.complete = true;
+  } catch (const Cancelled&) {
+  }
+  std::stable_sort(study.points.begin(), study.points.end(),
+                   [](const StudyPoint& a, const StudyPoint& b) { return a.series < b.series; });
+  return study;
+}
+
+std::vector<StudyPoint> points_of(const Study& study, std::size_t series) {
+  std::vector<StudyPoint> points;
+  std::copy_if(study.points.begin(), study.points.end(), std::back_inserter(points),
+               [series](const StudyPoint& point) { return point.series == series; });
+  return points;
+}
+
+std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const StudyPoint& point : points) {
+    if (!(point.rms_error > 0 && std::isfinite(point.rms_error))) continue;
+    const double u = std::log(static_cast<double>(point.passes)), v = std::log(point.rms_error);
+    n += 1;
+    x += u;
+    y += v;
+    xx += u * u;
+    xy += u * v;
+  }
+  const double determinant = n * xx - x * x;
+  if (n < 2 || !(determinant > 1e-12 * n * xx)) return std::nullopt;
+  const double slope = (n * xy - x * y) / determinant;
+  return PowerLaw{slope, std::exp((y - slope * x) / n)};
+}
+
+std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy) {
+  // Backwards over all that are good enough.
+  auto first = points.end();
+  while (first != points.begin() && (first - 1)->rms_error <= accuracy) --first;
+  if (first == points.end()) return std::nullopt;
+  const auto passes = static_cast<double>(first->passes);
+  if (first == points.begin() || !std::isfinite((first - 1)->rms_error)) {
+    return StudyCost{passes, first->seconds, true};
+  }
+  const StudyPoint& worse = *(first - 1);
+  const double t = first->rms_error > 0 ? std::log(worse.rms_error / accuracy) /
+                                              std::log(worse.rms_error / first->rms_error)
+                                        : 1.0;
+  const auto between = [t](double a, double b) { return a * std::pow(b / a, t); };
+  return StudyCost{between(static_cast<double>(worse.passes), passes),
+                   between(worse.seconds, first->seconds), false};
+}
+
+}  // namespace transillum

@@ -1,0 +1,125 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(CliStudy, WritesTheTableOfTheContract) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"study", "furnace", "--directions", "8..32", "--sampling", "random,hammersley",
+                   "--one-way", "--two-way", "--reference", "64", "--no-cache", "--out",
+                   folder / "s.csv", "--plot", folder / "s.svg", "--plot", folder / "s.png"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("slope"));
+  EXPECT_THAT(folder.names(), ElementsAre("s.csv", "s.png", "s.svg"));
+  const auto lines = lines_of(read_file(folder / "s.csv"));
+  ASSERT_THAT(lines, SizeIs(1 + 4 * 3));
+  EXPECT_EQ(lines[0], "sampling,directions,passes,rms_error,max_error,bound,seconds");
+  EXPECT_THAT(lines[1], StartsWith("random/one-way,8,8,"));
+  EXPECT_THAT(lines[6], StartsWith("random/two-way,64,32,"));
+  EXPECT_THAT(lines[12], StartsWith("hammersley/two-way,64,32,"));
+}
+
+TEST(CliStudy, KeepsReferencesUnlessTold) {
+  const TemporaryFolder folder;
+  const auto study = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"study",      "furnace",       "--directions", "8",
+                                       "--sampling", "fibonacci",     "--reference",  "16",
+                                       "--cache",    folder / "cache"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out.substr(0, result.out.find("slope"));
+  };
+  const std::string table = study({});
+  const TemporaryFolder& kept = folder;
+  ASSERT_THAT(kept.names(), ElementsAre("cache"));
+  EXPECT_EQ(study({}), table);
+  // A folder that cannot be made costs the cache, not the study.
+  const ProgramResult result = run_program(
+      {"study", "furnace", "--directions", "8", "--reference", "16", "--cache", "/dev/null/cache"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("the reference is not kept"));
+}
+
+TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
+  const std::pair<std::vector<std::string>, std::string> calls[] = {
+      {{}, "SCENE is required"},
+      {{"furnace", "--directions", "16,"}, "--directions: \"\""},
+      {{"furnace", "--directions", "16,0"}, "--directions: \"0\""},
+      {{"furnace", "--directions", "64..16"}, "ends before it begins"},
+      {{"furnace", "--directions", "16..32,32"}, "there twice"},
+      {{"furnace", "--sampling", "random,fibonaci"}, "unknown sampling \"fibonaci\""},
+      {{"furnace", "--sampling", "random,random"}, "there twice"},
+      {{"furnace", "--normalize", "symmetric", "--one-way"}, "both ways"},
+      {{"furnace", "--scheme", "quick"}, "fixed, growing"},
+      {{"furnace", "--rotations", "0"}, "--rotations: \"0\""},
+      {{"furnace", "--reference", "0"}, "--reference: \"0\""},
+      {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},
+      {{"furnace", "--plot", "s.pdf"}, "a plot ends in .svg or .png"},
+      {{"furnace", "--out", "s.svg", "--plot", "s.svg"}, "named twice"},
+      {{"furnace", "--out", "/no/such/folder/s.csv"}, "/no/such/folder"},
+  };
+  for (const auto& [more, complaint] : calls) {
+    std::vector<std::string> arguments{"study"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(complaint));
+  }
+}
+
+TEST(CliStudy, CombinationsThatDoNotGoTogetherAreLeftOut) {
+  const ProgramResult result = run_program({"study", "furnace", "--directions", "8", "--sampling",
+                                            "fibonacci", "--one-way", "--two-way", "--normalize",
+                                            "none,symmetric", "--reference", "16", "--no-cache"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("left out: normalize: symmetric wants directions used both"));
+  EXPECT_THAT(result.out, HasSubstr("fibonacci/two-way/symmetric"));
+  EXPECT_THAT(result.out, Not(HasSubstr("one-way/symmetric")));
+}
+
+TEST(CliStudy, InterruptedItSavesThePointsSoFar) {
+  const TemporaryFolder folder;
+  RunningProgram program({"study", "rooms", "--max-patch-area", "0.2", "--directions", "1,1000000",
+                          "--sampling", "fibonacci", "--reference", "4", "--no-cache", "--out",
+                          folder / "s.csv"});
+  for (int k = 0; k < 600; ++k) {
+    if (program.err_so_far().find("fibonacci, 1000000 passes") != std::string::npos) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted; the points so far are saved"));
+  EXPECT_EQ(line_count(read_file(folder / "s.csv")), 2U);
+}
+
+}  // namespace
+}  // namespace transillum::testing
