@@ -289,7 +289,7 @@ Run add_study_command(CLI::App& program) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   command.footer(
-      "rms_error is the RMS of the error of B over the RMS of B, weighted by area; max_error the\n"
+      "rms_error is the RMS of the error of B over the RMS of B, over patches; max_error the\n"
       "largest over the largest B; bound eq. 37 with eq. 21; seconds processor time, of all\n"
       "threads. Where more than the sampling differs, its name goes on: hammersley/one-way.\n"
       "Ctrl-C saves the points so far and exits with 130.\n"

@@ -20,13 +20,11 @@ namespace transillum {
 
 /// How far B is off.
 struct RadiosityError {
-  double rms = 0;  ///< RMS of the difference over RMS of the reference; over channels, and patches
-                   ///< weighted by area
+  double rms = 0;  ///< RMS of the difference over RMS of the reference, over patches and channels
   double max = 0;  ///< largest magnitude of the difference over the largest of the reference
 };
-/// @param b, reference W/m², one a patch of `scene`. Not finite where the reference is 0.
-RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
-                               const std::vector<Rgb>& reference);
+/// @param b, reference W/m², one a patch. Not finite where the reference is 0.
+RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference);
 
 /// Options of the solve that others are compared with: so many passes of the default sampling, both
 /// ways, under a rotation of its own, so that it shares no direction with anything studied.

@@ -92,7 +92,7 @@ class StudyRun {
       return true;
     });
     done_passes_ = before + static_cast<double>(point.passes);
-    const RadiosityError error = radiosity_error(*scene_, solver.radiosity(), reference_);
+    const RadiosityError error = radiosity_error(solver.radiosity(), reference_);
     const double share = 1.0 / options_.rotations;
     point.rms_error += share * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
@@ -129,17 +129,14 @@ class StudyRun {
 
 }  // namespace
 
-RadiosityError radiosity_error(const Scene& scene, const std::vector<Rgb>& b,
-                               const std::vector<Rgb>& reference) {
+RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference) {
   double squares = 0, reference_squares = 0, largest = 0, reference_largest = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto patch = static_cast<std::size_t>(i);
-    const double area = scene.patch(i).area;
-    const Rgb difference = b[patch] - reference[patch];
-    squares += area * sum_of_squares(difference);
-    reference_squares += area * sum_of_squares(reference[patch]);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Rgb difference = b[i] - reference[i];
+    squares += sum_of_squares(difference);
+    reference_squares += sum_of_squares(reference[i]);
     largest = std::max(largest, max_abs(difference));
-    reference_largest = std::max(reference_largest, max_abs(reference[patch]));
+    reference_largest = std::max(reference_largest, max_abs(reference[i]));
   }
   return {std::sqrt(squares / reference_squares), largest / reference_largest};
 }
