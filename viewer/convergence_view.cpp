@@ -44,7 +44,7 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   }
   passes_->show_lines({{tr("change of B"), theme::accent, snapshot.estimate_changes, false},
                        {tr("ε/π"), theme::good, std::move(errors), false},
-                       {tr("bound (eq. 21)"), theme::warm, std::move(bounds), false}},
+                       {tr("eq. 21"), theme::warm, std::move(bounds), false}},
                       {}, passes);
 }
 

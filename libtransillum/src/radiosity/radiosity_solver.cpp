@@ -243,8 +243,8 @@ struct RadiositySolver::Impl {
     step_seconds += seconds;
   }
 
-  /// Whether pass k of the step under way is the first along its direction. That of no pass
-  /// under way changes it, so any thread may ask.
+  /// Whether pass k of the step under way is the first along its direction, given that the first
+  /// `known` have been learnt from. Any thread may ask.
   bool is_new(int k, int known) const { return plan.renews() || k >= known; }
 
   /// A pure function of k and `known`, the passes that were learnt from before.
