@@ -10,6 +10,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "progress_display.h"
+#include "transillum/coplanar_overlap.h"
 #include "transillum/radiosity.h"
 
 namespace transillum::cli {
@@ -20,6 +21,8 @@ constexpr int probing_directions = 64;
 /// Shares of area below this are rounding (method, oracle 1).
 constexpr double open_share = 1e-9;
 constexpr std::size_t listed_faces = 20;
+/// Faces copied over each other without end are told as this many.
+constexpr std::size_t most_overlaps = 10000;
 
 struct InfoCall {
   std::string scene;
@@ -113,6 +116,22 @@ void print_faces_seen(const std::vector<SeenFace>& faces) {
   }
 }
 
+void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& overlaps) {
+  if (overlaps.empty()) return;
+  print_row(
+      "coplanar overlap",
+      fmt::format("{}{} pair{} of patches{}", overlaps.size() < most_overlaps ? "" : "at least ",
+                  overlaps.size(), overlaps.size() == 1 ? "" : "s",
+                  overlaps.size() > listed_faces
+                      ? fmt::format(", of them the first {}:", listed_faces)
+                      : ":"));
+  for (std::size_t k = 0; k < std::min(overlaps.size(), listed_faces); ++k) {
+    const auto& [upper, lower, area] = overlaps[k];
+    fmt::print("  face {:<11} lies over face {}, {:.3g} m2\n", scene.patch(upper).face,
+               scene.patch(lower).face, area);
+  }
+}
+
 /// Sends light through the scene from all sides and tells where it gets lost.
 void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancellation) {
   SolveOptions options;
@@ -137,6 +156,7 @@ void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancel
                 ? std::string("yes")
                 : fmt::format("no, {:.3g} % of what is seen is open", 100 * statistics.escaped));
   print_faces_seen(faces_seen_from_behind(*scene, solver.back_seen_shares()));
+  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, most_overlaps, cancellation));
 }
 
 int run(const InfoCall& call) {

@@ -493,5 +493,18 @@ TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
   EXPECT_THAT(open.out, ::testing::ContainsRegex("seen from behind +1 face:\n +face 1 "));
 }
 
+TEST(CliInfo, NamesFacesThatLieOverOthers) {
+  EXPECT_THAT(run_program({"info", "boards"}).out, ::testing::Not(HasSubstr("coplanar overlap")));
+  const TemporaryFolder folder;
+  write_text(folder / "two.obj",
+             "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 0\nv 3 1 0\nv 3 3 0\nv 1 3 0\n"
+             "f 1 2 3 4\nf 5 6 7 8\n");
+  const ProgramResult two = run_program({"info", folder / "two.obj"});
+  EXPECT_EQ(two.status, 0) << two.err;
+  EXPECT_THAT(two.out, ::testing::ContainsRegex(
+                           "coplanar overlap +1 pair of patches:\n +face [01] +lies over face "
+                           "[01], 1 m2"));
+}
+
 }  // namespace
 }  // namespace transillum::testing

@@ -1,0 +1,75 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/coplanar_overlap.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "support/scenes.h"
+
+namespace transillum::testing {
+namespace {
+
+std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
+}
+
+std::vector<CoplanarOverlap> overlaps_in(Sketch& sketch, std::size_t most = 100) {
+  const auto scene = sketch.scene();
+  return coplanar_overlaps(*scene, BspTree(*scene), most);
+}
+
+/// The lamp lies over the floor; a tile beside it touches, one turned over is another side.
+TEST(CoplanarOverlaps, AreWhatTwoFacesCoverOnOneSide) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  std::vector<Vec3> turned = rectangle(0, 0, 4, 4);
+  std::reverse(turned.begin(), turned.end());
+  sketch.face(rectangle(0, 0, 4, 4), grey)
+      .face(rectangle(3, 1, 5, 2), lamp)
+      .face(rectangle(4, 0, 5, 1), grey)
+      .face(turned, grey);
+  const auto overlaps = overlaps_in(sketch);
+  ASSERT_EQ(overlaps.size(), 1U);
+  EXPECT_EQ(overlaps[0].upper, 1);
+  EXPECT_EQ(overlaps[0].lower, 0);
+  EXPECT_NEAR(overlaps[0].area, 1, 1e-12);
+}
+
+/// A wall of many panels through both: cheaper to cut the two than the panels.
+TEST(CoplanarOverlaps, AddUpOverFragments) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0);
+  sketch.face(rectangle(0, 0, 3, 3), grey).face(rectangle(1, 1, 4, 4), grey);
+  const auto at = [](double y, double z) { return Vec3{1.3 + 0.2 * y, y, z}; };
+  for (int panel = 0; panel < 10; ++panel) {
+    const double y = 0.5 * panel - 0.5;
+    sketch.face({at(y, -1), at(y + 0.5, -1), at(y + 0.5, 1), at(y, 1)}, grey);
+  }
+  const auto scene = sketch.scene();
+  const BspTree tree(*scene);
+  const auto overlaps = coplanar_overlaps(*scene, tree, 100);
+  ASSERT_EQ(overlaps.size(), 1U);
+  // Each cut costs a strip on either side of it.
+  EXPECT_NEAR(overlaps[0].area, 4, 24 * BspTree::thickness(*scene));
+  EXPECT_EQ(tree.fragments().size(), 14U);
+}
+
+/// Copies of one face, without end: no more pairs are kept than are asked for.
+TEST(CoplanarOverlaps, AreNoMoreThanAskedFor) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 0);
+  for (int k = 0; k < 40; ++k) sketch.face(rectangle(0, 0, 1, 1), grey);
+  EXPECT_EQ(overlaps_in(sketch, 1000).size(), 40U * 39 / 2);
+  EXPECT_EQ(overlaps_in(sketch, 100).size(), 100U);
+}
+
+TEST(CoplanarOverlaps, AreNotInScenesOfOurs) {
+  for (const char* name : {"cornell-box", "rooms", "boards", "furnace"}) {
+    const auto scene = load_scene(name);
+    EXPECT_THAT(coplanar_overlaps(*scene, BspTree(*scene), 10), ::testing::IsEmpty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace transillum::testing
