@@ -38,13 +38,14 @@
 #include "theme.h"
 #include "timeline_bar.h"
 #include "timeline_lanes.h"
+#include "tree_view.h"
 
 namespace transillum::viewer {
 
 namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 3;
+constexpr int layout_version = 4;
 
 constexpr PatchId few_patches = 64;
 
@@ -108,6 +109,8 @@ void MainWindow::make_docks() {
   docks_.add(tr("Convergence"), "convergence_dock", convergence_view_, {{inspect, right, 400}});
   docks_.add(tr("Directions"), "direction_dock", direction_view_, {{inspect, right, 400, true}});
   docks_.add(tr("Events"), "event_dock", events, {{debug, right, 260}});
+  docks_.add(tr("BSP tree"), "tree_dock", new TreeView(focus_, selection_),
+             {{debug, right, 260, true}});
   QDockWidget* timeline_dock = docks_.add(
       tr("Timeline"), "timeline_dock", timeline_,
       {{inspect, Qt::BottomDockWidgetArea, 132}, {debug, Qt::BottomDockWidgetArea, 132}});

@@ -39,12 +39,6 @@ struct Stepping : SolvedWindow {
   }
 };
 
-/// To be looked at: TRANSILLUM_PICTURES names the folder.
-void save_picture(QWidget& window, const QString& name) {
-  const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
-  if (!folder.isEmpty()) window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
-}
-
 }  // namespace
 
 class SteppingTest : public QObject {

@@ -56,6 +56,12 @@ inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
   return window;
 }
 
+/// To be looked at: TRANSILLUM_PICTURES names the folder.
+inline void save_picture(QWidget& window, const QString& name) {
+  const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
+  if (!folder.isEmpty()) window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
+}
+
 }  // namespace transillum::viewer::test
 
 /// As main.cpp sets Qt up.

@@ -1,0 +1,162 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The BSP tree as a direction walks through it, and the panel that shows it.
+#include <QDockWidget>
+#include <QTableView>
+#include <algorithm>
+
+#include "order_bar.h"
+#include "solved_window.h"
+#include "transillum/directions.h"
+#include "tree_outline.h"
+#include "tree_path_table.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+using Part = TreeVisit::Part;
+
+/// Middle of a fragment's corners.
+Vec3 middle(const BspTree& tree, FragmentId f) {
+  Vec3 sum;
+  const auto corners = tree.corners(tree.fragment(f));
+  for (const BspTree::Corner& corner : corners)
+    sum = sum + tree.points()[static_cast<std::size_t>(corner.point)];
+  return sum / static_cast<double>(corners.size());
+}
+
+}  // namespace
+
+class TreeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_path_leads_to_the_polygon_of_its_step() {
+    for (const char* name : {"boards", "cornell-box", "furnace"}) {
+      const auto scene = load_scene(name);
+      const auto tree = std::make_shared<const BspTree>(*scene);
+      const TreeOutline outline(tree);
+      for (const auto& sample : make_directions(Sampling::random, 12, 3)) {
+        const std::vector<FragmentId> order = tree->order(sample.direction);
+        const auto count = static_cast<std::int32_t>(order.size());
+        for (std::int32_t step = 0; step < count; ++step) {
+          const auto path = outline.path_to(step, sample.direction);
+          QVERIFY(!path.empty());
+          QCOMPARE(path.front().begin, 0);
+          QCOMPARE(path.front().end, count);
+          for (std::size_t k = 0; k < path.size(); ++k) {
+            QVERIFY(path[k].holds(step));
+            QCOMPARE(path[k].part_of(step) == Part::plane, k + 1 == path.size());
+            if (k == 0) continue;
+            // A side of the plane above, all of it.
+            const TreeVisit& above = path[k - 1];
+            const bool near = above.part_of(step) == Part::near_side;
+            QCOMPARE(path[k].begin, near ? above.begin : above.plane_end);
+            QCOMPARE(path[k].end, near ? above.plane_begin : above.end);
+          }
+          const BspTree::Node& node = outline.node(path.back().node);
+          const FragmentId f = order[static_cast<std::size_t>(step)];
+          QVERIFY(node.begin <= f && f < node.end);
+        }
+        QVERIFY(outline.path_to(-1, sample.direction).empty());
+        QVERIFY(outline.path_to(count, sample.direction).empty());
+      }
+    }
+  }
+
+  void what_comes_first_lies_where_omega_points_to() {
+    const auto scene = load_scene("cornell-box");
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const TreeOutline outline(tree);
+    int fronts_first = 0, backs_first = 0;
+    for (const auto& sample : make_directions(Sampling::random, 12, 3)) {
+      const std::vector<FragmentId> order = tree->order(sample.direction);
+      const auto count = static_cast<std::int32_t>(order.size());
+      for (std::int32_t step = 0; step < count; ++step) {
+        for (const TreeVisit& visit : outline.path_to(step, sample.direction)) {
+          const BspTree::Plane& plane = outline.node(visit.node).plane;
+          ++(visit.cosine > 0 ? fronts_first : backs_first);
+          for (std::int32_t k = visit.begin; k < visit.end; ++k) {
+            const double height =
+                dot(plane.normal, middle(*tree, order[static_cast<std::size_t>(k)])) - plane.offset;
+            const double toward_omega = visit.cosine > 0 ? height : -height;
+            const double tiny = 1e-9;
+            switch (visit.part_of(k)) {
+              case Part::near_side:
+                QVERIFY(toward_omega > tiny);
+                break;
+              case Part::plane:
+                QVERIFY(std::abs(toward_omega) < tiny);
+                break;
+              case Part::far_side:
+                QVERIFY(toward_omega < -tiny);
+                break;
+            }
+          }
+        }
+      }
+    }
+    QVERIFY(fronts_first > 0 && backs_first > 0);
+  }
+
+  void a_bar_knows_its_places() {
+    const QRectF bar(40, 0, 200, 10);
+    const TreeVisit visit{0, 1, 100, 120, 121, 137};
+    for (std::int32_t step = visit.begin; step < visit.end; ++step)
+      QCOMPARE(OrderBar::step_at(visit, bar, OrderBar::left_of(visit, bar, step) + 0.1), step);
+    QCOMPARE(OrderBar::step_at(visit, bar, -1e9), visit.begin);
+    QCOMPARE(OrderBar::step_at(visit, bar, 1e9), visit.end - 1);
+  }
+
+  void the_panel_follows_and_leads() {
+    const SolvedWindow s("cornell-box");
+    QVERIFY(s.ready);
+    Focus& focus = s.window->focus();
+    s.trigger("layout_debug");
+    s.window->findChild<QDockWidget*>("tree_dock")->raise();
+    focus.go_to({0, 3, 11});
+    QVERIFY(wait_for([&] { return s.window->settled(); }));
+    auto* view = s.window->findChild<QTableView*>("tree_path");
+    QVERIFY(wait_for([&] { return view->isVisible(); }));
+    const auto* path = qobject_cast<const TreePathTable*>(view->model());
+    QCOMPARE(path->step(), 11);
+    const int last = path->rowCount() - 1;
+    QVERIFY(last > 1);
+
+    // The plane's patch is selected by a click, and gone to by another.
+    const int row = path->patch_of(0) == no_patch ? last : 0;
+    view->scrollTo(path->index(row, 0));
+    const QPoint name = view->visualRect(path->index(row, TreePathTable::of_plane)).center();
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
+    QCOMPARE(s.window->selection().patch(), path->patch_of(row));
+    const std::int32_t step = path->visit(row).plane_begin;
+    QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
+    QVERIFY(wait_for([&] { return focus.arrived(); }));
+    QCOMPARE(focus.moment().step, step);
+    QCOMPARE(path->rowCount(), row + 1);
+
+    // A place of the root's bar is a step.
+    const QRect cell = view->visualRect(path->index(0, TreePathTable::of_order));
+    const QRectF bar = OrderBar::bar_in(cell);
+    const auto place = QPointF(OrderBar::left_of(path->visit(0), bar, 20) + 3, bar.center().y());
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
+    QCOMPARE(s.window->selection().patch(), focus.map()->history.step(20).patch);
+    QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
+    QVERIFY(wait_for([&] { return focus.arrived(); }));
+    QCOMPARE(focus.moment().step, 20);
+
+    // Who comes first is told.
+    focus.go_to({0, 3, 5});
+    s.window->selection().select(focus.map()->history.step(9).patch);
+    QVERIFY(wait_for([&] { return focus.arrived(); }));
+    QVERIFY(s.text("tree_words").contains("after"));
+    QTest::qWait(50);
+    QVERIFY(share_of(view->grab().toImage(), theme::selection) > 0);
+    save_picture(*s.window, "tree");
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(TreeTest)
+#include "tree_test.moc"

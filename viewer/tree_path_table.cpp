@@ -1,0 +1,138 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "tree_path_table.h"
+
+#include <QFont>
+#include <utility>
+
+#include "number_text.h"
+#include "theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString cosine_text(double cosine) {
+  const QString digits = QString::number(std::abs(cosine), 'f', 3);
+  return (cosine < 0 ? QStringLiteral("−") : QStringLiteral("+")) + digits;
+}
+
+}  // namespace
+
+void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
+                              std::vector<TreeVisit> path, std::int32_t step) {
+  // A reset in the midst of a double click would lose it.
+  if (outline == outline_ && step == step_ && path == path_) return;
+  beginResetModel();
+  outline_ = std::move(outline);
+  path_ = std::move(path);
+  step_ = step;
+  endResetModel();
+}
+
+PatchId TreePathTable::patch_of(int row) const {
+  const BspTree::Node& node = outline_->node(visit(row).node);
+  return node.begin == node.end ? no_patch : outline_->tree().fragment(node.begin).patch;
+}
+
+QString TreePathTable::plane_words(int row) const {
+  const PatchId patch = patch_of(row);
+  return patch == no_patch ? tr("a free plane") : tr("the plane of patch %1").arg(patch);
+}
+
+int TreePathTable::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(path_.size());
+}
+
+int TreePathTable::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : column_count;
+}
+
+QString TreePathTable::text(int row, int column) const {
+  const TreeVisit& v = visit(row);
+  switch (column) {
+    case of_plane: {
+      const PatchId patch = patch_of(row);
+      const std::int32_t others = v.plane_end - v.plane_begin - 1;
+      if (patch == no_patch) return tr("free plane");
+      return others > 0 ? tr("patch %1 + %2").arg(patch).arg(others) : tr("patch %1").arg(patch);
+    }
+    case of_cosine:
+      return cosine_text(v.cosine);
+    case of_part: {
+      const bool front_first = v.cosine >= 0;
+      switch (v.part_of(step_)) {
+        case TreeVisit::Part::near_side:
+          return front_first ? tr("before: front") : tr("before: back");
+        case TreeVisit::Part::plane:
+          return tr("in the plane");
+        case TreeVisit::Part::far_side:
+          return front_first ? tr("after: back") : tr("after: front");
+      }
+      return {};
+    }
+    case of_count:
+      return count_text(v.end - v.begin);
+    default:
+      return {};
+  }
+}
+
+QString TreePathTable::explanation(int row) const {
+  const TreeVisit& v = visit(row);
+  const bool front_first = v.cosine >= 0;
+  const BspTree::Plane& plane = outline_->node(v.node).plane;
+  return tr("%1: n·p = %2 m with n = %3.\n"
+            "n·ω = %4, so ω points to the plane's %5: the %6 polygons there come first,\n"
+            "then the %7 in the plane, then the %8 on the other side.")
+      .arg(plane_words(row), number_text(plane.offset), vector_text(plane.normal),
+           cosine_text(v.cosine), front_first ? tr("front") : tr("back"),
+           count_text(v.plane_begin - v.begin), count_text(v.plane_end - v.plane_begin),
+           count_text(v.end - v.plane_end));
+}
+
+QVariant TreePathTable::data(const QModelIndex& index, int role) const {
+  const bool last = index.row() == rowCount() - 1;
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(index.row(), index.column());
+    case Qt::ToolTipRole:
+      return explanation(index.row());
+    case Qt::TextAlignmentRole:
+      return QVariant(index.column() == of_cosine || index.column() == of_count
+                          ? Qt::AlignRight | Qt::AlignVCenter
+                          : Qt::AlignLeft | Qt::AlignVCenter);
+    case Qt::FontRole: {
+      QFont font;
+      font.setBold(last);
+      return font;
+    }
+    default:
+      return {};
+  }
+}
+
+QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  const auto pick = [role](const QString& name, const QString& tip) -> QVariant {
+    if (role == Qt::DisplayRole) return name;
+    if (role == Qt::ToolTipRole) return tip;
+    return {};
+  };
+  switch (section) {
+    case of_plane:
+      return pick(tr("Plane"),
+                  tr("Its patch, and how many more lie in it; a free plane lies between patches"));
+    case of_cosine:
+      return pick(tr("n·ω"), tr("Its sign tells which side of the plane ω points to"));
+    case of_part:
+      return pick(tr("Polygon is"), tr("Where the polygon in focus lies, and so when it comes"));
+    case of_order:
+      return pick(tr("Below it, in order"),
+                  tr("The polygons below this plane in the order they come: the side that ω points "
+                     "to, those in the plane (yellow), the other side"));
+    default:
+      return pick(tr("Polygons"), tr("How many polygons lie in and below the plane"));
+  }
+}
+
+}  // namespace transillum::viewer

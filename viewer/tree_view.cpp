@@ -1,0 +1,134 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "tree_view.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "number_text.h"
+#include "order_bar.h"
+#include "tree_path_table.h"
+
+namespace transillum::viewer {
+
+TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection) {
+  words_ = new QLabel;
+  words_->setObjectName("tree_words");
+  words_->setWordWrap(true);
+  words_->setContentsMargins(10, 4, 10, 4);
+  words_->setForegroundRole(QPalette::PlaceholderText);
+  path_ = new TreePathTable(this);
+  table_ = new QTableView;
+  table_->setObjectName("tree_path");
+  table_->setModel(path_);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setFocusPolicy(Qt::NoFocus);
+  table_->setFrameShape(QFrame::NoFrame);
+  table_->setShowGrid(false);
+  table_->setAlternatingRowColors(true);
+  table_->setWordWrap(false);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(22);
+  table_->setMinimumHeight(60);
+  QHeaderView* header = table_->horizontalHeader();
+  header->setHighlightSections(false);
+  header->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
+  const int widths[] = {104, 58, 98, 0, 66};
+  for (int column = 0; column < TreePathTable::column_count; ++column)
+    if (widths[column] > 0) table_->setColumnWidth(column, widths[column]);
+  auto* bars = new OrderBar(focus_, selection_, this);
+  bars->set_wishes([this](std::int32_t step) { select_step(step); },
+                   [this](std::int32_t step) { go_to_step(step); });
+  table_->setItemDelegateForColumn(TreePathTable::of_order, bars);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(words_);
+  layout->addWidget(table_, 1);
+  const auto in_plane = [this](const QModelIndex& index) {
+    return index.column() != TreePathTable::of_order && path_->patch_of(index.row()) != no_patch;
+  };
+  connect(table_, &QTableView::clicked, this, [this, in_plane](const QModelIndex& index) {
+    if (in_plane(index)) selection_.select(path_->patch_of(index.row()));
+  });
+  connect(table_, &QTableView::doubleClicked, this, [this, in_plane](const QModelIndex& index) {
+    if (in_plane(index)) go_to_step(path_->visit(index.row()).plane_begin);
+  });
+  connect(&focus_, &Focus::moved, this, &TreeView::show_moment);
+  connect(&selection_, &Selection::changed, this, [this] {
+    show_words();
+    table_->viewport()->update();
+  });
+  show_moment();
+}
+
+void TreeView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  show_moment();
+}
+
+void TreeView::show_moment() {
+  if (!isVisible()) return;
+  const auto map = focus_.map();
+  if (!map) {
+    outline_ = nullptr;
+    path_->show_path(nullptr, {}, -1);
+  } else {
+    if (!outline_ || &outline_->tree() != map->loaded->tree.get())
+      outline_ = std::make_shared<const TreeOutline>(map->loaded->tree);
+    // Before the first polygon: the way to it.
+    const std::int32_t step = std::max(focus_.moment().step, 0);
+    path_->show_path(outline_, outline_->path_to(step, map->record().frame.omega), step);
+    table_->scrollToBottom();
+    table_->viewport()->update();
+  }
+  show_words();
+}
+
+void TreeView::show_words() {
+  const auto map = focus_.map();
+  const int rows = path_->rowCount();
+  if (!map || rows == 0) {
+    words_->setText(tr("The planes that sort the polygons appear with the first direction."));
+    return;
+  }
+  const std::int32_t step = path_->step();
+  words_->setText(tr("Why polygon %1, of patch %2, comes when it does: of each plane, what lies on "
+                     "the side that ω points to comes first. %3")
+                      .arg(count_text(step + 1))
+                      .arg(map->history.step(step).patch)
+                      .arg(words_of_selection()));
+}
+
+QString TreeView::words_of_selection() const {
+  const auto map = focus_.map();
+  const PatchId patch = selection_.patch();
+  const MapHistory& history = map->history;
+  if (patch == no_patch || history.step(path_->step()).patch == patch) return {};
+  const auto steps = history.steps_of(patch);
+  const auto own = std::find_if(steps.begin(), steps.end(),
+                                [&](std::int32_t k) { return history.step(k).patch == patch; });
+  if (own == steps.end()) return {};
+  // The lowest plane above both is the one that parts them.
+  int row = path_->rowCount() - 1;
+  while (row > 0 && !path_->visit(row).holds(*own)) --row;
+  const QString when = *own < path_->step() ? tr("before") : tr("after");
+  return tr("Patch %1 comes %2 it, parted by %3.").arg(patch).arg(when, path_->plane_words(row));
+}
+
+void TreeView::select_step(std::int32_t step) {
+  if (const auto map = focus_.map()) selection_.select(map->history.step(step).patch);
+}
+
+void TreeView::go_to_step(std::int32_t step) {
+  Moment to = focus_.moment();
+  to.step = step;
+  focus_.go_to(to);
+}
+
+}  // namespace transillum::viewer
