@@ -26,9 +26,11 @@ struct StudyCall {
   std::vector<Sampling> samplings{Sampling::random, Sampling::hammersley, Sampling::fibonacci};
   std::vector<Normalization> normalizations{Normalization::none};
   std::vector<Scheme> schemes{Scheme::fixed};
+  std::vector<std::optional<double>> first_shots{std::nullopt};
   bool one_way = false, two_way = false;
   StudyOptions study;
-  int reference = 0;  ///< passes; 0: four times the most that are studied
+  ErrorMeasure error = ErrorMeasure::rms;  ///< that table and plots tell
+  int reference = 0;                       ///< passes; 0: four times the most that are studied
   std::string cache = ReferenceCache::default_folder().string();
   std::string out;
   std::vector<std::string> plots;
@@ -44,12 +46,14 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
       if (!(two_way ? call.two_way || !call.one_way : call.one_way)) continue;
       for (const Normalization normalize : call.normalizations) {
         for (const Scheme scheme : call.schemes) {
-          const StudySeries series{sampling, two_way, normalize, scheme};
-          try {
-            call.study.solve_options(series, call.directions.front()).validate();
-            all.push_back(series);
-          } catch (const InputError& error) {
-            refusal = error.what();
+          for (const std::optional<double>& first_shot : call.first_shots) {
+            const StudySeries series{sampling, two_way, normalize, scheme, first_shot};
+            try {
+              call.study.solve_options(series, call.directions.front()).validate();
+              all.push_back(series);
+            } catch (const InputError& error) {
+              refusal = error.what();
+            }
           }
         }
       }
@@ -68,15 +72,6 @@ StudyOptions study_options(const StudyCall& call) {
   return options;
 }
 
-SolveOptions reference_of(const StudyCall& call) {
-  const int most = *std::max_element(call.directions.begin(), call.directions.end());
-  SolveOptions options =
-      reference_options(call.reference > 0 ? call.reference : std::min(4 * most, max_directions));
-  options.memory = call.study.solve.memory;
-  options.threads = call.study.solve.threads;
-  return options;
-}
-
 /// What all parts of the work share.
 struct Workshop {
   std::shared_ptr<const Scene> scene;
@@ -92,26 +87,20 @@ struct Workshop {
   }
 };
 
-std::vector<Rgb> solve_reference(Workshop& work, const SolveOptions& options) {
-  RadiositySolver solver(work.scene, options, work.tree, work.cancellation);
-  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-    const SolveProgress now = watched.progress();
-    if (now.direction > 0) {
-      work.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
-                static_cast<double>(now.direction) / now.passes, now.passes_per_second,
-                now.seconds_left);
-    }
-    return true;
-  });
-  return solver.radiosity();
-}
-
 /// From the cache, or solved for and kept there.
-std::vector<Rgb> reference_radiosity(const StudyCall& call, Workshop& work) {
-  const SolveOptions options = reference_of(call);
+std::vector<Rgb> reference_radiosity(const StudyCall& call, const SolveOptions& options,
+                                     Workshop& work) {
   const ReferenceCache cache(call.cache);
   if (auto kept = cache.find(*work.scene, options)) return *std::move(kept);
-  std::vector<Rgb> radiosity = solve_reference(work, options);
+  const std::vector<Rgb> radiosity = solve_reference(
+      work.scene, work.tree, options,
+      [&work](const SolveProgress& now) {
+        if (now.direction == 0) return;
+        work.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
+                  static_cast<double>(now.direction) / now.passes, now.passes_per_second,
+                  now.seconds_left);
+      },
+      work.cancellation);
   try {
     cache.store(*work.scene, options, radiosity);
   } catch (const std::exception& error) {
@@ -143,7 +132,8 @@ int run(const StudyCall& call) {
   work.tree = std::make_shared<const BspTree>(*work.scene, work.cancellation, [&](double share) {
     if (!call.quiet) work.display.show("sorting", share);
   });
-  const std::vector<Rgb> reference = reference_radiosity(call, work);
+  const std::vector<Rgb> reference =
+      reference_radiosity(call, options.reference(call.reference), work);
   const std::vector<std::string> names = names_of(options.series);
   const Study study = run_study(
       work.scene, work.tree, options, reference,
@@ -158,9 +148,9 @@ int run(const StudyCall& call) {
   report_failures(study, names);
   if (!call.out.empty()) write_study_csv(call.out, options.series, study);
   for (const std::string& file : call.plots) {
-    write_study_plot(file, call.scene, options.series, study);
+    write_study_plot(file, call.scene, options.series, study, call.error);
   }
-  const std::string summary = study_summary(*work.scene, options, study);
+  const std::string summary = study_summary(*work.scene, options, study, call.error);
   if (call.out.empty()) {
     fmt::print("{}", summary);
   } else if (!call.quiet) {
@@ -230,6 +220,11 @@ void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(command, "--scheme", "NAME,...",
                   fmt::format("{} (default fixed)", fmt::join(scheme_names(), " | ")), call.schemes,
                   [](const std::string& text) { return std::vector{scheme_from_name(text)}; });
+  add_list_option(command, "--first-shot", "RATIO,...",
+                  "none | auto | a number: small bright sources shot first, as solve does; the "
+                  "reference shoots where any series does (default none)",
+                  call.first_shots,
+                  [](const std::string& text) { return std::vector{first_shot_from_name(text)}; });
   add_parsed_option(command, "--rotations", "R",
                     "solve each with R rotated sets: the RMS of their errors, the largest maximum "
                     "(default 1: the set as it is)",
@@ -243,6 +238,16 @@ void add_series_options(CLI::App& command, StudyCall& call) {
                   call.study.solve.seed),
       [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
   add_engine_options(command, call.study.solve.engine, call.study.solve.engine_options);
+}
+
+void add_error_options(CLI::App& command, StudyCall& call) {
+  command.add_flag("--without-sources", call.study.without_sources,
+                   "leave patches that emit out of the errors");
+  add_parsed_option(
+      command, "--error", "NAME",
+      fmt::format("{}: the error that table and plots tell (default rms); the CSV has both",
+                  fmt::join(error_measure_names(), " | ")),
+      [&call](const std::string& text) { call.error = error_measure_from_name(text); });
 }
 
 void add_reference_options(CLI::App& command, StudyCall& call) {
@@ -272,6 +277,7 @@ Run add_study_command(CLI::App& program) {
       *program.add_subcommand("study", "Measures the error of B against the number of passes");
   add_scene_argument(command, call->scene);
   add_series_options(command, *call);
+  add_error_options(command, *call);
   add_reference_options(command, *call);
   add_scene_options(command, call->scene_options);
   add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);

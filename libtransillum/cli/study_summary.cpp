@@ -29,14 +29,17 @@ std::string cost_text(const std::optional<StudyCost>& cost) {
 
 }  // namespace
 
-std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study) {
+std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
+                          ErrorMeasure error) {
   const std::vector<std::string> names = names_of(options.series);
   std::map<std::int64_t, double> bounds;
   for (const StudyPoint& point : study.points) bounds[point.passes] = point.bound;
 
   std::size_t width = std::string("bound (eq. 37)").size();
   for (const std::string& name : names) width = std::max(width, name.size());
-  std::string text = fmt::format("RMS error of B in %, by passes\n{:<{}}", "", width);
+  std::string text = fmt::format("{} error of B in %{}, by passes\n{:<{}}",
+                                 error == ErrorMeasure::rms ? "RMS" : "Largest",
+                                 options.without_sources ? ", without sources" : "", "", width);
   for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", passes, column);
   text += fmt::format("{:>{}}{:>16}{:>16}\n", "slope", column, "to 1 %", "to 0.1 %");
 
@@ -46,12 +49,12 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
     for (const auto& [passes, bound] : bounds) {
       const auto at = std::find_if(points.begin(), points.end(),
                                    [m = passes](auto& point) { return point.passes == m; });
-      text += fmt::format("{:>{}}", at == points.end() ? "" : percent(at->rms_error), column);
+      text += fmt::format("{:>{}}", at == points.end() ? "" : percent(at->error(error)), column);
     }
-    const auto law = fitted_power_law(points);
-    text +=
-        fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-", column,
-                    cost_text(cost_of(points, 0.01)), cost_text(cost_of(points, 0.001)));
+    const auto law = fitted_power_law(points, error);
+    text += fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-",
+                        column, cost_text(cost_of(points, 0.01, error)),
+                        cost_text(cost_of(points, 0.001, error)));
   }
   text += fmt::format("{:<{}}", "bound (eq. 37)", width);
   for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", percent(bound), column);

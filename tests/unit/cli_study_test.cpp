@@ -76,6 +76,8 @@ TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
       {{"furnace", "--sampling", "random,random"}, "there twice"},
       {{"furnace", "--normalize", "symmetric", "--one-way"}, "both ways"},
       {{"furnace", "--scheme", "quick"}, "fixed, growing"},
+      {{"furnace", "--first-shot", "auto,soon"}, "none, auto or a number"},
+      {{"furnace", "--error", "least"}, "rms, max"},
       {{"furnace", "--rotations", "0"}, "--rotations: \"0\""},
       {{"furnace", "--reference", "0"}, "--reference: \"0\""},
       {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},
@@ -103,6 +105,17 @@ TEST(CliStudy, CombinationsThatDoNotGoTogetherAreLeftOut) {
   EXPECT_THAT(result.err, HasSubstr("left out: normalize: symmetric wants directions used both"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/two-way/symmetric"));
   EXPECT_THAT(result.out, Not(HasSubstr("one-way/symmetric")));
+}
+
+TEST(CliStudy, ComparesWithAndWithoutAFirstShot) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      {"study", "stars", "--directions", "16", "--sampling", "fibonacci", "--first-shot",
+       "none,auto", "--without-sources", "--error", "max", "--reference", "64", "--no-cache"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("Largest error of B in %, without sources, by passes"));
+  EXPECT_THAT(result.out, HasSubstr("fibonacci/no-shot"));
+  EXPECT_THAT(result.out, HasSubstr("fibonacci/first-shot 1000"));
 }
 
 TEST(CliStudy, InterruptedItSavesThePointsSoFar) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "transillum/errors.h"
+#include "support/refusal.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -165,12 +165,19 @@ TEST(Normalize, SymmetricMakesTheFurnaceExact) {
   for (const Rgb& b : solution.radiosity) EXPECT_NEAR(max_abs(b), 2, 1e-8);
 }
 
-TEST(Normalize, SymmetricSaysThatItWantsMemory) {
-  try {
-    solve(box(), {.directions = 9, .normalize = Normalization::symmetric, .memory = 1});
-    FAIL() << "solved";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--memory"));
+/// Before the rest of the passes is made.
+TEST(Schemes, WhatWantsKeptFormFactorsSaysThatItWantsMemory) {
+  const SolveOptions symmetric{.directions = 9, .normalize = Normalization::symmetric, .memory = 1};
+  const SolveOptions conjugate{.directions = 9, .scheme = Scheme::conjugate_gradients, .memory = 1};
+  for (const SolveOptions& options : {symmetric, conjugate}) {
+    RadiositySolver solver(box(), options);
+    try {
+      solver.advance(Until::finished);
+      FAIL() << "solved";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("more than --memory"));
+    }
+    EXPECT_EQ(solver.statistics().passes_made, 0);
   }
 }
 
@@ -228,12 +235,7 @@ TEST(Replicas, AreNothingWithoutBeingAskedFor) {
 
 TEST(SchemeOptions, NameWhatDoesNotGoTogether) {
   const auto message = [](const SolveOptions& options) {
-    try {
-      options.validate();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    return test::refusal([&] { options.validate(); });
   };
   EXPECT_THAT(message({.replicas = 65}), HasSubstr("replicas: 65 is not from 1 to 64"));
   EXPECT_THAT(message({.directions = 3, .replicas = 4}), HasSubstr("the 3 directions"));

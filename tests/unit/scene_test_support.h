@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "support/refusal.h"
 #include "support/temporary_folder.h"
-#include "transillum/errors.h"
 #include "transillum/scene.h"
 
 namespace transillum::test {
@@ -25,17 +25,6 @@ inline SceneDescription polygon(const std::vector<Vec3>& points) {
   std::vector<PointId> outline;
   for (std::size_t i = 0; i < points.size(); ++i) outline.push_back(static_cast<PointId>(i));
   return polygons(points, {outline});
-}
-
-/// The sentence an input is refused with; empty where it is taken.
-template <typename Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 /// Newell's vector of an outline: twice its area along its normal.

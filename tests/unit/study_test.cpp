@@ -7,6 +7,7 @@
 #include <vtkPNGReader.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -111,6 +112,27 @@ TEST(Study, PointsAreThoseOfPlainSolves) {
   EXPECT_EQ(study.points[1].passes, 24 * 18);
 }
 
+/// Passes of the stars' light have hardly an error beside what the stars themselves shine with.
+TEST(Study, TellsWhatAFirstShotIsWorthToPatchesThatEmitNothing) {
+  const auto scene = load_scene("stars");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  StudyOptions options;
+  options.series = {{Sampling::fibonacci}, {Sampling::fibonacci}};
+  options.series[1].first_shot = small_source_ratio;
+  options.directions = {64, 256};
+  EXPECT_THAT(names_of(options.series),
+              ElementsAre("fibonacci/no-shot", "fibonacci/first-shot 1000"));
+  EXPECT_EQ(options.reference().directions, 1024);
+  EXPECT_EQ(options.reference().first_shot, small_source_ratio);
+  const auto reference = solve_reference(scene, tree, options.reference());
+  const auto error = [&](bool without_sources, std::size_t at) {
+    options.without_sources = without_sources;
+    return run_study(scene, tree, options, reference).points.at(at).rms_error;
+  };
+  EXPECT_GT(error(true, 1), 10 * error(true, 3));
+  EXPECT_GT(error(true, 1), 10 * error(false, 1));
+}
+
 TEST(Study, NamesTellOnlyWhatDiffers) {
   std::vector<StudySeries> series{{Sampling::random}, {Sampling::hammersley}};
   EXPECT_THAT(names_of(series), ElementsAre("random", "hammersley"));
@@ -140,6 +162,13 @@ TEST(Study, CostsAreReadBetweenPoints) {
   EXPECT_FALSE(cost->at_most);
   EXPECT_TRUE(cost_of(points, 0.2)->at_most);
   EXPECT_EQ(cost_of(points, 0.2)->passes, 100);
+  std::vector<StudyPoint> largest = points;
+  for (StudyPoint& p : largest) {
+    p.max_error = 4 * p.rms_error;
+    p.rms_error = 1;
+  }
+  EXPECT_NEAR(cost_of(largest, 0.2, ErrorMeasure::max)->passes, 200, 1e-9);
+  EXPECT_NEAR(fitted_power_law(largest, ErrorMeasure::max)->slope, -1, 1e-12);
   EXPECT_FALSE(cost_of(points, 0.01));
   // A dip by luck, after which the error is larger again, is not enough.
   EXPECT_FALSE(cost_of(std::vector{point(1, 1e-9), point(2, 0.1)}, 0.05));
@@ -161,6 +190,18 @@ TEST(Study, TooFewDirectionsAreAResult) {
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
+TEST(Study, TooLittleMemoryIsAResultOfWhatWantsIt) {
+  StudyOptions options;
+  options.series = {{Sampling::fibonacci},
+                    {Sampling::fibonacci, true, Normalization::none, Scheme::conjugate_gradients}};
+  options.directions = {16};
+  options.solve.memory = 1;
+  const Study study = box().study(options);
+  ASSERT_THAT(study.points, SizeIs(2));
+  EXPECT_EQ(study.points[0].failure, "");
+  EXPECT_THAT(study.points[1].failure, HasSubstr("--memory"));
+}
+
 TEST(Study, CancelledItKeepsWhatIsDone) {
   StudyOptions options;
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
@@ -173,6 +214,7 @@ TEST(Study, CancelledItKeepsWhatIsDone) {
         EXPECT_GE(now.share, last_share);
         EXPECT_LE(now.share, 1);
         last_share = now.share;
+        EXPECT_THAT(now.points, SizeIs((now.directions == 64 ? 2 : 0) + now.series));
         if (now.series == 1 && now.directions == 64) cancellation.cancel();
       },
       cancellation);
@@ -193,6 +235,12 @@ TEST(Study, RefusesWhatItCannotStudy) {
   EXPECT_THROW(run_study(box().scene, box().tree, options, {}), InputError);
   const std::vector<Rgb> dark(box().reference.size());
   EXPECT_THROW(run_study(box().scene, box().tree, options, dark), InputError);
+  // Every patch of the furnace shines.
+  const auto furnace = load_scene("furnace");
+  options.without_sources = true;
+  EXPECT_THROW(run_study(furnace, std::make_shared<const BspTree>(*furnace), options,
+                         std::vector<Rgb>(static_cast<std::size_t>(furnace->patch_count()))),
+               InputError);
 }
 
 /// Every byte counts: what differs in one is not believed.
@@ -311,6 +359,20 @@ TEST(StudyPlot, PngShowsTheSeriesInTheirColours) {
   EXPECT_GT(orange, 2000);  // the second, drawn over the first
   EXPECT_GT(blue, 300);     // the first, in the legend
   EXPECT_LT(blue, orange);
+}
+
+TEST(StudyPlot, InMemoryItIsAsLargeAsFits) {
+  const std::vector<StudySeries> series{{Sampling::random}, {Sampling::halton}};
+  const auto dark = [&](int width, int height) {
+    const PlotPicture picture =
+        draw_study_plot("box", series, two_ways(1), ErrorMeasure::rms, width, height);
+    EXPECT_EQ(picture.pixels.size(), static_cast<std::size_t>(width) * height);
+    return static_cast<double>(std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                                             [](auto pixel) { return (pixel & 0xff) < 128; }));
+  };
+  const double small = dark(800, 480);
+  EXPECT_NEAR(dark(1600, 960), 4 * small, 0.8 * small);
+  EXPECT_NEAR(dark(800, 960), small, 0.1 * small);  // in the middle of a taller place
 }
 
 TEST(StudyPlot, AnythingCanBeDrawn) {

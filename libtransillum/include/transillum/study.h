@@ -26,6 +26,12 @@ struct RadiosityError {
 /// @param b, reference W/m², one a patch. Not finite where the reference is 0.
 RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference);
 
+/// Which of the two.
+enum class ErrorMeasure { rms, max };
+const std::vector<std::string>& error_measure_names();
+/// @throws InputError naming the choices.
+ErrorMeasure error_measure_from_name(const std::string& name);
+
 /// Options of the solve that others are compared with: so many passes of the default sampling, both
 /// ways, under a rotation of its own, so that it shares no direction with anything studied.
 SolveOptions reference_options(int passes);
@@ -36,6 +42,7 @@ struct StudySeries {
   bool two_way = true;
   Normalization normalize = Normalization::none;
   Scheme scheme = Scheme::fixed;
+  std::optional<double> first_shot = {};  ///< SolveOptions::first_shot
 
   friend bool operator==(const StudySeries&, const StudySeries&) = default;
 };
@@ -52,12 +59,18 @@ struct StudyOptions {
   /// Each M is solved with so many sets, each turned by a rotation and sown by a seed of its own;
   /// 1: with the one set as it is.
   int rotations = 1;
+  /// Patches that emit are left out of the errors: what they emit is known, and may outshine all
+  /// that is not.
+  bool without_sources = false;
   /// All that the series leave open. For the semi-iterative scheme iterations 0 means those of
   /// burn_in and averaged_steps_by_default.
   SolveOptions solve{.tolerance = 1e-8};
 
   /// The options of one solve.
   SolveOptions solve_options(const StudySeries& of, int passes, int rotation = 0) const;
+  /// Of the solve to compare with: so many passes, 0: four times the most that are studied. It
+  /// shoots first where any of the series does.
+  SolveOptions reference(int passes = 0) const;
   /// @throws InputError, also for series that SolveOptions::validate refuses.
   void validate() const;
 };
@@ -72,8 +85,13 @@ struct StudyPoint {
   double bound = 0;  ///< of errors where the environment is nearly homogeneous, by eq. 37 and 21
   double seconds =
       0;  ///< processor time of passes and iteration, of all threads; mean of rotations
-  /// Why there are no errors here (NaN): too few directions for the iteration to converge.
+  /// Why there are no errors here (NaN): too few directions for the iteration to converge, or too
+  /// little memory for what was asked.
   std::string failure;
+
+  double error(ErrorMeasure measure) const {
+    return measure == ErrorMeasure::rms ? rms_error : max_error;
+  }
 };
 
 /// Where a study stands.
@@ -82,7 +100,8 @@ struct StudyProgress {
   int directions = 0;      ///< M under way
   double share = 0;        ///< of all passes, done
   double passes_per_second = 0;
-  double seconds_left = 0;  ///< estimated
+  double seconds_left = 0;             ///< estimated
+  std::span<const StudyPoint> points;  ///< done so far, by M, then series; valid during the call
 };
 using StudyObserver = std::function<void(const StudyProgress&)>;
 
@@ -90,6 +109,14 @@ struct Study {
   std::vector<StudyPoint> points;  ///< by series, then M
   bool complete = false;           ///< false: cancelled; the points are those done by then
 };
+
+/// B to compare with, W/m², one a patch.
+/// @throws InputError, Cancelled, std::runtime_error
+std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
+                                 const std::shared_ptr<const BspTree>& tree,
+                                 const SolveOptions& options,
+                                 const std::function<void(const SolveProgress&)>& observer = {},
+                                 const Cancellation& cancellation = {});
 
 /// Solves for every series and M, the small ones first, and compares with `reference`, B of the
 /// scene. The scene is sorted once, in `tree`.
@@ -102,20 +129,22 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
 /// The points of one series.
 std::vector<StudyPoint> points_of(const Study& study, std::size_t series);
 
-/// error = factor * passes ^ slope, by least squares of the logarithms of the RMS errors.
+/// error = factor * passes ^ slope, by least squares of the logarithms of the errors.
 struct PowerLaw {
   double slope = 0, factor = 0;
 };
 /// Of the points of one series with an error above 0; none if these are fewer than two.
-std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points);
+std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points,
+                                         ErrorMeasure measure = ErrorMeasure::rms);
 
 /// What a series takes to an accuracy, between its points by power laws.
 struct StudyCost {
   double passes = 0, seconds = 0;
   bool at_most = false;  ///< the first point is as good already
 };
-/// Where the RMS error of the points of one series falls below `accuracy` for good; none if it does
+/// Where the error of the points of one series falls below `accuracy` for good; none if it does
 /// not.
-std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy);
+std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
+                                 ErrorMeasure measure = ErrorMeasure::rms);
 
 }  // namespace transillum

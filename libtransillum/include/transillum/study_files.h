@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -20,11 +21,21 @@ void write_study_csv(const std::filesystem::path& path, const std::vector<StudyS
 
 /// check_writable, and @throws InputError unless `path` ends in .svg or .png.
 void check_plot_path(const std::filesystem::path& path);
-/// The RMS errors against the passes, both logarithmic, with the bound of eq. 37 and a legend with
+/// The errors against the passes, both logarithmic, with the bound of eq. 37 and a legend with
 /// fitted slopes; series differ in marker and dashes as well as in colour. Points without errors,
 /// or with none, are left out.
 /// @param scene what the title calls it
 void write_study_plot(const std::filesystem::path& path, const std::string& scene,
-                      const std::vector<StudySeries>& series, const Study& study);
+                      const std::vector<StudySeries>& series, const Study& study,
+                      ErrorMeasure error = ErrorMeasure::rms);
+
+/// The same in memory: rows from the top of 0x..rrggbb, the plot as large as fits.
+struct PlotPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;
+};
+/// @throws std::runtime_error
+PlotPicture draw_study_plot(const std::string& scene, const std::vector<StudySeries>& series,
+                            const Study& study, ErrorMeasure error, int width, int height);
 
 }  // namespace transillum

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "bit_mixing.h"
+#include "choice.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
-#include "transillum/not_convergent.h"
 
 namespace transillum {
 namespace {
@@ -33,6 +33,14 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& values) {
+  std::vector<Rgb> dark;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (max_abs(scene.exitance(i)) == 0) dark.push_back(values[static_cast<std::size_t>(i)]);
+  }
+  return dark;
+}
+
 /// All passes of a solve that keeps its form factors.
 std::int64_t passes_of(const SolveOptions& options) {
   return std::int64_t{options.directions} *
@@ -48,7 +56,7 @@ class StudyRun {
       : scene_(std::move(scene)),
         tree_(std::move(tree)),
         options_(options),
-        reference_(reference),
+        reference_(compared(reference)),
         observer_(observer),
         cancellation_(cancellation),
         rho_max_(measure(*scene_, cancellation).rho_max) {
@@ -58,6 +66,20 @@ class StudyRun {
             static_cast<double>(passes_of(options.solve_options(series, m))) * options.rotations;
       }
     }
+    if (std::all_of(reference_.begin(), reference_.end(),
+                    [](const Rgb& b) { return max_abs(b) == 0; })) {
+      throw InputError(fmt::format("{}: there is no light{}, and no error of it", scene_->name(),
+                                   reference_.empty() ? " but on sources" : ""));
+    }
+  }
+
+  const std::vector<StudyPoint>& points() const { return points_; }
+  void add_point(std::size_t series, int m) { points_.push_back(point(series, m)); }
+
+ private:
+  /// What of B of all patches errors are of.
+  std::vector<Rgb> compared(const std::vector<Rgb>& b) const {
+    return options_.without_sources ? of_dark_patches(*scene_, b) : b;
   }
 
   StudyPoint point(std::size_t series, int m) {
@@ -73,14 +95,15 @@ class StudyRun {
         add_solve(point, m, rotation);
       }
       point.rms_error = std::sqrt(point.rms_error);
-    } catch (const NotConvergent& error) {
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
       point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
       point.failure = error.what();
     }
     return point;
   }
 
- private:
   /// Adds one solve's share to the sums in `point`.
   void add_solve(StudyPoint& point, int m, int rotation) {
     const double start = processor_seconds();
@@ -92,7 +115,7 @@ class StudyRun {
       return true;
     });
     done_passes_ = before + static_cast<double>(point.passes);
-    const RadiosityError error = radiosity_error(solver.radiosity(), reference_);
+    const RadiosityError error = radiosity_error(compared(solver.radiosity()), reference_);
     const double share = 1.0 / options_.rotations;
     point.rms_error += share * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
@@ -108,6 +131,7 @@ class StudyRun {
     now.series = point.series;
     now.directions = m;
     now.share = done_passes_ / all_passes_;
+    now.points = points_;
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     if (seconds > 0 && done_passes_ > 0) {
       now.passes_per_second = done_passes_ / seconds;
@@ -119,10 +143,11 @@ class StudyRun {
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const BspTree> tree_;
   const StudyOptions& options_;
-  const std::vector<Rgb>& reference_;
+  std::vector<Rgb> reference_;
   const StudyObserver& observer_;
   Cancellation cancellation_;
   double rho_max_;
+  std::vector<StudyPoint> points_;
   double all_passes_ = 0, done_passes_ = 0;
   Clock::time_point start_ = Clock::now();
 };
@@ -139,6 +164,15 @@ RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>
     reference_largest = std::max(reference_largest, max_abs(reference[i]));
   }
   return {std::sqrt(squares / reference_squares), largest / reference_largest};
+}
+
+const std::vector<std::string>& error_measure_names() {
+  static const std::vector<std::string> names{"rms", "max"};
+  return names;
+}
+
+ErrorMeasure error_measure_from_name(const std::string& name) {
+  return choice_from_name<ErrorMeasure>(error_measure_names(), "error", name);
 }
 
 SolveOptions reference_options(int passes) {
@@ -164,6 +198,10 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
   tell_apart([](const StudySeries& s) { return s.normalize; },
              [](Normalization n) { return name_of(n); });
   tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
+  tell_apart([](const StudySeries& s) { return s.first_shot; },
+             [](const std::optional<double>& ratio) {
+               return ratio ? fmt::format("first-shot {:g}", *ratio) : std::string("no-shot");
+             });
   return names;
 }
 
@@ -174,6 +212,7 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.two_way = of.two_way;
   options.normalize = of.normalize;
   options.scheme = of.scheme;
+  options.first_shot = of.first_shot;
   if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
     options.iterations = options.burn_in + averaged_steps_by_default;
   }
@@ -181,6 +220,21 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
     options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));
     options.engine_options.seed = options.seed;
     options.rotation = mixed(options.seed);
+  }
+  return options;
+}
+
+SolveOptions StudyOptions::reference(int passes) const {
+  if (passes == 0) {
+    const int most = *std::max_element(directions.begin(), directions.end());
+    passes = most > max_directions / 4 ? max_directions : 4 * most;
+  }
+  SolveOptions options = reference_options(passes);
+  options.memory = solve.memory;
+  options.threads = solve.threads;
+  for (const StudySeries& one : series) {
+    if (!one.first_shot) continue;
+    options.first_shot = std::min(*one.first_shot, options.first_shot.value_or(*one.first_shot));
   }
   return options;
 }
@@ -196,6 +250,19 @@ void StudyOptions::validate() const {
   }
 }
 
+std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
+                                 const std::shared_ptr<const BspTree>& tree,
+                                 const SolveOptions& options,
+                                 const std::function<void(const SolveProgress&)>& observer,
+                                 const Cancellation& cancellation) {
+  RadiositySolver solver(scene, options, tree, cancellation);
+  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+    if (observer) observer(watched.progress());
+    return true;
+  });
+  return solver.radiosity();
+}
+
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
                 const std::vector<Rgb>& reference, const StudyObserver& observer,
@@ -205,23 +272,20 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
     throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
                                  reference.size(), scene->patch_count()));
   }
-  if (std::all_of(reference.begin(), reference.end(),
-                  [](const Rgb& b) { return max_abs(b) == 0; })) {
-    throw InputError(fmt::format("{}: there is no light, and no error of it", scene->name()));
-  }
   std::vector<int> ascending = options.directions;
   std::sort(ascending.begin(), ascending.end());
   Study study;
+  StudyRun run(scene, tree, options, reference, observer, cancellation);
   try {
-    StudyRun run(scene, tree, options, reference, observer, cancellation);
     for (const int m : ascending) {
       for (std::size_t series = 0; series < options.series.size(); ++series) {
-        study.points.push_back(run.point(series, m));
+        run.add_point(series, m);
       }
     }
     study.complete = true;
   } catch (const Cancelled&) {
   }
+  study.points = run.points();
   std::stable_sort(study.points.begin(), study.points.end(),
                    [](const StudyPoint& a, const StudyPoint& b) { return a.series < b.series; });
   return study;
@@ -234,11 +298,12 @@ std::vector<StudyPoint> points_of(const Study& study, std::size_t series) {
   return points;
 }
 
-std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points) {
+std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points, ErrorMeasure measure) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const StudyPoint& point : points) {
-    if (!(point.rms_error > 0 && std::isfinite(point.rms_error))) continue;
-    const double u = std::log(static_cast<double>(point.passes)), v = std::log(point.rms_error);
+    const double error = point.error(measure);
+    if (!(error > 0 && std::isfinite(error))) continue;
+    const double u = std::log(static_cast<double>(point.passes)), v = std::log(error);
     n += 1;
     x += u;
     y += v;
@@ -251,19 +316,19 @@ std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points) {
   return PowerLaw{slope, std::exp((y - slope * x) / n)};
 }
 
-std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy) {
+std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
+                                 ErrorMeasure measure) {
   // Backwards over all that are good enough.
   auto first = points.end();
-  while (first != points.begin() && (first - 1)->rms_error <= accuracy) --first;
+  while (first != points.begin() && (first - 1)->error(measure) <= accuracy) --first;
   if (first == points.end()) return std::nullopt;
   const auto passes = static_cast<double>(first->passes);
-  if (first == points.begin() || !std::isfinite((first - 1)->rms_error)) {
+  if (first == points.begin() || !std::isfinite((first - 1)->error(measure))) {
     return StudyCost{passes, first->seconds, true};
   }
   const StudyPoint& worse = *(first - 1);
-  const double t = first->rms_error > 0 ? std::log(worse.rms_error / accuracy) /
-                                              std::log(worse.rms_error / first->rms_error)
-                                        : 1.0;
+  const double high = worse.error(measure), low = first->error(measure);
+  const double t = low > 0 ? std::log(high / accuracy) / std::log(high / low) : 1.0;
   const auto between = [t](double a, double b) { return a * std::pow(b / a, t); };
   return StudyCost{between(static_cast<double>(worse.passes), passes),
                    between(worse.seconds, first->seconds), false};
