@@ -11,7 +11,7 @@
 
 namespace transillum::viewer {
 
-ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
+ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
   steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
   steps_->set_hint(tr("A point for every finished iteration"));
   passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
@@ -21,6 +21,27 @@ ConvergenceView::ConvergenceView(QWidget* parent) : QWidget(parent) {
   layout->setSpacing(1);
   layout->addWidget(steps_);
   layout->addWidget(passes_);
+
+  steps_->setObjectName("iteration_chart");
+  steps_->setToolTip(tr("Click to go to an iteration"));
+  passes_->setObjectName("direction_chart");
+  passes_->setToolTip(tr("Click to go to a direction"));
+  connect(steps_, &LogChart::clicked, this, [this](int x) {
+    focus_.go_to({x - 1, focus_.wanted().direction, focus_.moment().step});
+  });
+  connect(passes_, &LogChart::clicked, this, [this](int x) {
+    focus_.go_to({shown_iteration_, x - 1, focus_.moment().step});
+  });
+  connect(&focus_, &Focus::moved, this, &ConvergenceView::show_moment);
+}
+
+void ConvergenceView::show_moment() {
+  const bool any = focus_.map() != nullptr;
+  const Moment& moment = focus_.moment();
+  steps_->set_mark(any ? std::optional(moment.iteration + 1) : std::nullopt);
+  passes_->set_mark(any && moment.iteration == shown_iteration_
+                        ? std::optional(moment.direction + 1)
+                        : std::nullopt);
 }
 
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
@@ -46,6 +67,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
                        {tr("ε/π"), theme::good, std::move(errors), false},
                        {tr("eq. 21"), theme::warm, std::move(bounds), false}},
                       {}, passes);
+  shown_iteration_ = snapshot.estimate_iteration;
+  show_moment();
 }
 
 }  // namespace transillum::viewer

@@ -3,24 +3,30 @@
 
 #include <QWidget>
 
+#include "focus.h"
 #include "snapshot.h"
 
 namespace transillum::viewer {
 
 class LogChart;
 
-/// How the solve converges: from step to step, and within the step under way.
+/// How the solve converges: from step to step, and within the step under way. The moment in focus
+/// is marked, and a click goes to another.
 class ConvergenceView : public QWidget {
   Q_OBJECT
 
  public:
-  explicit ConvergenceView(QWidget* parent = nullptr);
+  explicit ConvergenceView(Focus& focus, QWidget* parent = nullptr);
 
   void show_snapshot(const SolverSnapshot& snapshot);
 
  private:
+  void show_moment();
+
+  Focus& focus_;
   LogChart* steps_;
   LogChart* passes_;
+  int shown_iteration_ = 0;  ///< that of passes_, from 0
 };
 
 }  // namespace transillum::viewer

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "log_chart.h"
 
+#include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
 #include <algorithm>
@@ -79,6 +80,28 @@ void LogChart::show_lines(std::vector<Line> lines, std::vector<Level> levels, in
   update();
 }
 
+void LogChart::set_mark(std::optional<int> x) {
+  if (x == mark_) return;
+  mark_ = x;
+  update();
+}
+
+int LogChart::count_at(const QPointF& place) const {
+  const Frame f = frame();
+  const double share = (place.x() - f.plot.left()) / std::max(f.plot.width(), 1.0);
+  return static_cast<int>(std::clamp(std::round(1 + share * (f.x_max - 1)), 1.0, 1.0 * f.x_max));
+}
+
+QPointF LogChart::place_of(int x) const {
+  const Frame f = frame();
+  return {f.x(x), f.plot.center().y()};
+}
+
+void LogChart::mousePressEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && frame().plot.contains(event->localPos()))
+    emit clicked(count_at(event->localPos()));
+}
+
 LogChart::Frame LogChart::frame() const {
   const int line = fontMetrics().height();
   const int left = line + 10 + fontMetrics().horizontalAdvance(QStringLiteral("10⁻¹²")) + 6;
@@ -117,6 +140,12 @@ void LogChart::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(level.color, 1.5, Qt::DashLine));
     painter.drawLine(QPointF(f.plot.left(), f.y(level.value)),
                      QPointF(f.plot.right(), f.y(level.value)));
+  }
+  if (mark_ && *mark_ <= f.x_max) {
+    painter.setPen(QPen(theme::accent, 5));
+    painter.drawLine(QPointF(f.x(*mark_), f.plot.top()), QPointF(f.x(*mark_), f.plot.top() + 6));
+    painter.setPen(QPen(theme::accent, 1));
+    painter.drawLine(QPointF(f.x(*mark_), f.plot.top()), QPointF(f.x(*mark_), f.plot.bottom()));
   }
   for (const Line& l : lines_) draw_line(painter, f, l);
   draw_legend(painter, f);

@@ -4,6 +4,7 @@
 #include <QColor>
 #include <QString>
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 namespace transillum::viewer {
@@ -37,12 +38,22 @@ class LogChart : public QWidget {
   void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
   /// What to say where there is nothing to draw.
   void set_hint(const QString& hint) { hint_ = hint; }
+  /// The count that is looked at, if any.
+  void set_mark(std::optional<int> x);
+  std::optional<int> mark() const { return mark_; }
+  /// The count at a place of the widget, within the axis; and the place of a count.
+  int count_at(const QPointF& place) const;
+  QPointF place_of(int x) const;
 
   QSize sizeHint() const override { return {420, 210}; }
   QSize minimumSizeHint() const override { return {240, 112}; }
 
+ signals:
+  void clicked(int x);
+
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
 
  private:
   struct Frame;
@@ -55,6 +66,7 @@ class LogChart : public QWidget {
   std::vector<Line> lines_;
   std::vector<Level> levels_;
   int x_max_ = 1;
+  std::optional<int> mark_;
 };
 
 /// Decades [first, last] that hold all positive values, at least one decade apart; [-1, 0] for

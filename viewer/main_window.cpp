@@ -90,7 +90,7 @@ void MainWindow::make_docks() {
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(selection_, colors_);
   map_view_ = new MapView(focus_, selection_, colors_);
-  convergence_view_ = new ConvergenceView;
+  convergence_view_ = new ConvergenceView(focus_);
   direction_view_ = new DirectionView(focus_, selection_, colors_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);

@@ -6,6 +6,7 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "log_chart.h"
 #include "solved_window.h"
 #include "timeline_lanes.h"
 
@@ -228,6 +229,30 @@ class SteppingTest : public QObject {
     list->setCurrentRow(0);
     s.window->findChild<QToolButton*>("remove_breakpoint")->click();
     QCOMPARE(list->count(), 0);
+  }
+
+  void charts_mark_the_moment_and_lead_to_others() {
+    const Stepping s("furnace");
+    QVERIFY(s.ready);
+    auto* directions = s.window->findChild<LogChart*>("direction_chart");
+    auto* iterations = s.window->findChild<LogChart*>("iteration_chart");
+    s.focus.go_to({0, 6, 2});
+    QVERIFY(s.settles());
+    QCOMPARE(directions->mark(), std::optional(7));
+    QCOMPARE(iterations->mark(), std::optional(1));
+    const QImage before = directions->grab().toImage();
+    QTest::mouseClick(directions, Qt::LeftButton, {}, directions->place_of(21).toPoint());
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    QVERIFY((s.focus.moment() == Moment{0, 20, 2}));
+    QCOMPARE(directions->mark(), std::optional(21));
+    QVERIFY(directions->grab().toImage() != before);
+
+    s.trigger("one_iteration");
+    QVERIFY(wait_for([&] { return s.focus.iterations() == 2 && s.window->settled(); }));
+    QTest::mouseClick(iterations, Qt::LeftButton, {}, iterations->place_of(2).toPoint());
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    QVERIFY((s.focus.moment() == Moment{1, 20, 2}));
+    QCOMPARE(iterations->mark(), std::optional(2));
   }
 
   void a_new_run_starts_anew() {
