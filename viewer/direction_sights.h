@@ -49,6 +49,7 @@ class DirectionSights : public QObject {
   void clear();
   /// A direction each, the first ones of the run, for the patch asked for last.
   const std::vector<Sights>& found() const { return found_; }
+  const Request& asked() const { return wanted_; }
   bool complete() const { return static_cast<int>(found_.size()) >= wanted_.count; }
 
  signals:

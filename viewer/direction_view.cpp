@@ -10,6 +10,7 @@
 
 #include "initial_view.h"
 #include "number_text.h"
+#include "received_light.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -23,13 +24,11 @@ constexpr double reach = 6;  ///< of a click, pixels
 /// Along the colour bar: few directions hold a lamp, and most of the light comes from elsewhere.
 double position_of(double share) { return std::sqrt(share); }
 
-double luminance(const Rgb& b) { return 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b; }
-
 }  // namespace
 
 DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
-                             QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+                             DirectionSights& sights, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), sights_(sights) {
   setToolTip(tr("Drag to turn; click a direction to look along it"));
   connect(&focus_, &Focus::moved, this, qOverload<>(&QWidget::update));
   connect(&colors_, &ColorChoice::changed, this, qOverload<>(&QWidget::update));
@@ -93,22 +92,12 @@ std::vector<DirectionView::Point> DirectionView::points() const {
 
 std::vector<double> DirectionView::received() const {
   std::vector<double> received;
-  if (!wants_sights()) return received;
-  const int ways = snapshot_->options.two_way ? 2 : 1;
-  const double area = snapshot_->loaded->scene->patch(selection_.patch()).area;
-  // One direction's part of the sum of eq. 11.
-  const double scale = 4.0 / (taken() * ways * area);
-  const auto power = [&](const std::vector<DirectionSights::Sight>& sights) {
-    double sum = 0;
-    for (const auto& sight : sights) {
-      sum += sight.area * luminance(snapshot_->radiosity[static_cast<std::size_t>(sight.source)]);
-    }
-    return scale * sum;
-  };
-  for (const DirectionSights::Sights& sights : sights_.found()) {
-    received.push_back(power(sights.forward));
-    if (ways == 2) received.push_back(power(sights.backward));
-  }
+  if (!wants_sights() || sights_.found().empty()) return received;
+  const auto& found = sights_.found();
+  const std::size_t count = std::min(found.size(), static_cast<std::size_t>(taken()));
+  for (const ReceivedLight& light :
+       received_light(sights_.asked(), {found.data(), count}, snapshot_->radiosity, taken()))
+    received.push_back(luminance(light.irradiance));
   return received;
 }
 

@@ -22,8 +22,9 @@ class DirectionView : public QWidget {
   Q_OBJECT
 
  public:
+  /// `sights` is shared with others that ask about the selected patch.
   DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
-                QWidget* parent = nullptr);
+                DirectionSights& sights, QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
@@ -69,7 +70,7 @@ class DirectionView : public QWidget {
   Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
-  DirectionSights sights_;
+  DirectionSights& sights_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   Vec3 right_{1, 0, 0}, up_{0, 1, 0}, toward_{0, 0, 1};  ///< the scene's first view
   double turn_ = 0, tilt_ = 0;  ///< from there, radians: about the upright axis, then over

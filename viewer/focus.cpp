@@ -44,6 +44,15 @@ void Focus::go_to(const Moment& moment) {
      [step = moment.step](const MapHistory& history) { return nearest_step(history, step); });
 }
 
+void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
+  if (passes_ == 0) return;
+  leave_newest();
+  seek_left_ = 0;
+  go(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
+    return finder(history, -1, Way::forward);
+  });
+}
+
 Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
   const std::int64_t first = std::int64_t{first_iteration_} * passes_;
   const std::int64_t last = std::int64_t{iterations_} * passes_ - 1;

@@ -65,6 +65,8 @@ class Focus : public QObject {
 
   /// Each of these but follow() ends the following. Out of range means the nearest there is.
   void go_to(const Moment& moment);
+  /// To the first step of a direction that `finder` finds; before its first where there is none.
+  void go_to_first(int iteration, int direction, StepFinder finder);
   /// To an end of the direction at most; from there on to the next one. False at the run's end.
   bool step_by(std::int32_t steps);
   /// The same step of another direction, and of another iteration step.

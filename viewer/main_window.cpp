@@ -28,6 +28,7 @@
 #include "number_text.h"
 #include "patch_inspector.h"
 #include "progress_line.h"
+#include "received_view.h"
 #include "scene_page.h"
 #include "scene_view.h"
 #include "settings_panel.h"
@@ -91,7 +92,8 @@ void MainWindow::make_docks() {
   inspector_ = new PatchInspector(selection_, colors_);
   map_view_ = new MapView(focus_, selection_, colors_);
   convergence_view_ = new ConvergenceView(focus_);
-  direction_view_ = new DirectionView(focus_, selection_, colors_);
+  direction_view_ = new DirectionView(focus_, selection_, colors_, sights_);
+  received_view_ = new ReceivedView(focus_, selection_, sights_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
   auto* events = new StepPanel(focus_, selection_);
@@ -111,6 +113,8 @@ void MainWindow::make_docks() {
   docks_.add(tr("Events"), "event_dock", events, {{debug, right, 260}});
   docks_.add(tr("BSP tree"), "tree_dock", new TreeView(focus_, selection_),
              {{debug, right, 260, true}});
+  docks_.add(tr("Received light"), "received_dock", received_view_,
+             {{inspect, right, 400, true}, {debug, right, 260, true}});
   QDockWidget* timeline_dock = docks_.add(
       tr("Timeline"), "timeline_dock", timeline_,
       {{inspect, Qt::BottomDockWidgetArea, 132}, {debug, Qt::BottomDockWidgetArea, 132}});
@@ -259,6 +263,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   focus_feed_.clear();
   map_view_->clear();
   direction_view_->clear();
+  received_view_->clear();
   page_->show_scene();
   scene_view_->show_scene(loaded_);
   // Few large patches of like brightness run into one another without outlines.
@@ -292,6 +297,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   map_view_->show_snapshot(snapshot_);
   convergence_view_->show_snapshot(*snapshot_);
   direction_view_->show_snapshot(snapshot_);
+  received_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
   algorithm_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);

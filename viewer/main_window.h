@@ -7,6 +7,7 @@
 
 #include "breakpoints.h"
 #include "color_choice.h"
+#include "direction_sights.h"
 #include "dock_layouts.h"
 #include "focus.h"
 #include "focus_feed.h"
@@ -25,6 +26,7 @@ class DirectionView;
 class MapView;
 class PatchInspector;
 class ProgressLine;
+class ReceivedView;
 class ScenePage;
 class SceneView;
 class SettingsPanel;
@@ -86,6 +88,7 @@ class MainWindow : public QMainWindow {
   Focus focus_;
   FocusFeed focus_feed_{focus_};
   Breakpoints breakpoints_;
+  DirectionSights sights_;
   DockLayouts docks_{*this};
   std::string asked_spec_, spec_;  // the scene asked for last, and the open one
   SceneOptions asked_scene_options_, scene_options_;
@@ -99,6 +102,7 @@ class MainWindow : public QMainWindow {
   MapView* map_view_;
   ConvergenceView* convergence_view_;
   DirectionView* direction_view_;
+  ReceivedView* received_view_;
   PatchInspector* inspector_;
   SettingsPanel* settings_;
   SolveSummary* summary_;

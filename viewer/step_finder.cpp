@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "step_finder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace transillum::viewer {
@@ -25,6 +26,22 @@ StepFinder find_exchanges() {
   return find_where([](const MapHistory& history, std::int32_t step) {
     return history.step(step).exchanges > 0;
   });
+}
+
+StepFinder find_exchanges_of(PatchId patch) {
+  return [patch](const MapHistory& history, std::int32_t from, Way way) {
+    const auto exchanges = [&](std::int32_t k) {
+      const auto inside = history.inside_at(k);
+      const bool own = history.step(k).patch == patch;
+      return std::any_of(inside.begin(), inside.end(), [&](std::int32_t r) {
+        return (own || history.row(r).patch == patch) && history.exchanges(r);
+      });
+    };
+    const StepFinder next = find_events_of(patch);
+    std::int32_t k = next(history, from, way);
+    while (k != MapHistory::none && !exchanges(k)) k = next(history, k, way);
+    return k;
+  };
 }
 
 StepFinder find_changes_at(const Vec2& p) {

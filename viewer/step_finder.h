@@ -15,6 +15,8 @@ using StepFinder =
 
 /// Steps that process, cut or cover a polygon of the patch.
 StepFinder find_events_of(PatchId patch);
+/// Steps at which the patch receives or gives light.
+StepFinder find_exchanges_of(PatchId patch);
 /// Steps whose polygon exchanges light with what lies above it.
 StepFinder find_exchanges();
 /// Steps that put something else on top at point `p` of the plane, seen from below.

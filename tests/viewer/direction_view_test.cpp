@@ -2,10 +2,14 @@
 #include "direction_view.h"
 
 #include <QDockWidget>
+#include <QTableView>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "received_table.h"
 #include "solved_window.h"
+#include "step_events.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -27,8 +31,6 @@ struct Shown : SolvedWindow {
   }
   DirectionView* view;
 };
-
-double luminance(const Rgb& b) { return 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b; }
 
 }  // namespace
 
@@ -77,6 +79,55 @@ class DirectionViewTest : public QObject {
       QVERIFY(dot(points[k].omega, normal) > 0);
     }
     QVERIFY(lit > 8);
+  }
+
+  /// Eq. 11 to the last step: B(n+1) = E + rho H, H what the table adds up.
+  void the_table_adds_up_to_the_next_radiosity() {
+    Shown shown("cornell-box");
+    shown.window->findChild<QDockWidget*>("received_dock")->raise();
+    auto* view = shown.window->findChild<QTableView*>("received_light");
+    QVERIFY(wait_for([&] { return view->isVisible(); }));
+    auto* table = qobject_cast<ReceivedTable*>(view->model());
+    Focus& focus = shown.window->focus();
+    const auto snapshot = shown.window->snapshot();
+    const Scene& scene = *snapshot->loaded->scene;
+    for (const int n : {0, 1, 3}) {
+      focus.go_to({n, 5, 10});
+      QVERIFY(wait_for([&] { return focus.arrived(); }));
+      for (const PatchId patch : {0, 3, 7}) {
+        shown.window->selection().select(patch);
+        // Edge-on ones take no part.
+        QVERIFY(wait_for([&] { return table->rowCount() >= 30 && table->rowCount() <= 32; }));
+        const auto at = static_cast<std::size_t>(patch);
+        const Rgb next = (*snapshot->kept_radiosity[static_cast<std::size_t>(n) + 1])[at];
+        QTRY_VERIFY(max_abs(scene.exitance(patch) + scene.reflectance(patch) * table->irradiance() -
+                            next) <= 1e-9 * max_abs(next));
+      }
+    }
+    // The strongest comes first, and a double click goes to where it is received.
+    double last = HUGE_VAL, seen = 0;
+    for (int row = 0; row < table->rowCount(); ++row) {
+      QVERIFY(luminance(table->light(row).irradiance) <= last);
+      QVERIFY(table->light(row).cosine > 0);
+      last = luminance(table->light(row).irradiance);
+      seen = std::max(seen, last);
+    }
+    QVERIFY(seen > 0);
+    const ReceivedLight most = table->light(0);
+    const QPoint place = view->visualRect(table->index(0, ReceivedTable::of_share)).center();
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place);
+    QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place);
+    QVERIFY(wait_for([&] { return focus.arrived(); }));
+    QCOMPARE(focus.moment().iteration, 3);
+    QCOMPARE(focus.moment().direction, most.pass);
+    const auto events = events_of_patch(focus.map()->history, shown.window->selection().patch());
+    QVERIFY(std::any_of(events.begin(), events.end(), [&](const StepEvent& event) {
+      return event.step == focus.moment().step && event.kind == StepEvent::Kind::exchange;
+    }));
+    table->sort(ReceivedTable::of_direction, Qt::AscendingOrder);
+    for (int row = 1; row < table->rowCount(); ++row)
+      QVERIFY(table->light(row - 1).pass < table->light(row).pass);
+    save_picture(*shown.window, "received");
   }
 
   void a_click_takes_the_focus_there() {

@@ -77,6 +77,24 @@ class FocusTest : public QObject {
     QVERIFY(w.at({0, 3, w.maps[3]->record().fullest_step()}));
   }
 
+  void goes_to_the_first_step_that_is_found() {
+    Watched w;
+    w.focus.follow(0, 0);
+    const PatchId patch = w.maps[2]->history.step(w.last_step(2)).patch;
+    w.focus.go_to_first(0, 2, find_exchanges_of(patch));
+    const MapHistory& history = w.maps[2]->history;
+    std::int32_t expected = MapHistory::none;
+    for (std::int32_t k = history.step_count() - 1; k >= 0; --k)
+      for (const std::int32_t r : history.inside_at(k))
+        if (history.exchanges(r) &&
+            (history.step(k).patch == patch || history.row(r).patch == patch))
+          expected = k;
+    QVERIFY(w.at({0, 2, expected}));
+    QVERIFY(!w.focus.following());
+    w.focus.go_to_first(0, 3, find_exchanges_of(100000));
+    QVERIFY(w.at({0, 3, -1}));
+  }
+
   void hears_of_the_same_newest_direction_once() {
     Watched w;
     w.focus.follow(0, 1);
