@@ -16,11 +16,12 @@ namespace transillum {
 
 /// Which algorithm turns a direction into transfers.
 enum class Engine {
-  fast,    ///< each receiver's polygon eaten up by what lies above it, nearest first
-  local,   ///< the local visibility map of section 3.2, the one that can be watched
-  global,  ///< the global visibility map of section 3.1, by CGAL's exact arrangement
-  exact,   ///< the local map in exact numbers: an oracle for small scenes
-  rays,    ///< parallel lines through the scene by Embree: statistical
+  fast,       ///< each receiver's polygon eaten up by what lies above it, nearest first
+  local,      ///< the local visibility map of section 3.2, the one that can be watched
+  global,     ///< the global visibility map of section 3.1, by CGAL's exact arrangement
+  exact,      ///< the local map in exact numbers: an oracle for small scenes
+  rays,       ///< parallel lines through the scene by Embree: statistical
+  corrected,  ///< no cutting: what is partly hidden stays whole and is corrected (section 8)
 };
 const std::vector<std::string>& engine_names();
 /// @throws InputError naming the choices.

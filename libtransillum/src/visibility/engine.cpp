@@ -10,7 +10,8 @@
 namespace transillum {
 
 const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"fast", "local", "global", "exact", "rays"};
+  static const std::vector<std::string> names{"fast",  "local", "global",
+                                              "exact", "rays",  "corrected"};
   return names;
 }
 
@@ -35,6 +36,8 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
       return exact_engine(std::move(scene), std::move(tree));
     case Engine::rays:
       return ray_engine(std::move(scene), options);
+    case Engine::corrected:
+      return corrected_engine(std::move(scene), std::move(tree));
   }
   throw InputError("no such engine");
 }

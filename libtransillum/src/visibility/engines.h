@@ -16,6 +16,12 @@ TransferEngine global_map_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree);
 TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
                             std::shared_ptr<const BspTree> tree);
+TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
+                                std::shared_ptr<const BspTree> tree);
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
+
+/// Whether surfaces are closed and no lit side looks at a back, whatever the direction.
+bool lit_sides_see_no_backs(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const BspTree> tree);
 
 }  // namespace transillum

@@ -334,6 +334,11 @@ bool is_in_air(const FastScene& shared) {
 
 }  // namespace
 
+bool lit_sides_see_no_backs(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const BspTree> tree) {
+  return is_in_air(FastScene(std::move(scene), std::move(tree)));
+}
+
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));

@@ -1,0 +1,142 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// What the engine without cutting promises, and what it loses.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "support/scenes.h"
+#include "support/transfer_difference.h"
+#include "transillum/engine.h"
+#include "transillum/errors.h"
+#include "transillum/radiosity.h"
+
+namespace transillum {
+namespace {
+
+using testing::test_directions;
+
+struct Engines {
+  std::shared_ptr<const Scene> scene;
+  TransferEngine fast, corrected;
+
+  explicit Engines(std::shared_ptr<const Scene> of_scene) : scene(std::move(of_scene)) {
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    fast = make_engine(Engine::fast, scene, tree);
+    corrected = make_engine(Engine::corrected, scene, tree);
+  }
+};
+
+/// The share of what is exchanged that is not between the right patches.
+double misplaced(const Transfers& exact, const Transfers& approximate) {
+  std::map<std::pair<PatchId, PatchId>, double> off;
+  double all = 0, wrong = 0;
+  for (const Transfer& t : exact.exchanges) {
+    off[{t.receiver, t.source}] += t.area;
+    all += t.area;
+  }
+  for (const Transfer& t : approximate.exchanges) off[{t.receiver, t.source}] -= t.area;
+  for (const auto& [pair, area] : off) wrong += std::abs(area);
+  return 0.5 * wrong / all;
+}
+
+TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
+  testing::Sketch sketch;
+  sketch.box({0, 0, 0}, {1, 2, 1}, true, sketch.material(0.5, 1));
+  const Engines engines(sketch.scene({.max_patch_area = 0.05}));
+  for (const Vec3& omega : test_directions(30, 5)) {
+    const auto met =
+        testing::difference(*engines.scene, engines.fast(omega, {}), engines.corrected(omega, {}));
+    EXPECT_LT(met.share, 1e-6) << met.where;
+  }
+}
+
+TEST(CorrectedEngine, SeesNothingBehindWhatHidesItWholly) {
+  testing::Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  const auto square = [](double half, double z, bool up) {
+    std::vector<Vec3> outline{
+        {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+    if (!up) std::swap(outline[1], outline[3]);
+    return outline;
+  };
+  sketch.face(square(1, 0, true), grey);
+  sketch.face(square(2, 1, false), grey);
+  sketch.face(square(3, 2, false), grey);
+  const Transfers transfers = Engines(sketch.scene()).corrected({0, 0, 1}, {});
+  ASSERT_EQ(transfers.exchanges.size(), 1U);
+  EXPECT_EQ(transfers.exchanges[0].receiver, 0);
+  EXPECT_EQ(transfers.exchanges[0].source, 1);
+  EXPECT_NEAR(transfers.exchanges[0].area, 4, 1e-12);
+}
+
+/// A shade over a corner of the floor: the lamp's share of the rest is right.
+TEST(CorrectedEngine, GivesTheRestToWhatIsBehind) {
+  testing::Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, grey);
+  sketch.face({{1, 1, 1}, {1, 3, 1}, {3, 3, 1}, {3, 1, 1}}, grey);
+  sketch.face({{-9, -9, 2}, {-9, 9, 2}, {9, 9, 2}, {9, -9, 2}}, grey);
+  const Transfers transfers = Engines(sketch.scene()).corrected({0, 0, 1}, {});
+  ASSERT_EQ(transfers.exchanges.size(), 2U);
+  EXPECT_NEAR(transfers.exchanges[0].area, 1, 1e-12);
+  EXPECT_NEAR(transfers.exchanges[1].area, 3, 1e-12);
+}
+
+class CorrectedPower : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(CorrectedPower, ReceivedIsWhatIsProjectedAndMisplacedIsLittle) {
+  const Engines engines(load_scene(GetParam()));
+  double most = 0;
+  for (const Vec3& omega : test_directions(20, 7)) {
+    const Transfers transfers = engines.corrected(omega, {});
+    double received = 0, exact = 0;
+    const Transfers by_fast = engines.fast(omega, {});
+    for (std::size_t i = 0; i < transfers.forward.size(); ++i) {
+      const Coverage& side = transfers.forward[i];
+      EXPECT_NEAR(side.projected, by_fast.forward[i].projected, 1e-12 * (1 + side.projected));
+      EXPECT_NEAR(side.covered, side.projected, 1e-5 * side.projected) << i;
+      received += side.covered;
+      exact += by_fast.forward[i].covered;
+    }
+    EXPECT_NEAR(received, exact, 1e-5 * exact);
+    most = std::max(most, misplaced(by_fast, transfers));
+  }
+  EXPECT_LT(most, 0.2);
+  EXPECT_GT(most, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(ClosedScenes, CorrectedPower,
+                         ::testing::Values("furnace", "cornell-box", "sphere-flake:levels=1"),
+                         [](const auto& test) { return "scene" + std::to_string(test.index); });
+
+TEST(CorrectedEngine, LosesLittleOfTheAnswer) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 0.02});
+  SolveOptions options{.directions = 128, .threads = 2};
+  const Solution exact = solve(scene, options);
+  options.engine = Engine::corrected;
+  const Solution corrected = solve(scene, options);
+  double off = 0, all = 0;
+  for (std::size_t i = 0; i < exact.radiosity.size(); ++i) {
+    const Rgb difference = corrected.radiosity[i] - exact.radiosity[i];
+    off += difference.r * difference.r + difference.g * difference.g;
+    all +=
+        exact.radiosity[i].r * exact.radiosity[i].r + exact.radiosity[i].g * exact.radiosity[i].g;
+  }
+  EXPECT_LT(std::sqrt(off / all), 0.03);
+  EXPECT_LT(corrected.statistics.escaped, 1e-6);
+  options.threads = 1;
+  EXPECT_TRUE(solve(scene, options).radiosity == corrected.radiosity);
+}
+
+TEST(CorrectedEngine, StopsWhenAsked) {
+  const Engines engines(load_scene("rooms"));
+  Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Cancelled);
+}
+
+}  // namespace
+}  // namespace transillum
