@@ -152,7 +152,13 @@ QWidget* ColorControls::make_map_page() {
 
 void ColorControls::toggle_direction() { direction_->toggle(); }
 
+void ColorControls::set_direction(bool shown) { direction_->setChecked(shown); }
+
+bool ColorControls::direction() const { return direction_->isChecked(); }
+
 void ColorControls::set_outlines(bool shown) { outlines_->setChecked(shown); }
+
+bool ColorControls::outlines() const { return outlines_->isChecked(); }
 
 void ColorControls::show_choice() {
   const ColorScale& scale = colors_.scale();

@@ -22,7 +22,10 @@ class ColorControls : public QWidget {
   explicit ColorControls(ColorChoice& colors, QWidget* parent = nullptr);
 
   void toggle_direction();
+  void set_direction(bool shown);
+  bool direction() const;
   void set_outlines(bool shown);
+  bool outlines() const;
 
  signals:
   void direction_toggled(bool shown);

@@ -69,7 +69,8 @@ void finish(CommandLine& line, const Words& words, const CLI::App& app) {
   solve.first_shot = first_shot_from_name(words.first_shot);
   solve.validate();
   if (app.count("--screenshot") > 0) {
-    if (line.scene.empty()) throw InputError("--screenshot needs a SCENE");
+    if (line.scene.empty() && line.lesson.empty())
+      throw InputError("--screenshot needs a SCENE or a --lesson");
     const std::filesystem::path path(line.screenshot);
     if (path.extension() != ".png")
       throw InputError("--screenshot: \"" + line.screenshot + "\" does not end in .png");
@@ -96,6 +97,11 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
   app.add_option("SCENE", line.scene, "an .obj file or a built-in scene; solved at once");
   add_solve_options(app, line, words);
+  auto* lesson = app.add_option("--lesson", line.lesson,
+                                "a lesson's file, or the number of one that comes along");
+  app.add_option("--page", line.page, "the lesson's page to begin with")
+      ->needs(lesson)
+      ->check(CLI::PositiveNumber);
   auto* screenshot =
       app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
   app.add_option("--after", line.after,

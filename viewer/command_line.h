@@ -14,6 +14,8 @@ struct CommandLine {
   std::string scene;  ///< empty: start without one
   SceneOptions scene_options;
   SolveOptions solve_options;
+  std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
+  int page = 1;            ///< of the lesson, from 1
   std::string screenshot;  ///< path of a PNG; empty: none
   int after = 0;           ///< directions before the screenshot; 0: the first full iteration
 };

@@ -10,6 +10,24 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+struct Widths {
+  int left, right;
+};
+Widths widths_of(DockLayouts::Layout layout) {
+  switch (layout) {
+    case DockLayouts::Layout::teach:
+      return {400, 480};
+    case DockLayouts::Layout::debug:
+      return {330, 470};
+    default:
+      return {290, 410};
+  }
+}
+
+}  // namespace
+
 DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window) {
   window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
                          QMainWindow::AllowTabbedDocks);
@@ -27,6 +45,7 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
 }
 
 void DockLayouts::arrange(Layout layout) {
+  current_ = layout;
   for (const Dock& dock : docks_) {
     window_.removeDockWidget(dock.widget);
     dock.widget->setFloating(false);
@@ -34,6 +53,9 @@ void DockLayouts::arrange(Layout layout) {
   QList<QDockWidget*> left, right, shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
+    // One without a place here comes where it is in another layout, should it be asked for.
+    if (!dock.places.empty()) window_.addDockWidget(dock.places.front().area, dock.widget);
+    dock.widget->hide();
     for (const Place& place : dock.places) {
       if (place.layout != layout) continue;
       window_.addDockWidget(place.area, dock.widget);
@@ -49,10 +71,9 @@ void DockLayouts::arrange(Layout layout) {
       if (place.area == Qt::RightDockWidgetArea) right << dock.widget;
     }
   }
-  const int right_width = layout == Layout::debug ? 470 : 410;
+  const Widths widths = widths_of(layout);
   if (!left.isEmpty() && !right.isEmpty())
-    window_.resizeDocks({left.front(), right.front()},
-                        {layout == Layout::debug ? 330 : 290, right_width}, Qt::Horizontal);
+    window_.resizeDocks({left.front(), right.front()}, {widths.left, widths.right}, Qt::Horizontal);
   window_.resizeDocks(shown, heights, Qt::Vertical);
 }
 
@@ -65,8 +86,33 @@ void DockLayouts::add_to(QMenu& menu) {
         text, this, [this, layout] { arrange(layout); }, QKeySequence(QString::fromLatin1(key)));
     action->setObjectName(QString::fromLatin1(name));
   };
-  add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+1");
-  add_layout(Layout::debug, "layout_debug", tr("Lay out to step through a map"), "Ctrl+2");
+  add_layout(Layout::teach, "layout_teach", tr("Lay out to teach"), "Ctrl+1");
+  add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+2");
+  add_layout(Layout::debug, "layout_debug", tr("Lay out to debug a map"), "Ctrl+3");
+}
+
+namespace {
+
+std::string panel_name(const QDockWidget& dock) {
+  return dock.objectName().remove(QStringLiteral("_dock")).toStdString();
+}
+
+}  // namespace
+
+bool DockLayouts::bring_to_front(const std::string& panel) {
+  for (const Dock& dock : docks_) {
+    if (panel_name(*dock.widget) != panel) continue;
+    dock.widget->show();
+    dock.widget->raise();
+    return true;
+  }
+  return false;
+}
+
+std::vector<std::string> DockLayouts::panels() const {
+  std::vector<std::string> names;
+  for (const Dock& dock : docks_) names.push_back(panel_name(*dock.widget));
+  return names;
 }
 
 QWidget* scrollable(QWidget* content) {

@@ -3,6 +3,7 @@
 
 #include <QMainWindow>
 #include <QObject>
+#include <string>
 #include <vector>
 
 class QDockWidget;
@@ -15,7 +16,7 @@ class DockLayouts : public QObject {
   Q_OBJECT
 
  public:
-  enum class Layout { inspect, debug };
+  enum class Layout { teach, inspect, debug };
 
   explicit DockLayouts(QMainWindow& window);
 
@@ -30,6 +31,13 @@ class DockLayouts : public QObject {
   QDockWidget* add(const QString& title, const char* name, QWidget* content,
                    std::vector<Place> places);
   void arrange(Layout layout);
+  /// The one arranged last.
+  Layout current() const { return current_; }
+  /// Shows a panel, in front of those it shares its place with. `panel` is its dock's name without
+  /// "_dock"; false where there is none.
+  bool bring_to_front(const std::string& panel);
+  /// What bring_to_front() takes.
+  std::vector<std::string> panels() const;
   /// Docks to show and hide, and the layouts.
   void add_to(QMenu& menu);
 
@@ -40,6 +48,7 @@ class DockLayouts : public QObject {
   };
   QMainWindow& window_;
   std::vector<Dock> docks_;
+  Layout current_ = Layout::inspect;
 };
 
 /// `content` with a scroll bar where it is too high, and never too narrow for it.

@@ -10,6 +10,7 @@
 #include "main_window.h"
 #include "screenshot.h"
 #include "theme.h"
+#include "transillum/errors.h"
 
 using namespace transillum::viewer;
 
@@ -78,6 +79,14 @@ int main(int argc, char** argv) {
     if (for_screenshot)
       goal = wish.after > 0 ? Goal{Goal::Kind::passes, wish.after} : Goal{Goal::Kind::iteration};
     window.open(QString::fromStdString(wish.scene), goal);
+  }
+  if (!wish.lesson.empty()) {
+    try {
+      window.begin_lesson(wish.lesson, wish.page);
+    } catch (const transillum::InputError& error) {
+      say(QString::fromStdString(error.what()));
+      return 2;
+    }
   }
   QApplication::exec();
   return status;

@@ -24,6 +24,7 @@
 #include "convergence_view.h"
 #include "direction_view.h"
 #include "help_dialogs.h"
+#include "lesson_panel.h"
 #include "map_view.h"
 #include "number_text.h"
 #include "patch_inspector.h"
@@ -34,6 +35,7 @@
 #include "settings_panel.h"
 #include "solve_actions.h"
 #include "solve_summary.h"
+#include "stage.h"
 #include "step_actions.h"
 #include "step_panel.h"
 #include "theme.h"
@@ -49,6 +51,10 @@ namespace {
 constexpr int layout_version = 4;
 
 constexpr PatchId few_patches = 64;
+
+std::string fmt(const char* words, std::size_t number) {
+  return QString::fromLatin1(words).arg(number).toStdString();
+}
 
 QString dropped_file(const QMimeData& data) {
   const QList<QUrl> urls = data.urls();
@@ -69,6 +75,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   statusBar()->addWidget(progress_, 1);
   statusBar()->setSizeGripEnabled(false);
   connect_session();
+  stage_ = new Stage(*this);
+  connect(lesson_panel_, &LessonPanel::page_shown, stage_, &Stage::show);
   restore_layout();
 }
 
@@ -85,8 +93,10 @@ void MainWindow::make_center() {
 }
 
 void MainWindow::make_docks() {
+  constexpr auto teach = DockLayouts::Layout::teach;
   constexpr auto inspect = DockLayouts::Layout::inspect, debug = DockLayouts::Layout::debug;
   constexpr auto left = Qt::LeftDockWidgetArea, right = Qt::RightDockWidgetArea;
+  constexpr auto bottom = Qt::BottomDockWidgetArea;
   settings_ = new SettingsPanel;
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(selection_, colors_);
@@ -96,29 +106,35 @@ void MainWindow::make_docks() {
   received_view_ = new ReceivedView(focus_, selection_, sights_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
+  lesson_panel_ = new LessonPanel(built_in_lessons());
   auto* events = new StepPanel(focus_, selection_);
   timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return breakpoints_.steps_in(history); });
 
+  docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
-  docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_), {{debug, left, 560}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
   docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
-  docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
-                         {{inspect, right, 450}, {debug, right, 480}});
-  docks_.add(tr("Convergence"), "convergence_dock", convergence_view_, {{inspect, right, 400}});
-  docks_.add(tr("Directions"), "direction_dock", direction_view_, {{inspect, right, 400, true}});
-  docks_.add(tr("Events"), "event_dock", events, {{debug, right, 260}});
+                         {{teach, right, 480}, {inspect, right, 450}, {debug, right, 480}});
+  docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
+             {{teach, right, 360}, {debug, left, 560}});
+  docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
+  docks_.add(tr("Convergence"), "convergence_dock", convergence_view_,
+             {{teach, right, 360, true}, {inspect, right, 400}});
+  docks_.add(tr("Directions"), "direction_dock", direction_view_,
+             {{teach, right, 360, true}, {inspect, right, 400, true}});
+  docks_.add(tr("Events"), "event_dock", events, {{teach, right, 360, true}, {debug, right, 260}});
   docks_.add(tr("BSP tree"), "tree_dock", new TreeView(focus_, selection_),
-             {{debug, right, 260, true}});
+             {{teach, right, 360, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
-  QDockWidget* timeline_dock = docks_.add(
-      tr("Timeline"), "timeline_dock", timeline_,
-      {{inspect, Qt::BottomDockWidgetArea, 132}, {debug, Qt::BottomDockWidgetArea, 132}});
+  QDockWidget* timeline_dock =
+      docks_.add(tr("Timeline"), "timeline_dock", timeline_,
+                 {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
   timeline_dock->setTitleBarWidget(new QWidget);  // no room for one on a projector
+  connect(lesson_panel_, &LessonPanel::open_clicked, this, &MainWindow::choose_lesson);
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
   connect(map_dock_, &QDockWidget::visibilityChanged, this,
           [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
@@ -142,6 +158,8 @@ void MainWindow::make_menus() {
   step_actions_->add_to(*step);
   step->addSeparator();
   breakpoint_panel_->add_to(*step);
+
+  lesson_panel_->add_to(*menuBar()->addMenu(tr("&Lesson")));
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   docks_.add_to(*view);
@@ -230,6 +248,52 @@ void MainWindow::choose_file() {
   if (!path.isEmpty()) open(path);
 }
 
+RunOptions MainWindow::options() const {
+  return {settings_->solve_options(), settings_->scene_options()};
+}
+
+bool MainWindow::shows(const std::string& spec, const SceneOptions& options) const {
+  return loaded_ && spec == spec_ && RunOptions{{}, options} == RunOptions{{}, scene_options_};
+}
+
+bool MainWindow::outlined_at_first() const {
+  // Few large patches of like brightness run into one another without outlines.
+  return loaded_ && loaded_->scene->patch_count() <= few_patches;
+}
+
+void MainWindow::choose_lesson() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open a lesson"), {},
+                                                    tr("Lessons (*.json);;All files (*)"));
+  if (!path.isEmpty()) open_lesson(path);
+}
+
+void MainWindow::open_lesson(const QString& path) {
+  try {
+    begin_lesson(path.toStdString(), 1);
+  } catch (const InputError& error) {
+    show_failure(QString::fromStdString(error.what()));
+  }
+}
+
+void MainWindow::begin_lesson(const std::string& which, int page) {
+  bool number = false;
+  int lesson = QString::fromStdString(which).toInt(&number) - 1;
+  if (!number) {
+    Lesson read = read_lesson(which);
+    check_panels(read, which, docks_.panels());
+    lesson_panel_->add(std::move(read));
+    lesson = 0;
+  }
+  const auto& lessons = lesson_panel_->lessons();
+  if (lesson < 0 || lesson >= static_cast<int>(lessons.size()))
+    throw InputError(fmt("there are lessons 1 to %1", lessons.size()));
+  const std::size_t pages = lessons[static_cast<std::size_t>(lesson)].pages.size();
+  if (page < 1 || page > static_cast<int>(pages))
+    throw InputError(fmt("the lesson has pages 1 to %1", pages));
+  page_->banner()->dismiss();
+  lesson_panel_->show_page(lesson, page - 1);
+}
+
 bool MainWindow::at_start() const {
   return !snapshot_ || (snapshot_->progress.iteration == 0 && snapshot_->progress.direction == 0);
 }
@@ -246,9 +310,7 @@ void MainWindow::solve_anew() {
   if (!loaded_) return;
   page_->banner()->dismiss();
   const SceneOptions scene = settings_->scene_options();
-  const bool same_scene = scene.two_sided == scene_options_.two_sided &&
-                          scene.max_patch_area == scene_options_.max_patch_area;
-  if (same_scene)
+  if (shows(spec_, scene))
     session_.restart(settings_->solve_options(), {Goal::Kind::finished});
   else
     open(QString::fromStdString(spec_));
@@ -266,8 +328,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   received_view_->clear();
   page_->show_scene();
   scene_view_->show_scene(loaded_);
-  // Few large patches of like brightness run into one another without outlines.
-  page_->color_controls()->set_outlines(loaded_->scene->patch_count() <= few_patches);
+  page_->color_controls()->set_outlines(outlined_at_first());
   progress_->show_scene(*loaded_);
   const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
   setWindowTitle(tr("%1 – transillum").arg(name));
@@ -284,6 +345,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
             ? warnings.front()
             : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1),
         warnings.join('\n'));
+  emit scene_shown();
 }
 
 void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -307,6 +369,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   focus_feed_.show_snapshot(snapshot_);
   // A large scene is refreshed less often, so that the window has time for its user.
   session_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
+  emit snapshot_shown();
 }
 
 void MainWindow::show_state(SessionState state) {
@@ -319,7 +382,7 @@ void MainWindow::show_state(SessionState state) {
 bool MainWindow::settled() const {
   const bool resting =
       session_.state() == SessionState::paused || session_.state() == SessionState::finished;
-  return resting && snapshot_ && focus_.arrived() &&
+  return resting && snapshot_ && stage_->arrived() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 

@@ -11,6 +11,7 @@
 #include "dock_layouts.h"
 #include "focus.h"
 #include "focus_feed.h"
+#include "run_options.h"
 #include "selection.h"
 #include "solver_session.h"
 
@@ -23,6 +24,7 @@ class AlgorithmView;
 class BreakpointPanel;
 class ConvergenceView;
 class DirectionView;
+class LessonPanel;
 class MapView;
 class PatchInspector;
 class ProgressLine;
@@ -32,6 +34,7 @@ class SceneView;
 class SettingsPanel;
 class SolveActions;
 class SolveSummary;
+class Stage;
 class StepActions;
 class TimelineBar;
 
@@ -46,6 +49,18 @@ class MainWindow : public QMainWindow {
 
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
   void open(const QString& spec, Goal then = {Goal::Kind::finished});
+  /// A lesson of a JSON file; shows its first page, or says what is wrong with it.
+  void open_lesson(const QString& path);
+  /// As the command line names it: a file, or a number from 1. @throws InputError
+  void begin_lesson(const std::string& which, int page);
+  /// What the next solve will be told.
+  RunOptions options() const;
+  /// The open scene, and how it was read.
+  const std::string& spec() const { return spec_; }
+  const SceneOptions& scene_options_in_effect() const { return scene_options_; }
+  bool shows(const std::string& spec, const SceneOptions& options) const;
+  /// Whether the open scene's patches have outlines unless they are hidden.
+  bool outlined_at_first() const;
 
   /// Whether the worker rests and every view shows the newest there is.
   bool settled() const;
@@ -55,10 +70,16 @@ class MainWindow : public QMainWindow {
   Selection& selection() { return selection_; }
   ColorChoice& colors() { return colors_; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
+  DockLayouts& docks() { return docks_; }
+  ScenePage* page() const { return page_; }
+  MapView* map_view() const { return map_view_; }
+  Stage& stage() { return *stage_; }
   QString banner_text() const;
 
  signals:
   void failed(const QString& message, bool bad_input);
+  void scene_shown();
+  void snapshot_shown();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -73,6 +94,7 @@ class MainWindow : public QMainWindow {
   void connect_session();
   void restore_layout();
   void choose_file();
+  void choose_lesson();
   void run();
   void solve_anew();
   void show_loaded(std::shared_ptr<const LoadedScene> loaded);
@@ -95,6 +117,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
 
+  Stage* stage_ = nullptr;
   SolveActions* actions_;
   StepActions* step_actions_;
   ScenePage* page_;
@@ -110,6 +133,7 @@ class MainWindow : public QMainWindow {
   TimelineBar* timeline_;
   AlgorithmView* algorithm_;
   BreakpointPanel* breakpoint_panel_;
+  LessonPanel* lesson_panel_;
   QDockWidget* map_dock_;
 };
 

@@ -140,6 +140,10 @@ void MapView::clear() {
   show_title();
 }
 
+void MapView::set_labels_shown(bool shown) { labels_->setChecked(shown); }
+
+bool MapView::labels_shown() const { return labels_->isChecked(); }
+
 bool MapView::up_to_date() const { return canvas_->up_to_date() && !recolor_timer_->isActive(); }
 
 void MapView::show_moment() {

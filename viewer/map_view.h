@@ -29,6 +29,10 @@ class MapView : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
 
+  /// Whether the patches of fragments are named.
+  void set_labels_shown(bool shown);
+  bool labels_shown() const;
+
   bool up_to_date() const;
   MapCanvas* canvas() const { return canvas_; }
 

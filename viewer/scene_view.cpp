@@ -21,7 +21,6 @@
 
 #include <algorithm>
 
-#include "initial_view.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -143,6 +142,20 @@ void SceneView::reset_view() {
   const ViewPoint view = initial_view(*loaded_->scene, aspect);
   focus_point_ = view.target;
   radius_ = view.radius;
+  place_camera(view);
+}
+
+ViewPoint SceneView::view_point() const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  return {vec3(camera->GetPosition()), vec3(camera->GetFocalPoint()), vec3(camera->GetViewUp()),
+          camera->GetViewAngle(), radius_};
+}
+
+void SceneView::look_from(const ViewPoint& view) {
+  if (loaded_) place_camera(view);
+}
+
+void SceneView::place_camera(const ViewPoint& view) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
   camera->SetFocalPoint(view.target.x, view.target.y, view.target.z);

@@ -15,6 +15,7 @@
 #include "color_choice.h"
 #include "direction_glyph.h"
 #include "focus.h"
+#include "initial_view.h"
 #include "scene_mesh.h"
 #include "selection.h"
 #include "snapshot.h"
@@ -41,6 +42,9 @@ class SceneView : public QWidget {
   /// Smooths edges: for a scene at rest, since it doubles what a picture costs without a GPU.
   void set_smooth(bool smooth);
   void reset_view();
+  /// Where it is looked from; look_from() keeps the radius of what is worth looking at.
+  ViewPoint view_point() const;
+  void look_from(const ViewPoint& view);
 
   /// The patch drawn at a point of canvas(), in Qt's own (logical) pixels; no_patch for none.
   PatchId patch_at(const QPoint& position) const;
@@ -50,6 +54,7 @@ class SceneView : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void place_camera(const ViewPoint& view);
   void recolor();
   void show_direction();
   bool stepping() const;

@@ -45,6 +45,8 @@ class SolverSession : public QObject {
 
   /// Loads; the old scene stays where loading fails or is stopped.
   void open(OpenRequest request);
+  /// Goes on until the goal is reached.
+  void pursue(Goal goal) { aim(goal); }
   void run() { aim({Goal::Kind::finished}); }
   void pause() { aim({Goal::Kind::rest}); }
   void advance_one_direction() { aim({Goal::Kind::direction}); }

@@ -1,0 +1,157 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QTest>
+#include <nlohmann/json.hpp>
+
+#include "lesson.h"
+#include "transillum/errors.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+// A lesson of these pages.
+std::string lesson(const std::string& pages) {
+  return R"({"title": "T", "pages": [)" + pages + "]}";
+}
+
+std::string page(const std::string& show) { return R"({"text": "x", "show": {)" + show + "}}"; }
+
+}  // namespace
+
+class LessonFormatTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_page_tells_all() {
+    const Lesson l = lesson_from_text(
+        lesson(page(R"("scene": "boards", "options": {"directions": 16, "two-way": false,
+          "sampling": "random", "seed": 7, "first-shot": "auto", "max-patch-area": 0.5},
+          "solve": 12, "focus": {"iteration": 2, "direction": 3, "step": 4, "phase": "split"},
+          "select": 5, "camera": {"eye": [1, 2, 3], "target": [0, 0, 1], "up": [0, 0, 1],
+          "angle": 40}, "colors": {"show": "luminance", "map": "cividis", "logarithmic": true},
+          "outlines": true, "direction": false, "labels": true, "layout": "debug",
+          "panels": ["map"])")),
+        "a.json");
+    QCOMPARE(l.title, std::string("T"));
+    QCOMPARE(l.pages.size(), std::size_t{1});
+    const ViewState& s = l.pages[0].state;
+    QCOMPARE(s.scene, std::string("boards"));
+    QCOMPARE(s.options.solve.directions, 16);
+    QVERIFY(!s.options.solve.two_way);
+    QVERIFY(s.options.solve.sampling == Sampling::random);
+    QCOMPARE(s.options.solve.seed, std::uint64_t{7});
+    QVERIFY(s.options.solve.first_shot.has_value());
+    QCOMPARE(s.options.scene.max_patch_area, 0.5);
+    QVERIFY(s.solve.kind == Goal::Kind::passes);
+    QCOMPARE(s.solve.passes, 12);
+    QVERIFY(s.focus.has_value());
+    QCOMPARE(s.focus->iteration, 1);  // the window counts from 1
+    QCOMPARE(s.focus->direction, 2);
+    QCOMPARE(std::get<std::int32_t>(s.focus->step), 3);
+    QVERIFY(s.focus->phase == Phase::split);
+    QCOMPARE(s.selection, PatchId{5});
+    QVERIFY(s.camera.has_value());
+    QCOMPARE(s.camera->eye.z, 3.0);
+    QVERIFY(s.color_mode == ColorMode::luminance && s.color_map == ColorMap::cividis);
+    QVERIFY(s.logarithmic && s.labels && !s.direction_shown && s.outlines == true);
+    QVERIFY(s.layout == DockLayouts::Layout::debug);
+    QCOMPARE(s.panels, std::vector<std::string>{"map"});
+    // Written and read again it is the same.
+    const auto written = to_json(s);
+    QCOMPARE(to_json(view_state_from_json(written, "w", "")).dump(), written.dump());
+  }
+
+  void a_page_keeps_what_the_one_before_told() {
+    const Lesson l = lesson_from_text(
+        lesson(page(R"("scene": "boards", "options": {"directions": 16}, "select": 3,
+                       "layout": "teach")") +
+               "," + page(R"("options": {"sampling": "random"}, "select": null)") + "," +
+               page(R"("scene": "furnace")")),
+        "a.json");
+    const ViewState& second = l.pages[1].state;
+    QCOMPARE(second.scene, std::string("boards"));
+    QCOMPARE(second.options.solve.directions, 16);
+    QVERIFY(second.options.solve.sampling == Sampling::random);
+    QCOMPARE(second.selection, no_patch);
+    // Another scene begins anew, but for the layout.
+    const ViewState& third = l.pages[2].state;
+    QCOMPARE(third.options.solve.directions, SolveOptions().directions);
+    QVERIFY(third.layout == DockLayouts::Layout::teach);
+  }
+
+  void a_text_may_be_a_list_of_lines() {
+    const Lesson l =
+        lesson_from_text(R"({"title": "T", "pages": [{"text": ["a", "", "b"]}]})", "a.json");
+    QCOMPARE(l.pages[0].text, std::string("a\n\nb\n"));
+  }
+
+  void a_bad_file_is_told_by_file_page_and_what_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("told");
+    const auto row = [](const char* name, const std::string& text, const char* told) {
+      QTest::newRow(name) << QString::fromStdString(text) << QString(told);
+    };
+    row("no JSON", "{\n\"title\": \"T\"\n\"pages\": []}", "bad.json, line 3: ");
+    row("empty", "", "bad.json, line 1: ");
+    row("no object", "[]", "bad.json: must be an object");
+    row("no title", R"({"pages": []})", "bad.json, title: is missing");
+    row("no pages", R"({"title": "T"})", "bad.json, pages: ");
+    row("empty pages", R"({"title": "T", "pages": []})", "bad.json, pages: ");
+    row("unknown key", R"({"title": "T", "page": 3, "pages": [{"text": ""}]})", "\"page\"");
+    row("page no object", lesson("3"), "bad.json, page 1: must be an object");
+    row("no text", lesson("{}"), "bad.json, page 1, text: is missing");
+    row("text a number", lesson(R"({"text": 3})"), "bad.json, page 1, text: ");
+    row("line a number", lesson(R"({"text": ["a", 3]})"), "bad.json, page 1, text: ");
+    row("show a list", lesson(R"({"text": "", "show": []})"), "bad.json, page 1, show: ");
+    row("second page", lesson(page("") + "," + page(R"("selct": 3)")),
+        "page 2: there is no \"selct\"");
+    row("type", lesson(page(R"("scene": 3)")), "page 1, scene: must be words");
+    row("directions", lesson(page(R"("options": {"directions": 0})")),
+        "page 1, options, directions: ");
+    row("half", lesson(page(R"("options": {"directions": 1.5})")), "options, directions: ");
+    row("huge", lesson(page(R"("options": {"directions": 1e99})")), "options, directions: ");
+    row("seed", lesson(page(R"("options": {"seed": -1})")), "options, seed: ");
+    row("sampling", lesson(page(R"("options": {"sampling": "fibonaci"})")), "options, sampling: ");
+    row("option", lesson(page(R"("options": {"direction": 3})")),
+        "options: there is no \"direction\"");
+    row("area", lesson(page(R"("options": {"max-patch-area": -1})")), "max-patch-area: ");
+    row("tolerance", lesson(page(R"("options": {"tolerance": -1})")), "page 1, options: ");
+    row("solve", lesson(page(R"("solve": "now")")), "page 1, solve: ");
+    row("solve half", lesson(page(R"("solve": 0.5)")), "page 1, solve: ");
+    row("focus", lesson(page(R"("focus": {"direction": 0})")), "page 1, focus, direction: ");
+    row("step", lesson(page(R"("focus": {"step": "third"})")), "page 1, focus, step: ");
+    row("phase", lesson(page(R"("focus": {"phase": 1})")), "page 1, focus, phase: ");
+    row("select", lesson(page(R"("select": -1)")), "page 1, select: ");
+    row("eye", lesson(page(R"("camera": {"eye": [1, 2]})")), "page 1, camera, eye: ");
+    row("same", lesson(page(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})")), "camera: ");
+    row("angle", lesson(page(R"("camera": {"angle": 0})")), "page 1, camera, angle: ");
+    row("layout", lesson(page(R"("layout": "debugging")")), "page 1, layout: ");
+    row("panels", lesson(page(R"("panels": "map")")), "page 1, panels: ");
+  }
+  void a_bad_file_is_told_by_file_page_and_what() {
+    QFETCH(QString, text);
+    QFETCH(QString, told);
+    try {
+      lesson_from_text(text.toStdString(), "bad.json");
+      QFAIL("it was taken");
+    } catch (const InputError& error) {
+      const QString message = error.what();
+      QVERIFY2(message.startsWith("bad.json") && message.contains(told), qPrintable(message));
+      QVERIFY2(!message.contains('\n'), qPrintable(message));
+    }
+  }
+
+  void a_file_that_is_not_there_is_told() {
+    QVERIFY_EXCEPTION_THROWN(read_lesson("/no/such/lesson.json"), InputError);
+  }
+
+  void unknown_panels_are_told() {
+    const Lesson l = lesson_from_text(lesson(page(R"("panels": ["map", "mop"])")), "a.json");
+    QVERIFY_EXCEPTION_THROWN(check_panels(l, "a.json", {"map"}), InputError);
+    check_panels(l, "a.json", {"map", "mop"});
+  }
+};
+
+QTEST_GUILESS_MAIN(LessonFormatTest)
+#include "lesson_format_test.moc"

@@ -1,0 +1,169 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QComboBox>
+#include <QDir>
+#include <QLabel>
+#include <QTemporaryDir>
+#include <QTextBrowser>
+
+#include "lesson_panel.h"
+#include "solved_window.h"
+#include "stage.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+struct Taught {
+  std::unique_ptr<MainWindow> window = make_window();
+  LessonPanel* panel = window->findChild<LessonPanel*>();
+
+  bool shows(int lesson, int page) {
+    panel->show_page(lesson, page);
+    return settles();
+  }
+  bool settles() {
+    return wait_for([this] { return window->settled(); }, 60000) &&
+           wait_for([this] { return window->settled(); });
+  }
+  QString text(const char* name) const { return window->findChild<QLabel*>(name)->text(); }
+  void trigger(const char* action) const { window->findChild<QAction*>(action)->trigger(); }
+  const Focus& focus() const { return window->focus(); }
+};
+
+void write(const QString& path, const QByteArray& text) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(text);
+}
+
+}  // namespace
+
+class LessonsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_lesson_drives_the_window() {
+    Taught taught;
+    MainWindow& window = *taught.window;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("mine.json");
+    write(path, R"({"title": "Mine", "pages": [
+      {"title": "One", "text": "first", "show": {"layout": "teach", "scene": "furnace",
+        "options": {"directions": 16}, "solve": 5, "select": 4}},
+      {"title": "Two", "text": "second", "show": {"focus": {"direction": 9, "step": 3,
+        "phase": "split"}, "colors": {"show": "luminance"},
+        "camera": {"eye": [9, 8, 7], "target": [0, 0, 0], "up": [0, 0, 1], "angle": 20}}},
+      {"text": "third", "show": {"options": {"directions": 8}, "solve": "finished",
+        "focus": {"iteration": 2, "direction": 2, "step": "exchange"}}}]})");
+    window.open_lesson(path);
+    QVERIFY(taught.settles());
+    QCOMPARE(taught.text("lesson_title"), QString("One"));
+    QCOMPARE(taught.text("lesson_place"), QString("1 of 3"));
+    QCOMPARE(window.findChild<QTextBrowser*>("lesson_text")->toPlainText(), QString("first"));
+    QCOMPARE(window.snapshot()->progress.direction, 5);
+    QCOMPARE(window.selection().patch(), PatchId{4});
+    QVERIFY(window.docks().current() == DockLayouts::Layout::teach);
+
+    taught.trigger("lesson_next");
+    QVERIFY(taught.settles());
+    QCOMPARE(window.snapshot()->progress.direction, 5);  // not solved anew
+    QVERIFY(!taught.focus().following());
+    QCOMPARE(taught.focus().moment().direction, 8);
+    QCOMPARE(taught.focus().moment().step, 2);
+    QVERIFY(taught.focus().phase() == Phase::split);
+    QVERIFY(window.colors().scale().mode == ColorMode::luminance);
+    QCOMPARE(window.findChild<SceneView*>()->view_point().eye.x, 9.0);
+
+    taught.trigger("lesson_next");
+    QVERIFY(taught.settles());
+    QCOMPARE(taught.text("lesson_title"), QString("Mine"));
+    QCOMPARE(window.session().state(), SessionState::finished);
+    QCOMPARE(window.snapshot()->progress.passes, 8);
+    QCOMPARE(taught.focus().moment().iteration, 1);
+    QVERIFY(taught.focus().map()->history.step(taught.focus().moment().step).exchanges > 0);
+    QVERIFY(!window.findChild<QAction*>("lesson_next")->isEnabled());
+
+    // Back is back: fewer directions than are solved mean a solve anew.
+    taught.trigger("lesson_previous");
+    taught.trigger("lesson_previous");
+    QVERIFY(taught.settles());
+    QCOMPARE(window.snapshot()->progress.direction, 5);
+    QCOMPARE(window.snapshot()->progress.iteration, 0);
+    QVERIFY(taught.focus().following());
+    QVERIFY(window.colors().scale().mode == ColorMode::true_color);
+    QVERIFY(!window.findChild<QAction*>("lesson_previous")->isEnabled());
+
+    // Who has looked around comes back.
+    window.selection().select(1);
+    taught.trigger("lesson_again");
+    QVERIFY(taught.settles());
+    QCOMPARE(window.selection().patch(), PatchId{4});
+  }
+
+  void a_bad_lesson_is_told_and_changes_nothing() {
+    Taught taught;
+    const std::size_t lessons = taught.panel->lessons().size();
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("bad.json");
+    write(path,
+          R"({"title": "T", "pages": [{"text": ""}, {"text": "", "show": {"panels": ["mop"]}}]})");
+    taught.window->open_lesson(path);
+    const QString told = taught.window->banner_text();
+    QVERIFY2(told.contains("bad.json, page 2") && told.contains("mop"), qPrintable(told));
+    QCOMPARE(taught.panel->lessons().size(), lessons);
+    QCOMPARE(taught.panel->lesson(), -1);
+  }
+
+  void a_page_whose_scene_is_missing_says_so_and_can_be_left() {
+    Taught taught;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("lost.json");
+    write(path, R"({"title": "T", "pages": [{"text": "", "show": {"scene": "lost.obj"}},
+                    {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}}}]})");
+    taught.window->open_lesson(path);
+    QVERIFY(wait_for([&] { return taught.window->banner_text().contains("lost.obj"); }));
+    taught.trigger("lesson_next");
+    QVERIFY(taught.settles());
+    QCOMPARE(QString::fromStdString(taught.window->spec()), QString("furnace"));
+  }
+
+  void pages_that_come_quickly_end_with_the_last() {
+    Taught taught;
+    QVERIFY(!taught.panel->lessons().empty());
+    const auto& first = taught.panel->lessons().front();
+    for (int page = 0; page < static_cast<int>(first.pages.size()); ++page)
+      taught.panel->show_page(0, page);
+    QVERIFY(taught.settles());
+    const ViewState& last = first.pages.back().state;
+    QCOMPARE(taught.window->spec(), last.scene);
+    QCOMPARE(taught.window->selection().patch(), last.selection);
+  }
+
+  void every_page_that_comes_along_can_be_shown_data() {
+    QTest::addColumn<int>("lesson");
+    for (int k = 0; k < static_cast<int>(built_in_lessons().size()); ++k)
+      QTest::newRow(built_in_lessons()[static_cast<std::size_t>(k)].title.c_str()) << k;
+  }
+  void every_page_that_comes_along_can_be_shown() {
+    QFETCH(int, lesson);
+    Taught taught;
+    check_panels(built_in_lessons()[static_cast<std::size_t>(lesson)], "lesson",
+                 taught.window->docks().panels());
+    const auto& pages = built_in_lessons()[static_cast<std::size_t>(lesson)].pages;
+    for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
+      QVERIFY2(taught.shows(lesson, k), qPrintable(QString("page %1").arg(k + 1)));
+      QCOMPARE(taught.window->banner_text(), QString());
+      const ViewState& state = pages[static_cast<std::size_t>(k)].state;
+      QCOMPARE(taught.window->selection().patch(), state.selection);
+      QCOMPARE(!taught.focus().following(), state.focus.has_value());
+      if (state.focus) QCOMPARE(taught.focus().moment().direction, state.focus->direction);
+      auto* text = taught.window->findChild<QTextBrowser*>("lesson_text");
+      QVERIFY(!text->toPlainText().trimmed().isEmpty());
+    }
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(LessonsTest)
+#include "lessons_test.moc"

@@ -1,0 +1,53 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "lesson.h"
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QMenu;
+class QTextBrowser;
+
+namespace transillum::viewer {
+
+/// The lessons there are, and the page of one: its text, and the ways to the next and the previous
+/// page.
+class LessonPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit LessonPanel(std::vector<Lesson> lessons, QWidget* parent = nullptr);
+
+  void add_to(QMenu& menu);
+  /// A lesson of a file: it comes first in the list from now on.
+  void add(Lesson lesson);
+  const std::vector<Lesson>& lessons() const { return lessons_; }
+
+  /// Counted from 0; -1: no lesson.
+  int lesson() const { return lesson_; }
+  int page() const { return page_; }
+  void show_page(int lesson, int page);
+
+ signals:
+  /// The window is to show what the page tells.
+  void page_shown(const transillum::viewer::ViewState& state);
+  void open_clicked();
+
+ private:
+  void fill_list();
+  void turn(int pages);
+  void show_state();
+
+  std::vector<Lesson> lessons_;
+  int lesson_ = -1, page_ = 0;
+  QComboBox* list_;
+  QLabel *title_, *place_;
+  QTextBrowser* text_;
+  QAction *previous_, *next_, *again_, *open_;
+};
+
+}  // namespace transillum::viewer

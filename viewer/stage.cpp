@@ -1,0 +1,182 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stage.h"
+
+#include "color_controls.h"
+#include "main_window.h"
+#include "map_view.h"
+#include "scene_page.h"
+#include "scene_view.h"
+#include "step_finder.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+int passes_done(const SolveProgress& progress) {
+  return progress.iteration * progress.passes + progress.direction;
+}
+
+StepFinder find_named(StepName name, PatchId selection) {
+  switch (name) {
+    case StepName::exchange:
+      return find_exchanges();
+    case StepName::event:
+      return find_events_of(selection);
+    case StepName::polygon:
+      return find_where([selection](const MapHistory& history, std::int32_t step) {
+        return history.step(step).patch == selection;
+      });
+    case StepName::cut:
+      break;
+  }
+  return find_where([](const MapHistory& history, std::int32_t step) {
+    return !history.inside_at(step).empty() && !history.outside_at(step).empty();
+  });
+}
+
+}  // namespace
+
+Stage::Stage(MainWindow& window) : QObject(&window), window_(window) {
+  connect(&window_, &MainWindow::scene_shown, this, &Stage::on_scene);
+  connect(&window_, &MainWindow::snapshot_shown, this, &Stage::on_snapshot);
+  connect(&window_, &MainWindow::failed, this, [this] { act_ = Act::idle; });
+  connect(&window_.focus(), &Focus::moved, this, &Stage::on_direction);
+}
+
+void Stage::show(const ViewState& state) {
+  wish_ = state;
+  if (wish_.layout && *wish_.layout != window_.docks().current())
+    window_.docks().arrange(*wish_.layout);
+  for (const std::string& panel : wish_.panels) window_.docks().bring_to_front(panel);
+  ColorChoice& colors = window_.colors();
+  colors.set_mode(wish_.color_mode);
+  colors.set_map(wish_.color_map);
+  colors.set_logarithmic(wish_.logarithmic);
+  window_.map_view()->set_labels_shown(wish_.labels);
+  begin_run();
+}
+
+void Stage::begin_run() {
+  // Without a scene of its own, a page is about whichever is open.
+  if (wish_.scene.empty()) {
+    act_ = Act::awaits_run;
+    on_snapshot();
+    return;
+  }
+  const RunOptions now = window_.options();
+  wish_.options.solve.threads = now.solve.threads;
+  wish_.options.solve.memory = now.solve.memory;
+  window_.set_options(wish_.options.solve, wish_.options.scene);
+
+  const auto snapshot = window_.snapshot();
+  if (!snapshot || !window_.shows(wish_.scene, wish_.options.scene)) {
+    act_ = Act::awaits_scene;
+    window_.open(QString::fromStdString(wish_.scene), wish_.solve);
+    return;
+  }
+  act_ = Act::awaits_run;
+  const bool beyond = wish_.solve.kind != Goal::Kind::finished &&
+                      passes_done(snapshot->progress) > wish_.solve.passes;
+  if (beyond || !(snapshot->options == wish_.options.solve))
+    window_.session().restart(wish_.options.solve, wish_.solve);
+  else
+    window_.session().pursue(wish_.solve);
+  on_snapshot();
+}
+
+void Stage::on_scene() {
+  if (act_ == Act::awaits_scene && window_.shows(wish_.scene, wish_.options.scene))
+    act_ = Act::awaits_run;
+  else
+    act_ = Act::idle;  // the user has opened another
+}
+
+// Snapshots of the run before may still be on their way.
+bool Stage::run_has_begun() const {
+  const auto snapshot = window_.snapshot();
+  if (!snapshot) return false;
+  if (wish_.scene.empty()) return true;
+  return snapshot->options == wish_.options.solve &&
+         (wish_.solve.kind == Goal::Kind::finished ||
+          passes_done(snapshot->progress) <= wish_.solve.passes);
+}
+
+bool Stage::moment_is_there() const {
+  return !wish_.focus || wish_.focus->iteration < window_.focus().iterations() ||
+         window_.session().state() == SessionState::finished;
+}
+
+void Stage::on_snapshot() {
+  if (act_ != Act::awaits_run || !run_has_begun()) return;
+  arrange();
+  if (!moment_is_there()) return;
+  focus();
+}
+
+void Stage::arrange() {
+  SceneView* scene = window_.page()->scene_view();
+  if (wish_.camera)
+    scene->look_from(*wish_.camera);
+  else
+    scene->reset_view();
+  const PatchId patches = window_.snapshot()->loaded->scene->patch_count();
+  window_.selection().select(wish_.selection < patches ? wish_.selection : no_patch);
+  window_.page()->color_controls()->set_direction(wish_.direction_shown);
+  window_.page()->color_controls()->set_outlines(
+      wish_.outlines.value_or(window_.outlined_at_first()));
+}
+
+void Stage::focus() {
+  Focus& focus = window_.focus();
+  if (!wish_.focus) {
+    act_ = Act::idle;
+    focus.set_following(true);
+    return;
+  }
+  act_ = Act::awaits_direction;
+  const auto* step = std::get_if<std::int32_t>(&wish_.focus->step);
+  focus.go_to({wish_.focus->iteration, wish_.focus->direction, step ? *step : -1});
+}
+
+void Stage::on_direction() {
+  if (act_ != Act::awaits_direction || !window_.focus().arrived()) return;
+  act_ = Act::idle;
+  Focus& focus = window_.focus();
+  if (const auto* name = std::get_if<StepName>(&wish_.focus->step))
+    focus.seek(find_named(*name, window_.selection().patch()), Way::forward);
+  focus.set_phase(wish_.focus->phase);
+}
+
+bool Stage::arrived() const { return act_ == Act::idle && window_.focus().arrived(); }
+
+ViewState Stage::state() const {
+  ViewState state;
+  const auto snapshot = window_.snapshot();
+  if (!snapshot) return state;
+  state.scene = window_.spec();
+  state.options = {snapshot->options, window_.scene_options_in_effect()};
+  const bool finished = window_.session().state() == SessionState::finished ||
+                        window_.session().state() == SessionState::running;
+  if (!finished) {
+    const int passes = passes_done(snapshot->progress);
+    state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
+  }
+  const Focus& focus = window_.focus();
+  if (!focus.following() && focus.map()) {
+    const Moment& moment = focus.moment();
+    state.focus = FocusChoice{moment.iteration, moment.direction, moment.step, focus.phase()};
+  }
+  state.selection = window_.selection().patch();
+  state.camera = window_.page()->scene_view()->view_point();
+  const ColorScale& scale = window_.colors().scale();
+  state.color_mode = scale.mode;
+  state.color_map = scale.map;
+  state.logarithmic = scale.logarithmic;
+  state.outlines = window_.page()->color_controls()->outlines();
+  state.direction_shown = window_.page()->color_controls()->direction();
+  state.labels = window_.map_view()->labels_shown();
+  state.layout = window_.docks().current();
+  return state;
+}
+
+}  // namespace transillum::viewer
