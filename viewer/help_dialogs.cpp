@@ -31,6 +31,7 @@ void show_keys(QWidget* parent) {
           "last</td></tr>"
           "<tr><td><b>F</b></td><td>follow the newest direction</td></tr>"
           "<tr><td><b>Ctrl+1 Ctrl+2</b></td><td>lay out to inspect, to step through</td></tr>"
+          "<tr><td><b>Ctrl+T</b></td><td>study: error against directions</td></tr>"
           "<tr><td><b>Home</b></td><td>reset the view</td></tr>"
           "<tr><td><b>D</b></td><td>show or hide the direction</td></tr>"
           "<tr><td><b>Esc</b></td><td>select nothing</td></tr>"

@@ -38,9 +38,11 @@
 #include "stage.h"
 #include "step_actions.h"
 #include "step_panel.h"
+#include "study_dialog.h"
 #include "theme.h"
 #include "timeline_bar.h"
 #include "timeline_lanes.h"
+#include "transillum/reference_cache.h"
 #include "tree_view.h"
 
 namespace transillum::viewer {
@@ -68,6 +70,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   setAcceptDrops(true);
   actions_ = new SolveActions(this);
   step_actions_ = new StepActions(focus_, selection_, this);
+  study_ =
+      new StudyDialog(remember ? ReferenceCache::default_folder() : std::filesystem::path(), this);
   make_center();
   make_docks();
   make_menus();
@@ -152,7 +156,15 @@ void MainWindow::make_menus() {
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 
-  actions_->add_to(*menuBar()->addMenu(tr("&Solve")));
+  QMenu* solve = menuBar()->addMenu(tr("&Solve"));
+  actions_->add_to(*solve);
+  solve->addSeparator();
+  auto* study = new QAction(theme::icon(theme::Icon::study), tr("Study…"), this);
+  study->setObjectName("study");
+  study->setShortcut(QKeySequence(QStringLiteral("Ctrl+T")));
+  study->setToolTip(tr("Error of B against the number of directions (Ctrl+T)"));
+  connect(study, &QAction::triggered, study_, &StudyDialog::present);
+  solve->addAction(study);
 
   QMenu* step = menuBar()->addMenu(tr("S&tep"));
   step_actions_->add_to(*step);
@@ -186,6 +198,8 @@ void MainWindow::make_menus() {
   bar->addAction(open_file);
   bar->addSeparator();
   actions_->add_to(*bar);
+  bar->addSeparator();
+  bar->addAction(study);
   addToolBar(bar);
 }
 
@@ -330,6 +344,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   scene_view_->show_scene(loaded_);
   page_->color_controls()->set_outlines(outlined_at_first());
   progress_->show_scene(*loaded_);
+  study_->show_scene(loaded_);
   const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
   setWindowTitle(tr("%1 – transillum").arg(name));
 
@@ -354,6 +369,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   timer.start();
   snapshot_ = std::move(snapshot);
   settings_->set_in_effect(snapshot_->options, scene_options_);
+  study_->set_solve(snapshot_->options);
   colors_.fit(snapshot_);
   scene_view_->show_snapshot(snapshot_);
   map_view_->show_snapshot(snapshot_);

@@ -36,6 +36,7 @@ class SolveActions;
 class SolveSummary;
 class Stage;
 class StepActions;
+class StudyDialog;
 class TimelineBar;
 
 /// The one window: lays out the views and carries snapshots to them.
@@ -135,6 +136,7 @@ class MainWindow : public QMainWindow {
   BreakpointPanel* breakpoint_panel_;
   LessonPanel* lesson_panel_;
   QDockWidget* map_dock_;
+  StudyDialog* study_;
 };
 
 }  // namespace transillum::viewer

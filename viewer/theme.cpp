@@ -136,6 +136,12 @@ void draw(QPainter& painter, Icon which, const QColor& color) {
       painter.drawPolygon(triangle(11, 19));
       painter.drawRoundedRect(QRectF(19, 5, 2.6, 14), 1, 1);
       break;
+    case Icon::study:
+      painter.setPen(line);
+      painter.setBrush(Qt::NoBrush);
+      painter.drawPolyline(QPolygonF({{4, 4}, {4, 20}, {20, 20}}));
+      painter.drawPolyline(QPolygonF({{8, 6}, {12, 9.5}, {16, 14.5}, {20, 16}}));
+      break;
     case Icon::step_back:
     case Icon::previous_event:
     case Icon::previous_exchange:

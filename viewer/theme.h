@@ -50,7 +50,8 @@ enum class Icon {
   previous_exchange,
   next_direction,
   previous_direction,
-  newest
+  newest,
+  study
 };
 /// Drawn for 1x and 2x screens.
 QIcon icon(Icon which);

@@ -119,7 +119,7 @@ StudyPlot::LogAxis StudyPlot::pass_axis() const {
   return {first / margin, last * margin, plot_left, plot_right};
 }
 
-/// Whole decades round all errors, and what of the bound lies up to one decade above.
+/// Whole decades round all errors, and of the bound its end and what lies up to one decade above.
 StudyPlot::LogAxis StudyPlot::error_axis() const {
   double low = HUGE_VAL, high = 0;
   for (const auto& [series, points] : points_) {
@@ -128,9 +128,12 @@ StudyPlot::LogAxis StudyPlot::error_axis() const {
       high = std::max(high, point.error(measure_));
     }
   }
-  double bound = 0;
-  for (const auto& [passes, value] : bounds_) bound = std::max(bound, value);
-  high = std::max(high, std::min(bound, 10 * high));
+  double least_bound = HUGE_VAL, bound = 0;
+  for (const auto& [passes, value] : bounds_) {
+    least_bound = std::min(least_bound, value);
+    bound = std::max(bound, value);
+  }
+  high = std::max(high, std::min(bound, std::max(10 * high, 2 * least_bound)));
   const double bottom = std::floor(std::log10(low) - 0.05);
   const double top = std::max(std::ceil(std::log10(high) - 0.35), bottom + 1);
   const double headroom = std::max(top, std::log10(high) + 0.08);

@@ -1,0 +1,127 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "study_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QImage>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QTemporaryDir>
+
+#include "banner.h"
+#include "solved_window.h"
+#include "study_chart.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+/// A study of few passes, not begun.
+struct Shown : SolvedWindow {
+  StudyDialog* dialog;
+
+  explicit Shown(const char* scene) : SolvedWindow(scene) {
+    trigger("study");
+    dialog = window->findChild<StudyDialog*>();
+    for (const int m : {16, 32, 64, 128, 256, 512}) choose(QString::number(m), m <= 64);
+    choose("hammersley", false);
+  }
+  void choose(const QString& name, bool on) const {
+    dialog->findChild<QCheckBox*>("study_" + name)->setChecked(on);
+  }
+  QPushButton* run() const { return dialog->findChild<QPushButton*>("study_run"); }
+  QString phase() const { return dialog->findChild<QLabel*>("study_phase")->text(); }
+  QString cell(int row, int column) const {
+    return dialog->findChild<QTableWidget*>("study_table")->item(row, column)->text();
+  }
+  void study() const {
+    run()->click();
+    QVERIFY(wait_for([this] { return phase() == "Done"; }));
+  }
+};
+
+}  // namespace
+
+class StudyTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void tells_errors_and_slopes() {
+    const Shown shown("cornell-box");
+    shown.choose("one_way", true);
+    shown.study();
+    const auto snapshot = shown.dialog->snapshot();
+    QVERIFY(snapshot->study.complete);
+    QCOMPARE(snapshot->study.points.size(), std::size_t{4 * 3});
+    QCOMPARE(shown.cell(0, 0), QString("fibonacci/two-way"));
+    QVERIFY(shown.cell(0, 1).startsWith(QStringLiteral("−")));
+    const QString rms_slope = shown.cell(0, 1);
+    shown.dialog->findChild<QComboBox*>("study_error")->setCurrentIndex(1);
+    QVERIFY(shown.cell(0, 1) != rms_slope);
+    // Lines in colour on a page.
+    auto* chart = shown.dialog->findChild<StudyChart*>();
+    QVERIFY(color_count(chart->grab().toImage()) > 8);
+  }
+
+  void saves_plots_and_figures() {
+    const Shown shown("furnace");
+    shown.study();
+    const QTemporaryDir folder;
+    for (const char* name : {"s.svg", "s.png", "s.csv"}) shown.dialog->save(folder.filePath(name));
+    QCOMPARE(QImage(folder.filePath("s.png")).size(), QSize(1600, 960));
+    QFile csv(folder.filePath("s.csv"));
+    QVERIFY(csv.open(QIODevice::ReadOnly));
+    QCOMPARE(csv.readAll().count('\n'), 1 + 2 * 3);
+    QVERIFY(QFile(folder.filePath("s.svg")).size() > 1000);
+    shown.dialog->save(folder.filePath("s.pdf"));
+    QVERIFY(!QFile::exists(folder.filePath("s.pdf")));
+    auto* banner = shown.dialog->findChild<Banner*>();
+    QVERIFY2(banner->text().contains("s.pdf"), qPrintable(banner->text()));
+  }
+
+  void wants_a_scene_and_a_choice() {
+    const auto window = make_window();
+    const auto* dialog = window->findChild<StudyDialog*>();
+    QVERIFY(!dialog->findChild<QPushButton*>("study_run")->isEnabled());
+    const Shown shown("furnace");
+    QVERIFY(shown.run()->isEnabled());
+    shown.choose("two_way", false);
+    QVERIFY(!shown.run()->isEnabled());
+    QVERIFY(!shown.dialog->findChild<QPushButton*>("study_save")->isEnabled());
+  }
+
+  void stopped_it_keeps_its_points() {
+    const Shown shown("sphere-flake:levels=1");
+    shown.choose("16384", true);  // and four times as many of the reference
+    shown.run()->click();
+    QVERIFY(wait_for([&] { return shown.phase().startsWith("Reference"); }));
+    QElapsedTimer timer;
+    timer.start();
+    shown.run()->click();
+    QVERIFY(wait_for([&] { return shown.phase() == "Stopped"; }));
+    QVERIFY2(timer.elapsed() < 2000, qPrintable(QString::number(timer.elapsed())));
+    QCOMPARE(shown.run()->text(), QString("Run the study"));
+  }
+
+  void another_scene_ends_it() {
+    const Shown shown("cornell-box");
+    shown.choose("16384", true);
+    shown.run()->click();
+    QVERIFY(wait_for([&] { return shown.dialog->snapshot() != nullptr; }));
+    shown.window->open("furnace");
+    QVERIFY(wait_for([&] { return shown.dialog->snapshot() == nullptr; }));
+    QTest::qWait(300);
+    QVERIFY(shown.dialog->snapshot() == nullptr);
+    QCOMPARE(shown.run()->text(), QString("Run the study"));
+    shown.choose("16384", false);
+    shown.study();
+    QCOMPARE(shown.dialog->snapshot()->loaded->scene->name(), std::string("furnace"));
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(StudyTest)
+#include "study_test.moc"

@@ -1,0 +1,153 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "study_session.h"
+
+#include <QMetaObject>
+#include <chrono>
+#include <utility>
+
+#include "thread_priority.h"
+#include "transillum/reference_cache.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr std::int64_t refresh_ns = 100'000'000;
+
+std::int64_t now_ns() {
+  using std::chrono::steady_clock;
+  return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+StudySession::StudySession(std::filesystem::path cache, QObject* parent)
+    : QObject(parent), cache_(std::move(cache)), worker_([this] { work(); }) {}
+
+StudySession::~StudySession() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+    cancellation_.cancel();
+  }
+  wake_.notify_one();
+  worker_.join();
+}
+
+void StudySession::start(Request request) {
+  {
+    const std::lock_guard lock(mutex_);
+    cancellation_.cancel();
+    request_ = std::move(request);
+  }
+  wake_.notify_one();
+}
+
+void StudySession::stop() {
+  const std::lock_guard lock(mutex_);
+  request_.reset();
+  cancellation_.cancel();
+}
+
+void StudySession::work() {
+  give_way_to_the_window();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return quit_ || request_; });
+    if (quit_) return;
+    const Request request = *std::exchange(request_, std::nullopt);
+    cancellation_ = Cancellation();
+    const Cancellation cancellation = cancellation_;
+    lock.unlock();
+    run(request, cancellation);
+    lock.lock();
+  }
+}
+
+void StudySession::run(const Request& request, const Cancellation& cancellation) {
+  StudySnapshot snapshot;
+  snapshot.loaded = request.loaded;
+  snapshot.series = request.options.series;
+  QString failure;
+  try {
+    const std::vector<Rgb> reference = reference_radiosity(request, cancellation);
+    snapshot.study = run_study(
+        request.loaded->scene, request.loaded->tree, request.options, reference,
+        [&](const StudyProgress& now) {
+          if (!due()) return;
+          StudySnapshot newest = snapshot;
+          newest.running = true;
+          newest.under_way = now.series;
+          newest.directions = now.directions;
+          newest.share = now.share;
+          newest.passes_per_second = now.passes_per_second;
+          newest.seconds_left = now.seconds_left;
+          newest.study.points.assign(now.points.begin(), now.points.end());
+          post(std::move(newest));
+        },
+        cancellation);
+  } catch (const Cancelled&) {
+  } catch (const std::exception& error) {
+    failure = QString::fromUtf8(error.what());
+  }
+  post(std::move(snapshot));
+  if (failure.isEmpty()) return;
+  QMetaObject::invokeMethod(
+      this, [this, failure] { emit failed(failure); }, Qt::QueuedConnection);
+}
+
+std::vector<Rgb> StudySession::reference_radiosity(const Request& request,
+                                                   const Cancellation& cancellation) {
+  const Scene& scene = *request.loaded->scene;
+  const SolveOptions options = request.options.reference();
+  const ReferenceCache cache(cache_);
+  if (auto kept = cache.find(scene, options)) return *std::move(kept);
+  std::vector<Rgb> radiosity = solve_reference(
+      request.loaded->scene, request.loaded->tree, options,
+      [&](const SolveProgress& now) {
+        if (now.direction == 0 || !due()) return;
+        StudySnapshot newest;
+        newest.loaded = request.loaded;
+        newest.series = request.options.series;
+        newest.running = newest.reference = true;
+        newest.directions = now.direction;
+        newest.passes = now.passes;
+        newest.share = static_cast<double>(now.direction) / now.passes;
+        newest.passes_per_second = now.passes_per_second;
+        newest.seconds_left = now.seconds_left;
+        post(std::move(newest));
+      },
+      cancellation);
+  try {
+    cache.store(scene, options, radiosity);
+  } catch (const std::exception&) {  // it costs the time to make it again, no more
+  }
+  return radiosity;
+}
+
+bool StudySession::due() {
+  const std::int64_t now = now_ns();
+  if (now - last_post_ns_ < refresh_ns) return false;
+  last_post_ns_ = now;
+  return true;
+}
+
+void StudySession::post(StudySnapshot snapshot) {
+  const std::lock_guard lock(mutex_);
+  const bool waiting = mailbox_ != nullptr;
+  mailbox_ = std::make_shared<const StudySnapshot>(std::move(snapshot));
+  if (waiting) return;
+  QMetaObject::invokeMethod(
+      this,
+      [this] {
+        std::shared_ptr<const StudySnapshot> newest;
+        {
+          const std::lock_guard mailbox_lock(mutex_);
+          newest = std::exchange(mailbox_, nullptr);
+        }
+        emit snapshot_ready(newest);
+      },
+      Qt::QueuedConnection);
+}
+
+}  // namespace transillum::viewer
