@@ -132,6 +132,24 @@ void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& option
                         refuse("--lines", text, "larger than 0 and at most 1e6");
                       }
                     });
+  add_parsed_option(
+      command, "--resolution", "R",
+      fmt::format("for zbuffer and painter: pixels along the longer side of the projected scene "
+                  "(default {}); for rays: lines along it, instead of --lines",
+                  EngineOptions::default_resolution),
+      [&options](const std::string& text) {
+        options.resolution = static_cast<int>(
+            parse_whole_number("--resolution", text, 1, EngineOptions::largest_resolution));
+      });
+  add_parsed_option(
+      command, "--order", "NAME",
+      fmt::format("of the painter: {} (default {}); newell gives up where patches overlap in a "
+                  "circle",
+                  fmt::join(painters_order_names(), " | "), name_of(options.order)),
+      [&options](const std::string& text) { options.order = painters_order_from_name(text); });
+  command.add_flag_callback(
+      "--random-lines", [&options] { options.gridded = false; },
+      "for the engine rays: lines anywhere instead of one in each cell of a grid");
 }
 
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {

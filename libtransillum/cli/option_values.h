@@ -26,7 +26,7 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 void add_scene_argument(CLI::App& command, std::string& scene);
 /// --direction, required; a unit vector of it
 void add_direction_option(CLI::App& command, Vec3& direction);
-/// --engine and --lines
+/// --engine, --lines, --resolution, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/engine.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "choice.h"
@@ -10,8 +12,8 @@
 namespace transillum {
 
 const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"fast",  "local", "global",
-                                              "exact", "rays",  "corrected"};
+  static const std::vector<std::string> names{"fast",    "local",   "global", "exact",
+                                              "zbuffer", "painter", "rays",   "corrected"};
   return names;
 }
 
@@ -23,8 +25,33 @@ const std::string& name_of(Engine engine) {
   return engine_names()[static_cast<std::size_t>(engine)];
 }
 
+const std::vector<std::string>& painters_order_names() {
+  static const std::vector<std::string> names{"bsp", "newell"};
+  return names;
+}
+
+PaintersOrder painters_order_from_name(const std::string& name) {
+  return choice_from_name<PaintersOrder>(painters_order_names(), "painter's order", name);
+}
+
+const std::string& name_of(PaintersOrder order) {
+  return painters_order_names()[static_cast<std::size_t>(order)];
+}
+
+namespace {
+
+void check(const EngineOptions& options) {
+  if (options.resolution < 0 || options.resolution > EngineOptions::largest_resolution) {
+    throw InputError(fmt::format("resolution: {} is not from 1 to {}", options.resolution,
+                                 EngineOptions::largest_resolution));
+  }
+}
+
+}  // namespace
+
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree, const EngineOptions& options) {
+  check(options);
   switch (engine) {
     case Engine::fast:
       return fast_engine(std::move(scene), std::move(tree));
@@ -36,6 +63,10 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
       return exact_engine(std::move(scene), std::move(tree));
     case Engine::rays:
       return ray_engine(std::move(scene), options);
+    case Engine::zbuffer:
+      return zbuffer_engine(std::move(scene), options);
+    case Engine::painter:
+      return painter_engine(std::move(scene), std::move(tree), options);
     case Engine::corrected:
       return corrected_engine(std::move(scene), std::move(tree));
   }

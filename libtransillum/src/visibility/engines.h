@@ -18,6 +18,9 @@ TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
                             std::shared_ptr<const BspTree> tree);
 TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
                                 std::shared_ptr<const BspTree> tree);
+TransferEngine zbuffer_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
+TransferEngine painter_engine(std::shared_ptr<const Scene> scene,
+                              std::shared_ptr<const BspTree> tree, const EngineOptions& options);
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
 
 /// Whether surfaces are closed and no lit side looks at a back, whatever the direction.

@@ -14,15 +14,15 @@
 #include "bit_mixing.h"
 #include "transillum/errors.h"
 #include "transillum/visibility_map.h"
+#include "visibility/counted_transfers.h"
 #include "visibility/embree_scene.h"
 #include "visibility/engines.h"
+#include "visibility/pixel_grid.h"
 
 namespace transillum {
 namespace {
 
 constexpr std::size_t packet_size = 16;
-/// Patches seen at less than this cosine are edge-on to float32.
-constexpr double least_cosine = 1e-7;
 /// Hits nearer to each other than this share of the scene's radius may be one seam hit twice.
 constexpr double seam = 1e-5;
 
@@ -44,19 +44,29 @@ class LineGrid {
  public:
   struct Packet {
     std::array<double, packet_size> x, y;
+    std::array<int, packet_size> row, column;
     alignas(64) std::array<int, packet_size> valid;
   };
 
-  LineGrid(const Vec2& low, const Vec2& high, double lines, bool gridded, std::uint64_t key)
-      : low_(low), size_{high.x - low.x, high.y - low.y}, gridded_(gridded), key_(key) {
+  LineGrid(const PlaneWindow& window, double lines, bool gridded, std::uint64_t key)
+      : low_(window.low), size_(window.size()), gridded_(gridded), key_(key) {
     lines = std::ceil(lines);
     if (!(size_.x > 0) || !(size_.y > 0)) return;  // nothing but edges
     const double cell = std::sqrt(size_.x * size_.y / lines);
     const double rows = gridded ? std::clamp(std::round(size_.y / cell), 1.0, lines) : 1.0;
     rows_ = static_cast<std::int64_t>(rows);
     columns_ = static_cast<std::int64_t>(std::ceil(lines / rows));
-    tile_columns_ = gridded ? (columns_ + 3) / 4 : (columns_ + 15) / 16;
-    packets_ = tile_columns_ * (gridded ? (rows_ + 3) / 4 : 1);
+    make_packets();
+  }
+  /// A line a pixel.
+  LineGrid(const PixelGrid& pixels, bool gridded, std::uint64_t key)
+      : low_(pixels.corner()),
+        size_{pixels.columns() * pixels.side(), pixels.rows() * pixels.side()},
+        gridded_(gridded),
+        key_(key),
+        rows_(gridded ? pixels.rows() : 1),
+        columns_(static_cast<std::int64_t>(pixels.columns()) * (gridded ? 1 : pixels.rows())) {
+    make_packets();
   }
 
   std::int64_t packets() const { return packets_; }
@@ -73,6 +83,8 @@ class LineGrid {
       const std::int64_t i = gridded_ ? 4 * column + lane % 4 : 16 * column + lane;
       const std::int64_t j = gridded_ ? 4 * row + lane / 4 : 0;
       lines.valid[k] = i < columns_ && j < rows_ ? -1 : 0;
+      lines.row[k] = static_cast<int>(j);
+      lines.column[k] = static_cast<int>(i);
       const std::uint64_t number = static_cast<std::uint64_t>(j * columns_ + i);
       const std::uint64_t random = mixed(key_ + number * golden_step);
       const double u = (static_cast<double>(random >> 32) + 0.5) * 0x1p-32;
@@ -83,6 +95,10 @@ class LineGrid {
   }
 
  private:
+  void make_packets() {
+    tile_columns_ = gridded_ ? (columns_ + 3) / 4 : (columns_ + 15) / 16;
+    packets_ = tile_columns_ * (gridded_ ? (rows_ + 3) / 4 : 1);
+  }
   double columns() const { return static_cast<double>(columns_); }
   double rows() const { return static_cast<double>(rows_); }
 
@@ -111,77 +127,32 @@ struct Meetings {
 /// One direction's lines.
 class RayPass {
  public:
-  RayPass(const Scene& scene, const EmbreeScene& embree, const EngineOptions& options,
-          const Vec3& omega, const Cancellation& cancellation)
+  RayPass(const Scene& scene, const EmbreeScene& embree, const LineGrid& grid, bool gridded,
+          const PlaneFrame& frame, const PatchHeights& heights, PixelBook& book,
+          const Cancellation& cancellation)
       : scene_(scene),
         embree_(embree),
         cancellation_(cancellation),
-        gridded_(options.gridded),
-        frame_(plane_frame(scene, omega)),
-        grid_(make_grid(options)),
+        gridded_(gridded),
+        frame_(frame),
+        grid_(grid),
+        heights_(heights),
+        book_(book),
         meetings_{embree, {}} {
-    const auto patches = static_cast<std::size_t>(scene.patch_count());
-    transfers_.direction = omega;
-    transfers_.forward.resize(patches);
-    transfers_.backward.resize(patches);
-    transfers_.back_seen.resize(patches);
-    measure_planes();
     aim();
   }
 
-  Transfers run() {
+  void run() {
     for (std::int64_t packet = 0; packet < grid_.packets(); ++packet) {
       if (packet % 256 == 0) cancellation_.throw_if_cancelled();
       grid_.place(packet, lines_);
       trace();
       for (std::size_t k = 0; k < packet_size; ++k) book_line(k);
-      if (transfers_.exchanges.size() >= merge_at_) merge_exchanges();
     }
-    merge_exchanges();
-    turn_counts_into_areas();
-    return std::move(transfers_);
   }
 
  private:
-  /// The height of a patch's plane above the point x, y of the plane, along omega, metres.
-  struct PatchPlane {
-    double cosine = 0;  ///< n·omega; 0: edge-on, takes no part
-    double at_origin = 0, along_x = 0, along_y = 0;
-    double slack = 0;  ///< what rounding may do to a height
-
-    double height(double x, double y) const { return at_origin + along_x * x + along_y * y; }
-  };
-  struct Hit {
-    PatchId patch;
-    double height;
-  };
-
-  LineGrid make_grid(const EngineOptions& options) const {
-    Vec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      for (const PointId p : scene_.outline(i)) {
-        const Vec2 at = frame_.project(scene_.point(p));
-        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-      }
-    }
-    return {low, high, options.lines_per_patch * scene_.patch_count(), options.gridded,
-            key_of(frame_.omega, options.seed)};
-  }
-
-  void measure_planes() {
-    const double thickness = BspTree::thickness(scene_);
-    planes_.resize(static_cast<std::size_t>(scene_.patch_count()));
-    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const Patch& patch = scene_.patch(i);
-      const double cosine = dot(patch.normal, frame_.omega);
-      if (std::abs(cosine) < least_cosine) continue;
-      planes_[static_cast<std::size_t>(i)] = {
-          cosine, dot(patch.normal, patch.center - frame_.origin) / cosine,
-          -dot(patch.normal, frame_.u) / cosine, -dot(patch.normal, frame_.v) / cosine,
-          thickness / std::abs(cosine)};
-    }
-  }
+  using Hit = PatchHeights::Hit;
 
   /// All rays go down, against omega, from above the ball that holds the scene.
   void aim() {
@@ -208,44 +179,14 @@ class RayPass {
     embree_.all_hits(lines_.valid.data(), rays_, gridded_, Meetings::collect, &meetings_);
   }
 
-  const PatchPlane& plane(PatchId i) const { return planes_[static_cast<std::size_t>(i)]; }
-  bool front_facing(PatchId i) const { return plane(i).cosine > 0; }
-
-  /// Whether a comes before b among coincident patches, as in BspTree::order(): what receives
-  /// before what emits, coverers first above and last below.
-  bool comes_first(PatchId a, PatchId b) const {
-    if (front_facing(a) != front_facing(b)) return front_facing(a);
-    const auto rank = [this](PatchId i) {
-      return std::tuple(-max_abs(scene_.exitance(i)), scene_.patch(i).area, -i);
-    };
-    return front_facing(a) ? rank(a) < rank(b) : rank(b) < rank(a);
-  }
-
-  bool above(const Hit& a, const Hit& b) const {
-    const bool coincident =
-        std::abs(a.height - b.height) <= plane(a.patch).slack + plane(b.patch).slack;
-    return coincident ? comes_first(a.patch, b.patch) : a.height > b.height;
-  }
-
   /// The hits of line k from above, each patch once.
   void sort_hits(std::size_t k) {
     hits_.clear();
     for (const PatchId i : meetings_.patches[k]) {
-      if (plane(i).cosine != 0) hits_.push_back({i, plane(i).height(lines_.x[k], lines_.y[k])});
+      if (heights_.edge_on(i)) continue;
+      hits_.push_back({i, heights_.height(i, {lines_.x[k], lines_.y[k]})});
     }
-    std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
-      return std::pair(-a.height, a.patch) < std::pair(-b.height, b.patch);
-    });
-    // A line may meet two triangles of a patch at the edge between them.
-    hits_.erase(std::unique(hits_.begin(), hits_.end(),
-                            [](const Hit& a, const Hit& b) { return a.patch == b.patch; }),
-                hits_.end());
-    // "Coincident" is not transitive, so this is no order for std::sort; little is left to move.
-    for (std::size_t a = 1; a < hits_.size(); ++a) {
-      for (std::size_t b = a; b > 0 && above(hits_[b], hits_[b - 1]); --b) {
-        std::swap(hits_[b], hits_[b - 1]);
-      }
-    }
+    heights_.sort(hits_);
   }
 
   /// Whether the projection of patch i holds the point. Both patches at an edge compute the same
@@ -274,7 +215,7 @@ class RayPass {
       }
       const Hit above = hits_[kept - 1];
       const bool upper = contains(above.patch, x, y), lower = contains(hit.patch, x, y);
-      const bool alike = front_facing(above.patch) == front_facing(hit.patch);
+      const bool alike = heights_.front_facing(above.patch) == heights_.front_facing(hit.patch);
       if (!upper && !(alike && !lower)) --kept;
       if (lower) hits_[kept++] = hit;
     }
@@ -285,67 +226,21 @@ class RayPass {
     if (meetings_.patches[k].empty()) return;
     sort_hits(k);
     drop_false_hits(lines_.x[k], lines_.y[k]);
-    for (std::size_t n = 0; n < hits_.size(); ++n) {
-      const PatchId i = hits_[n].patch;
-      side(i).projected += 1;
-      if (n > 0) see(i, hits_[n - 1].patch);
+    PatchId above = no_patch;
+    for (const Hit& hit : hits_) {
+      book_.see(lines_.row[k], lines_.column[k], lines_.column[k] + 1, hit.patch, above);
+      above = hit.patch;
     }
-  }
-
-  Coverage& side(PatchId i) {
-    return (front_facing(i) ? transfers_.forward
-                            : transfers_.backward)[static_cast<std::size_t>(i)];
-  }
-
-  /// Books one line between patch `below` and the patch right above it.
-  void see(PatchId below, PatchId above) {
-    if (front_facing(below)) side(below).covered += 1;
-    if (!front_facing(above)) side(above).covered += 1;
-    if (front_facing(below) && !front_facing(above)) {
-      transfers_.exchanges.push_back({below, above, 1});
-    } else if (front_facing(below)) {
-      transfers_.back_seen[static_cast<std::size_t>(above)] += 1;
-    } else if (!front_facing(above)) {
-      transfers_.back_seen[static_cast<std::size_t>(below)] += 1;
-    }
-  }
-
-  /// One entry a pair, by receiver and source. Whole numbers: their order does not matter.
-  void merge_exchanges() {
-    auto& all = transfers_.exchanges;
-    std::sort(all.begin(), all.end(), [](const Transfer& a, const Transfer& b) {
-      return std::pair(a.receiver, a.source) < std::pair(b.receiver, b.source);
-    });
-    std::size_t kept = 0;
-    for (const Transfer& t : all) {
-      if (kept > 0 && all[kept - 1].receiver == t.receiver && all[kept - 1].source == t.source) {
-        all[kept - 1].area += t.area;
-      } else {
-        all[kept++] = t;
-      }
-    }
-    all.resize(kept);
-    merge_at_ = std::max(merge_at_, 2 * kept);
-  }
-
-  void turn_counts_into_areas() {
-    const double area = grid_.area_of_line();
-    for (Transfer& t : transfers_.exchanges) t.area *= area;
-    for (auto* sides : {&transfers_.forward, &transfers_.backward}) {
-      for (Coverage& c : *sides) c = {c.projected * area, c.covered * area};
-    }
-    for (double& seen : transfers_.back_seen) seen *= area;
   }
 
   const Scene& scene_;
   const EmbreeScene& embree_;
   const Cancellation& cancellation_;
   bool gridded_;
-  PlaneFrame frame_;
-  LineGrid grid_;
-  std::vector<PatchPlane> planes_;
-  Transfers transfers_;  ///< numbers of lines until the end
-  std::size_t merge_at_ = 1 << 20;
+  const PlaneFrame& frame_;
+  const LineGrid& grid_;
+  const PatchHeights& heights_;
+  PixelBook& book_;
 
   // The packet at hand.
   LineGrid::Packet lines_;
@@ -363,7 +258,17 @@ TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOption
   auto embree = std::make_shared<const EmbreeScene>(*scene);
   return [scene = std::move(scene), embree = std::move(embree), options](
              const Vec3& omega, const Cancellation& cancellation) {
-    return RayPass(*scene, *embree, options, omega, cancellation).run();
+    const PlaneFrame frame = plane_frame(*scene, omega);
+    const PatchHeights heights(*scene, frame);
+    CountedTransfers counted(*scene, heights, cancellation);
+    const std::uint64_t key = key_of(omega, options.seed);
+    const LineGrid grid =
+        options.resolution > 0
+            ? LineGrid(PixelGrid(*scene, omega, options.resolution), options.gridded, key)
+            : LineGrid(plane_window(*scene, frame), options.lines_per_patch * scene->patch_count(),
+                       options.gridded, key);
+    RayPass(*scene, *embree, grid, options.gridded, frame, heights, counted, cancellation).run();
+    return counted.finish(omega, grid.area_of_line());
   };
 }
 

@@ -1,0 +1,83 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "visibility/outlines.h"
+#include "visibility/patch_heights.h"
+#include "visibility/pixel_book.h"
+
+namespace transillum {
+
+/// The painter's algorithm of section 2: puts polygons, those farthest toward omega first, into
+/// one item buffer. What a pixel held before is what the polygon sees there; the book hears of it.
+///
+/// The buffer holds a band of rows, so what it takes does not grow with the resolution.
+template <class Outlines>
+class Painter {
+ public:
+  /// Keeps references.
+  Painter(const Outlines& outlines, const PixelGrid& grid, const PatchHeights& heights,
+          PixelBook& book, const Cancellation& cancellation)
+      : outlines_(outlines),
+        grid_(grid),
+        heights_(heights),
+        book_(book),
+        cancellation_(cancellation),
+        converter_(grid) {}
+
+  /// `order`: numbers of outlines.
+  /// @throws Cancelled
+  void paint(std::span<const std::int32_t> order) {
+    const int rows = std::max(most_pixels / grid_.columns(), 1);
+    for (first_row_ = 0; first_row_ < grid_.rows(); first_row_ += rows) {
+      end_row_ = std::min(first_row_ + rows, grid_.rows());
+      items_.assign(static_cast<std::size_t>(end_row_ - first_row_) *
+                        static_cast<std::size_t>(grid_.columns()),
+                    no_patch);
+      std::size_t done = 0;
+      for (const std::int32_t k : order) {
+        if (done++ % 64 == 0) cancellation_.throw_if_cancelled();
+        paint(k);
+      }
+    }
+  }
+
+ private:
+  static constexpr int most_pixels = 1 << 22;
+
+  void paint(std::int32_t k) {
+    const PatchId patch = outlines_.patch(k);
+    if (heights_.edge_on(patch)) return;
+    converter_.begin(first_row_, end_row_);
+    outlines_.add_edges(k, converter_);
+    converter_.finish([&](int row, int begin, int end) { paint_span(patch, row, begin, end); });
+  }
+
+  void paint_span(PatchId patch, int row, int begin, int end) {
+    PatchId* const items = items_.data() + static_cast<std::size_t>(row - first_row_) *
+                                               static_cast<std::size_t>(grid_.columns());
+    while (begin < end) {
+      const PatchId above = items[begin];
+      int run = begin;
+      while (run < end && items[run] == above) items[run++] = patch;
+      if (above != patch) book_.see(row, begin, run, patch, above);
+      begin = run;
+    }
+  }
+
+  const Outlines& outlines_;
+  const PixelGrid& grid_;
+  const PatchHeights& heights_;
+  PixelBook& book_;
+  const Cancellation& cancellation_;
+  ScanConverter converter_;
+  int first_row_ = 0, end_row_ = 0;
+  std::vector<PatchId> items_;  ///< the buffer: who is seen from below so far
+};
+
+}  // namespace transillum

@@ -1,0 +1,187 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The lists of all pixels together grow as resolution² times depth. They are therefore made for a
+// part of a row at a time, from the spans that a band of rows is cut into by the patches.
+#include "visibility/zbuffer.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "visibility/outlines.h"
+
+namespace transillum {
+namespace {
+
+class ZBuffer {
+ public:
+  ZBuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights, PixelBook& book,
+          const Cancellation& cancellation)
+      : scene_(scene),
+        grid_(grid),
+        heights_(heights),
+        book_(book),
+        cancellation_(cancellation),
+        pieces_(scene, grid),
+        converter_(grid),
+        depth_(static_cast<std::size_t>(grid.columns()) + 1) {}
+
+  void fill() {
+    const std::vector<std::int64_t> spans = spans_by_row();
+    for (int begin = 0; begin < grid_.rows();) {
+      std::int64_t count = spans[static_cast<std::size_t>(begin)];
+      int end = begin + 1;
+      while (end < grid_.rows() && count + spans[static_cast<std::size_t>(end)] <= most_spans) {
+        count += spans[static_cast<std::size_t>(end++)];
+      }
+      fill_band(begin, end);
+      begin = end;
+    }
+  }
+
+ private:
+  using Hit = PatchHeights::Hit;
+  struct Span {
+    int row, begin, end;
+    PatchId patch;
+  };
+  struct Rows {
+    int begin, end;
+  };
+  static constexpr std::int64_t most_spans = 1 << 18;  ///< of a band, unless one row has more
+  static constexpr std::int64_t most_hits = 1 << 18;   ///< of a part of a row, unless one pixel has
+
+  Rows rows_of(const Piece& piece) const {
+    std::int64_t low = INT64_MAX, high = INT64_MIN;
+    for (const PointId p : scene_.corners(piece)) {
+      low = std::min(low, pieces_.point(p).y);
+      high = std::max(high, pieces_.point(p).y);
+    }
+    return {std::max(PixelPoint::first_center_from(low), 0),
+            std::min(PixelPoint::first_center_from(high), grid_.rows())};
+  }
+
+  /// How many pieces reach each row.
+  std::vector<std::int64_t> spans_by_row() const {
+    std::vector<std::int64_t> count(static_cast<std::size_t>(grid_.rows()) + 1, 0);
+    std::size_t done = 0;
+    for (const Piece& piece : scene_.pieces()) {
+      if (done++ % 1024 == 0) cancellation_.throw_if_cancelled();
+      const Rows rows = rows_of(piece);
+      if (heights_.edge_on(piece.patch) || rows.begin >= rows.end) continue;
+      ++count[static_cast<std::size_t>(rows.begin)];
+      --count[static_cast<std::size_t>(rows.end)];
+    }
+    for (std::size_t row = 1; row < count.size(); ++row) count[row] += count[row - 1];
+    return count;
+  }
+
+  void fill_band(int begin, int end) {
+    spans_.clear();
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(scene_.pieces().size()); ++k) {
+      if (k % 256 == 0) cancellation_.throw_if_cancelled();
+      convert(k, begin, end);
+    }
+    std::stable_sort(spans_.begin(), spans_.end(),
+                     [](const Span& a, const Span& b) { return a.row < b.row; });
+    for (std::size_t first = 0; first < spans_.size();) {
+      std::size_t last = first;
+      while (last < spans_.size() && spans_[last].row == spans_[first].row) ++last;
+      fill_row(spans_.data() + first, spans_.data() + last);
+      first = last;
+    }
+  }
+
+  void convert(std::int32_t piece, int begin, int end) {
+    const PatchId patch = pieces_.patch(piece);
+    if (heights_.edge_on(patch)) return;
+    converter_.begin(begin, end);
+    pieces_.add_edges(piece, converter_);
+    converter_.finish([&](int row, int first, int last) {
+      spans_.push_back({row, first, last, patch});
+    });
+  }
+
+  void fill_row(const Span* first, const Span* last) {
+    std::fill(depth_.begin(), depth_.end(), 0);
+    for (const Span* span = first; span < last; ++span) {
+      ++depth_[static_cast<std::size_t>(span->begin)];
+      --depth_[static_cast<std::size_t>(span->end)];
+    }
+    for (std::size_t k = 1; k < depth_.size(); ++k) depth_[k] += depth_[k - 1];
+    for (int begin = 0; begin < grid_.columns();) {
+      std::int64_t hits = depth_[static_cast<std::size_t>(begin)];
+      int end = begin + 1;
+      while (end < grid_.columns() && hits + depth_[static_cast<std::size_t>(end)] <= most_hits) {
+        hits += depth_[static_cast<std::size_t>(end++)];
+      }
+      if (hits > 0) fill_pixels(first, last, begin, end, static_cast<std::size_t>(hits));
+      begin = end;
+    }
+  }
+
+  /// The lists of the pixels from `begin` up to `end`, sorted and told.
+  void fill_pixels(const Span* first, const Span* last, int begin, int end, std::size_t hits) {
+    cancellation_.throw_if_cancelled();
+    const int row = first->row;
+    if (hits_.size() < hits) hits_.resize(hits);
+    list_end_.resize(static_cast<std::size_t>(end - begin));
+    std::size_t at = 0;
+    for (int column = begin; column < end; ++column) {
+      list_end_[static_cast<std::size_t>(column - begin)] = at;
+      at += static_cast<std::size_t>(depth_[static_cast<std::size_t>(column)]);
+    }
+    for (const Span* span = first; span < last; ++span) {
+      for (int x = std::max(span->begin, begin); x < std::min(span->end, end); ++x) {
+        hits_[list_end_[static_cast<std::size_t>(x - begin)]++] = {
+            span->patch, heights_.height(span->patch, grid_.center(x, row))};
+      }
+    }
+    Hit* list = hits_.data();
+    for (int column = begin; column < end; ++column) {
+      Hit* const list_end = hits_.data() + list_end_[static_cast<std::size_t>(column - begin)];
+      Hit* const lowest = heights_.sort(list, list_end);
+      if (!std::equal(list, lowest, run_.begin(), run_.end(),
+                      [](const Hit& hit, PatchId patch) { return hit.patch == patch; })) {
+        tell_run(row, column);
+        run_.clear();
+        for (const Hit* hit = list; hit < lowest; ++hit) run_.push_back(hit->patch);
+        run_begin_ = column;
+      }
+      list = list_end;
+    }
+    tell_run(row, end);
+    run_.clear();
+  }
+
+  /// Neighbouring pixels with the same list are told together.
+  void tell_run(int row, int end) {
+    PatchId above = no_patch;
+    for (const PatchId patch : run_) {
+      book_.see(row, run_begin_, end, patch, above);
+      above = patch;
+    }
+  }
+
+  const Scene& scene_;
+  const PixelGrid& grid_;
+  const PatchHeights& heights_;
+  PixelBook& book_;
+  const Cancellation& cancellation_;
+  PieceOutlines pieces_;
+  ScanConverter converter_;
+  std::vector<Span> spans_;            ///< of a band
+  std::vector<std::int64_t> depth_;    ///< of a row: patches over each pixel
+  std::vector<Hit> hits_;              ///< of a part of a row, pixel by pixel
+  std::vector<std::size_t> list_end_;  ///< in hits_, by pixel
+  std::vector<PatchId> run_;           ///< the list of the pixels from run_begin_
+  int run_begin_ = 0;
+};
+
+}  // namespace
+
+void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights,
+                  PixelBook& book, const Cancellation& cancellation) {
+  ZBuffer(scene, grid, heights, book, cancellation).fill();
+}
+
+}  // namespace transillum
