@@ -2,6 +2,7 @@
 #include "color_bar.h"
 
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include "number_text.h"
@@ -11,19 +12,28 @@ namespace transillum::viewer {
 
 namespace {
 
-QString name_of_shown(ColorMode mode) {
-  switch (mode) {
+constexpr int margin = 12;
+constexpr int histogram_width = 34;
+constexpr int bar_width = 18;
+constexpr int tip = 12;
+
+// Whose form factors are shown, or what of red, green and blue, where they differ.
+QString name_of_shown(const ColorChoice& colors) {
+  const QuantityTraits& traits = traits_of(colors.quantity());
+  if (traits.of_selection) return ColorBar::tr("i = %1").arg(colors.selection().patch());
+  if (!traits.has_channels) return {};
+  switch (colors.scale().mode) {
     case ColorMode::red:
-      return ColorBar::tr("Red");
+      return ColorBar::tr("red");
     case ColorMode::green:
-      return ColorBar::tr("Green");
+      return ColorBar::tr("green");
     case ColorMode::blue:
-      return ColorBar::tr("Blue");
+      return ColorBar::tr("blue");
     case ColorMode::true_color:
     case ColorMode::luminance:
       break;
   }
-  return ColorBar::tr("Luminance");
+  return ColorBar::tr("luminance");
 }
 
 QString tick_text(double value, bool logarithmic) {
@@ -39,6 +49,7 @@ QString tick_text(double value, bool logarithmic) {
 
 ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent), colors_(colors) {
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+  setToolTip(tr("To the left: how much area has which value (its root)"));
   const auto show = [this] {
     setVisible(colors_.scale().mode != ColorMode::true_color);
     update();
@@ -49,44 +60,84 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
 }
 
 void ColorBar::paintEvent(QPaintEvent*) {
-  const ColorScale& scale = colors_.scale();
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
-  painter.setPen(theme::on_dark);
+  if (colors_.values().empty()) return;
+  paint_title(painter);
+  const int top = margin + 2 * fontMetrics().height() + 10 + tip;
+  const QRectF bar(margin + histogram_width, top, bar_width, height() - top - margin - tip);
+  if (bar.height() < 20) return;
+  paint_bar(painter, bar);
+  paint_histogram(painter, QRectF(margin, bar.top(), histogram_width - 4, bar.height()));
+  paint_ticks(painter, bar);
+}
 
+void ColorBar::paint_title(QPainter& painter) const {
+  const QuantityTraits& traits = traits_of(colors_.quantity());
+  const QString unit = QString::fromUtf8(traits.unit);
+  const int line = fontMetrics().height();
   QFont bold = font();
   bold.setBold(true);
   painter.setFont(bold);
-  const int line = fontMetrics().height();
-  painter.drawText(QRect(0, 12, width(), line), Qt::AlignHCenter, tr("B (W/m²)"));
+  painter.setPen(theme::on_dark);
+  painter.drawText(QRect(0, margin, width(), line), Qt::AlignHCenter,
+                   QString::fromUtf8(traits.symbol) +
+                       (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit)));
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
-  painter.drawText(QRect(0, 12 + line, width(), line), Qt::AlignHCenter, name_of_shown(scale.mode));
+  painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter,
+                   name_of_shown(colors_));
+}
 
-  const QRectF bar(12, 12 + 2 * line + 22, 20, height() - (12 + 2 * line + 22) - 22);
-  if (bar.height() < 20) return;
+void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors_.scale();
+  const auto color_at = [&](double t) {
+    const Color8 c = color_of(scale.map, t);
+    return QColor(c[0], c[1], c[2]);
+  };
   const auto rows = static_cast<int>(bar.height() * devicePixelRatioF());
   const double row_height = bar.height() / rows;
-  for (int row = 0; row < rows; ++row) {
-    const Color8 c = color_of(scale.map, 1 - (row + 0.5) / rows);
+  for (int row = 0; row < rows; ++row)
     painter.fillRect(
         QRectF(bar.left(), bar.top() + row * row_height, bar.width(), 1.01 * row_height),
-        QColor(c[0], c[1], c[2]));
-  }
-  if (scale.above) {
-    // A tip on the bar: there is more beyond its end.
-    const Color8 c = color_of(scale.map, 1);
+        color_at(1 - (row + 0.5) / rows));
+  // A tip on the bar: there is more beyond its end.
+  const auto paint_tip = [&](double y, double way, const QColor& color) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(c[0], c[1], c[2]));
-    painter.drawPolygon(QPolygonF({bar.topLeft() - QPointF(0, 2), bar.topRight() - QPointF(0, 2),
-                                   QPointF(bar.center().x(), bar.top() - 12)}));
+    painter.setBrush(color);
+    painter.drawPolygon(
+        QPolygonF({QPointF(bar.left(), y + 2 * way), QPointF(bar.right(), y + 2 * way),
+                   QPointF(bar.center().x(), y + tip * way)}));
     painter.setBrush(Qt::NoBrush);
     painter.setRenderHint(QPainter::Antialiasing, false);
-  }
+  };
+  if (scale.above) paint_tip(bar.top(), -1, color_at(1));
+  if (scale.below) paint_tip(bar.bottom(), 1, color_at(0).lighter(160));
   painter.setPen(QPen(theme::on_dark_dim, 1));
   painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));
+}
 
+void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
+  constexpr double pixels_a_bin = 4;
+  const int bins = std::max(1, static_cast<int>(box.height() / pixels_a_bin));
+  const double bin_height = box.height() / bins;
+  const std::vector<double> shares =
+      histogram(colors_.scale(), *colors_.snapshot()->loaded->scene, colors_.values(), bins);
+  for (int k = 0; k < bins; ++k) {
+    const double share = shares[static_cast<std::size_t>(k)];
+    if (share <= 0) continue;
+    // The root of the share: what is rare shall be seen beside what is common.
+    const double length = std::max(1.0, std::sqrt(share) * box.width());
+    painter.fillRect(QRectF(box.right() - length, box.bottom() - (k + 1) * bin_height, length,
+                            std::max(1.0, bin_height - 1)),
+                     theme::on_dark_dim);
+  }
+}
+
+void ColorBar::paint_ticks(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors_.scale();
+  const int line = fontMetrics().height();
   painter.setPen(theme::on_dark);
   for (const double value : scale.ticks()) {
     const double y = bar.bottom() - scale.position(value) * bar.height();

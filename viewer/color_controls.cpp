@@ -1,18 +1,23 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "color_controls.h"
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStackedWidget>
+#include <QStandardItemModel>
 #include <QToolButton>
 #include <algorithm>
 #include <cmath>
 
+#include "scale_menu.h"
+#include "show_menu.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -22,6 +27,7 @@ namespace {
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
 constexpr int spacing = 8;
+constexpr int narrowest_quantity = 110;
 
 QLabel* label_for(QWidget* control, const QString& text) {
   auto* label = new QLabel(text);
@@ -29,10 +35,22 @@ QLabel* label_for(QWidget* control, const QString& text) {
   return label;
 }
 
+/// Whether an item of the list can be chosen.
+void offer(QComboBox& list, int item, bool offered) {
+  auto* model = qobject_cast<QStandardItemModel*>(list.model());
+  model->item(item)->setEnabled(offered);
+}
+
+QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
+
 }  // namespace
 
 ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
     : QWidget(parent), colors_(colors) {
+  quantity_ = new QComboBox;
+  quantity_->setObjectName("quantity");
+  quantity_->setMinimumWidth(narrowest_quantity);
+  fill_quantities();
   mode_ = new QComboBox;
   mode_->setObjectName("color_mode");
   mode_->addItems({tr("True colour"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
@@ -41,13 +59,7 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   pages_->addWidget(make_true_color_page());
   pages_->addWidget(make_map_page());
   pages_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
-  direction_ = new QCheckBox(tr("Direction"));
-  direction_->setObjectName("show_direction");
-  direction_->setChecked(true);
-  direction_->setToolTip(tr("Draw the latest direction as an arrow with its plane (D)"));
-  outlines_ = new QCheckBox(tr("Outlines"));
-  outlines_->setObjectName("show_outlines");
-  outlines_->setToolTip(tr("Draw the edges of the patches"));
+  show_ = new ShowMenu;
   auto* reset = new QToolButton;
   reset->setIcon(theme::icon(theme::Icon::frame));
   reset->setToolTip(tr("Look at the scene as at first (Home)"));
@@ -55,19 +67,22 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 5, 10, 5);
   layout->setSpacing(spacing);
-  layout->addWidget(spare_.emplace_back(label_for(mode_, tr("Colour"))));
+  layout->addWidget(spare_.emplace_back(label_for(quantity_, tr("Colour"))));
+  layout->addWidget(quantity_);
   layout->addWidget(mode_);
   layout->addSpacing(8);
   layout->addWidget(pages_);
   layout->addStretch(1);
-  layout->addWidget(outlines_);
-  layout->addWidget(direction_);
+  layout->addWidget(show_);
   layout->addWidget(reset);
 
+  connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
+    colors_.set_quantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
+  });
   connect(mode_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [this](int index) { colors_.set_mode(static_cast<ColorMode>(index)); });
-  connect(direction_, &QCheckBox::toggled, this, &ColorControls::direction_toggled);
-  connect(outlines_, &QCheckBox::toggled, this, &ColorControls::outlines_toggled);
+  connect(show_->direction(), &QAction::toggled, this, &ColorControls::direction_toggled);
+  connect(show_->outlines(), &QAction::toggled, this, &ColorControls::outlines_toggled);
   connect(reset, &QToolButton::clicked, this, &ColorControls::reset_view_clicked);
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
@@ -78,6 +93,18 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   for (const QWidget* widget : spare_)
     narrowest -= std::max(widget->minimumSizeHint().width(), widget->minimumWidth()) + spacing;
   setMinimumWidth(narrowest);
+}
+
+void ColorControls::fill_quantities() {
+  // What belongs together is set apart from the rest.
+  for (const QuantityTraits& traits : quantity_traits()) {
+    const bool begins_group = traits.quantity == Quantity::form_factor_from ||
+                              traits.quantity == Quantity::fragments ||
+                              traits.quantity == Quantity::difference;
+    if (begins_group) quantity_->insertSeparator(quantity_->count());
+    quantity_->addItem(tr_quantity(traits.name), static_cast<int>(traits.quantity));
+    quantity_->setItemData(quantity_->count() - 1, tr_quantity(traits.meaning), Qt::ToolTipRole);
+  }
 }
 
 void ColorControls::resizeEvent(QResizeEvent* event) {
@@ -130,8 +157,6 @@ QWidget* ColorControls::make_true_color_page() {
 }
 
 QWidget* ColorControls::make_map_page() {
-  map_ = new QComboBox;
-  for (const std::string& name : color_map_names()) map_->addItem(QString::fromStdString(name));
   logarithmic_ = new QCheckBox(tr("Logarithmic"));
   logarithmic_->setObjectName("logarithmic");
 
@@ -139,26 +164,23 @@ QWidget* ColorControls::make_map_page() {
   auto* layout = new QHBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(spacing);
-  layout->addWidget(label_for(map_, tr("Map")));
-  layout->addWidget(map_);
   layout->addWidget(logarithmic_);
+  layout->addWidget(new ScaleMenu(colors_));
   layout->addStretch(1);
 
-  connect(map_, qOverload<int>(&QComboBox::currentIndexChanged), this,
-          [this](int index) { colors_.set_map(static_cast<ColorMap>(index)); });
   connect(logarithmic_, &QCheckBox::toggled, &colors_, &ColorChoice::set_logarithmic);
   return page;
 }
 
-void ColorControls::toggle_direction() { direction_->toggle(); }
+void ColorControls::toggle_direction() { show_->direction()->toggle(); }
 
-void ColorControls::set_direction(bool shown) { direction_->setChecked(shown); }
+void ColorControls::set_direction(bool shown) { show_->direction()->setChecked(shown); }
 
-bool ColorControls::direction() const { return direction_->isChecked(); }
+bool ColorControls::direction() const { return show_->direction()->isChecked(); }
 
-void ColorControls::set_outlines(bool shown) { outlines_->setChecked(shown); }
+void ColorControls::set_outlines(bool shown) { show_->outlines()->setChecked(shown); }
 
-bool ColorControls::outlines() const { return outlines_->isChecked(); }
+bool ColorControls::outlines() const { return show_->outlines()->isChecked(); }
 
 void ColorControls::show_choice() {
   const ColorScale& scale = colors_.scale();
@@ -166,16 +188,21 @@ void ColorControls::show_choice() {
                                   QSignalBlocker(exposure_),
                                   QSignalBlocker(automatic_),
                                   QSignalBlocker(gamma_),
-                                  QSignalBlocker(map_),
                                   QSignalBlocker(logarithmic_),
+                                  QSignalBlocker(quantity_),
                                   QSignalBlocker(mode_)};
+  const QuantityTraits& traits = traits_of(colors_.quantity());
+  quantity_->setCurrentIndex(quantity_->findData(static_cast<int>(traits.quantity)));
+  quantity_->setToolTip(tr_quantity(traits.meaning));
   mode_->setCurrentIndex(static_cast<int>(scale.mode));
+  mode_->setVisible(traits.has_channels);
+  offer(*mode_, 0, traits.is_light);
   pages_->setCurrentIndex(scale.mode == ColorMode::true_color ? 0 : 1);
   exposure_slider_->setValue(static_cast<int>(std::lround(scale.exposure * slider_steps_per_ev)));
   exposure_->setValue(scale.exposure);
   automatic_->setChecked(colors_.exposure_is_automatic());
   gamma_->setValue(scale.gamma);
-  map_->setCurrentIndex(static_cast<int>(scale.map));
+  logarithmic_->setEnabled(!traits.is_signed);
   logarithmic_->setChecked(scale.logarithmic);
 }
 

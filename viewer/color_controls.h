@@ -14,7 +14,10 @@ class QStackedWidget;
 
 namespace transillum::viewer {
 
-/// The strip above the 3-D view: how radiosity becomes colour, and what else is drawn.
+class ShowMenu;
+
+/// The strip above the 3-D view: what of the patches becomes colour, and how, and what else is
+/// drawn.
 class ColorControls : public QWidget {
   Q_OBJECT
 
@@ -38,19 +41,19 @@ class ColorControls : public QWidget {
  private:
   QWidget* make_true_color_page();
   QWidget* make_map_page();
+  void fill_quantities();
   void show_choice();
 
   ColorChoice& colors_;
+  QComboBox* quantity_;
   QComboBox* mode_;
   QStackedWidget* pages_;
   QSlider* exposure_slider_;
   QDoubleSpinBox* exposure_;
   QCheckBox* automatic_;
   QDoubleSpinBox* gamma_;
-  QComboBox* map_;
   QCheckBox* logarithmic_;
-  QCheckBox* direction_;
-  QCheckBox* outlines_;
+  ShowMenu* show_;
   std::vector<QWidget*> spare_;  ///< left out where the strip is narrow, as on a projector
   int roomy_width_ = 0;          ///< from here on nothing is left out
 };

@@ -10,8 +10,10 @@ namespace transillum::viewer {
 
 using Color8 = std::array<std::uint8_t, 3>;
 
-/// A perceptually uniform colour map: its lightness grows evenly from dark to bright.
-enum class ColorMap { viridis, cividis, inferno };
+/// A perceptually uniform colour map: its lightness grows evenly from dark to bright; that of
+/// `diverging` grows from blue to white in the middle, and falls to orange.
+enum class ColorMap { viridis, cividis, inferno, diverging };
+/// Of those that grow lighter all the way.
 const std::vector<std::string>& color_map_names();
 /// @param t clamped to [0,1].
 Color8 color_of(ColorMap map, double t);

@@ -111,18 +111,20 @@ std::vector<double> ColorScale::ticks() const {
   return values;
 }
 
-void ColorScale::fit_range(const Scene& scene, std::span<const Rgb> radiosity) {
+template <class Counts>
+void ColorScale::fit_range_where(std::span<const Rgb> values, const Counts& counts) {
   std::vector<double> positive;
-  double brightest_lit = 0, brightest = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const double v = value(radiosity[static_cast<std::size_t>(i)]);
+  double brightest_counting = 0, brightest = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double v = value(values[i]);
     if (!(v > 0) || !std::isfinite(v)) continue;
     positive.push_back(v);
     brightest = std::max(brightest, v);
-    if (max_abs(scene.exitance(i)) == 0) brightest_lit = std::max(brightest_lit, v);
+    if (counts(i)) brightest_counting = std::max(brightest_counting, v);
   }
-  high = !logarithmic && brightest_lit > 0 ? brightest_lit : brightest > 0 ? brightest : 1;
-  above = brightest > high;
+  high = !logarithmic && brightest_counting > 0 ? brightest_counting
+         : brightest > 0                        ? brightest
+                                                : 1;
   low = logarithmic ? 1e-3 * high : 0;
   if (!logarithmic || positive.empty()) return;
   // The darkest hundredth would stretch the scale over many decades with nothing in them.
@@ -133,6 +135,58 @@ void ColorScale::fit_range(const Scene& scene, std::span<const Rgb> radiosity) {
     low = high / 2;
     high = high * 2;
   }
+}
+
+void ColorScale::fit_range(const Scene& scene, std::span<const Rgb> radiosity) {
+  fit_range_where(radiosity, [&](std::size_t i) {
+    return max_abs(scene.exitance(static_cast<PatchId>(i))) == 0;
+  });
+  look_beyond(radiosity);
+}
+
+void ColorScale::fit_range(std::span<const Rgb> values, bool balanced) {
+  if (balanced) {
+    high = 0;
+    for (const Rgb& v : values)
+      if (const double size = std::abs(value(v)); std::isfinite(size)) high = std::max(high, size);
+    if (!(high > 0)) high = 1;
+    low = -high;
+  } else {
+    fit_range_where(values, [](std::size_t) { return true; });
+  }
+  look_beyond(values);
+}
+
+void ColorScale::mend_range() {
+  if (logarithmic && !(high > 0)) high = 1;
+  if (logarithmic && !(low > 0)) low = 1e-3 * high;
+  if (!(high > low)) high = logarithmic ? 10 * low : low + 1;
+}
+
+void ColorScale::look_beyond(std::span<const Rgb> values) {
+  above = below = false;
+  for (const Rgb& rgb : values) {
+    const double v = value(rgb);
+    above = above || v > high;
+    below = below || (v < low && v != 0);
+  }
+}
+
+std::vector<double> histogram(const ColorScale& scale, const Scene& scene,
+                              std::span<const Rgb> values, int bins) {
+  std::vector<double> area(static_cast<std::size_t>(bins));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double v = scale.value(values[i]);
+    if (scale.logarithmic && !(v > 0)) continue;
+    const double t = scale.position(v);
+    if (!(t >= 0 && t <= 1)) continue;
+    const auto bin = std::min(static_cast<std::size_t>(t * bins), area.size() - 1);
+    area[bin] += scene.patch(static_cast<PatchId>(i)).area;
+  }
+  const double most = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
+  if (most > 0)
+    for (double& share : area) share /= most;
+  return area;
 }
 
 void ColorScale::fit_exposure(const Scene& scene, std::span<const Rgb> radiosity) {
@@ -150,11 +204,11 @@ void ColorScale::fit_exposure(const Scene& scene, std::span<const Rgb> radiosity
   }
   if (brightness_area.empty()) return;
   std::sort(brightness_area.begin(), brightness_area.end());
-  double below = 0;
+  double darker = 0;
   double white = brightness_area.back().first;
   for (const auto& [brightness, patch_area] : brightness_area) {
-    below += patch_area;
-    if (below >= 0.95 * area) {
+    darker += patch_area;
+    if (darker >= 0.95 * area) {
       white = brightness;
       break;
     }

@@ -188,7 +188,7 @@ void DirectionView::draw_points(QPainter& painter, bool front) const {
     QColor color = theme::on_dark_dim;
     double grow = 0.6;
     if (k < power.size() && power[k] > 0) {
-      const Color8 c = color_of(colors_.scale().map, position_of(power[k] / most));
+      const Color8 c = color_of(colors_.map(), position_of(power[k] / most));
       color = QColor(c[0], c[1], c[2]);
       grow = 1;
     }
@@ -251,7 +251,7 @@ void DirectionView::draw_legend(QPainter& painter) const {
   const double most = *std::max_element(power.begin(), power.end());
   const QRectF bar(12, height() - legend_height + 6, width() - 24, 10);
   for (int x = 0; x < static_cast<int>(bar.width()); ++x) {
-    const Color8 c = color_of(colors_.scale().map, x / bar.width());
+    const Color8 c = color_of(colors_.map(), x / bar.width());
     painter.fillRect(QRectF(bar.left() + x, bar.top(), 1.5, bar.height()),
                      QColor(c[0], c[1], c[2]));
   }

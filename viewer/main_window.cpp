@@ -220,6 +220,8 @@ void MainWindow::connect_session() {
     show_failure(message);
     emit failed(message, bad_input);
   });
+  connect(&colors_, &ColorChoice::form_factors_wanted, &session_,
+          &SolverSession::want_form_factors);
   connect(&focus_feed_, &FocusFeed::failed, this, &MainWindow::show_failure);
 
   connect(actions_, &SolveActions::run, this, &MainWindow::run);

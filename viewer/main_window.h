@@ -106,7 +106,7 @@ class MainWindow : public QMainWindow {
 
   const bool remember_;
   Selection selection_;
-  ColorChoice colors_;
+  ColorChoice colors_{selection_};
   SolverSession session_;
   Focus focus_;
   FocusFeed focus_feed_{focus_};

@@ -155,8 +155,7 @@ void MapView::show_moment() {
   }
   if (!snapshot_ || snapshot_->loaded != map->loaded) return;
   recolor_timer_->stop();
-  auto patch_colors = std::make_shared<std::vector<Color8>>();
-  colors_.scale().color(snapshot_->radiosity, *patch_colors);
+  auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
   canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
                      labels_->isChecked(), focus_.probe(), std::move(patch_colors)});
 }

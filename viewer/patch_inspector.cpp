@@ -34,7 +34,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   form_factor_sum_->setToolTip(tr("Sum of the form factors so far; near 1 where enclosed"));
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
-  swatch_->setToolTip(tr("B as the scene shows it"));
+  swatch_->setToolTip(tr("The colour that the scene shows it in"));
   values_->add_wide(swatch_);
 
   auto* layout = new QVBoxLayout(this);
@@ -72,7 +72,7 @@ void PatchInspector::show_patch() {
   reflectance_->setText(rgb_text(scene.reflectance(patch)));
   radiosity_->setText(rgb_text(snapshot_->radiosity[index]));
   form_factor_sum_->setText(QString::number(snapshot_->form_factor_sums[index], 'f', 6));
-  const Color8 c = colors_.scale().color(snapshot_->radiosity[index]);
+  const Color8 c = colors_.patch_colors()[index];
   swatch_->setStyleSheet(
       QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")
           .arg(QColor(c[0], c[1], c[2]).name()));

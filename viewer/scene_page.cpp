@@ -2,6 +2,7 @@
 #include "scene_page.h"
 
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 
@@ -9,6 +10,7 @@
 #include "color_bar.h"
 #include "color_controls.h"
 #include "scene_view.h"
+#include "theme.h"
 #include "welcome_page.h"
 
 namespace transillum::viewer {
@@ -28,6 +30,24 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
           &SceneView::set_outlines_shown);
   connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
 
+  note_ = new QLabel;
+  note_->setObjectName("color_note");
+  note_->setAlignment(Qt::AlignCenter);
+  note_->setWordWrap(true);
+  note_->setContentsMargins(10, 5, 10, 5);
+  QPalette dark = note_->palette();
+  dark.setColor(QPalette::Window, theme::scene_background.lighter(140));
+  dark.setColor(QPalette::WindowText, theme::on_dark);
+  note_->setPalette(dark);
+  note_->setAutoFillBackground(true);
+  const auto show_note = [this, &colors] {
+    note_->setText(colors.missing());
+    note_->setVisible(!colors.missing().isEmpty());
+  };
+  connect(&colors, &ColorChoice::changed, note_, show_note);
+  connect(&colors, &ColorChoice::fitted, note_, show_note);
+  note_->hide();
+
   auto* scene = new QWidget;
   auto* with_bar = new QHBoxLayout;
   with_bar->setSpacing(0);
@@ -37,6 +57,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   scene_layout->setContentsMargins(0, 0, 0, 0);
   scene_layout->setSpacing(0);
   scene_layout->addWidget(color_controls_);
+  scene_layout->addWidget(note_);
   scene_layout->addLayout(with_bar, 1);
   pages_ = new QStackedWidget;
   pages_->addWidget(welcome);

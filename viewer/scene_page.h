@@ -7,6 +7,7 @@
 #include "focus.h"
 #include "selection.h"
 
+class QLabel;
 class QStackedWidget;
 
 namespace transillum::viewer {
@@ -35,6 +36,7 @@ class ScenePage : public QWidget {
 
  private:
   Banner* banner_;
+  QLabel* note_;  ///< why there are no colours
   QStackedWidget* pages_;
   ColorControls* color_controls_;
   SceneView* scene_view_;

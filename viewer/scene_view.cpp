@@ -167,7 +167,7 @@ void SceneView::place_camera(const ViewPoint& view) {
 
 void SceneView::recolor() {
   if (!mesh_ || !snapshot_) return;
-  colors_.scale().color(snapshot_->radiosity, patch_colors_);
+  patch_colors_ = colors_.patch_colors();
   if (stepping()) dim_what_is_to_come(*focus_.map(), focus_.moment().step, patch_colors_);
   mesh_->color(patch_colors_);
 }

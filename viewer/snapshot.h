@@ -27,7 +27,11 @@ struct SolverSnapshot {
   SolveProgress progress;
   std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass; one list a run
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;  ///< running estimate, W/m², one a patch
+  std::vector<Rgb> radiosity;   ///< running estimate, W/m², one a patch
+  std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
+  /// Of all passes so far; null until the session was asked for them and has them.
+  std::shared_ptr<const FormFactors> form_factors;
+  bool form_factors_fit = true;  ///< false: they would take too much memory
   /// B(n), one a patch, for each n from 0 whose step has begun; null where memory would not do.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
   std::vector<double> form_factor_sums;   ///< one a patch

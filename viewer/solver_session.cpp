@@ -17,6 +17,9 @@ using Clock = std::chrono::steady_clock;
 // All B(n) together; later ones are not kept.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 
+// What form factors may take beside the solver's own sums.
+constexpr std::int64_t most_form_factor_bytes = std::int64_t{1} << 30;
+
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
       .count();
@@ -91,6 +94,15 @@ void SolverSession::restart(const SolveOptions& options, Goal then) {
   wake_.notify_one();
 }
 
+void SolverSession::want_form_factors() {
+  if (form_factors_wanted_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    form_factors_wanted_ = form_factors_asked_ = true;
+  }
+  wake_.notify_one();
+}
+
 void SolverSession::aim(Goal goal) {
   {
     const std::lock_guard lock(mutex_);
@@ -106,7 +118,8 @@ void SolverSession::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     const auto anything = [this] {
-      return quit_ || open_request_ || restart_request_ || goal_.kind != Goal::Kind::rest;
+      return quit_ || open_request_ || restart_request_ || form_factors_asked_ ||
+             goal_.kind != Goal::Kind::rest;
     };
     if (!anything()) post_state(resting_state());
     wake_.wait(lock, anything);
@@ -127,6 +140,11 @@ void SolverSession::work() {
       const SolveOptions options = options_;
       lock.unlock();
       begin_solve(options);
+      lock.lock();
+    } else if (form_factors_asked_) {
+      form_factors_asked_ = false;
+      lock.unlock();
+      show_form_factors();
       lock.lock();
     } else {
       const Goal goal = goal_;
@@ -213,6 +231,9 @@ void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
   directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
   kept_radiosity_.clear();
+  form_factors_ = nullptr;
+  form_factors_passes_ = 0;
+  form_factors_fit_ = true;
   more_to_do_ = true;
 }
 
@@ -292,9 +313,41 @@ void SolverSession::on_pass(const RadiositySolver& solver) {
   if (static_cast<double>(now_ns() - last_snapshot_ns_) > 1e6 * interval_ms) post_snapshot();
 }
 
+void SolverSession::put_form_factors_together() {
+  const SolveProgress progress = solver_->progress();
+  const bool between_steps = progress.direction == 0 && progress.iteration > 0;
+  if (!form_factors_wanted_ || !between_steps || !form_factors_fit_) return;
+  const SolveStatistics statistics = solver_->statistics();
+  if (statistics.passes_made == form_factors_passes_) return;
+  constexpr std::int64_t bytes_an_entry = sizeof(PatchId) + sizeof(double);
+  const int ways = solver_->options().two_way ? 2 : 1;
+  form_factors_fit_ = statistics.kept_form_factors &&
+                      ways * statistics.form_factors * bytes_an_entry <= most_form_factor_bytes;
+  form_factors_ = nullptr;
+  if (!form_factors_fit_) return;
+  try {
+    form_factors_ = std::make_shared<const FormFactors>(solver_->form_factors());
+    form_factors_passes_ = statistics.passes_made;
+  } catch (const std::bad_alloc&) {
+    form_factors_fit_ = false;
+  }
+}
+
+void SolverSession::show_form_factors() {
+  if (!solver_) return;
+  try {
+    post_snapshot();
+  } catch (const Cancelled&) {
+    // Another wish has come in the meantime; the loop sees to it.
+  } catch (const std::exception& error) {
+    post_failure(QString::fromStdString(error.what()), false);
+  }
+}
+
 void SolverSession::post_snapshot() {
   const std::int64_t begin = now_ns();
   keep_radiosity();
+  put_form_factors_together();
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
@@ -305,6 +358,9 @@ void SolverSession::post_snapshot() {
   snapshot->directions = directions_;
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();
+  snapshot->irradiance = solver_->irradiance();
+  snapshot->form_factors = form_factors_;
+  snapshot->form_factors_fit = form_factors_fit_;
   snapshot->kept_radiosity = kept_radiosity_;
   snapshot->form_factor_sums = solver_->form_factor_sums();
   snapshot->estimate_changes = solver_->estimate_changes();

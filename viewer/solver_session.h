@@ -56,6 +56,9 @@ class SolverSession : public QObject {
   /// Solves the open scene anew.
   void restart(const SolveOptions& options, Goal then);
 
+  /// From now on snapshots have the form factors, where the memory takes them.
+  void want_form_factors();
+
   SessionState state() const { return state_; }
   /// Between two snapshots lie at least so many milliseconds.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
@@ -83,6 +86,8 @@ class SolverSession : public QObject {
   void post(std::function<void()> message);
   void post_state(SessionState state);
   void post_snapshot();
+  void put_form_factors_together();
+  void show_form_factors();
   void post_failure(const QString& message, bool bad_input);
   SessionState resting_state() const;
 
@@ -94,6 +99,7 @@ class SolverSession : public QObject {
   std::optional<SolveOptions> restart_request_;
   Goal goal_;
   std::uint64_t goal_number_ = 0;
+  bool form_factors_asked_ = false;
   bool quit_ = false;
   bool loading_ = false;
   SolveOptions options_;
@@ -103,12 +109,16 @@ class SolverSession : public QObject {
 
   std::atomic<bool> interrupted_ = false;  // asks the solver to rest after the pass under way
   std::atomic<int> refresh_interval_ = 66;
+  std::atomic<bool> form_factors_wanted_ = false;
 
   // The worker's own.
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
   std::shared_ptr<const std::vector<Vec3>> directions_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
+  std::shared_ptr<const FormFactors> form_factors_;
+  std::int64_t form_factors_passes_ = 0;  // that form_factors_ were made of
+  bool form_factors_fit_ = true;
   bool more_to_do_ = false;
   std::int64_t last_snapshot_ns_ = 0;
   double snapshot_cost_ms_ = 0;

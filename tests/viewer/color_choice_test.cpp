@@ -1,0 +1,218 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "color_choice.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+
+#include "form_factor_views.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+std::shared_ptr<const LoadedScene> load(const char* spec) {
+  auto loaded = std::make_shared<LoadedScene>();
+  loaded->scene = load_scene(spec);
+  loaded->tree = std::make_shared<const BspTree>(*loaded->scene);
+  return loaded;
+}
+
+// What the session would tell of a solve after one iteration, and what the test wants of it.
+std::shared_ptr<SolverSnapshot> solved(const char* spec, int replicas = 1) {
+  auto snapshot = std::make_shared<SolverSnapshot>();
+  snapshot->loaded = load(spec);
+  snapshot->options.directions = 64;
+  snapshot->options.replicas = replicas;
+  RadiositySolver solver(snapshot->loaded->scene, snapshot->options, snapshot->loaded->tree);
+  snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));
+  solver.advance(RadiositySolver::Until::iteration);
+  snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));
+  snapshot->progress = solver.progress();
+  snapshot->radiosity = solver.radiosity();
+  snapshot->irradiance = solver.irradiance();
+  snapshot->form_factor_sums = solver.form_factor_sums();
+  snapshot->form_factors = std::make_shared<const FormFactors>(solver.form_factors());
+  snapshot->error = solver.error_estimate();
+  return snapshot;
+}
+
+std::shared_ptr<SolverSnapshot> times(const SolverSnapshot& snapshot, double factor) {
+  auto scaled = std::make_shared<SolverSnapshot>(snapshot);
+  for (Rgb& b : scaled->radiosity) b = factor * b;
+  return scaled;
+}
+
+}  // namespace
+
+class ColorChoiceTest : public QObject {
+  Q_OBJECT
+
+  Selection selection_;
+
+ private slots:
+  void every_quantity_has_a_value_a_patch_or_a_word_why_not() {
+    const auto snapshot = solved("cornell-box", 4);
+    for (const QuantityTraits& traits : quantity_traits()) {
+      QCOMPARE(&traits_of(traits.quantity), &traits);
+      for (const PatchId selected : {no_patch, PatchId{3}}) {
+        const PatchValues shown = values_of(traits.quantity, *snapshot, selected, nullptr);
+        QVERIFY2(shown.values.empty() != shown.missing.isEmpty(), traits.name);
+        if (!shown.values.empty())
+          QCOMPARE(shown.values.size(), std::size_t(snapshot->loaded->scene->patch_count()));
+        if (traits.of_selection) QCOMPARE(shown.values.empty(), selected == no_patch);
+      }
+    }
+    QVERIFY(!values_of(Quantity::difference, *snapshot, 0, nullptr).missing.isEmpty());
+    QVERIFY(values_of(Quantity::difference, *snapshot, 0, snapshot.get()).missing.isEmpty());
+  }
+
+  void quantities_are_what_they_say() {
+    const auto snapshot = solved("cornell-box");
+    const Scene& scene = *snapshot->loaded->scene;
+    const auto of = [&](Quantity quantity) {
+      return values_of(quantity, *snapshot, 2, nullptr).values;
+    };
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      // B(1) = E + rho H(0), and before it B(0) = E.
+      const Rgb b =
+          of(Quantity::exitance)[at] + of(Quantity::reflectance)[at] * of(Quantity::irradiance)[at];
+      QVERIFY(max_abs(b - of(Quantity::radiosity)[at]) <= 1e-12 * (1 + max_abs(b)));
+      QVERIFY(max_abs(of(Quantity::last_change)[at] - (b - scene.exitance(i))) <= 1e-12);
+      QVERIFY(of(Quantity::fragments)[at].r >= 1);
+    }
+    double sum = 0;
+    for (const Rgb& f : of(Quantity::form_factor_from)) sum += f.r;
+    QVERIFY(std::abs(sum - snapshot->form_factor_sums[2]) < 1e-12);
+    // Reciprocity: A_i F_ij = A_j F_ji.
+    const auto from = of(Quantity::form_factor_from), to = of(Quantity::form_factor_to);
+    for (PatchId j = 0; j < scene.patch_count(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      QVERIFY(std::abs(scene.patch(2).area * from[at].r - scene.patch(j).area * to[at].r) < 1e-12);
+    }
+  }
+
+  void an_error_estimate_wants_replicas() {
+    QVERIFY(!values_of(Quantity::error, *solved("furnace"), 0, nullptr).missing.isEmpty());
+    QVERIFY(values_of(Quantity::error, *solved("furnace", 4), 0, nullptr).missing.isEmpty());
+  }
+
+  void a_selection_colors_its_form_factors_anew() {
+    Selection selection;
+    ColorChoice colors(selection);
+    QSignalSpy wanted(&colors, &ColorChoice::form_factors_wanted);
+    colors.fit(solved("cornell-box"));
+    colors.set_quantity(Quantity::form_factor_from);
+    QCOMPARE(wanted.count(), 1);
+    QVERIFY(colors.values().empty());
+    QVERIFY(!colors.missing().isEmpty());
+    for (const Color8& color : colors.patch_colors()) QVERIFY(color[0] == color[2]);
+    QSignalSpy changed(&colors, &ColorChoice::changed);
+    selection.select(2);
+    QCOMPARE(changed.count(), 1);
+    QVERIFY(colors.missing().isEmpty());
+    // What a patch sees least of is itself.
+    QCOMPARE(colors.patch_colors()[2], color_of(colors.scale().map, 0));
+    const auto before = colors.patch_colors();
+    selection.select(0);
+    QCOMPARE(colors.patch_colors()[0], color_of(colors.scale().map, 0));
+    QVERIFY(colors.patch_colors() != before);
+  }
+
+  void a_range_follows_stays_or_widens() {
+    ColorChoice colors(selection_);
+    const auto snapshot = solved("cornell-box");
+    colors.set_mode(ColorMode::luminance);
+    colors.fit(snapshot);
+    const double high = colors.scale().high;
+    colors.fit(times(*snapshot, 0.5));
+    QCOMPARE(colors.scale().high, 0.5 * high);
+
+    colors.set_range_rule(RangeRule::widening);
+    colors.fit(times(*snapshot, 2));
+    QCOMPARE(colors.scale().high, 2 * high);
+    colors.fit(snapshot);
+    QCOMPARE(colors.scale().high, 2 * high);
+
+    colors.set_range(0.25 * high, 0.5 * high);
+    QVERIFY(colors.range_rule() == RangeRule::fixed);
+    colors.fit(snapshot);
+    QCOMPARE(colors.scale().low, 0.25 * high);
+    QCOMPARE(colors.scale().high, 0.5 * high);
+    QVERIFY(colors.scale().above && colors.scale().below);
+    // What was fixed for one quantity means nothing for another.
+    colors.set_quantity(Quantity::fragments);
+    QVERIFY(colors.range_rule() == RangeRule::automatic);
+  }
+
+  void a_range_that_cannot_be_is_mended() {
+    ColorChoice colors(selection_);
+    colors.set_mode(ColorMode::luminance);
+    colors.fit(solved("furnace"));
+    colors.set_range(3, 3);
+    QVERIFY(colors.scale().low < colors.scale().high);
+    colors.set_range(-1, -5);
+    QVERIFY(colors.scale().low < colors.scale().high);
+    colors.set_logarithmic(true);
+    QVERIFY(colors.scale().low > 0 && colors.scale().low < colors.scale().high);
+  }
+
+  void a_difference_is_white_where_there_is_none() {
+    ColorChoice colors(selection_);
+    const auto snapshot = solved("cornell-box");
+    colors.fit(snapshot);
+    colors.set_quantity(Quantity::difference);
+    QVERIFY(!colors.missing().isEmpty());
+    colors.keep_run();
+    QVERIFY(colors.missing().isEmpty());
+    for (const Color8& color : colors.patch_colors())
+      QCOMPARE(color, color_of(ColorMap::diverging, 0.5));
+    colors.fit(times(*snapshot, 1.25));
+    QCOMPARE(colors.scale().low, -colors.scale().high);
+    bool any = false;
+    for (std::size_t i = 0; i < colors.values().size(); ++i) {
+      QVERIFY(max_abs(colors.values()[i] - 0.25 * snapshot->radiosity[i]) < 1e-12);
+      any = any || colors.patch_colors()[i] == color_of(ColorMap::diverging, 1);
+    }
+    QVERIFY(any);
+  }
+
+  void the_kept_run_is_shown_with_the_same_scale() {
+    ColorChoice colors(selection_);
+    const auto first = solved("cornell-box");
+    colors.fit(first);
+    const auto first_colors = colors.patch_colors();
+    colors.show_kept_run(true);
+    QVERIFY(!colors.shows_kept_run());  // there is none
+    colors.keep_run();
+    colors.fit(times(*first, 0.5));
+    const double exposure = colors.scale().exposure;
+    const auto second_colors = colors.patch_colors();
+    colors.show_kept_run(true);
+    QVERIFY(colors.patch_colors() != second_colors);
+    QCOMPARE(colors.scale().exposure, exposure);
+    colors.show_kept_run(false);
+    QVERIFY(colors.patch_colors() == second_colors);
+  }
+
+  void the_histogram_weighs_by_area() {
+    const auto loaded = load("cornell-box");
+    const Scene& scene = *loaded->scene;
+    std::vector<Rgb> values(static_cast<std::size_t>(scene.patch_count()), Rgb{0.9, 0, 0});
+    values[0] = {0.1, 0, 0};
+    values[1] = {5, 0, 0};  // beyond the range
+    ColorScale scale;
+    scale.mode = ColorMode::red;
+    const std::vector<double> shares = histogram(scale, scene, values, 10);
+    double rest = 0;
+    for (PatchId i = 2; i < scene.patch_count(); ++i) rest += scene.patch(i).area;
+    QCOMPARE(shares[9], 1.0);
+    QVERIFY(std::abs(shares[1] - scene.patch(0).area / rest) < 1e-12);
+    QCOMPARE(shares[5], 0.0);
+  }
+};
+
+QTEST_APPLESS_MAIN(ColorChoiceTest)
+#include "color_choice_test.moc"
