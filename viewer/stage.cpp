@@ -49,6 +49,8 @@ void Stage::show(const ViewState& state) {
     window_.docks().arrange(*wish_.layout);
   for (const std::string& panel : wish_.panels) window_.docks().bring_to_front(panel);
   ColorChoice& colors = window_.colors();
+  colors.set_quantity(Quantity::radiosity);
+  colors.set_range_rule(RangeRule::automatic);
   colors.set_mode(wish_.color_mode);
   colors.set_map(wish_.color_map);
   colors.set_logarithmic(wish_.logarithmic);
@@ -168,10 +170,10 @@ ViewState Stage::state() const {
   }
   state.selection = window_.selection().patch();
   state.camera = window_.page()->scene_view()->view_point();
-  const ColorScale& scale = window_.colors().scale();
-  state.color_mode = scale.mode;
-  state.color_map = scale.map;
-  state.logarithmic = scale.logarithmic;
+  const ColorChoice& colors = window_.colors();
+  state.color_mode = colors.mode();
+  state.color_map = colors.map();
+  state.logarithmic = colors.scale().logarithmic;
   state.outlines = window_.page()->color_controls()->outlines();
   state.direction_shown = window_.page()->color_controls()->direction();
   state.labels = window_.map_view()->labels_shown();
