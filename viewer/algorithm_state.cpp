@@ -5,6 +5,8 @@
 #include <map>
 #include <numbers>
 
+#include "step_events.h"
+
 namespace transillum::viewer {
 
 const std::vector<CodeText>& algorithm_code() {
@@ -24,34 +26,85 @@ const std::vector<CodeText>& algorithm_code() {
       {L::leave_hole, 4, QStringLiteral("V ← O, a hole where i is")},
       {L::otherwise, 3, QStringLiteral("else")},
       {L::put_in, 4, QStringLiteral("V ← O and i")},
+      {L::global_map, 2, QStringLiteral("M ← the visibility map of all patches along ω_d")},
+      {L::each_region, 2, QStringLiteral("for each region R of M")},
+      {L::region_list, 3, QStringLiteral("L ← the patches over R, sorted along ω_d")},
+      {L::each_receiver, 3, QStringLiteral("for each i of L that faces the light")},
+      {L::next_above, 4, QStringLiteral("j ← the next of L above i")},
+      {L::if_back, 4, QStringLiteral("if j shines down")},
+      {L::gather_region, 5, QStringLiteral("B_i(n+1) += A(R)/A_i · ρ_i/(π M) · J_d · B_j(n)")},
   };
   return code;
 }
 
-const std::vector<QString>& global_map_code() {
-  static const std::vector<QString> code = {
-      QStringLiteral("M ← the visibility map of all patches along ω_d"),
-      QStringLiteral("for each region R of M"),
-      QStringLiteral("    L ← the patches over R, sorted along ω_d"),
-      QStringLiteral("    for each i of L that faces the light"),
-      QStringLiteral("        j ← the next of L above i"),
-      QStringLiteral("        if j faces away from the light"),
-      QStringLiteral("            B_i(n+1) += A(R)/A_i · ρ_i/(π M) · J_d · B_j(n)"),
-  };
-  return code;
-}
+namespace {
 
-std::vector<CodeLine> current_lines(const Focus& focus) {
-  const auto map = focus.map();
-  if (!map) return {};
+std::vector<CodeLine> lines_of_local_map(const Focus& focus, const MapHistory& history) {
   const std::int32_t k = focus.moment().step;
   if (k < 0) return {CodeLine::empty_map};
-  const MapHistory::Step& step = map->history.step(k);
+  const MapHistory::Step& step = history.step(k);
   if (focus.phase() == Phase::before || step.row == MapRecord::no_row)
     return {CodeLine::each_patch};
   if (focus.phase() == Phase::split) return {CodeLine::clip};
   if (step.front_facing) return {CodeLine::gather, CodeLine::leave_hole};
   return {CodeLine::put_in};
+}
+
+/// The last event of the line that the focus has come to, if any.
+const StepEvent* event_reached(const std::vector<StepEvent>& line, std::int32_t step) {
+  const StepEvent* reached = nullptr;
+  for (const StepEvent& event : line)
+    if (event.step <= step) reached = &event;
+  return reached;
+}
+
+std::vector<CodeLine> lines_of_global_map(const Focus& focus, const MapHistory& history) {
+  if (!focus.probe()) return {CodeLine::global_map};
+  const std::vector<StepEvent> line = events_at_point(history, *focus.probe());
+  const std::int32_t k = focus.moment().step;
+  const StepEvent* event = event_reached(line, k);
+  if (event == nullptr) return {CodeLine::region_list};
+  if (event->step != k || focus.phase() == Phase::before || !history.step(k).front_facing)
+    return {CodeLine::each_receiver};
+  if (focus.phase() == Phase::split) return {CodeLine::next_above};
+  if (event->kind != StepEvent::Kind::exchange) return {CodeLine::if_back};
+  return {CodeLine::if_back, CodeLine::gather_region};
+}
+
+/// B_j(n), where it has been kept.
+std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
+  const auto n = static_cast<std::size_t>(iteration);
+  if (n >= snapshot.kept_radiosity.size() || !snapshot.kept_radiosity[n]) return std::nullopt;
+  return (*snapshot.kept_radiosity[n])[static_cast<std::size_t>(patch)];
+}
+
+}  // namespace
+
+std::vector<CodeLine> current_lines(const Focus& focus, MapKind kind) {
+  const auto map = focus.map();
+  if (!map) return {};
+  return kind == MapKind::local ? lines_of_local_map(focus, map->history)
+                                : lines_of_global_map(focus, map->history);
+}
+
+std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot) {
+  const auto map = focus.map();
+  if (!map || !focus.probe() || map->loaded != snapshot.loaded) return std::nullopt;
+  const MapHistory& history = map->history;
+  RegionState state;
+  state.point = *focus.probe();
+  const std::vector<StepEvent> line = events_at_point(history, state.point);
+  for (const StepEvent& event : line) state.list.push_back(event.below);
+  const StepEvent* event = event_reached(line, focus.moment().step);
+  if (event == nullptr) return state;
+  state.i = event->below;
+  state.front_facing = history.step(event->step).front_facing;
+  state.j = event->above;
+  state.exchanges = event->kind == StepEvent::Kind::exchange;
+  state.pair_area = event->pair_area;
+  if (state.j != no_patch)
+    state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  return state;
 }
 
 std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSnapshot& snapshot,
@@ -85,14 +138,12 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   state.j = j->first;
   state.area_j = j->second;
 
-  const auto n = static_cast<std::size_t>(focus.moment().iteration);
-  if (n >= snapshot.kept_radiosity.size() || !snapshot.kept_radiosity[n]) return state;
-  const std::vector<Rgb>& radiosity = *snapshot.kept_radiosity[n];
-  state.radiosity_j = radiosity[static_cast<std::size_t>(state.j)];
+  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  if (!state.radiosity_j) return state;
   const double share = state.weight / (std::numbers::pi * state.directions * state.area_i);
   Rgb sum;
   for (const auto& [source, area] : areas)
-    sum += (share * area) * radiosity[static_cast<std::size_t>(source)];
+    sum += (share * area) * *kept_radiosity(snapshot, focus.moment().iteration, source);
   state.gathered = scene.reflectance(step.patch) * sum;
   return state;
 }

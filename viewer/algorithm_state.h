@@ -10,12 +10,15 @@
 
 namespace transillum::viewer {
 
-/// The lines of the paper's pseudo-code (sections 3.3 and 3.2), as they are listed.
+/// The two ways to one direction's transfers: sections 3.2 and 3.1.
+enum class MapKind { local, global };
+
+/// The lines of the paper's pseudo-code, as they are listed.
 enum class CodeLine {
   start,  ///< B(0) = E
   each_iteration,
-  restart,  ///< B(n+1) = E
-  each_direction,
+  restart,         ///< B(n+1) = E
+  each_direction,  ///< down to here section 3.3
   sort,
   empty_map,
   each_patch,
@@ -24,7 +27,14 @@ enum class CodeLine {
   gather,  ///< eq. 11 with eq. 14
   leave_hole,
   otherwise,
-  put_in,
+  put_in,      ///< the last of section 3.2
+  global_map,  ///< the first of section 3.1
+  each_region,
+  region_list,
+  each_receiver,
+  next_above,
+  if_back,
+  gather_region,  ///< eq. 11 with eq. 14, of one region
 };
 struct CodeText {
   CodeLine line;
@@ -33,11 +43,10 @@ struct CodeText {
 };
 /// In our words, and with the receiver's reflectance, where the paper prints the source's.
 const std::vector<CodeText>& algorithm_code();
-/// The global map of section 3.1, which takes the place of the lines from `sort` on.
-const std::vector<QString>& global_map_code();
 
-/// The lines that the focus stands on; more than one where a phase does several.
-std::vector<CodeLine> current_lines(const Focus& focus);
+/// The lines that the focus stands on; more than one where a phase does several. The regions of a
+/// global map are not walked through one by one: that of the probed point stands for all.
+std::vector<CodeLine> current_lines(const Focus& focus, MapKind kind);
 
 /// What the variables of the pseudo-code hold in a step.
 struct AlgorithmState {
@@ -55,5 +64,19 @@ struct AlgorithmState {
 /// Nothing before the first step. `selected`: the j to look at, if it is in the inside list.
 std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSnapshot& snapshot,
                                               PatchId selected);
+
+/// What they hold at the region R of a global map that the probed point lies in.
+struct RegionState {
+  Vec2 point;
+  std::vector<PatchId> list;  ///< L, from the light down
+  PatchId i = no_patch;       ///< of L, the newest that the focus has processed
+  bool front_facing = false;
+  PatchId j = no_patch;            ///< next of L above i
+  bool exchanges = false;          ///< i receives from j there
+  double pair_area = 0;            ///< A(i, j) over all regions, m²
+  std::optional<Rgb> radiosity_j;  ///< B_j(n), W/m²
+};
+/// Nothing without a probed point.
+std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot);
 
 }  // namespace transillum::viewer

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "algorithm_view.h"
 
+#include <QComboBox>
 #include <QLabel>
+#include <QStringList>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
@@ -33,16 +35,48 @@ QLabel* code_line(const QString& words, int indent) {
 
 AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
+  kind_ = new QComboBox;
+  kind_->setObjectName("map_kind");
+  kind_->addItem(tr("by a local visibility map (section 3.2)"));
+  kind_->addItem(tr("by a global visibility map (section 3.1)"));
+  kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  auto* chooser = new QHBoxLayout;
+  chooser->setContentsMargins(12, 8, 12, 4);
+  chooser->addWidget(kind_);
+
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 2, 0, 8);
   layout->setSpacing(0);
   layout->addWidget(heading(tr("All directions (section 3.3)")));
+  layout->addWidget(make_code(CodeLine::start, CodeLine::each_direction));
+  layout->addWidget(heading(tr("One direction")));
+  layout->addLayout(chooser);
+  local_parts_ = {make_code(CodeLine::sort, CodeLine::put_in), make_local_values()};
+  global_parts_ = {make_code(CodeLine::global_map, CodeLine::gather_region), make_region_values()};
+  for (const auto& parts : {local_parts_, global_parts_})
+    for (QWidget* part : parts) layout->addWidget(part);
+  layout->addStretch(1);
+  connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
+  connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
+  connect(&focus_, &Focus::probed, this, &AlgorithmView::show_moment);
+  connect(&selection_, &Selection::changed, this, &AlgorithmView::show_moment);
+  show_kind();
+}
+
+QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
   for (const CodeText& text : algorithm_code()) {
-    if (text.line == CodeLine::sort)
-      layout->addWidget(heading(tr("One direction by a local visibility map (section 3.2)")));
+    if (text.line < first || text.line > last) continue;
     lines_.push_back(code_line(text.words, text.indent));
     layout->addWidget(lines_.back());
   }
+  return box;
+}
+
+QWidget* AlgorithmView::make_local_values() {
   values_ = new ValueGrid;
   values_->layout()->setContentsMargins(12, 10, 12, 4);
   moment_ = values_->add_row(tr("n, d"), {}, tr("Iteration and direction"));
@@ -60,18 +94,45 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
   gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
                                tr("What the step adds to B_i(n+1), before any normalisation"));
   gathered_->setObjectName("value_gathered");
-  layout->addWidget(values_);
+  return values_;
+}
 
-  layout->addWidget(heading(tr("The same by a global map (section 3.1)")));
-  for (const QString& words : global_map_code()) {
-    const auto text = words.trimmed();
-    QLabel* label = code_line(text, static_cast<int>(words.size() - text.size()) / 4);
-    label->setForegroundRole(QPalette::PlaceholderText);
-    layout->addWidget(label);
-  }
-  layout->addStretch(1);
-  connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
-  connect(&selection_, &Selection::changed, this, &AlgorithmView::show_moment);
+QWidget* AlgorithmView::make_region_values() {
+  region_hint_ = new QLabel(
+      tr("Click the map: the region under the point stands for all. Stepping goes down its list."));
+  region_hint_->setWordWrap(true);
+  region_hint_->setForegroundRole(QPalette::PlaceholderText);
+  region_values_ = new ValueGrid;
+  region_values_->layout()->setContentsMargins(12, 10, 12, 4);
+  region_ = region_values_->add_row(tr("R"), tr("m"), tr("The point clicked: along u and v"));
+  region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches over R, the highest first"));
+  region_list_->setWordWrap(true);
+  region_list_->setObjectName("value_region_list");
+  region_i_ = region_values_->add_row(tr("i"), {}, tr("Of L, the last that has been processed"));
+  region_i_->setObjectName("value_region_i");
+  region_j_ = region_values_->add_row(tr("j, Σ A(R)"), tr("m²"),
+                                      tr("The next above i; what i sees of it in all regions"));
+  region_j_->setObjectName("value_region_j");
+  region_radiosity_ =
+      region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  auto* hint = new QHBoxLayout;
+  hint->setContentsMargins(12, 8, 12, 0);
+  hint->addWidget(region_hint_);
+  layout->addLayout(hint);
+  layout->addWidget(region_values_);
+  return box;
+}
+
+MapKind AlgorithmView::kind() const {
+  return kind_->currentIndex() == 0 ? MapKind::local : MapKind::global;
+}
+
+void AlgorithmView::show_kind() {
+  for (QWidget* part : local_parts_) part->setVisible(kind() == MapKind::local);
+  for (QWidget* part : global_parts_) part->setVisible(kind() == MapKind::global);
   show_moment();
 }
 
@@ -81,7 +142,7 @@ void AlgorithmView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot
 }
 
 void AlgorithmView::show_moment() {
-  const auto current = current_lines(focus_);
+  const auto current = current_lines(focus_, kind());
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const CodeLine line = algorithm_code()[k].line;
     const bool on = std::find(current.begin(), current.end(), line) != current.end();
@@ -90,10 +151,40 @@ void AlgorithmView::show_moment() {
            : QString();
     if (lines_[k]->styleSheet() != style) lines_[k]->setStyleSheet(style);
   }
-  const auto state =
-      snapshot_ ? algorithm_state(focus_, *snapshot_, selection_.patch()) : std::nullopt;
-  values_->setEnabled(state.has_value());
-  show_values(state.value_or(AlgorithmState()));
+  if (kind() == MapKind::local) {
+    const auto state =
+        snapshot_ ? algorithm_state(focus_, *snapshot_, selection_.patch()) : std::nullopt;
+    values_->setEnabled(state.has_value());
+    show_values(state.value_or(AlgorithmState()));
+  } else {
+    const auto state = snapshot_ ? region_state(focus_, *snapshot_) : std::nullopt;
+    region_values_->setEnabled(state.has_value());
+    region_hint_->setVisible(!state.has_value());
+    show_region(state.value_or(RegionState()));
+  }
+}
+
+void AlgorithmView::show_region(const RegionState& state) {
+  constexpr std::size_t most_listed = 24;
+  const QString none = QStringLiteral("–");
+  QStringList list;
+  for (std::size_t k = 0; k < std::min(state.list.size(), most_listed); ++k)
+    list << QString::number(state.list[k]);
+  if (state.list.size() > most_listed) list << QStringLiteral("…");
+  region_->setText(list.isEmpty()
+                       ? none
+                       : tr("%1, %2").arg(number_text(state.point.x), number_text(state.point.y)));
+  region_list_->setText(list.isEmpty() ? none : list.join(QStringLiteral(", ")));
+  region_i_->setText(state.i == no_patch
+                         ? none
+                         : tr("%1, %2").arg(QString::number(state.i), state.front_facing
+                                                                          ? tr("faces the light")
+                                                                          : tr("shines down")));
+  region_j_->setText(state.j == no_patch ? none
+                     : state.exchanges
+                         ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))
+                         : tr("%1, no light").arg(state.j));
+  region_radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
 }
 
 void AlgorithmView::show_values(const AlgorithmState& state) {

@@ -8,7 +8,9 @@
 #include "algorithm_state.h"
 #include "selection.h"
 
+class QComboBox;
 class QLabel;
+class QVBoxLayout;
 
 namespace transillum::viewer {
 
@@ -24,15 +26,24 @@ class AlgorithmView : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
+  QWidget* make_code(CodeLine first, CodeLine last);
+  QWidget* make_local_values();
+  QWidget* make_region_values();
+  MapKind kind() const;
+  void show_kind();
   void show_moment();
   void show_values(const AlgorithmState& state);
+  void show_region(const RegionState& state);
 
   const Focus& focus_;
   const Selection& selection_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::vector<QLabel*> lines_;  ///< as algorithm_code()
-  ValueGrid* values_;
+  QComboBox* kind_;
+  std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the one or the other map
+  ValueGrid *values_, *region_values_;
   QLabel *moment_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
+  QLabel *region_, *region_list_, *region_i_, *region_j_, *region_radiosity_, *region_hint_;
 };
 
 }  // namespace transillum::viewer

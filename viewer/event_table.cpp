@@ -49,8 +49,10 @@ QString EventTable::text(const StepEvent& event, int column) const {
       return event.above == no_patch ? QString() : QString::number(event.above);
     case of_area:
       return event.kind == StepEvent::Kind::edge_on ? QString() : number_text(event.area);
-    default:
+    case of_parts:
       return event.above == no_patch ? QString() : QString::number(event.parts);
+    default:
+      return event.kind == StepEvent::Kind::exchange ? number_text(event.pair_area) : QString();
   }
 }
 
@@ -81,6 +83,8 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     return tr("How many parts of the cut fragment are left in V");
   if (role == Qt::ToolTipRole && section == of_area)
     return tr("On the transillumination plane: of the polygon, or of the part above it");
+  if (role == Qt::ToolTipRole && section == of_pair)
+    return tr("All that the one receives from the other along this direction");
   if (role != Qt::DisplayRole) return {};
   switch (section) {
     case of_step:
@@ -93,8 +97,10 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
       return tr("Patch");
     case of_area:
       return tr("Area, m²");
-    default:
+    case of_parts:
       return tr("Left");
+    default:
+      return tr("Pair, m²");
   }
 }
 

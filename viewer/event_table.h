@@ -14,7 +14,7 @@ class EventTable : public QAbstractTableModel {
 
  public:
   using QAbstractTableModel::QAbstractTableModel;
-  enum Column { of_step, of_below, of_kind, of_above, of_area, of_parts, column_count };
+  enum Column { of_step, of_below, of_kind, of_above, of_area, of_parts, of_pair, column_count };
 
   void set_events(std::vector<StepEvent> events);
   /// The events of this step stand out.

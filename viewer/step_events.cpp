@@ -67,6 +67,17 @@ std::vector<StepEvent> events_of_patch(const MapHistory& history, PatchId patch)
   return events;
 }
 
+double exchanged_area(const MapHistory& history, PatchId receiver, PatchId source) {
+  double area = 0;
+  for (const std::int32_t k : history.steps_of(receiver)) {
+    if (history.step(k).patch != receiver) continue;
+    for (const std::int32_t r : history.inside_at(k))
+      if (history.row(r).patch == source && history.exchanges(r))
+        area += history.record().area(history.row(r));
+  }
+  return area;
+}
+
 std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p) {
   std::vector<StepEvent> events;
   const MapRecord& record = history.record();
@@ -77,7 +88,10 @@ std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p)
     const auto above = std::find_if(inside.begin(), inside.end(), [&](std::int32_t r) {
       return record.covers(history.row(r), p);
     });
-    events.push_back(above == inside.end() ? arrival(history, k) : meeting(history, *above, 0));
+    StepEvent event = above == inside.end() ? arrival(history, k) : meeting(history, *above, 0);
+    if (event.kind == Kind::exchange)
+      event.pair_area = exchanged_area(history, event.below, event.above);
+    events.push_back(event);
   }
   return events;
 }

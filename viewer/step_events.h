@@ -24,6 +24,7 @@ struct StepEvent {
   PatchId above = no_patch;  ///< what it met; no_patch where it came or is edge-on
   double area = 0;           ///< m²: of the polygon, or of the part above it
   int parts = 0;             ///< of what was cut, left in V
+  double pair_area = 0;      ///< of an exchange along a line: A(below, above) of the direction, m²
 
   friend bool operator==(const StepEvent&, const StepEvent&) = default;
 };
@@ -32,6 +33,8 @@ struct StepEvent {
 std::vector<StepEvent> events_of_step(const MapHistory& history, std::int32_t step);
 /// Those of a direction that concern one patch, in order.
 std::vector<StepEvent> events_of_patch(const MapHistory& history, PatchId patch);
+/// A(i, j, omega), m²: what `receiver` sees of `source` at all steps of the direction.
+double exchanged_area(const MapHistory& history, PatchId receiver, PatchId source);
 /// The polygons that cover point `p`, from the light down, each with what it meets there.
 std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p);
 

@@ -20,6 +20,7 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
   patch_ = add_tab(tr("Selected patch"), "patch_events");
   line_ = add_tab(tr("Line"), "line_events");
   step_.view->setColumnHidden(EventTable::of_step, true);
+  for (const Tab& tab : {step_, patch_}) tab.view->setColumnHidden(EventTable::of_pair, true);
   line_.view->setColumnHidden(EventTable::of_parts, true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -52,7 +53,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
   header->setHighlightSections(false);
-  const int widths[] = {62, 54, 0, 54, 84, 40};
+  const int widths[] = {62, 54, 0, 54, 84, 40, 84};
   for (int column = 0; column < EventTable::column_count; ++column)
     if (widths[column] > 0) tab.view->setColumnWidth(column, widths[column]);
 
@@ -129,8 +130,8 @@ void StepPanel::show_line_tab() {
       !focus_.probe() ? tr("Click the map: the patches along that line are listed here.")
       : events.empty()
           ? tr("The line meets no patch.")
-          : tr("The patches along the line, from the light down; %1 of them receive there, by the "
-               "fragment's area.")
+          : tr("The patches along the line, from the light down; %1 of them receive there: by the "
+               "fragment under the point, and as a pair along this direction.")
                 .arg(exchanges));
   line_.table->set_events(std::move(events));
   line_.table->set_current_step(focus_.moment().step);

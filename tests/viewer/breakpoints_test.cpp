@@ -213,6 +213,63 @@ class BreakpointsTest : public QObject {
     QVERIFY(events_at_point(d.history(), {1e3, 1e3}).empty());
   }
 
+  void a_line_tells_what_its_pairs_exchange_altogether() {
+    const Direction d("cornell-box", {0.1, 0.2, 1});
+    std::map<std::pair<PatchId, PatchId>, double> areas;
+    for (const Transfer& t : d.transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+    int exchanges = 0;
+    for (double x = -1; x < 1; x += 0.0437) {
+      for (const StepEvent& event : events_at_point(d.history(), {x, 0.31 * x})) {
+        if (event.kind != StepEvent::Kind::exchange) {
+          QCOMPARE(event.pair_area, 0.0);
+          continue;
+        }
+        ++exchanges;
+        QVERIFY(std::abs(event.pair_area - areas.at({event.below, event.above})) < 1e-12);
+        QVERIFY(event.area <= event.pair_area + 1e-12);
+      }
+    }
+    QVERIFY(exchanges > 3);
+    QCOMPARE(exchanged_area(d.history(), 0, 0), 0.0);
+  }
+
+  void a_global_map_is_walked_down_at_the_probed_point() {
+    const Direction d("furnace", {0, 0.2, 1});
+    SolverSnapshot snapshot;
+    snapshot.loaded = d.scene;
+    Focus focus;
+    focus.begin_run(1);
+    focus.go_to({0, 0, -1});
+    focus.show_map(d.map);
+    QVERIFY(!region_state(focus, snapshot));
+    QVERIFY(current_lines(focus, MapKind::global) == std::vector<CodeLine>{CodeLine::global_map});
+    const Vec3 middle = d.scene->scene->bounds().center();
+    const Vec2 point = d.map->record().frame.project(middle + Vec3{0.21, 0.13, 0});
+    focus.set_probe(point);
+    QVERIFY(current_lines(focus, MapKind::global) == std::vector<CodeLine>{CodeLine::region_list});
+    const auto line = events_at_point(d.history(), point);
+    int exchanges = 0;
+    for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
+      focus.go_to({0, 0, k});
+      const auto state = region_state(focus, snapshot);
+      QVERIFY(state.has_value());
+      QCOMPARE(state->list.size(), line.size());
+      const auto lines = current_lines(focus, MapKind::global);
+      const auto here = std::find_if(line.begin(), line.end(),
+                                     [&](const StepEvent& event) { return event.step == k; });
+      if (here == line.end()) {
+        QVERIFY(lines.front() == CodeLine::each_receiver || lines.front() == CodeLine::region_list);
+        continue;
+      }
+      QCOMPARE(state->i, here->below);
+      QCOMPARE(state->j, here->above);
+      const bool gathers = lines.back() == CodeLine::gather_region;
+      QCOMPARE(gathers, here->kind == StepEvent::Kind::exchange);
+      exchanges += gathers;
+    }
+    QVERIFY(exchanges > 0);
+  }
+
   void the_algorithm_adds_up_to_one_iteration() {
     // Summed over the steps of a direction, line `gather` is eq. 11 for that direction.
     const Direction d("cornell-box");
@@ -235,7 +292,7 @@ class BreakpointsTest : public QObject {
     };
     at(-1);
     QVERIFY(!algorithm_state(focus, snapshot, no_patch));
-    QVERIFY(current_lines(focus) == std::vector<CodeLine>{CodeLine::empty_map});
+    QVERIFY(current_lines(focus, MapKind::local) == std::vector<CodeLine>{CodeLine::empty_map});
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
       at(k);
       const auto state = algorithm_state(focus, snapshot, no_patch);
@@ -244,7 +301,8 @@ class BreakpointsTest : public QObject {
       QCOMPARE(state->map_after, state->map_before - state->inside + state->outside +
                                      (d.history().step(k).row != MapRecord::no_row));
       if (state->gathered) sums[static_cast<std::size_t>(state->i)] += *state->gathered;
-      QCOMPARE(current_lines(focus).back() == CodeLine::leave_hole, state->front_facing);
+      QCOMPARE(current_lines(focus, MapKind::local).back() == CodeLine::leave_hole,
+               state->front_facing);
     }
     std::vector<Rgb> expected(radiosity.size());
     for (const Transfer& t : d.transfers.exchanges) {

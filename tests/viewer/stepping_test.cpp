@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Stepping through visibility maps with the pointer and the keys.
+#include <QComboBox>
 #include <QListWidget>
 #include <QMouseEvent>
 #include <QSpinBox>
@@ -197,6 +198,12 @@ class SteppingTest : public QObject {
     QTest::mouseClick(line->viewport(), Qt::LeftButton, {}, first);
     QTest::mouseDClick(line->viewport(), Qt::LeftButton, {}, first);
     QCOMPARE(s.focus.moment().step + 1, line->model()->index(0, 0).data().toInt());
+    // The same by a global map: the line's patches are the region's list.
+    s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(1);
+    QCOMPARE(s.text("value_region_list").split(", ").size(), line->model()->rowCount());
+    QVERIFY(s.text("value_region_i").startsWith(line->model()->index(0, 1).data().toString()));
+    QTest::qWait(100);
+    save_picture(*s.window, "global");
   }
 
   void breakpoints_stop_a_run() {
