@@ -31,6 +31,10 @@ QLabel* code_line(const QString& words, int indent) {
   return label;
 }
 
+QString i_text(PatchId i, double area, const QString& faces) {
+  return AlgorithmView::tr("%1, A = %2 m², %3").arg(QString::number(i), number_text(area), faces);
+}
+
 }  // namespace
 
 AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent)
@@ -56,6 +60,9 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
   for (const auto& parts : {local_parts_, global_parts_})
     for (QWidget* part : parts) layout->addWidget(part);
   layout->addStretch(1);
+  // Room for the longest of the values, which come later.
+  setMinimumWidth(110 +
+                  fontMetrics().horizontalAdvance(i_text(1000000, 0.01234, tr("faces the light"))));
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
   connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
   connect(&focus_, &Focus::probed, this, &AlgorithmView::show_moment);
@@ -194,9 +201,8 @@ void AlgorithmView::show_values(const AlgorithmState& state) {
   moment_->setText(focus_.map()
                        ? tr("%1, %2").arg(moment.iteration).arg(count_text(moment.direction + 1))
                        : none);
-  i_->setText(any ? tr("%1, A = %2 m², %3")
-                        .arg(QString::number(state.i), number_text(state.area_i),
-                             state.front_facing ? tr("faces the light") : tr("shines down"))
+  i_->setText(any ? i_text(state.i, state.area_i,
+                           state.front_facing ? tr("faces the light") : tr("shines down"))
                   : none);
   map_->setText(any ? tr("%1 → %2").arg(count_text(state.map_before), count_text(state.map_after))
                     : none);

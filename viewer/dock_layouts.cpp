@@ -6,6 +6,9 @@
 #include <QMenu>
 #include <QScrollArea>
 #include <QStyle>
+#include <QTabBar>
+#include <QTimer>
+#include <algorithm>
 #include <utility>
 
 namespace transillum::viewer {
@@ -75,6 +78,11 @@ void DockLayouts::arrange(Layout layout) {
   if (!left.isEmpty() && !right.isEmpty())
     window_.resizeDocks({left.front(), right.front()}, {widths.left, widths.right}, Qt::Horizontal);
   window_.resizeDocks(shown, heights, Qt::Vertical);
+  // Qt may leave the bar of tabs that are no more.
+  QTimer::singleShot(0, this, [this] {
+    for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
+      if (bar->count() == 0) bar->hide();
+  });
 }
 
 void DockLayouts::add_to(QMenu& menu) {
@@ -122,7 +130,7 @@ QWidget* scrollable(QWidget* content) {
   area->setFrameShape(QFrame::NoFrame);
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   // Never so narrow that something is cut off at the right.
-  area->setMinimumWidth(content->minimumSizeHint().width() +
+  area->setMinimumWidth(std::max(content->minimumSizeHint().width(), content->minimumWidth()) +
                         area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
   return area;
 }
