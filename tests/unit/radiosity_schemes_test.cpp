@@ -181,12 +181,18 @@ TEST(Schemes, WhatWantsKeptFormFactorsSaysThatItWantsMemory) {
   }
 }
 
-/// 95 of 100 intervals shall hold the truth.
-TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
+/// How often intervals hold the truth, over runs of 8 replicas each.
+struct Coverage {
+  double patches = 0;  ///< share of the patches' intervals, of red
+  int means = 0;       ///< runs whose interval of the mean B does
+  double rms = 0;      ///< RMS error as estimated, over the actual one
+};
+Coverage coverage_of(int runs, int directions_a_replica) {
   const auto& truth = box_reference();
   const auto scene = box();
   const auto tree = std::make_shared<const BspTree>(*scene);
-  int held = 0, asked = 0, means_held = 0;
+  int held = 0, asked = 0;
+  Coverage coverage;
   double estimated = 0, actual = 0;
   Rgb true_mean;
   double area = 0;
@@ -195,10 +201,9 @@ TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
     area += scene->patch(i).area;
   }
   true_mean = (1 / area) * true_mean;
-  constexpr int runs = 60;
   for (int run = 0; run < runs; ++run) {
     RadiositySolver solver(scene,
-                           {.directions = 8 * 24,
+                           {.directions = 8 * directions_a_replica,
                             .seed = static_cast<std::uint64_t>(1000 * run),
                             .replicas = 8,
                             .tolerance = 1e-6},
@@ -214,17 +219,34 @@ TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
       ++asked;
       held += std::abs(off.r) <= error.quantile * error.standard_error[i].r;
     }
-    means_held += std::abs(error.mean_radiosity.r - true_mean.r) <=
-                  error.quantile * error.mean_standard_error.r;
+    coverage.means += std::abs(error.mean_radiosity.r - true_mean.r) <=
+                      error.quantile * error.mean_standard_error.r;
     estimated += error.rms * error.rms;
     actual += std::pow(distance(solver.radiosity(), truth), 2);
   }
-  RecordProperty("patches_held", std::to_string(static_cast<double>(held) / asked));
-  RecordProperty("means_held", std::to_string(static_cast<double>(means_held) / runs));
-  EXPECT_NEAR(std::sqrt(estimated / actual), 1, 0.15);
-  EXPECT_GT(held, 0.91 * asked);
-  EXPECT_LT(held, 0.98 * asked);
-  EXPECT_GE(means_held, 51);  // 57 expected; a chance of 1 in 100
+  coverage.patches = static_cast<double>(held) / asked;
+  coverage.rms = std::sqrt(estimated / actual);
+  return coverage;
+}
+
+/// 95 of 100 intervals shall hold the truth. So few directions meet some lights once or never, and
+/// what is so skewed is held less often (decisions/0030).
+TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const Coverage coverage = coverage_of(60, 24);
+  RecordProperty("patches_held", std::to_string(coverage.patches));
+  RecordProperty("means_held", std::to_string(coverage.means));
+  EXPECT_NEAR(coverage.rms, 1, 0.15);
+  EXPECT_GT(coverage.patches, 0.91);
+  EXPECT_LT(coverage.patches, 0.98);
+  EXPECT_GE(coverage.means, 51);  // 57 expected; a chance of 1 in 100
+}
+
+TEST(Replicas, IntervalsOfLargerReplicasHoldItAsOftenAsTheySay) {
+  const Coverage coverage = coverage_of(40, 192);
+  RecordProperty("patches_held", std::to_string(coverage.patches));
+  EXPECT_NEAR(coverage.rms, 1, 0.15);
+  EXPECT_NEAR(coverage.patches, 0.95, 0.02);
+  EXPECT_GE(coverage.means, 34);
 }
 
 TEST(Replicas, AreNothingWithoutBeingAskedFor) {

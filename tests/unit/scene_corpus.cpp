@@ -25,6 +25,7 @@ const std::vector<Entry>& entries() {
       {"scenes/perpendicular-squares.obj", 2, 2, 2},
       {"scenes/lamp-in-ceiling.obj", 7, 7, 60},
       {"scenes/concave-room.obj", 8, 10, 72},
+      {"scenes/box-in-cube.obj", 12, 12, 7.5},
       {"corpus/wild-crlf.obj", 3, 3, 2.5, 0, 0, 1, 1},
       {"corpus/non-planar.obj", 6, 7, 0, 0, 2, 0, 0},
       {"corpus/t-junctions.obj", 3, 3, 4},
