@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
@@ -16,6 +17,7 @@ struct LoadedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
+  SceneMeasures measures;
   double seconds_load = 0;
   double seconds_bsp = 0;
 };

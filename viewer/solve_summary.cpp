@@ -9,6 +9,12 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+constexpr double accuracy = 0.01;  ///< that is spoken of
+
+}  // namespace
+
 SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   auto* grid = new ValueGrid;
   patches_ = grid->add_row(tr("Patches"), {});
@@ -26,6 +32,14 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   error_ = grid->add_row(tr("Error of B"), {},
                          tr("RMS over patches, from the spread of replicas; set some under\n"
                             "Solve settings to have one"));
+  bound_ = grid->add_row(tr("1 % takes at most"), {},
+                         tr("Directions by the paper's bounds: where the environment is nearly\n"
+                            "homogeneous (eq. 37), and in any environment (eq. 43)"));
+  bound_->setObjectName("summary_bound");
+  estimate_ = grid->add_row(tr("1 % should take"), {},
+                            tr("Passes, estimated from this run's error and how errors fall with "
+                               "M;\nit takes replicas to know the error"));
+  estimate_->setObjectName("summary_estimate");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 8, 12, 10);
   layout->addWidget(grid);
@@ -51,12 +65,31 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %").arg(number_text(100 * snapshot.error.rms))
                       : tr("no replicas"));
+  show_needs(snapshot);
   energy_->setText(any_step ? number_text(s.energy_defect) : none);
   contraction_->setText(s.steps.size() > 1 ? tr("%1, bound %2")
                                                  .arg(number_text(s.steps.back().contraction),
                                                       number_text(s.predicted_contraction))
                         : any_pass ? tr("bound %1").arg(number_text(s.predicted_contraction))
                                    : none);
+}
+
+void SolveSummary::show_needs(const SolverSnapshot& snapshot) {
+  const SceneMeasures& m = snapshot.loaded->measures;
+  bound_->setText(
+      tr("M = %1 (eq. 37), %2 (eq. 43)")
+          .arg(number_text(directions_if_homogeneous(m.rho_max, accuracy)),
+               number_text(directions_if_heterogeneous(m.rho_max, accuracy, m.size_ratio))));
+  const SolveStatistics& s = snapshot.statistics;
+  const bool replicas = snapshot.error.replicas > 0;
+  // Errors of means over steps fall otherwise.
+  const bool known = replicas && s.iterations > 0 && snapshot.error.rms > 0 &&
+                     snapshot.options.scheme != Scheme::semi_iterative;
+  estimate_->setText(known      ? tr("M ≈ %1").arg(number_text(estimated_passes_by_replicas(
+                                      snapshot.options.sampling, snapshot.options.directions,
+                                      snapshot.error.replicas, snapshot.error.rms, accuracy)))
+                     : replicas ? QStringLiteral("–")
+                                : tr("no replicas"));
 }
 
 }  // namespace transillum::viewer

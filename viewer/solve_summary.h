@@ -19,8 +19,10 @@ class SolveSummary : public QWidget {
   void show_snapshot(const SolverSnapshot& snapshot);
 
  private:
+  void show_needs(const SolverSnapshot& snapshot);
+
   QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *energy_,
-      *contraction_, *error_;
+      *contraction_, *error_, *bound_, *estimate_;
 };
 
 }  // namespace transillum::viewer

@@ -172,6 +172,7 @@ void SolverSession::load(const OpenRequest& request) {
     report(tr("Loading %1").arg(name), -1);
     loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
     loaded->picker = std::make_shared<const Picker>(loaded->scene);
+    loaded->measures = measure(*loaded->scene, cancellation);
     loaded->seconds_load = seconds_since(load_begin);
 
     const auto tree_begin = Clock::now();

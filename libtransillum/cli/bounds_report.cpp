@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -86,11 +85,10 @@ RunEstimate read_run(const std::string& path, double accuracy) {
     const Json estimate = json.value("error_estimate", Json());
     if (!estimate.is_object()) fail("has no error estimate; solve with --replicas 4");
     run.error = estimate.at("rms");
-    // One of R independent sets, each of M/R passes, errs by sqrt(R) more than their mean.
     const double replicas = estimate.at("replicas");
     if (!(run.error > 0 && run.passes >= 1 && replicas >= 1)) fail("its error estimate is 0");
-    run.estimated_passes = estimated_passes(run.sampling, run.passes / replicas,
-                                            run.error * std::sqrt(replicas), accuracy);
+    run.estimated_passes =
+        estimated_passes_by_replicas(run.sampling, run.passes, replicas, run.error, accuracy);
     return run;
   } catch (const Json::exception&) {
     throw InputError(path + ": not the statistics that solve --stats writes");

@@ -148,6 +148,9 @@ TEST(EstimatedPasses, FollowTheSlope) {
   EXPECT_EQ(estimated_passes(Sampling::fibonacci, 100, 0.08, 0.01), 1600);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.08, 0.01), 6400);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.0009, 0.01), 1);
+  // Replicas cost random directions nothing; four even sets of 100 are but twice as good as one.
+  EXPECT_EQ(estimated_passes_by_replicas(Sampling::random, 100, 4, 0.08, 0.01), 6400);
+  EXPECT_EQ(estimated_passes_by_replicas(Sampling::fibonacci, 400, 4, 0.04, 0.01), 1600);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <QTemporaryDir>
 
 #include "banner.h"
+#include "number_text.h"
 #include "solved_window.h"
 #include "study_chart.h"
 
@@ -105,6 +106,20 @@ class StudyTest : public QObject {
     QVERIFY(wait_for([&] { return shown.phase() == "Stopped"; }));
     QVERIFY2(timer.elapsed() < 2000, qPrintable(QString::number(timer.elapsed())));
     QCOMPARE(shown.run()->text(), QString("Run the study"));
+  }
+
+  /// Before any study: by the bounds, and from the run.
+  void figures_tell_what_one_percent_takes() {
+    const auto window = make_window();
+    window->set_options({.directions = 96, .replicas = 4}, {});
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->progress.finished; }));
+    const auto text = [&](const char* name) { return window->findChild<QLabel*>(name)->text(); };
+    QVERIFY(wait_for([&] { return text("summary_estimate").startsWith(QStringLiteral("M ≈")); }));
+    const double rho = window->snapshot()->loaded->measures.rho_max;
+    const QString bound = number_text(directions_if_homogeneous(rho, 0.01));
+    QVERIFY2(text("summary_bound").startsWith(QString("M = %1 (eq. 37)").arg(bound)),
+             qPrintable(text("summary_bound")));
   }
 
   void another_scene_ends_it() {

@@ -91,5 +91,9 @@ SceneMeasures measure(const Scene& scene, const Cancellation& cancellation = {})
 /// an error of `error` (both in one norm): error falls as M^-1/2 at random, and else as M^-3/4,
 /// which is what integrands with kinks allow at worst.
 double estimated_passes(Sampling sampling, double passes, double error, double accuracy);
+/// The same from the error of a run of `passes` passes in `replicas` replicas, as they give it. What
+/// is estimated is without replicas, as one set.
+double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
+                                    double accuracy);
 
 }  // namespace transillum

@@ -197,4 +197,11 @@ double estimated_passes(Sampling sampling, double passes, double error, double a
   return std::max(1.0, std::ceil(passes * std::pow(error / accuracy, 1 / slope)));
 }
 
+double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
+                                    double accuracy) {
+  check_positive("replicas", replicas);
+  // One of R independent sets, each of M/R passes, errs by sqrt(R) more than their mean.
+  return estimated_passes(sampling, passes / replicas, error * std::sqrt(replicas), accuracy);
+}
+
 }  // namespace transillum
