@@ -30,7 +30,10 @@ DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoi
                              DirectionSights& sights, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), sights_(sights) {
   setToolTip(tr("Drag to turn; click a direction to look along it"));
-  connect(&focus_, &Focus::moved, this, qOverload<>(&QWidget::update));
+  connect(&focus_, &Focus::moved, this, [this] {
+    ask();
+    update();
+  });
   connect(&colors_, &ColorChoice::changed, this, qOverload<>(&QWidget::update));
   connect(&selection_, &Selection::changed, this, [this] {
     ask();
@@ -63,9 +66,15 @@ void DirectionView::showEvent(QShowEvent* event) {
   ask();
 }
 
+int DirectionView::iteration() const {
+  const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
+  return renews && focus_.map() ? focus_.moment().iteration : snapshot_->progress.iteration;
+}
+
 int DirectionView::taken() const {
   if (!snapshot_) return 0;
   const SolveProgress& progress = snapshot_->progress;
+  if (iteration() < progress.iteration) return progress.passes;
   return progress.direction > 0 || progress.iteration == 0 ? progress.direction : progress.passes;
 }
 
@@ -77,13 +86,13 @@ void DirectionView::ask() {
   if (!wants_sights()) return;
   const SolveOptions& options = snapshot_->options;
   sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                   snapshot_->directions, taken(), selection_.patch()});
+                   snapshot_->directions_of(iteration()), taken(), selection_.patch()});
 }
 
 std::vector<DirectionView::Point> DirectionView::points() const {
   std::vector<Point> points;
   for (int k = 0; k < taken(); ++k) {
-    const Vec3& omega = (*snapshot_->directions)[static_cast<std::size_t>(k)];
+    const Vec3& omega = directions()[static_cast<std::size_t>(k)];
     points.push_back({omega, k, false});
     if (snapshot_->options.two_way) points.push_back({-omega, k, true});
   }
@@ -216,7 +225,7 @@ void DirectionView::draw_normal(QPainter& painter) const {
 void DirectionView::draw_focus(QPainter& painter) const {
   const int pass = focus_.moment().direction;
   if (!focus_.map() || pass >= taken()) return;
-  const Vec3 at = turned((*snapshot_->directions)[static_cast<std::size_t>(pass)]);
+  const Vec3 at = turned(directions()[static_cast<std::size_t>(pass)]);
   QColor color = theme::processed;
   color.setAlphaF(at.z >= 0 ? 1 : 0.4);
   painter.setPen(QPen(color, 2));

@@ -65,6 +65,9 @@ class DirectionView : public QWidget {
   void draw_focus(QPainter& painter) const;
   void draw_legend(QPainter& painter) const;
   std::optional<Point> point_at(const QPointF& where) const;
+  /// The iteration step shown: that in focus where each has directions of its own, else the newest.
+  int iteration() const;
+  const std::vector<Vec3>& directions() const { return *snapshot_->directions_of(iteration()); }
   int taken() const;
 
   Focus& focus_;

@@ -15,11 +15,11 @@ std::int32_t nearest_step(const MapHistory& history, std::int32_t step) {
 
 }  // namespace
 
-void Focus::begin_run(int passes, int first_iteration) {
+void Focus::begin_run(int passes, bool renews) {
   passes_ = passes;
-  first_iteration_ = first_iteration;
-  iterations_ = first_iteration + 1;
-  moment_ = wanted_ = newest_ = {first_iteration, 0, -1};
+  renews_ = renews;
+  iterations_ = 1;
+  moment_ = wanted_ = newest_ = {};
   map_ = nullptr;
   set_probe(std::nullopt);
   following_ = true;
@@ -30,7 +30,7 @@ void Focus::begin_run(int passes, int first_iteration) {
 }
 
 void Focus::set_iterations(int count) {
-  count = std::max(count, first_iteration_ + 1);
+  count = std::max(count, 1);
   if (count == iterations_) return;
   iterations_ = count;
   emit wished();
@@ -54,10 +54,9 @@ void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
 }
 
 Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
-  const std::int64_t first = std::int64_t{first_iteration_} * passes_;
   const std::int64_t last = std::int64_t{iterations_} * passes_ - 1;
   const std::int64_t pass = std::int64_t{from.iteration} * passes_ + from.direction + directions;
-  if (pass < first || pass > last) return from;
+  if (pass < 0 || pass > last) return from;
   return {static_cast<int>(pass / passes_), static_cast<int>(pass % passes_), step};
 }
 
@@ -114,7 +113,7 @@ void Focus::seek(StepFinder finder, Way way) {
   finder_ = std::move(finder);
   way_ = way;
   // Every direction once; the last one is the first again, for what lies on its other side.
-  seek_left_ = passes_ + 1;
+  seek_left_ = (renews_ ? std::int64_t{iterations_} : 1) * passes_ + 1;
   wanted_ = moment_;
   const std::int32_t from = moment_.step;
   const std::int32_t step = finder_(map_->history, from, way_);
@@ -132,7 +131,7 @@ void Focus::seek_on() {
   Moment next{wanted_.iteration, wanted_.direction + by, -1};
   if (next.direction == passes_) next = {next.iteration + 1, 0, -1};
   if (next.direction < 0) next = {next.iteration - 1, passes_ - 1, -1};
-  if (--seek_left_ <= 0 || next.iteration < first_iteration_ || next.iteration > last.iteration) {
+  if (--seek_left_ <= 0 || next.iteration < 0 || next.iteration > last.iteration) {
     wanted_ = moment_;
     end_seek(false);
     return;
@@ -195,20 +194,24 @@ void Focus::go_to_newest() {
 }
 
 void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
-  wanted_ = {std::clamp(iteration, first_iteration_, iterations_ - 1),
-             std::clamp(direction, 0, passes_ - 1), step};
+  wanted_ = {std::clamp(iteration, 0, iterations_ - 1), std::clamp(direction, 0, passes_ - 1),
+             step};
   arrival_ = std::move(arrival);
   under_way_ = true;
   emit wished();
-  if (map_ && map_->direction == wanted_.direction)
+  if (map_ && shows(*map_, wanted_))
     show_map(map_);
   else
-    emit map_wanted(wanted_.direction);
+    emit map_wanted(wanted_.iteration, wanted_.direction);
+}
+
+bool Focus::shows(const RecordedMap& map, const Moment& moment) const {
+  return map.direction == moment.direction && (!renews_ || map.iteration == moment.iteration);
 }
 
 void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   const bool stale = !under_way_ || map->passes != passes_;
-  const bool on_the_way = map->direction != wanted_.direction;
+  const bool on_the_way = !shows(*map, wanted_);
   if (stale || (on_the_way && seek_left_ > 0)) return;
   const std::int32_t step = arrival_(map->history);
   if (seek_left_ > 0 && step == MapHistory::none) {
@@ -220,7 +223,7 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   if (another && probe_) set_probe(std::nullopt);
   if (on_the_way) {
     // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
-    moment_ = {wanted_.iteration, map_->direction, step};
+    moment_ = {renews_ ? map_->iteration : wanted_.iteration, map_->direction, step};
     emit moved();
   } else {
     arrive(step);

@@ -40,9 +40,9 @@ class Focus : public QObject {
  public:
   using QObject::QObject;
 
-  /// New directions, `passes` a step, of which nothing has been shown yet; steps before
-  /// `first_iteration` had others.
-  void begin_run(int passes, int first_iteration = 0);
+  /// New directions, `passes` a step, of which nothing has been shown yet. `renews`: each step has
+  /// directions of its own.
+  void begin_run(int passes, bool renews = false);
   /// How many iteration steps have begun; no others can be focused.
   void set_iterations(int count);
   int iterations() const { return iterations_; }
@@ -90,7 +90,7 @@ class Focus : public QObject {
  signals:
   void moved();   ///< moment, map or phase
   void wished();  ///< what is wanted, what can be, whether it follows or seeks
-  void map_wanted(int direction);
+  void map_wanted(int iteration, int direction);
   void seek_ended(bool found);
   void probed();
 
@@ -98,6 +98,8 @@ class Focus : public QObject {
   /// The step to show of a direction once it is known; MapHistory::none: another direction.
   using Arrival = std::function<std::int32_t(const MapHistory&)>;
 
+  /// Whether `map` is of the direction at `moment`.
+  bool shows(const RecordedMap& map, const Moment& moment) const;
   /// `from` where the run does not reach so far.
   Moment moved_by(const Moment& from, int directions, std::int32_t step) const;
   void go(int iteration, int direction, std::int32_t step, Arrival arrival);
@@ -107,7 +109,8 @@ class Focus : public QObject {
   void end_seek(bool found);
   void leave_newest();
 
-  int passes_ = 0, first_iteration_ = 0, iterations_ = 1;
+  int passes_ = 0, iterations_ = 1;
+  bool renews_ = false;
   Moment moment_, wanted_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;
@@ -117,7 +120,7 @@ class Focus : public QObject {
   Arrival arrival_;
   StepFinder finder_;
   Way way_ = Way::forward;
-  int seek_left_ = 0;  ///< directions still to be searched
+  std::int64_t seek_left_ = 0;  ///< directions still to be searched
 };
 
 }  // namespace transillum::viewer

@@ -22,15 +22,15 @@ void FocusFeed::clear() {
 }
 
 void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
-  const bool new_run = !snapshot_ || snapshot->directions != snapshot_->directions;
+  const bool new_run =
+      !snapshot_ || snapshot->kept_directions.front() != snapshot_->kept_directions.front();
   snapshot_ = std::move(snapshot);
   const SolveProgress& progress = snapshot_->progress;
   const int begun = progress.iteration + (progress.direction > 0 ? 1 : 0);
   if (new_run) {
     recorder_.clear();
-    const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
     focus_.begin_run(static_cast<int>(snapshot_->directions->size()),
-                     renews ? std::max(begun - 1, 0) : 0);
+                     snapshot_->options.scheme == Scheme::semi_iterative);
   }
   focus_.set_iterations(begun);
   follow();
@@ -48,16 +48,26 @@ void FocusFeed::follow() {
   if (progress.direction > 0) {
     focus_.follow(progress.iteration, progress.direction - 1);
   } else if (progress.iteration > 0) {
-    const auto& all = *snapshot_->directions;
+    const auto& kept = snapshot_->kept_directions[static_cast<std::size_t>(progress.iteration - 1)];
+    const auto& all = kept ? *kept : *snapshot_->directions;
     const auto last = std::find(all.rbegin(), all.rend(), progress.last_direction);
     focus_.follow(progress.iteration - 1, static_cast<int>(all.rend() - last) - 1);
   }
 }
 
-void FocusFeed::record(int direction) {
+void FocusFeed::record(int iteration, int direction) {
   if (!snapshot_) return;
-  const auto& omega = (*snapshot_->directions)[static_cast<std::size_t>(direction)];
-  recorder_.request({snapshot_->loaded, omega, direction, focus_.passes(), focus_.following()});
+  const auto& kept = snapshot_->kept_directions;
+  const auto n = static_cast<std::size_t>(iteration);
+  const auto& directions = n < kept.size() ? kept[n] : snapshot_->directions;
+  if (!directions) {
+    focus_.stop();
+    emit failed(tr("The directions of iteration %1 have not been kept: there are too many")
+                    .arg(iteration + 1));
+    return;
+  }
+  recorder_.request({snapshot_->loaded, (*directions)[static_cast<std::size_t>(direction)],
+                     iteration, direction, focus_.passes(), focus_.following()});
 }
 
 }  // namespace transillum::viewer

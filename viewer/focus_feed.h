@@ -28,7 +28,7 @@ class FocusFeed : public QObject {
 
  private:
   void follow();
-  void record(int direction);
+  void record(int iteration, int direction);
 
   Focus& focus_;
   std::shared_ptr<const SolverSnapshot> snapshot_;

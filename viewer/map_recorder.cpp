@@ -63,6 +63,7 @@ void MapRecorder::work() {
                                                  request.omega, cancellation)
                                     .record);
       map->loaded = request.loaded;
+      map->iteration = request.iteration;
       map->direction = request.direction;
       map->passes = request.passes;
     } catch (const Cancelled&) {

@@ -23,6 +23,7 @@ class MapRecorder : public QObject {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
     Vec3 omega;
+    int iteration = 0;     ///< from 0
     int direction = 0;     ///< from 0: number of the pass
     int passes = 0;        ///< of the step: M
     bool patient = false;  ///< may wait, to leave time to the solver

@@ -103,14 +103,15 @@ int ReceivedView::taken() const {
   if (!whole) return progress.direction;
   return snapshot_->options.scheme == Scheme::growing
              ? progress.passes
-             : static_cast<int>(snapshot_->directions->size());
+             : static_cast<int>(snapshot_->directions->size());  // as many in every step
 }
 
 void ReceivedView::ask() {
   if (isVisible() && snapshot_ && selection_.patch() != no_patch && taken() > 0) {
     const SolveOptions& options = snapshot_->options;
     sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                     snapshot_->directions, taken(), selection_.patch()});
+                     snapshot_->directions_of(focus_.moment().iteration), taken(),
+                     selection_.patch()});
   }
   show_lights();
 }
@@ -128,7 +129,9 @@ void ReceivedView::show_lights() {
     words_->setText(tr("Select a patch to see what each direction adds to its irradiance."));
     return;
   }
-  if (sights_.asked().patch != patch || sights_.asked().loaded != snapshot_->loaded) return;
+  if (sights_.asked().patch != patch || sights_.asked().loaded != snapshot_->loaded ||
+      sights_.asked().directions != snapshot_->directions_of(focus_.moment().iteration))
+    return;
   const auto n = static_cast<std::size_t>(focus_.moment().iteration);
   const auto& kept = snapshot_->kept_radiosity;
   const bool known = n < kept.size() && kept[n];

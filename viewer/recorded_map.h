@@ -12,6 +12,7 @@ namespace transillum::viewer {
 struct RecordedMap {
   std::shared_ptr<const LoadedScene> loaded;
   MapHistory history;
+  int iteration = 0;  ///< from 0; any, where all iteration steps have the same directions
   int direction = 0;  ///< from 0: number of the pass within an iteration step
   int passes = 0;     ///< of the step: M
 

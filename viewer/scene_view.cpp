@@ -15,6 +15,7 @@
 
 #include <QApplication>
 #include <QMouseEvent>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <array>
 #include <utility>
@@ -26,6 +27,9 @@
 namespace transillum::viewer {
 
 namespace {
+
+// Smooth edges take long without a GPU: they come when steps no longer follow one another.
+constexpr int rest_ms = 150;
 
 // VTK's own keys would end the program ("e", "q") or spoil the picture ("w", "3"): ours are menus.
 class CameraStyle : public vtkInteractorStyleTrackballCamera {
@@ -89,6 +93,10 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
     show_selection();
     render();
   });
+  rest_ = new QTimer(this);
+  rest_->setSingleShot(true);
+  rest_->setInterval(rest_ms);
+  connect(rest_, &QTimer::timeout, this, &SceneView::render);
   connect(&focus_, &Focus::moved, this, &SceneView::show_step);
   connect(&colors_, &ColorChoice::changed, this, [this] {
     recolor();
@@ -180,6 +188,7 @@ void SceneView::show_step() {
   const bool now = stepping();
   if (!now && !stepped_) return;  // a newer direction changes nothing but by its snapshot
   stepped_ = now;
+  rest_->start();
   recolor();
   show_direction();
   render();
@@ -234,7 +243,7 @@ void SceneView::render() {
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
-  renderer_->SetUseFXAA(smooth_ && !pressed_);
+  renderer_->SetUseFXAA(smooth_ && !pressed_ && !rest_->isActive());
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) window_->Render();
 }

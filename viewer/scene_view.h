@@ -21,6 +21,7 @@
 #include "snapshot.h"
 #include "step_glyph.h"
 
+class QTimer;
 class QVTKOpenGLNativeWidget;
 
 namespace transillum::viewer {
@@ -74,6 +75,7 @@ class SceneView : public QWidget {
   bool direction_shown_ = true;
   bool smooth_ = true;
   bool stepped_ = false;  ///< a step is drawn
+  QTimer* rest_;          ///< runs while steps follow one another
   QPoint press_position_;
   bool pressed_ = false;
 

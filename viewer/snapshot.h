@@ -27,7 +27,10 @@ struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   SolveProgress progress;
-  std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass; one list a run
+  std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass of the newest step
+  /// The same for each step from 0 that has begun, the first always: one list for all, but of their
+  /// own in the semi-iterative scheme; null where memory would not do.
+  std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions;
   SolveStatistics statistics;
   std::vector<Rgb> radiosity;   ///< running estimate, W/m², one a patch
   std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
@@ -41,6 +44,12 @@ struct SolverSnapshot {
   std::vector<double> quadrature_errors;  ///< eps after each pass
   ErrorEstimate error;                    ///< from replicas, if any
   int estimate_iteration = 0;             ///< 0-based number of that step
+
+  /// Directions of a step, the newest one's where they have not been kept.
+  const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
+    const auto n = static_cast<std::size_t>(iteration);
+    return n < kept_directions.size() && kept_directions[n] ? kept_directions[n] : directions;
+  }
 };
 
 /// What the session is doing.

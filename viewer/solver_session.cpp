@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// All B(n) together; later ones are not kept.
+// All B(n) together, and all directions; later ones are not kept.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 
 // What form factors may take beside the solver's own sums.
@@ -230,7 +230,7 @@ void SolverSession::begin_solve(const SolveOptions& options) {
 
 void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
-  directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
+  kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
   kept_radiosity_.clear();
   form_factors_ = nullptr;
   form_factors_passes_ = 0;
@@ -245,6 +245,21 @@ void SolverSession::keep_radiosity() {
   kept_radiosity_.resize(iteration + 1);
   if (radiosity.size() * (iteration + 1) * sizeof(Rgb) <= most_kept_bytes)
     kept_radiosity_[iteration] = std::make_shared<const std::vector<Rgb>>(radiosity);
+}
+
+void SolverSession::keep_directions() {
+  const SolveProgress progress = solver_->progress();
+  const std::size_t begun =
+      static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
+  while (kept_directions_.size() < begun) {
+    const std::vector<Vec3>& directions = solver_->directions();
+    if (solver_->options().scheme != Scheme::semi_iterative)
+      kept_directions_.push_back(kept_directions_.front());
+    else if (directions.size() * begun * sizeof(Vec3) <= most_kept_bytes)
+      kept_directions_.push_back(std::make_shared<const std::vector<Vec3>>(directions));
+    else
+      kept_directions_.push_back(nullptr);
+  }
 }
 
 void SolverSession::advance(const Goal& goal) {
@@ -302,6 +317,7 @@ void SolverSession::advance_exactly(int passes) {
 
 void SolverSession::on_pass(const RadiositySolver& solver) {
   keep_radiosity();
+  keep_directions();
   const SolveProgress progress = solver.progress();
   if (progress.direction == progress.passes) {
     // Finishing the step will clear them.
@@ -353,10 +369,11 @@ void SolverSession::post_snapshot() {
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
   snapshot->progress = solver_->progress();
-  // A semi-iterative step has directions of its own.
-  if (*directions_ != solver_->directions())
-    directions_ = std::make_shared<const std::vector<Vec3>>(solver_->directions());
-  snapshot->directions = directions_;
+  keep_directions();
+  snapshot->kept_directions = kept_directions_;
+  snapshot->directions = kept_directions_.back()
+                             ? kept_directions_.back()
+                             : std::make_shared<const std::vector<Vec3>>(solver_->directions());
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();
   snapshot->irradiance = solver_->irradiance();

@@ -83,6 +83,7 @@ class SolverSession : public QObject {
   void advance_exactly(int passes);
   void on_pass(const RadiositySolver& solver);
   void keep_radiosity();
+  void keep_directions();
   void post(std::function<void()> message);
   void post_state(SessionState state);
   void post_snapshot();
@@ -114,7 +115,7 @@ class SolverSession : public QObject {
   // The worker's own.
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
-  std::shared_ptr<const std::vector<Vec3>> directions_;
+  std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
   std::shared_ptr<const FormFactors> form_factors_;
   std::int64_t form_factors_passes_ = 0;  // that form_factors_ were made of

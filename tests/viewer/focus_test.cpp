@@ -34,13 +34,17 @@ struct Watched {
       map->passes = passes;
       maps.push_back(map);
     }
-    QObject::connect(&focus, &Focus::map_wanted, &focus, [this](int direction) {
+    QObject::connect(&focus, &Focus::map_wanted, &focus, [this](int iteration, int direction) {
       wanted.push_back(direction);
-      if (at_once) show(direction);
+      if (at_once) show(direction, iteration);
     });
     focus.begin_run(passes);
   }
-  void show(int direction) { focus.show_map(maps[static_cast<std::size_t>(direction)]); }
+  void show(int direction, int iteration = 0) {
+    auto map = std::make_shared<RecordedMap>(*maps[static_cast<std::size_t>(direction)]);
+    map->iteration = iteration;
+    focus.show_map(map);
+  }
   std::int32_t last_step(int direction) const {
     return maps[static_cast<std::size_t>(direction)]->history.step_count() - 1;
   }
@@ -161,16 +165,34 @@ class FocusTest : public QObject {
     QVERIFY(w.at({0, 0, -1}));
   }
 
-  void steps_with_directions_of_their_own_are_out_of_reach() {
+  void steps_may_have_directions_of_their_own() {
     Watched w;
-    w.focus.begin_run(passes, 3);
-    QCOMPARE(w.focus.iterations(), 4);
-    w.focus.go_to({0, 0, 1});
-    QVERIFY(w.at({3, 0, 1}));
-    w.focus.direction_by(-1);
-    QVERIFY(w.at({3, 0, 1}));
-    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::backward);
-    QVERIFY(w.at({3, 0, 1}));
+    w.focus.begin_run(passes, true);
+    w.focus.set_iterations(3);
+    w.focus.go_to({0, 2, 1});
+    QVERIFY(w.at({0, 2, 1}));
+    w.wanted.clear();
+    w.focus.iteration_by(2);
+    QVERIFY(w.at({2, 2, 1}));
+    QCOMPARE(w.focus.map()->iteration, 2);
+    QCOMPARE(w.wanted, std::vector<int>{2});  // not the map at hand
+    w.focus.go_to({1, 2, 0});
+    QCOMPARE(w.focus.map()->iteration, 1);
+    // A search goes through those of all iterations.
+    w.wanted.clear();
+    w.focus.go_to({0, 0, -1});
+    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
+    QVERIFY(w.at({0, 0, -1}));
+    QCOMPARE(w.wanted.size(), std::size_t{3 * passes});
+    // One that comes late is shown as what it is.
+    w.at_once = false;
+    w.focus.go_to({1, 1, 0});
+    w.focus.go_to({2, 1, 0});
+    w.show(1, 1);
+    QVERIFY(!w.focus.arrived());
+    QCOMPARE(w.focus.moment().iteration, 1);
+    w.show(1, 2);
+    QVERIFY(w.at({2, 1, 0}));
   }
 
   void the_old_moment_stays_until_the_new_one_is_recorded() {

@@ -262,6 +262,28 @@ class SteppingTest : public QObject {
     QCOMPARE(iterations->mark(), std::optional(2));
   }
 
+  void every_iteration_of_the_semi_iterative_scheme_can_be_looked_at() {
+    const auto window = make_window();
+    SolveOptions options;
+    options.directions = 16;
+    options.scheme = Scheme::semi_iterative;
+    options.burn_in = 1;
+    options.iterations = 3;
+    window->set_options(options, {});
+    window->open("furnace", {Goal::Kind::finished});
+    QVERIFY(wait_for([&] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    }));
+    const RadiositySolver solver(load_scene("furnace"), options);
+    QVERIFY(solver.direction(0, 5) != solver.direction(2, 5));
+    for (const int n : {2, 0, 1}) {
+      window->focus().go_to({n, 5, 1});
+      QVERIFY(wait_for([&] { return window->focus().arrived(); }));
+      QCOMPARE(window->focus().moment().iteration, n);
+      QVERIFY(window->focus().map()->record().frame.omega == solver.direction(n, 5));
+    }
+  }
+
   void a_new_run_starts_anew() {
     const Stepping s("furnace");
     QVERIFY(s.ready);
