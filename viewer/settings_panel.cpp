@@ -65,7 +65,9 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   seed_->setRange(0, std::numeric_limits<int>::max());
   seed_->setToolTip(tr("For random and scrambled directions"));
   engine_ = new QComboBox;
-  for (const std::string& name : engine_names()) engine_->addItem(capitalized(name));
+  for (const std::string& name : engine_names()) {
+    if (takes_directions(engine_from_name(name))) engine_->addItem(capitalized(name));
+  }
   engine_->setToolTip(tr("The algorithm that finds what sees what"));
   ways_ = new QComboBox;
   ways_->addItems({tr("Both ways"), tr("One way, as the paper")});

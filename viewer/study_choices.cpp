@@ -111,7 +111,6 @@ void StudyChoices::show_solve() {
 
 StudyOptions StudyChoices::options() const {
   StudyOptions options;
-  options.solve.engine = solve_.engine;
   options.solve.engine_options = solve_.engine_options;
   options.solve.seed = solve_.seed;
   options.solve.burn_in = solve_.burn_in;
@@ -123,8 +122,13 @@ StudyOptions StudyChoices::options() const {
   for (const Choice& sampling : samplings_) {
     for (const Choice& way : ways_) {
       if (!sampling.box->isChecked() || !way.box->isChecked()) continue;
-      const StudySeries series{static_cast<Sampling>(sampling.value), way.value == 1,
-                               solve_.normalize, solve_.scheme, solve_.first_shot};
+      const StudySeries series{static_cast<Sampling>(sampling.value),
+                               way.value == 1,
+                               solve_.normalize,
+                               solve_.scheme,
+                               solve_.first_shot,
+                               solve_.engine,
+                               solve_.engine_options.resolution};
       if (goes_together(options.solve_options(series, first_directions))) {
         options.series.push_back(series);
       }

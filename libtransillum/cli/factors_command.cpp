@@ -12,6 +12,7 @@
 #include "progress_display.h"
 #include "sequence_options.h"
 #include "transillum/files.h"
+#include "transillum/hemicube.h"
 
 namespace transillum::cli {
 namespace {
@@ -22,6 +23,7 @@ struct FactorsCall {
   SequenceOptions sequence;
   SolveOptions passes;
   GatherOptions rays;
+  HemicubeOptions hemicubes;
   std::string out;
 };
 
@@ -32,6 +34,15 @@ FormFactors gather(const FactorsCall& call, const Scene& scene, const Cancellati
   options.threads = call.passes.threads;
   return gather_form_factors(scene, options, cancellation,
                              [&](double share) { display.show("gathering", share); });
+}
+
+FormFactors draw(const FactorsCall& call, const Scene& scene, const Cancellation& cancellation,
+                 ProgressDisplay& display) {
+  HemicubeOptions options = call.hemicubes;
+  options.memory = call.passes.memory;
+  options.threads = call.passes.threads;
+  return hemicube_form_factors(scene, options, cancellation,
+                               [&](double share) { display.show("hemicubes", share); });
 }
 
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
@@ -58,15 +69,25 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
   return solver.form_factors();
 }
 
+FormFactors find_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                              const Cancellation& cancellation, ProgressDisplay& display) {
+  switch (call.passes.engine) {
+    case Engine::rays:
+      return gather(call, *scene, cancellation, display);
+    case Engine::hemicube:
+      return draw(call, *scene, cancellation, display);
+    default:
+      return sum_passes(call, scene, cancellation, display);
+  }
+}
+
 int run(const FactorsCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   if (!call.out.empty()) check_output_files({call.out}, call.scene);
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   print_warnings(*scene);
   ProgressDisplay display;
-  const FormFactors form_factors = call.passes.engine == Engine::rays
-                                       ? gather(call, *scene, cancellation, display)
-                                       : sum_passes(call, scene, cancellation, display);
+  const FormFactors form_factors = find_form_factors(call, scene, cancellation, display);
   display.clear();
   if (call.out.empty()) {
     write_form_factors_csv(std::cout, form_factors);
@@ -86,7 +107,7 @@ Run add_factors_command(CLI::App& program) {
   add_parsed_option(
       command, "--engine", "NAME",
       fmt::format("{} (default {}); rays: no directions, but cosine-distributed rays from every "
-                  "patch",
+                  "patch; hemicube: none either, but pictures of what each patch sees",
                   fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
       [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
   add_parsed_option(
@@ -95,6 +116,15 @@ Run add_factors_command(CLI::App& program) {
       [call](const std::string& text) {
         call->rays.rays_per_patch =
             static_cast<int>(parse_whole_number("--rays", text, 1, 1 << 24));
+      });
+  add_parsed_option(
+      command, "--resolution", "R",
+      fmt::format("for the engine hemicube: pixels along a side of the cube, even (default {})",
+                  call->hemicubes.resolution),
+      [call](const std::string& text) {
+        call->hemicubes.resolution =
+            static_cast<int>(parse_whole_number("--resolution", text, 2, 2048));
+        call->hemicubes.validate();
       });
   add_scene_options(command, call->scene_options);
   add_machine_limits(command, call->passes.memory, call->passes.threads);

@@ -123,6 +123,14 @@ void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& option
       command, "--engine", "NAME",
       fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(engine)),
       [&engine](const std::string& text) { engine = engine_from_name(text); });
+  add_engine_details(command, options);
+}
+
+int parse_resolution(const std::string& option, const std::string& text) {
+  return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_resolution));
+}
+
+void add_engine_details(CLI::App& command, EngineOptions& options) {
   add_parsed_option(command, "--lines", "L",
                     fmt::format("for the engine rays: lines a patch and direction (default {})",
                                 options.lines_per_patch),
@@ -135,11 +143,12 @@ void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& option
   add_parsed_option(
       command, "--resolution", "R",
       fmt::format("for zbuffer and painter: pixels along the longer side of the projected scene "
-                  "(default {}); for rays: lines along it, instead of --lines",
+                  "(default {}); for rays: lines along it, instead of --lines; for hemicube: "
+                  "pixels along a side of the "
+                  "cube, even (default 64)",
                   EngineOptions::default_resolution),
       [&options](const std::string& text) {
-        options.resolution = static_cast<int>(
-            parse_whole_number("--resolution", text, 1, EngineOptions::largest_resolution));
+        options.resolution = parse_resolution("--resolution", text);
       });
   add_parsed_option(
       command, "--order", "NAME",

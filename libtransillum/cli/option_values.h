@@ -18,6 +18,8 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 /// Finite.
 double parse_number(const std::string& option, const std::string& text);
+/// EngineOptions::resolution
+int parse_resolution(const std::string& option, const std::string& text);
 /// Bytes: a number with K, M, G or T (powers of 1024) behind it or nothing.
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
 
@@ -28,6 +30,8 @@ void add_scene_argument(CLI::App& command, std::string& scene);
 void add_direction_option(CLI::App& command, Vec3& direction);
 /// --engine, --lines, --resolution, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
+/// What they have but --engine.
+void add_engine_details(CLI::App& command, EngineOptions& options);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 /// --two-sided and --max-patch-area

@@ -15,6 +15,7 @@
 #include "solve_summary.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/hemicube.h"
 #include "transillum/study.h"
 
 namespace transillum::cli {
@@ -129,6 +130,13 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
   return solution;
 }
 
+Solution solve_by_drawing(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                          const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+  return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
+    if (!quiet) display.show("hemicubes", share);
+  });
+}
+
 /// One file that cannot be written does not cost the others.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
   std::exception_ptr first_failure;
@@ -156,7 +164,8 @@ int run(const SolveCall& call) {
   const double seconds_load = seconds_since(start);
   print_warnings(*scene);
 
-  Solution solution = solve_watched(scene, options, cancellation, display, call.quiet);
+  const auto solve_scene = takes_directions(options.engine) ? solve_watched : solve_by_drawing;
+  Solution solution = solve_scene(scene, options, cancellation, display, call.quiet);
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);

@@ -52,6 +52,15 @@ std::string convergence_text(const SolveStatistics& statistics) {
                      statistics.steps.back().change, statistics.converged ? ", converged" : "");
 }
 
+std::string passes_text(const SolveStatistics& s) {
+  if (s.hemicubes > 0) {
+    return row("hemicubes",
+               fmt::format("{} of {} pixels, {} threads", s.hemicubes, s.directions, s.threads));
+  }
+  return row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
+                                   s.threads));
+}
+
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
   return row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas", 100 * error.rms,
@@ -67,10 +76,9 @@ std::string solve_summary(const Solution& solution) {
   const RadiosityRange b = radiosity_range(solution);
   std::string text = row("scene", solution.scene->name());
   text += row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
-  text += row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
-                                    s.threads));
+  text += passes_text(s);
   if (s.passes_made > 0) {
-    text += row("time a pass",
+    text += row(s.hemicubes > 0 ? "time a cube" : "time a pass",
                 fmt::format("{:.3g} ms, {} made",
                             1000 * s.seconds_transfers / static_cast<double>(s.passes_made),
                             s.passes_made));

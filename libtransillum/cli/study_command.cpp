@@ -19,6 +19,13 @@
 namespace transillum::cli {
 namespace {
 
+struct StudiedEngine {
+  Engine engine;
+  int resolution;  ///< 0: that of --resolution
+
+  friend bool operator==(const StudiedEngine&, const StudiedEngine&) = default;
+};
+
 struct StudyCall {
   std::string scene;
   SceneOptions scene_options;
@@ -27,8 +34,10 @@ struct StudyCall {
   std::vector<Normalization> normalizations{Normalization::none};
   std::vector<Scheme> schemes{Scheme::fixed};
   std::vector<std::optional<double>> first_shots{std::nullopt};
+  std::vector<StudiedEngine> engines{{Engine::fast, 0}};
   bool one_way = false, two_way = false;
   StudyOptions study;
+  StudyAxis against = StudyAxis::passes;
   ErrorMeasure error = ErrorMeasure::rms;  ///< that table and plots tell
   int reference = 0;                       ///< passes; 0: four times the most that are studied
   std::string cache = ReferenceCache::default_folder().string();
@@ -37,26 +46,47 @@ struct StudyCall {
   bool quiet = false;
 };
 
-/// All combinations that go together; what does not is named, unless nothing is left.
-std::vector<StudySeries> all_series(const StudyCall& call) {
+/// All combinations, whether they go together or not.
+std::vector<StudySeries> all_combinations(const StudyCall& call) {
   std::vector<StudySeries> all;
-  std::string refusal;
+  const int resolution = call.study.solve.engine_options.resolution;
   for (const Sampling sampling : call.samplings) {
     for (const bool two_way : {false, true}) {
       if (!(two_way ? call.two_way || !call.one_way : call.one_way)) continue;
       for (const Normalization normalize : call.normalizations) {
         for (const Scheme scheme : call.schemes) {
           for (const std::optional<double>& first_shot : call.first_shots) {
-            const StudySeries series{sampling, two_way, normalize, scheme, first_shot};
-            try {
-              call.study.solve_options(series, call.directions.front()).validate();
-              all.push_back(series);
-            } catch (const InputError& error) {
-              refusal = error.what();
+            for (const StudiedEngine& of : call.engines) {
+              all.push_back({sampling, two_way, normalize, scheme, first_shot, of.engine,
+                             of.resolution > 0 ? of.resolution : resolution});
             }
           }
         }
       }
+    }
+  }
+  return all;
+}
+
+/// All combinations that go together; what does not is named, unless nothing is left.
+std::vector<StudySeries> all_series(const StudyCall& call) {
+  std::vector<StudySeries> all;
+  std::string refusal;
+  for (StudySeries& series : all_combinations(call)) {
+    if (!takes_directions(series.engine)) {
+      // Whatever directions others take, it is the same.
+      series.sampling = call.samplings.front();
+      series.two_way = call.two_way || !call.one_way;
+      if (std::find(all.begin(), all.end(), series) != all.end()) continue;
+    }
+    try {
+      StudyOptions alone = call.study;
+      alone.series = {series};
+      alone.directions = {call.directions.front()};
+      alone.validate();
+      all.push_back(series);
+    } catch (const InputError& error) {
+      refusal = error.what();
     }
   }
   if (all.empty()) throw InputError(refusal);
@@ -148,7 +178,7 @@ int run(const StudyCall& call) {
   report_failures(study, names);
   if (!call.out.empty()) write_study_csv(call.out, options.series, study);
   for (const std::string& file : call.plots) {
-    write_study_plot(file, call.scene, options.series, study, call.error);
+    write_study_plot(file, call.scene, options.series, study, call.error, call.against);
   }
   const std::string summary = study_summary(*work.scene, options, study, call.error);
   if (call.out.empty()) {
@@ -198,6 +228,16 @@ std::vector<int> parse_directions(const std::string& text) {
   return doubled;
 }
 
+/// `fast`, or `zbuffer:256`.
+StudiedEngine parse_engine(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  StudiedEngine engine{engine_from_name(text.substr(0, colon)), 0};
+  if (colon != std::string::npos) {
+    engine.resolution = parse_resolution("--engines", text.substr(colon + 1));
+  }
+  return engine;
+}
+
 void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(command, "-m,--directions", "M,M,...",
                   "passes of each solve; 16..1024 stands for 16,32,64,...,1024 (default "
@@ -237,7 +277,12 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       fmt::format("for samplings that are seeded, and rotations (default {})",
                   call.study.solve.seed),
       [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
-  add_engine_options(command, call.study.solve.engine, call.study.solve.engine_options);
+  add_list_option(command, "--engines,--engine", "NAME[:R],...",
+                  fmt::format("{}; with R: of that --resolution (default {})",
+                              fmt::join(engine_names(), " | "), name_of(Engine::fast)),
+                  call.engines,
+                  [](const std::string& text) { return std::vector{parse_engine(text)}; });
+  add_engine_details(command, call.study.solve.engine_options);
 }
 
 void add_error_options(CLI::App& command, StudyCall& call) {
@@ -283,8 +328,8 @@ Run add_study_command(CLI::App& program) {
   add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
   command
       .add_option("-o,--out", call->out,
-                  "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds (default: a "
-                  "table on standard output)")
+                  "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds,engine,"
+                  "resolution (default: a table on standard output)")
       ->type_name("FILE.csv");
   command
       .add_option("--plot", call->plots,
@@ -293,6 +338,12 @@ Run add_study_command(CLI::App& program) {
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_parsed_option(
+      command, "--against", "AXIS",
+      fmt::format("{}: what the plots show errors against (default passes); "
+                  "hemicubes are in those against seconds only",
+                  fmt::join(study_axis_names(), " | ")),
+      [call](const std::string& text) { call->against = study_axis_from_name(text); });
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   command.footer(
       "rms_error is the RMS of the error of B over the RMS of B, over patches; max_error the\n"

@@ -27,13 +27,25 @@ std::string cost_text(const std::optional<StudyCost>& cost) {
                      time_text(cost->seconds));
 }
 
+/// No passes, but one solve.
+std::string hemicubes_text(const std::string& name, std::size_t width,
+                           const std::vector<StudyPoint>& points, ErrorMeasure error) {
+  if (points.empty()) return {};
+  const StudyPoint& point = points.front();
+  return fmt::format("{:<{}}  {} % by {} hemicubes of {} pixels, {}\n", name, width,
+                     percent(point.error(error)), point.passes, point.directions,
+                     time_text(point.seconds));
+}
+
 }  // namespace
 
 std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
                           ErrorMeasure error) {
   const std::vector<std::string> names = names_of(options.series);
   std::map<std::int64_t, double> bounds;
-  for (const StudyPoint& point : study.points) bounds[point.passes] = point.bound;
+  for (const StudyPoint& point : study.points) {
+    if (takes_directions(options.series[point.series].engine)) bounds[point.passes] = point.bound;
+  }
 
   std::size_t width = std::string("bound (eq. 37)").size();
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -45,6 +57,10 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
 
   for (std::size_t series = 0; series < names.size(); ++series) {
     const auto points = points_of(study, series);
+    if (!takes_directions(options.series[series].engine)) {
+      text += hemicubes_text(names[series], width, points, error);
+      continue;
+    }
     text += fmt::format("{:<{}}", names[series], width);
     for (const auto& [passes, bound] : bounds) {
       const auto at = std::find_if(points.begin(), points.end(),
@@ -60,6 +76,7 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
   for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", percent(bound), column);
 
   const SceneMeasures measures = measure(scene);
+  if (bounds.empty()) return text + '\n';
   const auto most = static_cast<double>(bounds.rbegin()->first);
   text += fmt::format(
       "\nIn any environment (eq. 43; rho {:.3g}, R2/A {:.3g}) {:.0f} directions are proven to be "

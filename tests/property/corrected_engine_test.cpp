@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
+#include "transillum/transfer_comparison.h"
 
 namespace transillum {
 namespace {
@@ -29,17 +29,19 @@ struct Engines {
   }
 };
 
-/// The share of what is exchanged that is not between the right patches.
-double misplaced(const Transfers& exact, const Transfers& approximate) {
-  std::map<std::pair<PatchId, PatchId>, double> off;
-  double all = 0, wrong = 0;
-  for (const Transfer& t : exact.exchanges) {
-    off[{t.receiver, t.source}] += t.area;
-    all += t.area;
-  }
-  for (const Transfer& t : approximate.exchanges) off[{t.receiver, t.source}] -= t.area;
-  for (const auto& [pair, area] : off) wrong += std::abs(area);
-  return 0.5 * wrong / all;
+TEST(TransferComparison, CountsWhatIsBetweenTheWrongPatches) {
+  Transfers a, b;
+  a.forward.resize(4);
+  a.exchanges = {{0, 1, 3}, {0, 2, 1}, {3, 1, 4}};
+  b.exchanges = {{0, 1, 2}, {0, 3, 2}, {3, 1, 4}};
+  const TransferComparison comparison = compare(a, b);
+  EXPECT_EQ(comparison.exchanged, 8);
+  EXPECT_EQ(comparison.other_exchanged, 8);
+  EXPECT_EQ(comparison.misplaced, 0.25);
+  EXPECT_THAT(comparison.differences, ::testing::ElementsAre(4, 1, 1, 2));
+  EXPECT_EQ(comparison.largest.source, 3);
+  EXPECT_EQ(comparison.largest.area, -2);
+  EXPECT_EQ(compare(a, a).misplaced, 0);
 }
 
 TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
@@ -102,7 +104,7 @@ TEST_P(CorrectedPower, ReceivedIsWhatIsProjectedAndMisplacedIsLittle) {
       exact += by_fast.forward[i].covered;
     }
     EXPECT_NEAR(received, exact, 1e-5 * exact);
-    most = std::max(most, misplaced(by_fast, transfers));
+    most = std::max(most, compare(by_fast, transfers).misplaced);
   }
   EXPECT_LT(most, 0.2);
   EXPECT_GT(most, 1e-3);

@@ -336,6 +336,23 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
   for (const auto& row : rays) EXPECT_NEAR(row[2], (matrix[{row[0], row[1]}]), 0.01);
   EXPECT_EQ(factors({"--engine", "rays", "--rays", "20000", "--seed", "3", "--threads", "1"}),
             rays);
+  const auto hemicubes = factors({"--engine", "hemicube", "--resolution", "128"});
+  EXPECT_TRUE(std::is_sorted(hemicubes.begin(), hemicubes.end()));
+  // From the middles of such large patches much is seen otherwise, but as much.
+  sums.clear();
+  for (const auto& row : hemicubes) sums[row[0]] += row[2];
+  for (const auto& [i, sum] : sums) EXPECT_NEAR(sum, 1, 1e-12) << i;
+}
+
+TEST(CliSolve, HemicubesTakeThePlaceOfPasses) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"solve", "cornell-box", "--engine", "hemicube", "--resolution", "32", "--out",
+                   folder / "b.csv", "--stats", folder / "s.json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("27 of 3072 pixels"));
+  EXPECT_THAT(folder.names(), ElementsAre("b.csv", "s.json"));
+  EXPECT_THAT(read_file(folder / "s.json"), HasSubstr("\"resolution\": 32"));
 }
 
 TEST(CliFactors, MemoryTooSmallIsAFailureWithoutAFile) {

@@ -12,7 +12,10 @@
 namespace transillum::testing {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
@@ -37,10 +40,32 @@ TEST(CliStudy, WritesTheTableOfTheContract) {
   EXPECT_THAT(folder.names(), ElementsAre("s.csv", "s.png", "s.svg"));
   const auto lines = lines_of(read_file(folder / "s.csv"));
   ASSERT_THAT(lines, SizeIs(1 + 4 * 3));
-  EXPECT_EQ(lines[0], "sampling,directions,passes,rms_error,max_error,bound,seconds");
+  EXPECT_EQ(lines[0],
+            "sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution");
   EXPECT_THAT(lines[1], StartsWith("random/one-way,8,8,"));
   EXPECT_THAT(lines[6], StartsWith("random/two-way,64,32,"));
   EXPECT_THAT(lines[12], StartsWith("hammersley/two-way,64,32,"));
+}
+
+TEST(CliStudy, StudiesEnginesSideBySide) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"study", "furnace", "--directions", "8,16", "--sampling", "fibonacci,hammersley",
+                   "--engines", "fast,zbuffer:64,corrected,hemicube,hemicube:16", "--reference",
+                   "64", "--no-cache", "--out", folder / "s.csv", "--plot", folder / "s.svg",
+                   "--against", "seconds"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("12 hemicubes of 768 pixels"));
+  const auto lines = lines_of(read_file(folder / "s.csv"));
+  // Hemicubes take neither samplings nor numbers of directions.
+  ASSERT_THAT(lines, SizeIs(1 + 2 * 3 * 2 + 2));
+  EXPECT_THAT(lines,
+              Contains(AllOf(StartsWith("fibonacci/zbuffer:64,32,16,"), EndsWith(",zbuffer,64"))));
+  EXPECT_THAT(lines,
+              Contains(AllOf(StartsWith("hammersley/corrected,"), EndsWith(",corrected,0"))));
+  EXPECT_THAT(lines, Contains(AllOf(StartsWith("fibonacci/hemicube:16,768,12,"),
+                                    EndsWith(",hemicube,16"))));
+  EXPECT_THAT(read_file(folder / "s.svg"), Not(HasSubstr("nan")));
 }
 
 TEST(CliStudy, KeepsReferencesUnlessTold) {
@@ -78,6 +103,12 @@ TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
       {{"furnace", "--scheme", "quick"}, "fixed, growing"},
       {{"furnace", "--first-shot", "auto,soon"}, "none, auto or a number"},
       {{"furnace", "--error", "least"}, "rms, max"},
+      {{"furnace", "--engines", "fast,fest"}, "unknown engine \"fest\""},
+      {{"furnace", "--engines", "fast,fast"}, "there twice"},
+      {{"furnace", "--engines", "zbuffer:0"}, "\"0\""},
+      {{"furnace", "--engines", "hemicube:63"}, "63 is not an even number"},
+      {{"furnace", "--engines", "hemicube", "--scheme", "growing"}, "no directions"},
+      {{"furnace", "--against", "time"}, "passes, seconds"},
       {{"furnace", "--rotations", "0"}, "--rotations: \"0\""},
       {{"furnace", "--reference", "0"}, "--reference: \"0\""},
       {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},

@@ -24,11 +24,14 @@ enum class Engine {
   painter,    ///< the painter's algorithm of section 2: one item buffer, painted over and over
   rays,       ///< parallel lines through the scene by Embree: statistical
   corrected,  ///< no cutting: what is partly hidden stays whole and is corrected (section 8)
+  hemicube,   ///< no directions: what each patch's middle sees, by solve_by_hemicubes()
 };
 const std::vector<std::string>& engine_names();
 /// @throws InputError naming the choices.
 Engine engine_from_name(const std::string& name);
 const std::string& name_of(Engine engine);
+/// Whether make_engine() has it; not so hemicube.
+bool takes_directions(Engine engine);
 
 /// An engine at work: from a direction omega (unit) to its Transfers. Pure: no shared mutable
 /// state, so any number of threads may call one; the same omega gives the same bits.
@@ -54,6 +57,7 @@ struct EngineOptions {
   std::uint64_t seed = 1;        ///< rays
   /// zbuffer, painter: pixels along the longer side of the window, the box round the projected
   /// scene; 0: default_resolution. rays: the same grid, one line a pixel; 0: by lines_per_patch.
+  /// hemicube: pixels along a side of the cube; 0: HemicubeOptions' default.
   int resolution = 0;
   PaintersOrder order = PaintersOrder::bsp;  ///< painter
 

@@ -110,6 +110,7 @@ struct SolveStatistics {
   int directions = 0;            ///< used: M or 2M
   int passes = 0;                ///< M
   std::int64_t passes_made = 0;  ///< by the engine, in all steps
+  std::int64_t hemicubes = 0;    ///< drawn in place of passes; a direction is then a pixel of one
   int iterations = 0, threads = 0;
   std::int64_t transfers = 0;     ///< exchanges found, of every direction once
   std::int64_t form_factors = 0;  ///< kept entries; 0 where they are recomputed

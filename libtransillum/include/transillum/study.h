@@ -43,6 +43,8 @@ struct StudySeries {
   Normalization normalize = Normalization::none;
   Scheme scheme = Scheme::fixed;
   std::optional<double> first_shot = {};  ///< SolveOptions::first_shot
+  Engine engine = Engine::fast;
+  int resolution = 0;  ///< EngineOptions::resolution
 
   friend bool operator==(const StudySeries&, const StudySeries&) = default;
 };
@@ -77,12 +79,14 @@ struct StudyOptions {
 
 /// One M of one series.
 struct StudyPoint {
-  std::size_t series = 0;       ///< in StudyOptions::series
-  std::int64_t passes = 0;      ///< M; of the semi-iterative scheme M times the steps
-  std::int64_t directions = 0;  ///< passes, or twice as many
+  std::size_t series = 0;  ///< in StudyOptions::series
+  /// M; of the semi-iterative scheme M times the steps; of hemicubes one a patch, whatever M.
+  std::int64_t passes = 0;
+  std::int64_t directions = 0;  ///< passes, or twice as many; of hemicubes the pixels of one
   double rms_error = 0;         ///< of several rotations, the RMS
   double max_error = 0;         ///< of several rotations, the largest
-  double bound = 0;  ///< of errors where the environment is nearly homogeneous, by eq. 37 and 21
+  double bound = 0;  ///< NaN of hemicubes; of errors where the environment is nearly homogeneous,
+                     ///< by eq. 37 and 21
   double seconds =
       0;  ///< processor time of passes and iteration, of all threads; mean of rotations
   /// Why there are no errors here (NaN): too few directions for the iteration to converge, or too

@@ -17,6 +17,8 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["seed"] = options.seed;
   json["rotation"] = options.rotation ? Json(*options.rotation) : Json();
   json["engine"] = name_of(options.engine);
+  const int resolution = options.engine_options.resolution;
+  json["resolution"] = resolution > 0 ? Json(resolution) : Json();
   json["two_way"] = options.two_way;
   json["normalize"] = name_of(options.normalize);
   json["scheme"] = name_of(options.scheme);

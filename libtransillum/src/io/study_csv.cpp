@@ -11,11 +11,13 @@ namespace transillum {
 void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series,
                      const Study& study) {
   const std::vector<std::string> names = names_of(series);
-  out << "sampling,directions,passes,rms_error,max_error,bound,seconds\n";
+  out << "sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution\n";
   for (const StudyPoint& point : study.points) {
     if (!point.failure.empty()) continue;
-    fmt::print(out, "{},{},{},{},{},{},{}\n", names[point.series], point.directions, point.passes,
-               point.rms_error, point.max_error, point.bound, point.seconds);
+    const StudySeries& of = series[point.series];
+    fmt::print(out, "{},{},{},{},{},{},{},{},{}\n", names[point.series], point.directions,
+               point.passes, point.rms_error, point.max_error, point.bound, point.seconds,
+               name_of(of.engine), of.resolution);
   }
 }
 

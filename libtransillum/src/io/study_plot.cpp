@@ -85,13 +85,20 @@ struct StudyPlot::LogAxis {
 };
 
 StudyPlot::StudyPlot(const std::string& scene, const std::vector<StudySeries>& series,
-                     const Study& study, ErrorMeasure measure)
-    : scene_(scene), measure_(measure), names_(names_of(series)), styles_(styles_of(series)) {
+                     const Study& study, ErrorMeasure measure, StudyAxis against)
+    : scene_(scene),
+      measure_(measure),
+      against_(against),
+      names_(names_of(series)),
+      styles_(styles_of(series)) {
   for (const StudyPoint& point : study.points) {
     const double error = point.error(measure_);
     if (!(error > 0 && std::isfinite(error))) continue;
+    if (against_ == StudyAxis::passes) {
+      if (!takes_directions(series[point.series].engine)) continue;
+      bounds_[static_cast<double>(point.passes)] = point.bound;
+    }
     points_[point.series].push_back(point);
-    bounds_[static_cast<double>(point.passes)] = point.bound;
   }
 }
 
@@ -103,7 +110,7 @@ void StudyPlot::draw(const PlotPage& page) const {
               0.5);
     return;
   }
-  const LogAxis x = pass_axis(), y = error_axis();
+  const LogAxis x = abscissa_axis(), y = error_axis();
   draw_grid(page, x, y);
   page.clip(plot_left, plot_top - 1, PlotPage::width, plot_bottom - plot_top + 2);
   draw_bound(page, x, y);
@@ -112,8 +119,19 @@ void StudyPlot::draw(const PlotPage& page) const {
   draw_legend(page);
 }
 
-StudyPlot::LogAxis StudyPlot::pass_axis() const {
-  const double first = bounds_.begin()->first, last = bounds_.rbegin()->first;
+double StudyPlot::abscissa(const StudyPoint& point) const {
+  return against_ == StudyAxis::passes ? static_cast<double>(point.passes)
+                                       : std::max(point.seconds, 1e-6);
+}
+
+StudyPlot::LogAxis StudyPlot::abscissa_axis() const {
+  double first = HUGE_VAL, last = 0;
+  for (const auto& [series, points] : points_) {
+    for (const StudyPoint& point : points) {
+      first = std::min(first, abscissa(point));
+      last = std::max(last, abscissa(point));
+    }
+  }
   // Room for markers at the ends; a single M stands in the middle.
   const double margin = std::max(1.12, std::pow(last / first, 0.03));
   return {first / margin, last * margin, plot_left, plot_right};
@@ -128,12 +146,14 @@ StudyPlot::LogAxis StudyPlot::error_axis() const {
       high = std::max(high, point.error(measure_));
     }
   }
-  double least_bound = HUGE_VAL, bound = 0;
-  for (const auto& [passes, value] : bounds_) {
-    least_bound = std::min(least_bound, value);
-    bound = std::max(bound, value);
+  if (!bounds_.empty()) {
+    double least_bound = HUGE_VAL, bound = 0;
+    for (const auto& [passes, value] : bounds_) {
+      least_bound = std::min(least_bound, value);
+      bound = std::max(bound, value);
+    }
+    high = std::max(high, std::min(bound, std::max(10 * high, 2 * least_bound)));
   }
-  high = std::max(high, std::min(bound, std::max(10 * high, 2 * least_bound)));
   const double bottom = std::floor(std::log10(low) - 0.05);
   const double top = std::max(std::ceil(std::log10(high) - 0.35), bottom + 1);
   const double headroom = std::max(top, std::log10(high) + 0.08);
@@ -153,6 +173,21 @@ void StudyPlot::draw_grid(const PlotPage& page, const LogAxis& x, const LogAxis&
       }
     }
   }
+  if (against_ == StudyAxis::passes) {
+    draw_passes(page, x);
+  } else {
+    draw_seconds(page, x);
+  }
+  page.line({{plot_left, plot_top}, {plot_left, plot_bottom}, {plot_right, plot_bottom}},
+            PlotPage::ink, 2.5);
+  page.text(against_ == StudyAxis::passes ? "passes M" : "processor time, s",
+            (plot_left + plot_right) / 2, plot_bottom + 100, text_size, 0.5);
+  page.text_upwards(measure_ == ErrorMeasure::rms ? "RMS error of B over RMS of B"
+                                                  : "largest error of B over largest B",
+                    42, (plot_top + plot_bottom) / 2, text_size);
+}
+
+void StudyPlot::draw_passes(const PlotPage& page, const LogAxis& x) const {
   // From the right: the last number is the one that matters.
   double free = HUGE_VAL;
   for (auto it = bounds_.rbegin(); it != bounds_.rend(); ++it) {
@@ -165,12 +200,20 @@ void StudyPlot::draw_grid(const PlotPage& page, const LogAxis& x, const LogAxis&
     page.text(label, at, plot_bottom + 42, label_size, 0.5);
     free = at - half - 12;
   }
-  page.line({{plot_left, plot_top}, {plot_left, plot_bottom}, {plot_right, plot_bottom}},
-            PlotPage::ink, 2.5);
-  page.text("passes M", (plot_left + plot_right) / 2, plot_bottom + 100, text_size, 0.5);
-  page.text_upwards(measure_ == ErrorMeasure::rms ? "RMS error of B over RMS of B"
-                                                  : "largest error of B over largest B",
-                    42, (plot_top + plot_bottom) / 2, text_size);
+}
+
+void StudyPlot::draw_seconds(const PlotPage& page, const LogAxis& x) const {
+  const bool narrow = std::log10(x.high / x.low) <= 2.5;
+  for (double power = std::floor(std::log10(x.low)); power <= std::log10(x.high); ++power) {
+    for (int k = 1; k < 10; ++k) {
+      const double value = k * std::pow(10, power), at = x(value);
+      if (value < x.low || value > x.high) continue;
+      page.line({{at, plot_top}, {at, plot_bottom}}, grid, k == 1 ? 2.5 : 0.8);
+      if (k > 1 && !(narrow && (k == 2 || k == 5))) continue;
+      page.line({{at, plot_bottom}, {at, plot_bottom + 8}}, PlotPage::ink, 2);
+      page.text(fmt::format("{:.6g}", value), at, plot_bottom + 42, label_size, 0.5);
+    }
+  }
 }
 
 void StudyPlot::draw_bound(const PlotPage& page, const LogAxis& x, const LogAxis& y) const {
@@ -186,7 +229,7 @@ void StudyPlot::draw_series(const PlotPage& page, const LogAxis& x, const LogAxi
   const PlotStyle& style = styles_[series];
   std::vector<std::pair<double, double>> line;
   for (const StudyPoint& point : points) {
-    line.emplace_back(x(static_cast<double>(point.passes)), y(point.error(measure_)));
+    line.emplace_back(x(abscissa(point)), y(point.error(measure_)));
   }
   page.line(line, style.color, PlotPage::line_width, style.dashes);
   for (const auto& [at, height] : line) page.marker(style, at, height);
@@ -208,21 +251,24 @@ void StudyPlot::draw_legend(const PlotPage& page) const {
     size = std::min(size, size * name_width / page.width_of(name, size));
   }
   double at = plot_top + 8;
-  page.text("slope", legend_right, at, size, 1);
+  const bool by_passes = against_ == StudyAxis::passes;
+  if (by_passes) page.text("slope", legend_right, at, size, 1);
   const auto entry = [&](const std::string& name, const std::string& slope) {
     page.text(name, name_left, at + 0.35 * size, size, 0);
     page.text(with_minus(slope), legend_right, at + 0.35 * size, size, 1);
   };
-  at += row;
-  page.line({{legend_left, at}, {legend_left + sample, at}}, bound_color, bound_width);
-  entry("bound (eq. 37)", {});
+  if (by_passes) {
+    at += row;
+    page.line({{legend_left, at}, {legend_left + sample, at}}, bound_color, bound_width);
+    entry("bound (eq. 37)", {});
+  }
   for (const std::size_t series : order) {
     at += row;
     page.line({{legend_left, at}, {legend_left + sample, at}}, styles_[series].color,
               PlotPage::line_width, styles_[series].dashes);
     page.marker(styles_[series], legend_left + sample / 2, at);
     const auto law = fitted_power_law(points_.at(series), measure_);
-    entry(names_[series], law ? fmt::format("{:.2f}", law->slope) : std::string());
+    entry(names_[series], law && by_passes ? fmt::format("{:.2f}", law->slope) : std::string());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "choice.h"
 #include "io/file_ending.h"
 #include "io/study_plot.h"
 #include "transillum/errors.h"
@@ -45,6 +46,15 @@ PlotDrawer drawer_for(const std::filesystem::path& path) {
 
 }  // namespace
 
+const std::vector<std::string>& study_axis_names() {
+  static const std::vector<std::string> names{"passes", "seconds"};
+  return names;
+}
+
+StudyAxis study_axis_from_name(const std::string& name) {
+  return choice_from_name<StudyAxis>(study_axis_names(), "axis", name);
+}
+
 void check_plot_path(const std::filesystem::path& path) {
   drawer_for(path);
   check_writable(path);
@@ -52,9 +62,9 @@ void check_plot_path(const std::filesystem::path& path) {
 
 void write_study_plot(const std::filesystem::path& path, const std::string& scene,
                       const std::vector<StudySeries>& series, const Study& study,
-                      ErrorMeasure error) {
+                      ErrorMeasure error, StudyAxis against) {
   const PlotDrawer draw = drawer_for(path);
-  const StudyPlot plot(scene, series, study, error);
+  const StudyPlot plot(scene, series, study, error, against);
   write_file_whole(path, [&](std::ostream& out) { draw(out, plot); });
 }
 

@@ -4,19 +4,15 @@
 // the patch and directions about its normal come from one four-dimensional lattice, shifted at
 // random for each patch, so that they are even in all four dimensions and yet unbiased.
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <utility>
 
 #include "bit_mixing.h"
+#include "radiosity/form_factor_rows.h"
 #include "transillum/errors.h"
 #include "transillum/form_factors.h"
 #include "visibility/embree_scene.h"
@@ -102,11 +98,6 @@ struct SampledTriangle {
   Float3 corner, a, b;
 };
 
-/// One row of the matrix, as counted.
-struct Row {
-  std::vector<std::pair<PatchId, std::uint32_t>> hits;  ///< by patch
-};
-
 /// What all rows need: immutable.
 struct Gathering {
   const Scene& scene;
@@ -134,7 +125,7 @@ class RowGatherer {
   explicit RowGatherer(const Gathering& all)
       : all_(all), counts_(static_cast<std::size_t>(all.scene.patch_count())) {}
 
-  Row gather(PatchId i) {
+  FormFactorRow gather(PatchId i) {
     patch_ = i;
     aim();
     cut_into_triangles();
@@ -227,12 +218,13 @@ class RowGatherer {
     if (counts_[static_cast<std::size_t>(hit)]++ == 0) seen_.push_back(hit);
   }
 
-  Row take_row() {
+  FormFactorRow take_row() {
     std::sort(seen_.begin(), seen_.end());
-    Row row;
-    row.hits.reserve(seen_.size());
+    const auto rays = static_cast<double>(all_.lattice.size());
+    FormFactorRow row;
+    row.reserve(seen_.size());
     for (const PatchId j : seen_) {
-      row.hits.emplace_back(j, std::exchange(counts_[static_cast<std::size_t>(j)], 0U));
+      row.emplace_back(j, std::exchange(counts_[static_cast<std::size_t>(j)], 0U) / rays);
     }
     seen_.clear();
     return row;
@@ -247,14 +239,6 @@ class RowGatherer {
   std::vector<SampledTriangle> triangles_;
   RTCRayHit16 packet_{};
 };
-
-void append(FormFactors& form_factors, const Row& row, int rays) {
-  for (const auto& [source, count] : row.hits) {
-    form_factors.source.push_back(source);
-    form_factors.value.push_back(static_cast<double>(count) / rays);
-  }
-  form_factors.row_begin.push_back(form_factors.size());
-}
 
 }  // namespace
 
@@ -272,28 +256,9 @@ FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options
                                 const std::function<void(double)>& progress) {
   options.validate();
   const Gathering all(scene, options);
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  tbb::enumerable_thread_specific<RowGatherer> gatherers(std::cref(all));
-  FormFactors form_factors;
-  form_factors.row_begin.push_back(0);
-  std::vector<Row> rows(static_cast<std::size_t>(batch * threads));
-  for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
-    const PatchId end = std::min(first + batch * threads, scene.patch_count());
-    arena.execute([&] {
-      tbb::parallel_for(first, end, [&](PatchId i) {
-        cancellation.throw_if_cancelled();
-        rows[static_cast<std::size_t>(i - first)] = gatherers.local().gather(i);
-      });
-    });
-    for (PatchId i = first; i < end; ++i) {
-      append(form_factors, rows[static_cast<std::size_t>(i - first)], options.rays_per_patch);
-    }
-    if (progress) progress(static_cast<double>(end) / scene.patch_count());
-  }
-  return form_factors;
+  return gather_rows(
+      scene.patch_count(), options.threads, batch, std::numeric_limits<std::uint64_t>::max(),
+      [&all] { return RowGatherer(all); }, cancellation, progress);
 }
 
 }  // namespace transillum

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +10,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "radiosity/memory_limit.h"
 #include "transillum/not_convergent.h"
 
 namespace transillum {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::uint64_t quarter_of_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4;
-}
 
 const SolveOptions& validated(const SolveOptions& options) {
   options.validate();
@@ -65,7 +60,7 @@ RadiositySolver::Impl::Impl(std::shared_ptr<const Scene> solved, const SolveOpti
     for (int r = 0; r < options.replicas; ++r) replicas.emplace_back(*scene, options, *shot);
     replica_means.resize(replicas.size());
   }
-  const std::uint64_t memory = options.memory ? options.memory : quarter_of_memory();
+  const std::uint64_t memory = memory_limit(options.memory);
   for (int r = 0; r < options.replicas; ++r) {
     sums.emplace_back(scene->patch_count(), options.two_way,
                       memory / static_cast<std::uint64_t>(options.replicas), cancellation);

@@ -14,6 +14,7 @@
 #include "choice.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
+#include "transillum/hemicube.h"
 
 namespace transillum {
 namespace {
@@ -61,6 +62,10 @@ class StudyRun {
         cancellation_(cancellation),
         rho_max_(measure(*scene_, cancellation).rho_max) {
     for (const StudySeries& series : options.series) {
+      if (!takes_directions(series.engine)) {
+        all_passes_ += scene_->patch_count();
+        continue;
+      }
       for (const int m : options.directions) {
         all_passes_ +=
             static_cast<double>(passes_of(options.solve_options(series, m))) * options.rotations;
@@ -75,6 +80,7 @@ class StudyRun {
 
   const std::vector<StudyPoint>& points() const { return points_; }
   void add_point(std::size_t series, int m) { points_.push_back(point(series, m)); }
+  void add_hemicubes(std::size_t series) { points_.push_back(hemicubes(series)); }
 
  private:
   /// What of B of all patches errors are of.
@@ -104,6 +110,27 @@ class StudyRun {
     return point;
   }
 
+  /// There are no rotations of hemicubes either.
+  StudyPoint hemicubes(std::size_t series) {
+    const double start = processor_seconds(), before = done_passes_;
+    StudyPoint point;
+    point.series = series;
+    point.passes = scene_->patch_count();
+    point.bound = std::numeric_limits<double>::quiet_NaN();
+    SolveOptions solve = options_.solve_options(options_.series[series], 1);
+    solve.rotation = std::nullopt;
+    const Solution solution = solve_by_hemicubes(scene_, solve, cancellation_, [&](double share) {
+      done_passes_ = before + share * static_cast<double>(point.passes);
+      tell(series, static_cast<int>(point.passes));
+    });
+    point.directions = solution.statistics.directions;
+    const RadiosityError error = radiosity_error(compared(solution.radiosity), reference_);
+    point.rms_error = error.rms;
+    point.max_error = error.max;
+    point.seconds = processor_seconds() - start;
+    return point;
+  }
+
   /// Adds one solve's share to the sums in `point`.
   void add_solve(StudyPoint& point, int m, int rotation) {
     const double start = processor_seconds();
@@ -126,9 +153,13 @@ class StudyRun {
     const bool renews = options_.series[point.series].scheme == Scheme::semi_iterative;
     const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
     done_passes_ = std::max(done_passes_, before + std::min(in_solve, double(point.passes)));
+    tell(point.series, m);
+  }
+
+  void tell(std::size_t series, int m) const {
     if (!observer_) return;
     StudyProgress now;
-    now.series = point.series;
+    now.series = series;
     now.directions = m;
     now.share = done_passes_ / all_passes_;
     now.points = points_;
@@ -198,6 +229,12 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
   tell_apart([](const StudySeries& s) { return s.normalize; },
              [](Normalization n) { return name_of(n); });
   tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
+  tell_apart([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
+             [](const std::pair<Engine, int>& how) {
+               const auto& [engine, resolution] = how;
+               return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution)
+                                     : name_of(engine);
+             });
   tell_apart([](const StudySeries& s) { return s.first_shot; },
              [](const std::optional<double>& ratio) {
                return ratio ? fmt::format("first-shot {:g}", *ratio) : std::string("no-shot");
@@ -213,6 +250,8 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.normalize = of.normalize;
   options.scheme = of.scheme;
   options.first_shot = of.first_shot;
+  options.engine = of.engine;
+  options.engine_options.resolution = of.resolution;
   if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
     options.iterations = options.burn_in + averaged_steps_by_default;
   }
@@ -247,6 +286,7 @@ void StudyOptions::validate() const {
   }
   for (const StudySeries& one : series) {
     for (const int m : directions) solve_options(one, m).validate();
+    if (!takes_directions(one.engine)) check_hemicube_options(solve_options(one, 1));
   }
 }
 
@@ -279,8 +319,11 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
   try {
     for (const int m : ascending) {
       for (std::size_t series = 0; series < options.series.size(); ++series) {
-        run.add_point(series, m);
+        if (takes_directions(options.series[series].engine)) run.add_point(series, m);
       }
+    }
+    for (std::size_t series = 0; series < options.series.size(); ++series) {
+      if (!takes_directions(options.series[series].engine)) run.add_hemicubes(series);
     }
     study.complete = true;
   } catch (const Cancelled&) {

@@ -12,8 +12,8 @@
 namespace transillum {
 
 const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"fast",    "local",   "global", "exact",
-                                              "zbuffer", "painter", "rays",   "corrected"};
+  static const std::vector<std::string> names{"fast",    "local", "global",    "exact",   "zbuffer",
+                                              "painter", "rays",  "corrected", "hemicube"};
   return names;
 }
 
@@ -24,6 +24,8 @@ Engine engine_from_name(const std::string& name) {
 const std::string& name_of(Engine engine) {
   return engine_names()[static_cast<std::size_t>(engine)];
 }
+
+bool takes_directions(Engine engine) { return engine != Engine::hemicube; }
 
 const std::vector<std::string>& painters_order_names() {
   static const std::vector<std::string> names{"bsp", "newell"};
@@ -69,6 +71,10 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
       return painter_engine(std::move(scene), std::move(tree), options);
     case Engine::corrected:
       return corrected_engine(std::move(scene), std::move(tree));
+    case Engine::hemicube:
+      throw InputError(
+          "engine hemicube: it draws what each patch sees, and has no directions; `solve`, "
+          "`factors` and `study` take it");
   }
   throw InputError("no such engine");
 }

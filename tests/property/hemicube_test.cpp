@@ -1,0 +1,192 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Form factors by hemicubes: what holds whatever their resolution, and what they converge to.
+#include "transillum/hemicube.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "support/scenes.h"
+#include "transillum/errors.h"
+#include "visibility/hemicube.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+
+double row_sum(const FormFactors& f, PatchId i) {
+  const auto row = static_cast<std::size_t>(i);
+  return std::accumulate(f.value.begin() + static_cast<std::ptrdiff_t>(f.row_begin[row]),
+                         f.value.begin() + static_cast<std::ptrdiff_t>(f.row_begin[row + 1]), 0.0);
+}
+
+double factor(const FormFactors& f, PatchId i, PatchId j) {
+  const auto row = static_cast<std::size_t>(i);
+  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
+    if (f.source[k] == j) return f.value[k];
+  }
+  return 0;
+}
+
+std::vector<Vec3> square(double half, double z, bool up) {
+  std::vector<Vec3> outline{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+  if (!up) std::swap(outline[1], outline[3]);
+  return outline;
+}
+
+TEST(Hemicube, DeltaFormFactorsSumToOne) {
+  for (const int resolution : {2, 6, 16, 64, 250}) {
+    const Hemicube cube(resolution);
+    const std::vector<double>& delta = cube.delta_form_factors();
+    EXPECT_EQ(delta.size(), 3U * static_cast<std::size_t>(resolution * resolution));
+    EXPECT_NEAR(std::accumulate(delta.begin(), delta.end(), 0.0), 1, 1e-12) << resolution;
+    EXPECT_GT(*std::min_element(delta.begin(), delta.end()), 0);
+  }
+}
+
+/// The four top pixels of the coarsest cube see the top's form factor, 0.5541... in all.
+TEST(Hemicube, TheTopHasItsShare) {
+  const Hemicube cube(2);
+  const double top = std::accumulate(cube.delta_form_factors().begin(),
+                                     cube.delta_form_factors().begin() + 4, 0.0);
+  const double r = std::numbers::sqrt2;
+  EXPECT_NEAR(top, 4 / (std::numbers::pi * r) * std::atan(1 / r), 1e-14);
+}
+
+TEST(HemicubeFactors, RowsOfClosedScenesSumToOne) {
+  for (const char* spec : {"cornell-box", "furnace", "rooms", "sphere-flake:levels=0"}) {
+    const auto scene = load_scene(spec);
+    const FormFactors f = hemicube_form_factors(*scene, {.resolution = 32});
+    for (PatchId i = 0; i < scene->patch_count(); ++i) ASSERT_NEAR(row_sum(f, i), 1, 1e-9) << spec;
+  }
+}
+
+/// From a point to a square above it.
+TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(square(1e-3, 0, true), grey).face(square(0.5, 1, false), grey);
+  const auto scene = sketch.scene();
+  const double r = std::sqrt(1.25);
+  const double exact = 4 / std::numbers::pi * (0.5 / r) * std::atan(0.5 / r);
+  const auto error = [&](int resolution) {
+    return std::abs(factor(hemicube_form_factors(*scene, {.resolution = resolution}), 0, 1) -
+                    exact);
+  };
+  EXPECT_LT(error(16), 0.05);
+  EXPECT_LT(error(64), 0.01);
+  EXPECT_LT(error(256), 1e-3);
+  EXPECT_LT(error(1024), 1e-4);
+}
+
+/// Two unit squares at distance 1: a point in the middle of a whole one sees too much.
+TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
+  const double exact = 0.1998248957;
+  const auto error = [&](double patch_area) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 1);
+    sketch.face(square(0.5, 0, true), grey).face(square(0.5, 1, false), grey);
+    const auto scene = sketch.scene({.max_patch_area = patch_area});
+    const FormFactors f = hemicube_form_factors(*scene, {.resolution = 256});
+    double power = 0;
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      power += scene->patch(i).area * row_sum(f, i);
+    }
+    return std::abs(power / 2 - exact);
+  };
+  const double whole = error(0), quarters = error(0.25), small = error(0.02);
+  EXPECT_GT(whole, 0.03);
+  EXPECT_LT(quarters, 0.4 * whole);
+  EXPECT_LT(small, 0.1 * quarters);
+  EXPECT_LT(small, 2e-3);
+}
+
+TEST(HemicubeFactors, WhatIsNearerHidesAndBacksAbsorb) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(square(1e-3, 0, true), grey)
+      .face(square(1, 1, false), grey)
+      .face(square(9, 2, false), grey)
+      .face(square(2, 3, false), grey);
+  const FormFactors seen = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
+  EXPECT_GT(factor(seen, 0, 1), 0.5);
+  EXPECT_GT(factor(seen, 0, 2), 0.2);
+  EXPECT_EQ(factor(seen, 0, 3), 0);
+  sketch.face(square(1, 0.5, true), grey);
+  const FormFactors shaded = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
+  EXPECT_EQ(factor(shaded, 0, 1), 0);
+  EXPECT_LT(row_sum(shaded, 0), 0.3);
+}
+
+/// As the tree has it: of coincident faces the brighter covers the other, whatever their order.
+TEST(HemicubeFactors, ALightInItsCeilingShines) {
+  for (const bool light_first : {true, false}) {
+    Sketch sketch;
+    const int grey = sketch.material(0.5, 0), bright = sketch.material(0, 10);
+    if (light_first) sketch.face(square(0.3, 1, false), bright);
+    sketch.face(square(1, 1, false), grey);
+    if (!light_first) sketch.face(square(0.3, 1, false), bright);
+    sketch.face(square(0.1, 0, true), grey);
+    const FormFactors f = hemicube_form_factors(*sketch.scene(), {.resolution = 128});
+    EXPECT_NEAR(factor(f, 2, light_first ? 0 : 1), 0.1042, 5e-3);
+  }
+}
+
+double rms_difference(const Solution& a, const Solution& b) {
+  double off = 0, all = 0;
+  for (std::size_t i = 0; i < a.radiosity.size(); ++i) {
+    const Rgb d = a.radiosity[i] - b.radiosity[i];
+    off += d.r * d.r + d.g * d.g + d.b * d.b;
+    const Rgb& v = b.radiosity[i];
+    all += v.r * v.r + v.g * v.g + v.b * v.b;
+  }
+  return std::sqrt(off / all);
+}
+
+TEST(HemicubeSolve, ComesNearerToTheExactEngineAsPatchesShrink) {
+  const auto error = [](double patch_area) {
+    const auto scene = load_scene("cornell-box", {.max_patch_area = patch_area});
+    SolveOptions options{.directions = 256};
+    const Solution exact = solve(scene, options);
+    options.engine_options.resolution = 64;
+    const Solution hemicubes = solve_by_hemicubes(scene, options);
+    EXPECT_TRUE(hemicubes.complete && hemicubes.statistics.converged);
+    EXPECT_LT(hemicubes.statistics.escaped, 1e-9);
+    EXPECT_LT(hemicubes.statistics.energy_defect, patch_area > 0 ? 0.05 : 0.5);
+    return rms_difference(hemicubes, exact);
+  };
+  const double large = error(0), small = error(0.02);
+  EXPECT_LT(large, 0.2);
+  EXPECT_LT(small, 0.5 * large);
+  EXPECT_LT(small, 0.03);
+}
+
+TEST(HemicubeSolve, GivesTheSameBitsForAnyNumberOfThreads) {
+  const auto scene = load_scene("rooms");
+  SolveOptions options{.threads = 1};
+  const Solution one = solve_by_hemicubes(scene, options);
+  options.threads = 3;
+  EXPECT_TRUE(solve_by_hemicubes(scene, options).radiosity == one.radiosity);
+}
+
+TEST(HemicubeSolve, RefusesWhatItHasNot) {
+  const auto scene = load_scene("furnace");
+  const auto solve_with = [&](auto change) {
+    SolveOptions options;
+    change(options);
+    return solve_by_hemicubes(scene, options);
+  };
+  EXPECT_THROW(solve_with([](auto& o) { o.replicas = 4; }), InputError);
+  EXPECT_THROW(solve_with([](auto& o) { o.engine_options.resolution = 63; }), InputError);
+  EXPECT_THROW(solve_with([](auto& o) { o.engine_options.resolution = 4096; }), InputError);
+  EXPECT_THROW(solve_with([](auto& o) { o.memory = 100; }), std::runtime_error);
+  Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(solve_by_hemicubes(scene, {}, cancellation), Cancelled);
+}
+
+}  // namespace
+}  // namespace transillum
