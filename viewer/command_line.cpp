@@ -32,6 +32,9 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
       ->capture_default_str();
   app.add_option("--rotate", solve.rotation, "seed of a random rotation of all directions");
   app.add_option("--engine", words.engine, joined(engine_names()))->capture_default_str();
+  app.add_option("--resolution", solve.engine_options.resolution,
+                 "zbuffer, painter, rays: pixels along the longer side")
+      ->check(CLI::Range(1, EngineOptions::largest_resolution));
   auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
   app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")
       ->excludes(one_way);

@@ -84,9 +84,10 @@ void MapCanvas::repaint_map() {
   }
   painting_ = true;
   stale_ = false;
-  const MapPictureRequest request{content_.map,        content_.step,   content_.phase,
-                                  content_.step_shown, content_.labels, content_.patch_colors,
-                                  transform(),         size(),          devicePixelRatioF()};
+  const MapPictureRequest request{
+      content_.map,    content_.step,   content_.phase,     content_.step_shown,
+      content_.labels, content_.pixels, pixels(),           content_.patch_colors,
+      transform(),     size(),          devicePixelRatioF()};
   painter_pool_.start([this, request] {
     give_way_to_the_window();
     auto picture = std::make_shared<const MapPicture>(paint_map(request));
@@ -202,12 +203,19 @@ void MapCanvas::draw_axes(QPainter& painter) const {
 
 void MapCanvas::draw_legend(QPainter& painter) const {
   if (width() < 330) return;  // no room between scale bar and axes
-  const QRectF box(width() / 2.0 - 8, height() - 23, 16, 12);
-  painter.setPen(QPen(theme::on_dark_dim, 1));
-  painter.setBrush(back_side_brush(1));
-  painter.drawRect(box);
-  painter.setPen(theme::on_dark);
-  painter.drawText(box.bottomRight() + QPointF(8, -1), tr("back side"));
+  const bool differences = picture_->pixels && picture_->request.pixels.differences;
+  double x = width() / 2.0 - (differences ? 60 : 8);
+  const auto entry = [&](const QBrush& brush, const QString& words) {
+    const QRectF box(x, height() - 23, 16, 12);
+    painter.setPen(QPen(theme::on_dark_dim, 1));
+    painter.setBrush(brush);
+    painter.drawRect(box);
+    painter.setPen(theme::on_dark);
+    painter.drawText(box.bottomRight() + QPointF(8, -1), words);
+    x = box.right() + 24 + painter.fontMetrics().horizontalAdvance(words);
+  };
+  entry(back_side_brush(1), tr("back side"));
+  if (differences) entry(theme::difference, tr("differs"));
 }
 
 void MapCanvas::resizeEvent(QResizeEvent* event) {

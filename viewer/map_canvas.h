@@ -30,6 +30,7 @@ class MapCanvas : public QWidget {
     Phase phase = Phase::after;
     bool step_shown = false;
     bool labels = false;
+    PixelChoice pixels;
     std::optional<Vec2> probe;
     std::shared_ptr<const std::vector<Color8>> patch_colors;
   };
@@ -44,6 +45,8 @@ class MapCanvas : public QWidget {
   PatchId patch_at(const QPointF& position) const;
   /// Metres on the plane of a point in logical pixels; nothing without a picture.
   std::optional<Vec2> point_at(const QPointF& position) const;
+  /// What is drawn in pixels; null where V is drawn exactly.
+  std::shared_ptr<const PixelView> pixels() const { return picture_ ? picture_->pixels : nullptr; }
   std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
 
   QSize sizeHint() const override { return {420, 380}; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pixel_view.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -104,7 +105,9 @@ class MapPainting {
         hatch_(back_side_brush(ratio_)) {
     transform_.scale *= ratio_;
     transform_.middle *= ratio_;
-    if (request.step_shown && request.step >= 0) step_row_ = history_.step(request.step).row;
+    // Pixels show V alone, not what a step does to it.
+    const bool marked = request.step_shown && !request.pixels.engine;
+    if (marked && request.step >= 0) step_row_ = history_.step(request.step).row;
   }
 
   MapPicture paint() {
@@ -117,7 +120,12 @@ class MapPainting {
     picture.image.fill(theme::scene_background);
     painter_.begin(&picture.image);
     picture.rows = drawn_rows();
-    fill(picture.rows);
+    if (request_.pixels.engine) {
+      picture.pixels = pixels();
+      draw_pixels(painter_, *picture.pixels, transform_, *request_.patch_colors, hatch_);
+    } else {
+      fill(picture.rows);
+    }
     if (step_row_ != MapRecord::no_row) mark_step();
     if (request_.labels) label(picture.rows);
     painter_.end();
@@ -126,6 +134,12 @@ class MapPainting {
   }
 
  private:
+  std::shared_ptr<const PixelView> pixels() const {
+    const std::shared_ptr<const PixelView>& known = request_.known_pixels;
+    if (known && known->shows(*request_.map, request_.step, request_.pixels)) return known;
+    return make_pixel_view(request_.map, request_.step, request_.pixels);
+  }
+
   std::vector<std::int32_t> drawn_rows() const {
     const MapRecord& record = history_.record();
     if (step_row_ == MapRecord::no_row || request_.phase == Phase::after)

@@ -8,11 +8,13 @@
 #include <QSizeF>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "color_map.h"
 #include "focus.h"
 #include "recorded_map.h"
+#include "transillum/engine.h"
 
 namespace transillum::viewer {
 
@@ -38,6 +40,16 @@ struct MapTransform {
 /// The whole scene in a picture of `size` (logical pixels).
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
+/// How V is drawn: exactly, or in the pixels of a discrete engine, zbuffer or painter.
+struct PixelChoice {
+  std::optional<Engine> engine;  ///< none: exactly
+  int resolution = 64;           ///< pixels along the longer side
+  bool differences = true;       ///< mark where pixels are wrong
+
+  friend bool operator==(const PixelChoice&, const PixelChoice&) = default;
+};
+struct PixelView;
+
 /// What one picture of a map shows.
 struct MapPictureRequest {
   std::shared_ptr<const RecordedMap> map;
@@ -45,6 +57,8 @@ struct MapPictureRequest {
   Phase phase = Phase::after;
   bool step_shown = false;  ///< mark what the step did; else V is drawn alone
   bool labels = false;      ///< number of the patch where a fragment has room for it
+  PixelChoice pixels;
+  std::shared_ptr<const PixelView> known_pixels;  ///< of an earlier picture; may be another's
   std::shared_ptr<const std::vector<Color8>> patch_colors;
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
@@ -54,6 +68,7 @@ struct MapPictureRequest {
 struct MapPicture {
   MapPictureRequest request;
   QImage image;
+  std::shared_ptr<const PixelView> pixels;  ///< drawn, where pixels were asked for
   std::vector<std::int32_t> rows;  ///< drawn: of V, or the parts that a step is splitting it into
 };
 

@@ -12,6 +12,8 @@
 
 #include "map_canvas.h"
 #include "number_text.h"
+#include "pixel_menu.h"
+#include "pixel_view.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -107,6 +109,9 @@ QWidget* MapView::make_controls() {
   row->addWidget(
       add_phase(Phase::after, "phase_after", tr("After"), tr("V with the polygon put in")));
   row->addStretch(1);
+  pixels_ = new PixelMenu;
+  row->addWidget(pixels_);
+  connect(pixels_, &PixelMenu::changed, this, &MapView::show_moment);
   labels_ = text_button(tr("Labels"), tr("Name the patch of each fragment that has room"), true);
   labels_->setObjectName("map_labels");
   near_ = text_button(tr("Near"), tr("Bring the step's polygon near"), false);
@@ -157,7 +162,8 @@ void MapView::show_moment() {
   recolor_timer_->stop();
   auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
   canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
-                     labels_->isChecked(), focus_.probe(), std::move(patch_colors)});
+                     labels_->isChecked(), pixels_->choice(), focus_.probe(),
+                     std::move(patch_colors)});
 }
 
 void MapView::show_title() {
@@ -174,6 +180,10 @@ void MapView::show_title() {
                       .arg(count_text(map->direction + 1), count_text(map->passes)));
   title_->setToolTip(tr("ω = %1 points to where the light comes from")
                          .arg(vector_text(map->record().frame.omega)));
+  if (canvas_->pixels()) {
+    step_text_->setText(pixel_text());
+    return;
+  }
   const bool split = focus_.phase() == Phase::split && focus_.moment().step >= 0;
   if (split && !focus_.following()) {
     step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
@@ -186,6 +196,16 @@ void MapView::show_title() {
   step_text_->setText(tr("V after %1 of %2 polygons: %3 fragments")
                           .arg(count_text(after), count_text(map->history.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
+}
+
+QString MapView::pixel_text() const {
+  const PixelView& view = *canvas_->pixels();
+  const QString text =
+      tr("V after %1 of %2 polygons, in pixels of %3 m")
+          .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()),
+               number_text(view.drawn.pixels.side));
+  if (!view.choice.differences) return text;
+  return text + tr(": %1 % differ").arg(number_text(100 * view.wrong));
 }
 
 }  // namespace transillum::viewer

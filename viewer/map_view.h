@@ -17,6 +17,7 @@ class QToolButton;
 namespace transillum::viewer {
 
 class MapCanvas;
+class PixelMenu;
 
 /// The visibility map V of the direction in focus, and what its step does to it.
 class MapView : public QWidget {
@@ -41,6 +42,7 @@ class MapView : public QWidget {
   void offer_runs(const QPoint& position);
   void show_moment();
   void show_title();
+  QString pixel_text() const;
 
   Focus& focus_;
   const ColorChoice& colors_;
@@ -51,6 +53,7 @@ class MapView : public QWidget {
   QButtonGroup* phases_;
   QToolButton* labels_;
   QToolButton* near_;
+  PixelMenu* pixels_;
   QTimer* recolor_timer_;
 };
 

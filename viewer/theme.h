@@ -20,9 +20,10 @@ inline const QColor good{0x1a, 0x7f, 0x4b};
 inline const QColor selection{0xff, 0x3e, 0x9e};  ///< in no scene and no colour map
 
 /// A step of the visibility map: told apart by brightness too.
-inline const QColor processed{0xff, 0xe0, 0x4d};  ///< the polygon of the step
-inline const QColor inside{0xe6, 0x7e, 0x22};     ///< what it cut out of V
-inline const QColor outside{0x4f, 0xb3, 0xe8};    ///< what it left of the same
+inline const QColor processed{0xff, 0xe0, 0x4d};   ///< the polygon of the step
+inline const QColor inside{0xe6, 0x7e, 0x22};      ///< what it cut out of V
+inline const QColor difference{0x19, 0xe3, 0xff};  ///< where pixels show not what is there
+inline const QColor outside{0x4f, 0xb3, 0xe8};     ///< what it left of the same
 
 /// Light is looked at before a dark, neutral ground.
 inline const QColor scene_background{0x1d, 0x21, 0x27};

@@ -14,6 +14,7 @@
 #include "progress_display.h"
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
+#include "transillum/pixel_map.h"
 
 namespace transillum::cli {
 namespace {
@@ -23,6 +24,9 @@ struct MapCall {
   SceneOptions scene_options;
   Vec3 direction;
   PatchId receiver = no_patch;
+  Engine engine = Engine::local;
+  EngineOptions engine_options;
+  bool difference = false;
   MapPictureOptions picture;
   std::vector<std::string> out;
 };
@@ -33,12 +37,49 @@ void check_receiver(const MapCall& call, const Scene& scene) {
                                call.receiver, scene.patch_count(), scene.patch_count() - 1));
 }
 
-VisibilityMap make_map(const MapCall& call, const Scene& scene, const Cancellation& cancellation) {
-  ProgressDisplay progress;
-  const BspTree tree(scene, cancellation, [&](double share) { progress.show("sorting", share); });
+VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& tree,
+                        const Cancellation& cancellation) {
   const RecordedDirection direction = record_local_map(scene, tree, call.direction, cancellation);
   return call.receiver == no_patch ? map_from_below(direction)
                                    : map_of_receiver(direction, call.receiver);
+}
+
+VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& scene,
+                       const Cancellation& cancellation) {
+  ProgressDisplay progress;
+  const auto tree = std::make_shared<const BspTree>(
+      *scene, cancellation, [&](double share) { progress.show("sorting", share); });
+  if (call.engine == Engine::local) return exact_map(call, *scene, *tree, cancellation);
+  const PixelMap pixels = pixel_map(call.engine, scene, tree, call.direction, call.receiver,
+                                    call.engine_options, cancellation);
+  VisibilityMap map = drawn_in_pixels(*scene, pixels);
+  if (call.difference) {
+    mark_differences(pixels, exact_map(call, *scene, *tree, cancellation), map, cancellation);
+  }
+  return map;
+}
+
+void add_pixel_options(CLI::App& command, MapCall& call) {
+  add_parsed_option(
+      command, "--engine", "NAME",
+      "local (default): the exact map; zbuffer | painter | rays: what this engine's pixels show",
+      [&call](const std::string& text) {
+        call.engine = engine_from_name(text);
+        if (call.engine != Engine::local && !has_pixels(call.engine)) {
+          throw InputError(
+              fmt::format("--engine: {} has no map; choose local, zbuffer, painter or rays", text));
+        }
+      });
+  add_parsed_option(command, "--resolution", "R",
+                    fmt::format("pixels along the longer side of the projected scene (default {})",
+                                PixelMap::default_resolution),
+                    [&call](const std::string& text) {
+                      call.engine_options.resolution = static_cast<int>(parse_whole_number(
+                          "--resolution", text, 1, PixelMap::largest_resolution));
+                    });
+  add_order_option(command, call.engine_options);
+  command.add_flag("--difference", call.difference,
+                   "mark where pixels show not what the exact map does");
 }
 
 int run(const MapCall& call) {
@@ -48,7 +89,7 @@ int run(const MapCall& call) {
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   check_receiver(call, *scene);
   print_warnings(*scene);
-  const VisibilityMap map = make_map(call, *scene, cancellation);
+  const VisibilityMap map = make_map(call, scene, cancellation);
   const std::string reason = why_empty(*scene, map);
   if (!reason.empty()) print_message("note: the map is empty, since " + reason);
   for (const std::string& file : call.out) {
@@ -72,6 +113,7 @@ Run add_map_command(CLI::App& program) {
                       call->receiver = static_cast<PatchId>(parse_whole_number(
                           "--receiver", text, 0, std::numeric_limits<PatchId>::max()));
                     });
+  add_pixel_options(command, *call);
   add_parsed_option(
       command, "--size", "PIXELS",
       fmt::format("longer side of .svg and .png (default {})", call->picture.size),
@@ -89,7 +131,10 @@ Run add_map_command(CLI::App& program) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->required();
-  command.footer("Example: transillum map cornell-box --direction 1,2,3 --out map.svg");
+  command.footer(
+      "Example: transillum map cornell-box --direction 1,2,3 --out map.svg\n"
+      "         transillum map cornell-box --direction 1,2,3 --receiver 0 --engine zbuffer \\\n"
+      "           --resolution 64 --difference --out pixels.png");
   return [call] { return run(*call); };
 }
 

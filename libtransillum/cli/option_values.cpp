@@ -118,6 +118,15 @@ void add_direction_option(CLI::App& command, Vec3& direction) {
       ->required();
 }
 
+void add_order_option(CLI::App& command, EngineOptions& options) {
+  add_parsed_option(
+      command, "--order", "NAME",
+      fmt::format("of the painter: {} (default {}); newell gives up where patches overlap in a "
+                  "circle",
+                  fmt::join(painters_order_names(), " | "), name_of(options.order)),
+      [&options](const std::string& text) { options.order = painters_order_from_name(text); });
+}
+
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options) {
   add_parsed_option(
       command, "--engine", "NAME",
@@ -150,12 +159,7 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
       [&options](const std::string& text) {
         options.resolution = parse_resolution("--resolution", text);
       });
-  add_parsed_option(
-      command, "--order", "NAME",
-      fmt::format("of the painter: {} (default {}); newell gives up where patches overlap in a "
-                  "circle",
-                  fmt::join(painters_order_names(), " | "), name_of(options.order)),
-      [&options](const std::string& text) { options.order = painters_order_from_name(text); });
+  add_order_option(command, options);
   command.add_flag_callback(
       "--random-lines", [&options] { options.gridded = false; },
       "for the engine rays: lines anywhere instead of one in each cell of a grid");

@@ -32,6 +32,8 @@ void add_direction_option(CLI::App& command, Vec3& direction);
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// What they have but --engine.
 void add_engine_details(CLI::App& command, EngineOptions& options);
+/// --order
+void add_order_option(CLI::App& command, EngineOptions& options);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 /// --two-sided and --max-patch-area

@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "log_chart.h"
+#include "pixel_view.h"
 #include "solved_window.h"
 #include "timeline_lanes.h"
 
@@ -79,6 +80,34 @@ class SteppingTest : public QObject {
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     QVERIFY((s.focus.moment() == Moment{0, 5, 1}));
     QVERIFY(s.focus.map()->record().frame.omega == (*s.window->snapshot()->directions)[5]);
+  }
+
+  void shows_v_in_pixels() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    s.focus.go_to({0, 3, 20});
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    QVERIFY(s.settles());
+    QVERIFY(!s.map_view->canvas()->pixels());
+    const auto choose = [&](const char* action) {
+      s.trigger(action);
+      return s.settles();
+    };
+    const auto wrong = [&] { return s.map_view->canvas()->pixels()->wrong; };
+    QVERIFY(choose("map_zbuffer"));
+    QVERIFY(s.map_view->canvas()->pixels() != nullptr);
+    QCOMPARE(s.map_view->canvas()->pixels()->step, 20);
+    QCOMPARE(s.map_view->canvas()->pixels()->choice.resolution, 64);
+    const double of_zbuffer = wrong();
+    QVERIFY(of_zbuffer > 0.001 && of_zbuffer < 0.1);
+    QVERIFY(s.text("map_text").contains("differ"));
+    QVERIFY(choose("map_painter"));
+    QCOMPARE(wrong(), of_zbuffer);  // the same centres
+    QVERIFY(choose("map_difference"));
+    QCOMPARE(wrong(), 0.0);
+    QVERIFY(!s.text("map_text").contains("differ"));
+    QVERIFY(choose("map_exact"));
+    QVERIFY(!s.map_view->canvas()->pixels());
   }
 
   void keys_step() {

@@ -28,6 +28,8 @@ void check_map_path(const std::filesystem::path& path);
 /// .png: the same polygons without words, smoothed; what they mean is in its text fields.
 /// .vtp: polygons at z = 0 of the plane's coordinates, cell arrays patch, front, area.
 /// .json: frame, receiver and polygons; numbers read back bit for bit.
+/// Of a map drawn in pixels rectangles of pixels take the polygons' place, and pictures mark where
+/// it differs from the exact one (.vtp: cells whose array `difference` is 1; .json: `differences`).
 /// Pictures are seen along omega, so u points to the left and v up.
 /// @throws InputError as check_map_path; std::runtime_error where it cannot be written.
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,

@@ -92,6 +92,14 @@ struct VisibilityMap {
   std::vector<Vec2> corners;        ///< of polygons and window, counter-clockwise as u turns to v
   std::vector<Transfer> exchanges;  ///< who sees whom along the direction, by receiver
 
+  /// Of a map drawn in pixels (pixel_map.h).
+  struct Pixels {
+    double side = 0;                   ///< metres; 0: the map is exact, and nothing below
+    std::vector<Vec2> borders;         ///< between different patches: ends of lines, two by two
+    std::vector<Polygon> differences;  ///< where not what is there is shown; corners in `corners`
+  };
+  Pixels pixels;
+
   std::span<const Vec2> outline(const Polygon& polygon) const {
     return {corners.data() + polygon.begin, polygon.end - polygon.begin};
   }

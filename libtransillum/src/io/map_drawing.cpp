@@ -71,12 +71,23 @@ MapPlate fit_map(const VisibilityMap& map, double width, double height) {
   return plate;
 }
 
+double total_area(const std::vector<VisibilityMap::Polygon>& polygons) {
+  double sum = 0;
+  for (const VisibilityMap::Polygon& polygon : polygons) sum += polygon.area;
+  return sum;
+}
+
 double line_width(const VisibilityMap& map, double scale) {
-  double area = 0;
-  for (const VisibilityMap::Polygon& polygon : map.polygons) area += polygon.area;
+  if (map.pixels.side > 0) return std::clamp(0.15 * scale * map.pixels.side, 0.3, 1.0);
   if (map.polygons.empty()) return 0;
-  const double side = scale * std::sqrt(area / static_cast<double>(map.polygons.size()));
+  const double side =
+      scale * std::sqrt(total_area(map.polygons) / static_cast<double>(map.polygons.size()));
   return std::clamp(0.02 * side, 0.1, 0.8);
+}
+
+double difference_share(const VisibilityMap& map) {
+  const double shown = total_area(map.window.empty() ? map.polygons : map.window);
+  return shown > 0 ? total_area(map.pixels.differences) / shown : 0;
 }
 
 }  // namespace transillum

@@ -23,6 +23,9 @@ inline constexpr Color8 ground{0x1d, 0x21, 0x27};
 inline constexpr Color8 edge{0x0a, 0x0c, 0x0f};
 /// A receiver's own polygon where nothing is above it.
 inline constexpr Color8 nothing{0x2c, 0x32, 0x3b};
+/// Where a picture in pixels shows not what is there.
+inline constexpr Color8 difference{0x19, 0xe3, 0xff};
+inline constexpr double difference_opacity = 0.85;
 }  // namespace map_colors
 
 enum class PatchLook {
@@ -55,7 +58,14 @@ struct MapPlate {
 /// The largest plate of the map's own proportions, or nearly, that fits in width x height.
 MapPlate fit_map(const VisibilityMap& map, double width, double height);
 
-/// Width in pixels of the lines between polygons: thinner where they crowd.
+/// m².
+double total_area(const std::vector<VisibilityMap::Polygon>& polygons);
+
+/// Width in pixels of the lines between polygons: thinner where they crowd. Of a picture in pixels
+/// that of its borders.
 double line_width(const VisibilityMap& map, double scale);
+
+/// Shares of the window, or of all that is seen: what a picture in pixels shows wrongly.
+double difference_share(const VisibilityMap& map);
 
 }  // namespace transillum

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <nlohmann/json.hpp>
 
+#include "io/map_drawing.h"
 #include "io/map_writers.h"
 #include "io/text_buffer.h"
 
@@ -33,12 +34,6 @@ void add_polygons(TextBuffer& text, const VisibilityMap& map,
   text.add("]");
 }
 
-double total_area(const std::vector<VisibilityMap::Polygon>& polygons) {
-  double sum = 0;
-  for (const VisibilityMap::Polygon& polygon : polygons) sum += polygon.area;
-  return sum;
-}
-
 }  // namespace
 
 void write_map_json(std::ostream& out, const Scene& scene, const VisibilityMap& map) {
@@ -62,6 +57,11 @@ void write_map_json(std::ostream& out, const Scene& scene, const VisibilityMap& 
   }
   text.add("  \"area\": {},\n  \"polygons\": ", total_area(map.polygons));
   add_polygons(text, map, map.polygons, "    ");
+  if (map.pixels.side > 0) {
+    text.add(",\n  \"pixel\": {},\n  \"differing_area\": {},\n  \"differences\": ", map.pixels.side,
+             total_area(map.pixels.differences));
+    add_polygons(text, map, map.pixels.differences, "    ");
+  }
   text.add("\n}}\n");
 }
 

@@ -41,18 +41,26 @@ class Canvas {
     cover(outline, [&](std::size_t at, float share) { pixels_[at].window += share; });
   }
 
+  /// Lies over all but lines.
+  void lay_over(std::span<const Vec2> outline) {
+    cover(outline, [&](std::size_t at, float share) { pixels_[at].difference += share; });
+  }
+
   void draw_edges(std::span<const Vec2> outline, double line_width) {
     for (std::size_t k = 0; k < outline.size(); ++k) {
-      const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
-      const double length = std::hypot(b.x - a.x, b.y - a.y);
-      if (!(length > 0)) continue;
-      const double share = line_width / 2 / length;
-      const Vec2 aside{share * (a.y - b.y), share * (b.x - a.x)};
-      const std::array<Vec2, 4> bar{
-          Vec2{a.x + aside.x, a.y + aside.y}, Vec2{b.x + aside.x, b.y + aside.y},
-          Vec2{b.x - aside.x, b.y - aside.y}, Vec2{a.x - aside.x, a.y - aside.y}};
-      cover(bar, [&](std::size_t at, float part) { pixels_[at].line += part; });
+      draw_line(outline[k], outline[(k + 1) % outline.size()], line_width);
     }
+  }
+
+  void draw_line(const Vec2& a, const Vec2& b, double line_width) {
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) return;
+    const double share = line_width / 2 / length;
+    const Vec2 aside{share * (a.y - b.y), share * (b.x - a.x)};
+    const std::array<Vec2, 4> bar{
+        Vec2{a.x + aside.x, a.y + aside.y}, Vec2{b.x + aside.x, b.y + aside.y},
+        Vec2{b.x - aside.x, b.y - aside.y}, Vec2{a.x - aside.x, a.y - aside.y}};
+    cover(bar, [&](std::size_t at, float part) { pixels_[at].line += part; });
   }
 
   /// VTK's pictures begin at the bottom.
@@ -72,7 +80,7 @@ class Canvas {
  private:
   struct Pixel {
     float covered = 0, r = 0, g = 0, b = 0;
-    float window = 0, line = 0;
+    float window = 0, difference = 0, line = 0;
   };
   /// Lines of sampling a pixel; along them, coverage is exact.
   static constexpr int scan_lines = 8;
@@ -127,10 +135,13 @@ class Canvas {
     const float ground = std::max(1 - pixel.covered, 0.0F);
     const float line = line_opacity * std::min(pixel.line, 1.0F);
     const float window = std::min(pixel.window, 1.0F);
+    const float difference =
+        static_cast<float>(map_colors::difference_opacity) * std::min(pixel.difference, 1.0F);
     const auto mixed = [&](float Pixel::*sum, std::uint8_t Color8::*channel) {
       const auto of = [&](const Color8& color) { return static_cast<float>(color.*channel); };
       const float under = (1 - window) * of(map_colors::ground) + window * of(map_colors::nothing);
-      const float filled = pixel.*sum + ground * under;
+      const float drawn = pixel.*sum + ground * under;
+      const float filled = drawn + difference * (of(map_colors::difference) - drawn);
       return filled + line * (of(map_colors::edge) - filled);
     };
     return {mixed(&Pixel::r, &Color8::r), mixed(&Pixel::g, &Color8::g),
@@ -146,13 +157,17 @@ void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map
   const Vec3& omega = map.frame.omega;
   writer.AddText("Software", "transillum " TRANSILLUM_VERSION);
   writer.AddText("Title", ("Visibility map of " + scene.name()).c_str());
-  writer.AddText("Description",
-                 fmt::format("direction omega = {}, {}, {}; seen along omega{}; {} pixels a metre",
-                             omega.x, omega.y, omega.z,
-                             map.receiver == no_patch ? std::string(" from below")
-                                                      : fmt::format(" by patch {}", map.receiver),
-                             scale)
-                     .c_str());
+  writer.AddText(
+      "Description",
+      fmt::format("direction omega = {}, {}, {}; seen along omega{}; {} pixels a metre{}", omega.x,
+                  omega.y, omega.z,
+                  map.receiver == no_patch ? std::string(" from below")
+                                           : fmt::format(" by patch {}", map.receiver),
+                  scale,
+                  map.pixels.side > 0
+                      ? fmt::format("; the engine's pixels are {} m wide", map.pixels.side)
+                      : std::string())
+          .c_str());
 }
 
 }  // namespace
@@ -171,8 +186,17 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   for (const auto& polygon : map.window) canvas.lay_under(projected(polygon));
   for (const auto& polygon : map.polygons)
     canvas.fill(projected(polygon), color_of(scene, polygon));
+  for (const auto& polygon : map.pixels.differences) canvas.lay_over(projected(polygon));
   const double width = line_width(map, plate.transform.scale);
-  for (const auto& polygon : map.polygons) canvas.draw_edges(projected(polygon), width);
+  if (map.pixels.side > 0) {
+    const std::vector<Vec2>& ends = map.pixels.borders;
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      canvas.draw_line(plate.transform.to_pixels(ends[k]), plate.transform.to_pixels(ends[k + 1]),
+                       width);
+    }
+  } else {
+    for (const auto& polygon : map.polygons) canvas.draw_edges(projected(polygon), width);
+  }
 
   vtkNew<vtkImageData> image;
   canvas.copy_to(*image);

@@ -20,6 +20,8 @@ constexpr const char* style = R"(  <style>
     .end { text-anchor: end; }
     .swatch { stroke: #0a0c0f; stroke-width: 0.5; }
     .patch { stroke: #0a0c0f; stroke-linejoin: round; }
+    .pixel { stroke: none; }
+    .border { stroke: #0a0c0f; fill: none; stroke-linecap: square; }
     .patch:hover { stroke: #ff3e9e; stroke-width: 2; }
   </style>
 )";
@@ -59,7 +61,7 @@ class SvgFigure {
   SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map, double size)
       : text_(out), scene_(scene), map_(map) {
     plate_ = fit_map(map, size - 2 * padding, size - header - footer);
-    width_ = std::max(plate_.width + 2 * padding, least_width);
+    width_ = std::max(plate_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
     height_ = plate_.height + header + footer;
     left_ = (width_ - plate_.width) / 2;
     plate_.transform.middle.x += left_;
@@ -121,10 +123,12 @@ class SvgFigure {
       patches += polygon.patch != last ? 1 : 0;
       last = polygon.patch;
     }
-    text_.add(
-        "  <text x=\"{}\" y=\"86\">{} of {} patches, in {} polygons of together {:.4g} "
-        "m\u00b2</text>\n",
-        padding, patches, scene_.patch_count(), map_.polygons.size(), area);
+    const std::string parts =
+        in_pixels()
+            ? fmt::format("pixels of {:.3g} m, together {:.4g} m\u00b2", map_.pixels.side, area)
+            : fmt::format("{} polygons of together {:.4g} m\u00b2", map_.polygons.size(), area);
+    text_.add("  <text x=\"{}\" y=\"86\">{} of {} patches, in {}</text>\n", padding, patches,
+              scene_.patch_count(), parts);
   }
 
   void add_plate() {
@@ -133,8 +137,10 @@ class SvgFigure {
         "rx=\"4\" fill=\"{}\"/>\n",
         left_, header, plate_.width, plate_.height, hex(map_colors::ground));
     add_window();
-    text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\">\n",
-              line_width(map_, plate_.transform.scale));
+    // Crisp: rectangles that meet leave no seam between them.
+    text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\"{}>\n",
+              line_width(map_, plate_.transform.scale),
+              in_pixels() ? " shape-rendering=\"crispEdges\"" : "");
     auto first = map_.polygons.begin();
     while (first != map_.polygons.end()) {
       const auto last = std::find_if(first, map_.polygons.end(), [&](const auto& polygon) {
@@ -144,6 +150,7 @@ class SvgFigure {
       first = last;
     }
     text_.add("  </g>\n");
+    if (in_pixels()) add_pixel_marks();
     const std::string reason = why_empty(scene_, map_);
     if (reason.empty()) return;
     text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", width_ / 2,
@@ -162,6 +169,28 @@ class SvgFigure {
     }
   }
 
+  bool in_pixels() const { return map_.pixels.side > 0; }
+
+  void add_pixel_marks() {
+    for (const VisibilityMap::Polygon& polygon : map_.pixels.differences) {
+      text_.add("    <path class=\"difference\" fill=\"{}\" fill-opacity=\"{}\" d=\"",
+                hex(map_colors::difference), map_colors::difference_opacity);
+      add_outlines({&polygon, 1});
+      text_.add("\"><title>{} is seen here</title></path>\n",
+                polygon.patch == no_patch ? std::string("nothing")
+                                          : fmt::format("patch {}", polygon.patch));
+    }
+    const std::vector<Vec2>& ends = map_.pixels.borders;
+    text_.add("  <path class=\"border\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\" d=\"",
+              line_width(map_, plate_.transform.scale));
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      const Vec2 a = plate_.transform.to_pixels(ends[k]),
+                 b = plate_.transform.to_pixels(ends[k + 1]);
+      text_.add("M{:.7g} {:.7g}L{:.7g} {:.7g}", a.x, a.y, b.x, b.y);
+    }
+    text_.add("\"/>\n");
+  }
+
   void add_window() {
     if (map_.window.empty()) return;
     text_.add("  <path class=\"receiver p{}\" fill=\"{}\" d=\"", map_.receiver,
@@ -175,8 +204,8 @@ class SvgFigure {
     const VisibilityMap::Polygon& any = polygons.front();
     double area = 0;
     for (const VisibilityMap::Polygon& polygon : polygons) area += polygon.area;
-    text_.add("    <path class=\"patch p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"", any.patch,
-              any.front_facing ? "front" : "back",
+    text_.add("    <path class=\"{} p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"",
+              in_pixels() ? "patch pixel" : "patch", any.patch, any.front_facing ? "front" : "back",
               look_of(scene_, any) == PatchLook::emits ? " emits" : "", area,
               hex(color_of(scene_, any)));
     add_outlines(polygons);
@@ -270,7 +299,11 @@ class SvgFigure {
     add(PatchLook::emits, "emits", 84);
     add(PatchLook::reflects, "reflects", 102);
     add(PatchLook::back_side, "back side", 112);
-    if (leaves_a_gap()) entry(map_colors::nothing, "nothing above", 0);
+    if (leaves_a_gap()) entry(map_colors::nothing, "nothing above", 132);
+    if (!map_.pixels.differences.empty()) {
+      entry(map_colors::difference,
+            fmt::format("differs ({:.2g} %)", 100 * difference_share(map_)).c_str(), 0);
+    }
   }
 
   TextBuffer text_;

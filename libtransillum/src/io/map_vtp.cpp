@@ -15,11 +15,19 @@ void add_vector(vtkFieldData& fields, const char* name, const Vec3& vector) {
   add_numbers(fields, name, 3, [&](int k) { return xyz[k]; });
 }
 
-void add_polygons(vtkPolyData& mesh, const VisibilityMap& map) {
+/// Differences lie over what a picture in pixels shows.
+std::vector<VisibilityMap::Polygon> all_polygons(const VisibilityMap& map) {
+  std::vector<VisibilityMap::Polygon> all = map.polygons;
+  all.insert(all.end(), map.pixels.differences.begin(), map.pixels.differences.end());
+  return all;
+}
+
+void add_polygons(vtkPolyData& mesh, const VisibilityMap& map,
+                  const std::vector<VisibilityMap::Polygon>& polygons) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
-  for (const VisibilityMap::Polygon& polygon : map.polygons) {
+  for (const VisibilityMap::Polygon& polygon : polygons) {
     const auto outline = map.outline(polygon);
     cells->InsertNextCell(static_cast<int>(outline.size()));
     for (const Vec2& p : outline) cells->InsertCellPoint(points->InsertNextPoint(p.x, p.y, 0));
@@ -32,13 +40,18 @@ void add_polygons(vtkPolyData& mesh, const VisibilityMap& map) {
 
 void write_map_vtp(std::ostream& out, const Scene& scene, const VisibilityMap& map) {
   vtkNew<vtkPolyData> mesh;
-  add_polygons(*mesh, map);
+  const std::vector<VisibilityMap::Polygon> polygons = all_polygons(map);
+  add_polygons(*mesh, map, polygons);
   vtkFieldData& cells = *mesh->GetCellData();
-  const auto count = static_cast<int>(map.polygons.size());
-  const auto at = [&](int k) -> const auto& { return map.polygons[static_cast<std::size_t>(k)]; };
+  const auto count = static_cast<int>(polygons.size());
+  const auto at = [&](int k) -> const auto& { return polygons[static_cast<std::size_t>(k)]; };
   add_integers(cells, "patch", count, [&](int k) { return at(k).patch; });
   add_integers(cells, "front", count, [&](int k) { return at(k).front_facing ? 1 : 0; });
   add_numbers(cells, "area", count, [&](int k) { return at(k).area; });
+  if (map.pixels.side > 0) {
+    const auto drawn = static_cast<int>(map.polygons.size());
+    add_integers(cells, "difference", count, [&](int k) { return k < drawn ? 0 : 1; });
+  }
   mesh->GetCellData()->SetActiveScalars("patch");
 
   vtkFieldData& fields = *mesh->GetFieldData();

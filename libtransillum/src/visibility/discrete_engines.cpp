@@ -2,8 +2,13 @@
 //
 // The engines of section 2: the transillumination plane in pixels, each of which stands for its
 // area wherever its centre is seen.
+#include "visibility/discrete_engines.h"
+
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "transillum/errors.h"
 #include "visibility/counted_transfers.h"
 #include "visibility/engines.h"
 #include "visibility/newell_order.h"
@@ -30,6 +35,22 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
 }
 
 }  // namespace
+
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 const EngineOptions& options, const PixelGrid& grid, const PatchHeights& heights,
+                 PixelBook& book, const Cancellation& cancellation) {
+  switch (engine) {
+    case Engine::zbuffer:
+      return fill_zbuffer(scene, grid, heights, book, cancellation);
+    case Engine::painter:
+      return paint(scene, tree, options.order, grid, heights, book, cancellation);
+    case Engine::rays:
+      return cast_lines(scene, options.seed, grid, heights, book, cancellation);
+    default:
+      throw InputError(
+          fmt::format("engine {} has no pixels: choose zbuffer, painter or rays", name_of(engine)));
+  }
+}
 
 TransferEngine zbuffer_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
   return [scene = std::move(scene), resolution = resolution_of(options)](

@@ -21,6 +21,10 @@ class PieceOutlines {
   const Piece& piece(std::int32_t k) const { return scene_.pieces()[static_cast<std::size_t>(k)]; }
   PatchId patch(std::int32_t k) const { return piece(k).patch; }
   const PixelPoint& point(PointId p) const { return points_[static_cast<std::size_t>(p)]; }
+  template <class Visit>
+  void for_each_corner(std::int32_t k, Visit visit) const {
+    for (const PointId p : scene_.corners(piece(k))) visit(point(p));
+  }
   void add_edges(std::int32_t k, ScanConverter& converter) const {
     const auto corners = scene_.corners(piece(k));
     for (std::size_t n = 0; n < corners.size(); ++n) {
@@ -42,6 +46,12 @@ class FragmentOutlines {
       : tree_(tree), points_(grid.snapped(tree.points())) {}
 
   PatchId patch(FragmentId f) const { return tree_.fragment(f).patch; }
+  template <class Visit>
+  void for_each_corner(FragmentId f, Visit visit) const {
+    for (const BspTree::Corner& corner : tree_.corners(tree_.fragment(f))) {
+      visit(point(corner.point));
+    }
+  }
   void add_edges(FragmentId f, ScanConverter& converter) const {
     const auto corners = tree_.corners(tree_.fragment(f));
     for (std::size_t k = 0; k < corners.size(); ++k) {

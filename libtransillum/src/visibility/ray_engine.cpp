@@ -15,6 +15,7 @@
 #include "transillum/errors.h"
 #include "transillum/visibility_map.h"
 #include "visibility/counted_transfers.h"
+#include "visibility/discrete_engines.h"
 #include "visibility/embree_scene.h"
 #include "visibility/engines.h"
 #include "visibility/pixel_grid.h"
@@ -250,6 +251,13 @@ class RayPass {
 };
 
 }  // namespace
+
+void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
+                const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation) {
+  const EmbreeScene embree(scene);
+  const LineGrid lines(grid, true, key_of(grid.frame().omega, seed));
+  RayPass(scene, embree, lines, true, grid.frame(), heights, book, cancellation).run();
+}
 
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
   if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {

@@ -5,6 +5,7 @@
 #include "visibility/zbuffer.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "visibility/outlines.h"
@@ -12,16 +13,17 @@
 namespace transillum {
 namespace {
 
+template <class Outlines>
 class ZBuffer {
  public:
-  ZBuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights, PixelBook& book,
-          const Cancellation& cancellation)
-      : scene_(scene),
+  ZBuffer(const Outlines& outlines, std::span<const std::int32_t> numbers, const PixelGrid& grid,
+          const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation)
+      : outlines_(outlines),
+        numbers_(numbers),
         grid_(grid),
         heights_(heights),
         book_(book),
         cancellation_(cancellation),
-        pieces_(scene, grid),
         converter_(grid),
         depth_(static_cast<std::size_t>(grid.columns()) + 1) {}
 
@@ -50,24 +52,24 @@ class ZBuffer {
   static constexpr std::int64_t most_spans = 1 << 18;  ///< of a band, unless one row has more
   static constexpr std::int64_t most_hits = 1 << 18;   ///< of a part of a row, unless one pixel has
 
-  Rows rows_of(const Piece& piece) const {
+  Rows rows_of(std::int32_t number) const {
     std::int64_t low = INT64_MAX, high = INT64_MIN;
-    for (const PointId p : scene_.corners(piece)) {
-      low = std::min(low, pieces_.point(p).y);
-      high = std::max(high, pieces_.point(p).y);
-    }
+    outlines_.for_each_corner(number, [&](const PixelPoint& corner) {
+      low = std::min(low, corner.y);
+      high = std::max(high, corner.y);
+    });
     return {std::max(PixelPoint::first_center_from(low), 0),
             std::min(PixelPoint::first_center_from(high), grid_.rows())};
   }
 
-  /// How many pieces reach each row.
+  /// How many outlines reach each row.
   std::vector<std::int64_t> spans_by_row() const {
     std::vector<std::int64_t> count(static_cast<std::size_t>(grid_.rows()) + 1, 0);
     std::size_t done = 0;
-    for (const Piece& piece : scene_.pieces()) {
+    for (const std::int32_t number : numbers_) {
       if (done++ % 1024 == 0) cancellation_.throw_if_cancelled();
-      const Rows rows = rows_of(piece);
-      if (heights_.edge_on(piece.patch) || rows.begin >= rows.end) continue;
+      const Rows rows = rows_of(number);
+      if (heights_.edge_on(outlines_.patch(number)) || rows.begin >= rows.end) continue;
       ++count[static_cast<std::size_t>(rows.begin)];
       --count[static_cast<std::size_t>(rows.end)];
     }
@@ -77,9 +79,10 @@ class ZBuffer {
 
   void fill_band(int begin, int end) {
     spans_.clear();
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(scene_.pieces().size()); ++k) {
-      if (k % 256 == 0) cancellation_.throw_if_cancelled();
-      convert(k, begin, end);
+    std::size_t done = 0;
+    for (const std::int32_t number : numbers_) {
+      if (done++ % 256 == 0) cancellation_.throw_if_cancelled();
+      convert(number, begin, end);
     }
     std::stable_sort(spans_.begin(), spans_.end(),
                      [](const Span& a, const Span& b) { return a.row < b.row; });
@@ -91,11 +94,11 @@ class ZBuffer {
     }
   }
 
-  void convert(std::int32_t piece, int begin, int end) {
-    const PatchId patch = pieces_.patch(piece);
+  void convert(std::int32_t number, int begin, int end) {
+    const PatchId patch = outlines_.patch(number);
     if (heights_.edge_on(patch)) return;
     converter_.begin(begin, end);
-    pieces_.add_edges(piece, converter_);
+    outlines_.add_edges(number, converter_);
     converter_.finish([&](int row, int first, int last) {
       spans_.push_back({row, first, last, patch});
     });
@@ -162,12 +165,12 @@ class ZBuffer {
     }
   }
 
-  const Scene& scene_;
+  const Outlines& outlines_;
+  std::span<const std::int32_t> numbers_;
   const PixelGrid& grid_;
   const PatchHeights& heights_;
   PixelBook& book_;
   const Cancellation& cancellation_;
-  PieceOutlines pieces_;
   ScanConverter converter_;
   std::vector<Span> spans_;            ///< of a band
   std::vector<std::int64_t> depth_;    ///< of a row: patches over each pixel
@@ -181,7 +184,14 @@ class ZBuffer {
 
 void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights,
                   PixelBook& book, const Cancellation& cancellation) {
-  ZBuffer(scene, grid, heights, book, cancellation).fill();
+  std::vector<std::int32_t> all(scene.pieces().size());
+  std::iota(all.begin(), all.end(), 0);
+  ZBuffer(PieceOutlines(scene, grid), all, grid, heights, book, cancellation).fill();
+}
+
+void fill_zbuffer(const BspTree& tree, std::span<const FragmentId> fragments, const PixelGrid& grid,
+                  const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation) {
+  ZBuffer(FragmentOutlines(tree, grid), fragments, grid, heights, book, cancellation).fill();
 }
 
 }  // namespace transillum

@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <span>
+
+#include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "visibility/patch_heights.h"
 #include "visibility/pixel_book.h"
@@ -13,5 +16,9 @@ namespace transillum {
 /// @throws Cancelled
 void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights,
                   PixelBook& book, const Cancellation& cancellation);
+
+/// The same of some fragments of a tree alone.
+void fill_zbuffer(const BspTree& tree, std::span<const FragmentId> fragments, const PixelGrid& grid,
+                  const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation);
 
 }  // namespace transillum

@@ -1,0 +1,22 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include "transillum/engine.h"
+#include "visibility/patch_heights.h"
+#include "visibility/pixel_book.h"
+#include "visibility/pixel_grid.h"
+
+namespace transillum {
+
+/// Tells `book` what engine zbuffer, painter or rays (gridded, a line a pixel) finds in the pixels
+/// of `grid`.
+/// @throws InputError for another engine; Cancelled
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 const EngineOptions& options, const PixelGrid& grid, const PatchHeights& heights,
+                 PixelBook& book, const Cancellation& cancellation);
+
+/// The part of fill_pixels() for engine rays.
+void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
+                const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation);
+
+}  // namespace transillum

@@ -1,0 +1,185 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// What discrete engines show of the plane, and where that is wrong.
+#include "transillum/pixel_map.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <sstream>
+
+#include "support/scenes.h"
+#include "support/temporary_folder.h"
+#include "transillum/errors.h"
+#include "transillum/map_files.h"
+
+namespace transillum {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Sketch;
+using Polygons = std::vector<VisibilityMap::Polygon>;
+
+/// One direction of a scene, exactly and in pixels.
+struct Views {
+  std::shared_ptr<const Scene> scene;
+  PixelMap pixels;
+  VisibilityMap exact, drawn;
+
+  Views(std::shared_ptr<const Scene> of, const Vec3& omega, Engine engine, int resolution,
+        PatchId receiver = no_patch)
+      : scene(std::move(of)) {
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const RecordedDirection direction = record_local_map(*scene, *tree, omega);
+    exact = receiver == no_patch ? map_from_below(direction) : map_of_receiver(direction, receiver);
+    pixels = pixel_map(engine, scene, tree, omega, receiver, {.resolution = resolution});
+    drawn = drawn_in_pixels(*scene, pixels);
+    mark_differences(pixels, exact, drawn);
+  }
+};
+
+double area_of(const Polygons& polygons) {
+  return std::accumulate(polygons.begin(), polygons.end(), 0.0,
+                         [](double sum, const auto& polygon) { return sum + polygon.area; });
+}
+
+/// Whether p lies in a convex outline, not near its edge; nothing where it is near.
+std::optional<bool> holds(std::span<const Vec2> outline, const Vec2& p, double near) {
+  bool inside = true;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) continue;
+    const double side = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
+    if (side < -near) return false;
+    if (side < near) inside = false;
+  }
+  if (inside) return true;
+  return std::nullopt;
+}
+
+struct Found {
+  bool doubtful = false;
+  const VisibilityMap::Polygon* polygon = nullptr;
+};
+
+Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
+  Found found;
+  for (const auto& polygon : polygons) {
+    if (polygon.area < 1e-15) continue;  // may be a point
+    const auto inside = holds(map.outline(polygon), p, 1e-9);
+    found.doubtful = found.doubtful || !inside;
+    if (inside.value_or(false)) found.polygon = &polygon;
+  }
+  return found;
+}
+
+/// Whatever the point: it is marked if, and only if, another patch is seen there than shown.
+void expect_marked_where_wrong(const Views& views) {
+  const PixelMap& pixels = views.pixels;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  int wrong = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double column = pixels.columns * share(random), row = pixels.rows * share(random);
+    const Vec2 p{pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
+    const PatchId shown =
+        pixels.items[pixels.index(static_cast<int>(column), static_cast<int>(row))];
+    const Found truly = find(views.exact, views.exact.polygons, p);
+    const Found marked = find(views.drawn, views.drawn.pixels.differences, p);
+    const Found drawn = find(views.drawn, views.drawn.polygons, p);
+    if (truly.doubtful || marked.doubtful || drawn.doubtful) continue;
+    const PatchId seen = truly.polygon != nullptr ? truly.polygon->patch : no_patch;
+    ASSERT_EQ(drawn.polygon != nullptr ? drawn.polygon->patch : no_patch, shown);
+    ASSERT_EQ(marked.polygon != nullptr, seen != shown) << seen << " " << shown;
+    if (marked.polygon != nullptr) {
+      ASSERT_EQ(marked.polygon->patch, seen);
+      ++wrong;
+    }
+  }
+  EXPECT_GT(wrong, 20);
+}
+
+TEST(PixelMap, MarksWhereItIsWrongAndNowhereElse) {
+  const Vec3 omega = normalized({1, 2, 3});
+  const auto triangles = [] {
+    Sketch sketch;
+    return sketch.triangles(60, 0.8, 3, sketch.material(0.5, 1)).scene();
+  }();
+  for (const Engine engine : {Engine::zbuffer, Engine::painter, Engine::rays}) {
+    SCOPED_TRACE(name_of(engine));
+    expect_marked_where_wrong({triangles, omega, engine, 40});
+    expect_marked_where_wrong({load_scene("cornell-box"), omega, engine, 30, 14});
+  }
+}
+
+TEST(PixelMap, DifferencesFallAsPixelsShrink) {
+  const auto scene = load_scene("cornell-box");
+  const auto share = [&](int resolution) {
+    const Views views(scene, normalized({1, 2, 3}), Engine::zbuffer, resolution, 14);
+    return area_of(views.drawn.pixels.differences) / area_of(views.exact.window);
+  };
+  EXPECT_NEAR(share(64) / share(256), 4, 1);
+}
+
+TEST(PixelMap, PixelsThatFitDoNotDiffer) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {0.5, 1, 1}, {0.5, 0, 1}}, grey);
+  const Views views(sketch.scene(), {0, 0, 1}, Engine::painter, 16, 0);
+  EXPECT_LT(area_of(views.drawn.pixels.differences), 1e-6);  // pixels are rounded up by 2^-24
+  EXPECT_NEAR(area_of(views.drawn.window), 1, 1e-6);
+  ASSERT_EQ(views.drawn.polygons.size(), 1U);  // one rectangle
+  EXPECT_EQ(views.drawn.polygons[0].patch, 1);
+  EXPECT_NEAR(views.drawn.polygons[0].area, 0.5, 1e-6);
+  ASSERT_EQ(views.pixels.exchanges.size(), 1U);
+  EXPECT_NEAR(views.pixels.exchanges[0].area, 0.5, 1e-6);
+}
+
+TEST(PixelMap, ZBufferAndPainterShowTheSame) {
+  const auto scene = load_scene("sphere-flake:levels=1");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  for (const Vec3& omega : testing::test_directions(16, 2)) {
+    const PixelMap a = pixel_map(Engine::zbuffer, scene, tree, omega);
+    EXPECT_EQ(a.items, pixel_map(Engine::painter, scene, tree, omega).items);
+    EXPECT_EQ(std::max(a.columns, a.rows), PixelMap::default_resolution);
+  }
+}
+
+TEST(PixelMap, IsWrittenAndDrawn) {
+  const Views views(load_scene("cornell-box"), normalized({1, 2, 3}), Engine::zbuffer, 32, 14);
+  const test::TemporaryFolder folder;
+  for (const char* name : {"map.svg", "map.png", "map.vtp", "map.json"}) {
+    const auto path = folder.path() / name;
+    write_map(path, *views.scene, views.drawn, {.size = 300});
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (path.extension() == ".png") {
+      EXPECT_THAT(text.str(), HasSubstr("pixels are"));
+    } else {
+      EXPECT_THAT(text.str(), HasSubstr("difference"));
+    }
+  }
+}
+
+TEST(PixelMap, RefusesWhatHasNoPixels) {
+  const auto scene = load_scene("furnace");
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const Vec3 up{0, 0, 1};
+  EXPECT_THROW(pixel_map(Engine::fast, scene, tree, up), InputError);
+  for (const int resolution : {-1, PixelMap::largest_resolution + 1}) {
+    EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {.resolution = resolution}),
+                 InputError);
+  }
+  Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {}, cancellation), Cancelled);
+}
+
+}  // namespace
+}  // namespace transillum

@@ -1,0 +1,75 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "pixel_view.h"
+
+#include <QPolygonF>
+#include <algorithm>
+#include <utility>
+
+#include "theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+double area_of(const std::vector<VisibilityMap::Polygon>& polygons) {
+  double sum = 0;
+  for (const VisibilityMap::Polygon& polygon : polygons) sum += polygon.area;
+  return sum;
+}
+
+QPolygonF polygon_of(const VisibilityMap& map, const VisibilityMap::Polygon& polygon,
+                     const MapTransform& transform) {
+  QPolygonF result;
+  for (const Vec2& p : map.outline(polygon)) result.append(transform.to_pixels(p));
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const PixelView> make_pixel_view(std::shared_ptr<const RecordedMap> map,
+                                                 std::int32_t step, const PixelChoice& choice) {
+  auto view = std::make_shared<PixelView>();
+  const LoadedScene& loaded = *map->loaded;
+  const PixelMap pixels = pixel_map_after(*choice.engine, *loaded.scene, *loaded.tree,
+                                          map->record(), step, choice.resolution);
+  view->drawn = drawn_in_pixels(*loaded.scene, pixels);
+  if (choice.differences) {
+    const VisibilityMap exact = map_after(map->record(), step);
+    mark_differences(pixels, exact, view->drawn);
+    const double shown = std::max(area_of(exact.polygons), area_of(view->drawn.polygons));
+    view->wrong = shown > 0 ? area_of(view->drawn.pixels.differences) / shown : 0;
+  }
+  view->of = std::move(map);
+  view->step = step;
+  view->choice = choice;
+  return view;
+}
+
+void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& transform,
+                 const std::vector<Color8>& patch_colors, const QBrush& back_side) {
+  const VisibilityMap& map = view.drawn;
+  painter.save();
+  // Rectangles that meet are filled without antialiasing: no seams.
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  for (const VisibilityMap::Polygon& polygon : map.polygons) {
+    const Color8& c = patch_colors[static_cast<std::size_t>(polygon.patch)];
+    painter.setBrush(polygon.front_facing ? back_side : QBrush(QColor(c[0], c[1], c[2])));
+    painter.drawPolygon(polygon_of(map, polygon, transform));
+  }
+  painter.setBrush(theme::difference);
+  for (const VisibilityMap::Polygon& polygon : map.pixels.differences) {
+    painter.drawPolygon(polygon_of(map, polygon, transform));
+  }
+  // Thinner where the picture's pixels are as small as lines.
+  const double side = transform.scale * map.pixels.side;
+  painter.setPen(QPen(QColor(0, 0, 0, 130), std::clamp(0.15 * side, 0.3, 1.5)));
+  painter.setRenderHint(QPainter::Antialiasing);
+  const std::vector<Vec2>& ends = map.pixels.borders;
+  for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+    painter.drawLine(transform.to_pixels(ends[k]), transform.to_pixels(ends[k + 1]));
+  }
+  painter.restore();
+}
+
+}  // namespace transillum::viewer

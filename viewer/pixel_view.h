@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QBrush>
+#include <QPainter>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "color_map.h"
+#include "map_painter.h"
+#include "transillum/pixel_map.h"
+
+namespace transillum::viewer {
+
+/// V after a step as a discrete engine shows it, and where that is wrong. Immutable.
+struct PixelView {
+  std::shared_ptr<const RecordedMap> of;
+  std::int32_t step = 0;
+  PixelChoice choice;
+  VisibilityMap drawn;
+  double wrong = 0;  ///< share of what V or the pixels show; 0 where it was not asked for
+
+  bool shows(const RecordedMap& map, std::int32_t after, const PixelChoice& by) const {
+    return of.get() == &map && step == after && choice == by;
+  }
+};
+/// @param choice names an engine. Any thread.
+std::shared_ptr<const PixelView> make_pixel_view(std::shared_ptr<const RecordedMap> map,
+                                                 std::int32_t step, const PixelChoice& choice);
+
+/// Fills pixels in their patch's colour, backs with `back_side`; coordinates by `transform`.
+void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& transform,
+                 const std::vector<Color8>& patch_colors, const QBrush& back_side);
+
+}  // namespace transillum::viewer
