@@ -168,7 +168,8 @@ void MapView::show_moment() {
 
 void MapView::show_title() {
   const auto map = focus_.map();
-  for (QAbstractButton* button : phases_->buttons()) button->setEnabled(map != nullptr);
+  for (QAbstractButton* button : phases_->buttons())
+    button->setEnabled(map && !pixels_->choice().engine);
   near_->setEnabled(map != nullptr);
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
   if (!map) {
@@ -200,12 +201,13 @@ void MapView::show_title() {
 
 QString MapView::pixel_text() const {
   const PixelView& view = *canvas_->pixels();
-  const QString text =
-      tr("V after %1 of %2 polygons, in pixels of %3 m")
-          .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()),
-               number_text(view.drawn.pixels.side));
-  if (!view.choice.differences) return text;
-  return text + tr(": %1 % differ").arg(number_text(100 * view.wrong));
+  const QString after =
+      tr("V after %1 of %2 polygons")
+          .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
+  if (!view.choice.differences) {
+    return after + tr(", pixels of %1 m").arg(number_text(view.drawn.pixels.side));
+  }
+  return after + tr(": %1 % of it differ").arg(100 * view.wrong, 0, 'g', 2);
 }
 
 }  // namespace transillum::viewer

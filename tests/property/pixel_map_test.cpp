@@ -52,7 +52,7 @@ std::optional<bool> holds(std::span<const Vec2> outline, const Vec2& p, double n
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (!(length > 0)) continue;
+    if (length < 1e-12) continue;  // its line is noise
     const double side = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
     if (side < -near) return false;
     if (side < near) inside = false;
@@ -83,7 +83,7 @@ void expect_marked_where_wrong(const Views& views) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   int wrong = 0;
-  for (int k = 0; k < 3000; ++k) {
+  for (int k = 0; k < 1500; ++k) {
     const double column = pixels.columns * share(random), row = pixels.rows * share(random);
     const Vec2 p{pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
     const PatchId shown =
@@ -100,7 +100,7 @@ void expect_marked_where_wrong(const Views& views) {
       ++wrong;
     }
   }
-  EXPECT_GT(wrong, 20);
+  EXPECT_GT(wrong, 10);
 }
 
 TEST(PixelMap, MarksWhereItIsWrongAndNowhereElse) {

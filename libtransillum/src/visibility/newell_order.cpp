@@ -23,8 +23,8 @@ class NewellOrder {
         outlines_(outlines),
         heights_(heights),
         cancellation_(cancellation),
-        index_({-1, -1, static_cast<double>(grid.columns() * PixelPoint::one) + 1,
-                static_cast<double>(grid.rows() * PixelPoint::one) + 1},
+        index_({-1, -1, static_cast<double>(grid.columns() * grid.one()) + 1,
+                static_cast<double>(grid.rows() * grid.one()) + 1},
                scene.pieces().size()) {
     for (const Vec3& p : scene.points()) {
       const Vec3 from_origin = p - grid.frame().origin;

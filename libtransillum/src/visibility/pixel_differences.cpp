@@ -149,7 +149,7 @@ class Differences {
         const Vec2 along{to.x - x0 - a.x, to.y - y0 - a.y};
         box.add({a.x, a.y});
         const double length = std::hypot(along.x, along.y);
-        if (!(length > 0)) continue;
+        if (length < 1e-9 * side) continue;  // nearly a corner; its line would be noise
         const double u = -along.y / length, v = along.x / length;
         sides_.push_back({u, v, -(u * a.x + v * a.y)});
       }

@@ -30,6 +30,7 @@ PlaneWindow plane_window(const Scene& scene, const PlaneFrame& frame) {
 
 PixelGrid::PixelGrid(const Scene& scene, const Vec3& omega, int resolution)
     : frame_(plane_frame(scene, omega)) {
+  while (std::int64_t{resolution} << (bits_ + 1) <= 1 << 30) ++bits_;
   const PlaneWindow window = plane_window(scene, frame_);
   const Vec2 size = window.size();
   const double wanted = std::max(size.x, size.y) / resolution;
@@ -49,7 +50,7 @@ PixelGrid::PixelGrid(const Scene& scene, const Vec3& omega, int resolution)
 PixelPoint PixelGrid::snapped(const Vec3& p) const {
   const Vec2 at = frame_.project(p);
   const auto steps = [this](double length) {
-    return static_cast<std::int64_t>(std::llround(length / side_ * PixelPoint::one));
+    return static_cast<std::int64_t>(std::llround(std::ldexp(length / side_, bits_)));
   };
   return {steps(at.x - corner_.x), steps(at.y - corner_.y)};
 }

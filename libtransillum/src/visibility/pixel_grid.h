@@ -8,20 +8,11 @@
 
 namespace transillum {
 
-/// A point of the plane in steps of 1/65536 pixel from the window's corner. Determinants of such
+/// A point of the plane in steps of a PixelGrid from its window's corner. Determinants of such
 /// points fit 64 bits, so what lies on which side of an edge is exact; and points that are one in
 /// space are one here.
 struct PixelPoint {
-  static constexpr int bits = 16;
-  static constexpr std::int64_t one = std::int64_t{1} << bits;  ///< pixel
-
   std::int64_t x = 0, y = 0;
-
-  /// The first pixel whose centre is at `at` or beyond, along either axis.
-  static int first_center_from(std::int64_t at) {
-    return static_cast<int>((at + one / 2 - 1) >> bits);
-  }
-  static std::int64_t center(int pixel) { return pixel * one + one / 2; }
 };
 
 /// The box round all patches of a scene on a plane.
@@ -45,8 +36,16 @@ class PixelGrid {
   double side() const { return side_; }
   /// Of a pixel, m²: of so few digits that whole multiples and their sums are exact.
   double area() const { return area_; }
+  /// A pixel is 2^bits() steps wide, as many as coordinates below 2^30 allow.
+  int bits() const { return bits_; }
+  std::int64_t one() const { return std::int64_t{1} << bits_; }
+  /// The first pixel whose centre is at `at` or beyond, along either axis; and a pixel's centre.
+  int first_center_from(std::int64_t at) const {
+    return static_cast<int>((at + one() / 2 - 1) >> bits_);
+  }
+  std::int64_t center_of(int pixel) const { return pixel * one() + one() / 2; }
   /// How far snapped points may be from where they were, metres.
-  double snapping() const { return side_ / PixelPoint::one; }
+  double snapping() const { return side_ / static_cast<double>(one()); }
   /// The corner of pixel 0, 0.
   const Vec2& corner() const { return corner_; }
   Vec2 center(int column, int row) const {
@@ -58,7 +57,7 @@ class PixelGrid {
  private:
   PlaneFrame frame_;
   Vec2 corner_{};
-  int columns_ = 1, rows_ = 1;
+  int columns_ = 1, rows_ = 1, bits_ = 1;
   double side_ = 1, area_ = 1;
 };
 

@@ -17,12 +17,13 @@ namespace transillum {
 /// cut from another still meets its neighbours.
 class ScanConverter {
  public:
-  explicit ScanConverter(const PixelGrid& grid) : columns_(grid.columns()), rows_(grid.rows()) {}
+  /// Keeps a reference.
+  explicit ScanConverter(const PixelGrid& grid) : grid_(grid) {}
 
   /// Starts a polygon of which only rows from `first` up to `end` are wanted.
   void begin(int first, int end) {
     first_ = std::max(first, 0);
-    end_ = std::min(end, rows_);
+    end_ = std::min(end, grid_.rows());
     low_ = end_;
     high_ = first_;
     const auto count = static_cast<std::size_t>(std::max(end_ - first_, 0));
@@ -37,14 +38,14 @@ class ScanConverter {
       a = from;
       b = to;
     }
-    const int begin = std::max(PixelPoint::first_center_from(from.y), first_);
-    const int end = std::min(PixelPoint::first_center_from(to.y), end_);
+    const int begin = std::max(grid_.first_center_from(from.y), first_);
+    const int end = std::min(grid_.first_center_from(to.y), end_);
     if (begin >= end) return;
     low_ = std::min(low_, begin);
     high_ = std::max(high_, end);
     for (int row = begin; row < end; ++row) {
       Span& span = spans_[static_cast<std::size_t>(row - first_)];
-      const int column = first_column(a, b, PixelPoint::center(row));
+      const int column = first_column(a, b, grid_.center_of(row));
       span.begin = std::min(span.begin, column);
       span.end = std::max(span.end, column);
     }
@@ -70,14 +71,14 @@ class ScanConverter {
   int first_column(const PixelPoint& a, const PixelPoint& b, std::int64_t y) const {
     // (x - one/2) / one, rounded up, where x = a.x + (y - a.y) (b.x - a.x) / (b.y - a.y).
     const std::int64_t height = b.y - a.y;
-    const std::int64_t above = (a.x - PixelPoint::one / 2) * height + (y - a.y) * (b.x - a.x);
-    const std::int64_t below = height << PixelPoint::bits;
+    const std::int64_t above = (a.x - grid_.one() / 2) * height + (y - a.y) * (b.x - a.x);
+    const std::int64_t below = height << grid_.bits();
     const std::int64_t quotient = above / below;
     const std::int64_t column = quotient + (above > quotient * below ? 1 : 0);
-    return static_cast<int>(std::clamp<std::int64_t>(column, 0, columns_));
+    return static_cast<int>(std::clamp<std::int64_t>(column, 0, grid_.columns()));
   }
 
-  int columns_, rows_;
+  const PixelGrid& grid_;
   int first_ = 0, end_ = 0, low_ = 0, high_ = 0;
   std::vector<Span> spans_;  ///< of rows from first_; `nothing` between polygons
 };

@@ -58,8 +58,8 @@ class ZBuffer {
       low = std::min(low, corner.y);
       high = std::max(high, corner.y);
     });
-    return {std::max(PixelPoint::first_center_from(low), 0),
-            std::min(PixelPoint::first_center_from(high), grid_.rows())};
+    return {std::max(grid_.first_center_from(low), 0),
+            std::min(grid_.first_center_from(high), grid_.rows())};
   }
 
   /// How many outlines reach each row.
