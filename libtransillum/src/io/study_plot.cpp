@@ -32,10 +32,11 @@ const std::vector<double>& dashes_of(std::size_t variant) {
   return patterns[variant % patterns.size()];
 }
 
-/// Marker and colour by sampling, dashes by what else sets series apart; by that alone where there
-/// is but one sampling.
+/// Marker and colour by sampling, or by engine where there is but one sampling; dashes by what else
+/// sets series apart, and colours too where there is nothing else.
 std::vector<PlotStyle> styles_of(const std::vector<StudySeries>& series) {
   std::vector<Sampling> samplings;
+  std::vector<Engine> engines;
   std::vector<StudySeries> variants;
   const auto index_of = [](auto& list, const auto& value) {
     const auto found = std::find(list.begin(), list.end(), value);
@@ -53,11 +54,16 @@ std::vector<PlotStyle> styles_of(const std::vector<StudySeries>& series) {
       if (s.two_way == two_way) index_of(variants, variant_of(s));
     }
   }
-  for (const StudySeries& s : series) index_of(samplings, s.sampling);
+  for (const StudySeries& s : series) {
+    index_of(samplings, s.sampling);
+    index_of(engines, s.engine);
+  }
   std::vector<PlotStyle> styles;
   for (const StudySeries& s : series) {
     const std::size_t variant = index_of(variants, variant_of(s));
-    const std::size_t kind = samplings.size() > 1 ? index_of(samplings, s.sampling) : variant;
+    const std::size_t kind = samplings.size() > 1 ? index_of(samplings, s.sampling)
+                             : engines.size() > 1 ? index_of(engines, s.engine)
+                                                  : variant;
     styles.push_back({palette[kind % palette.size()], static_cast<Marker>(kind % marker_count),
                       dashes_of(variant), variant % 2 == 0});
   }

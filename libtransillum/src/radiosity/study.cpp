@@ -42,6 +42,11 @@ std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& val
   return dark;
 }
 
+/// `zbuffer:256`, or `fast`.
+std::string engine_text(Engine engine, int resolution) {
+  return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
+}
+
 /// All passes of a solve that keeps its form factors.
 std::int64_t passes_of(const SolveOptions& options) {
   return std::int64_t{options.directions} *
@@ -230,15 +235,17 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
              [](Normalization n) { return name_of(n); });
   tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
   tell_apart([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
-             [](const std::pair<Engine, int>& how) {
-               const auto& [engine, resolution] = how;
-               return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution)
-                                     : name_of(engine);
-             });
+             [](const auto& how) { return engine_text(how.first, how.second); });
   tell_apart([](const StudySeries& s) { return s.first_shot; },
              [](const std::optional<double>& ratio) {
                return ratio ? fmt::format("first-shot {:g}", *ratio) : std::string("no-shot");
              });
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    // Nothing of the above makes a difference to them.
+    if (!takes_directions(series[k].engine)) {
+      names[k] = engine_text(series[k].engine, series[k].resolution);
+    }
+  }
   return names;
 }
 
