@@ -89,6 +89,9 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   });
   connect(list_, &QListWidget::currentRowChanged, this, &BreakpointPanel::show_state);
   connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
+  list_->setContextMenuPolicy(Qt::CustomContextMenu);
+  list_->setToolTip(tr("Right button: run to where this one holds, switched on or not"));
+  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::offer_runs);
   connect(&breakpoints_, &Breakpoints::changed, this, &BreakpointPanel::show_list);
   connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
@@ -142,6 +145,22 @@ QWidget* BreakpointPanel::make_new_row() {
 void BreakpointPanel::add_to(QMenu& menu) const {
   menu.addAction(run_on_);
   menu.addAction(run_back_);
+}
+
+void BreakpointPanel::offer_runs(const QPoint& position) {
+  const int row = list_->indexAt(position).row();
+  if (row < 0 || !focus_.map()) return;
+  const StepFinder finder =
+      find_where([b = breakpoints_.list()[static_cast<std::size_t>(row)]](
+                     const MapHistory& history, std::int32_t k) { return holds(b, history, k); });
+  auto* menu = new QMenu(this);
+  menu->setObjectName("breakpoint_menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(tr("Run back to the last time this was true"), this,
+                  [this, finder] { focus_.seek(finder, Way::backward); });
+  menu->addAction(tr("Run to the next time this is true"), this,
+                  [this, finder] { focus_.seek(finder, Way::forward); });
+  menu->popup(list_->viewport()->mapToGlobal(position));
 }
 
 void BreakpointPanel::show_inputs() {

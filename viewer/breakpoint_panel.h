@@ -31,6 +31,7 @@ class BreakpointPanel : public QWidget {
  private:
   QWidget* make_new_row();
   void show_list();
+  void offer_runs(const QPoint& position);
   void show_inputs();
   void show_state();
   void add_new();

@@ -2,6 +2,7 @@
 // Stepping through visibility maps with the pointer and the keys.
 #include <QComboBox>
 #include <QListWidget>
+#include <QMenu>
 #include <QMouseEvent>
 #include <QSpinBox>
 #include <QTableView>
@@ -262,6 +263,18 @@ class SteppingTest : public QObject {
     auto* list = s.window->findChild<QListWidget*>("breakpoint_list");
     list->item(0)->setCheckState(Qt::Unchecked);
     QVERIFY(!s.window->findChild<QAction*>("run_on")->isEnabled());
+    // One by one, switched off or not.
+    const QPoint item = list->visualItemRect(list->item(0)).center();
+    for (const int action : {1, 0}) {
+      emit list->customContextMenuRequested(item);
+      auto* menu = s.window->findChild<QMenu*>("breakpoint_menu");
+      QVERIFY(menu != nullptr);
+      menu->actions()[action]->trigger();
+      menu->close();
+      QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+      QVERIFY(s.focus.moment() == stops[action == 1 ? 1 : 0]);
+      QVERIFY(wait_for([&] { return !s.window->findChild<QMenu*>("breakpoint_menu"); }));
+    }
     list->setCurrentRow(0);
     s.window->findChild<QToolButton*>("remove_breakpoint")->click();
     QCOMPARE(list->count(), 0);
