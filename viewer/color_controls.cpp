@@ -18,7 +18,6 @@
 
 #include "scale_menu.h"
 #include "show_menu.h"
-#include "theme.h"
 
 namespace transillum::viewer {
 
@@ -60,9 +59,6 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   pages_->addWidget(make_map_page());
   pages_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
   show_ = new ShowMenu;
-  auto* reset = new QToolButton;
-  reset->setIcon(theme::icon(theme::Icon::frame));
-  reset->setToolTip(tr("Look at the scene as at first (Home)"));
 
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 5, 10, 5);
@@ -74,7 +70,6 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   layout->addWidget(pages_);
   layout->addStretch(1);
   layout->addWidget(show_);
-  layout->addWidget(reset);
 
   connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
     colors_.set_quantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
@@ -83,12 +78,19 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
           [this](int index) { colors_.set_mode(static_cast<ColorMode>(index)); });
   connect(show_->direction(), &QAction::toggled, this, &ColorControls::direction_toggled);
   connect(show_->outlines(), &QAction::toggled, this, &ColorControls::outlines_toggled);
-  connect(reset, &QToolButton::clicked, this, &ColorControls::reset_view_clicked);
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
   show_choice();
+  measure();
+}
 
-  roomy_width_ = layout->minimumSize().width();
+void ColorControls::add_tool(QWidget* tool) {
+  layout()->addWidget(tool);
+  measure();
+}
+
+void ColorControls::measure() {
+  roomy_width_ = layout()->minimumSize().width();
   int narrowest = roomy_width_;
   for (const QWidget* widget : spare_)
     narrowest -= std::max(widget->minimumSizeHint().width(), widget->minimumWidth()) + spacing;

@@ -29,11 +29,13 @@ class ColorControls : public QWidget {
   bool direction() const;
   void set_outlines(bool shown);
   bool outlines() const;
+  ShowMenu* show_menu() const { return show_; }
+  /// Puts a tool at the right end.
+  void add_tool(QWidget* tool);
 
  signals:
   void direction_toggled(bool shown);
   void outlines_toggled(bool shown);
-  void reset_view_clicked();
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -42,6 +44,7 @@ class ColorControls : public QWidget {
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
+  void measure();
   void show_choice();
 
   ColorChoice& colors_;

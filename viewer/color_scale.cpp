@@ -46,6 +46,10 @@ double round_step(double width, int count) {
 
 }  // namespace
 
+double luminance(const Rgb& value) {
+  return 0.2126 * value.r + 0.7152 * value.g + 0.0722 * value.b;
+}
+
 double ColorScale::value(const Rgb& b) const {
   switch (mode) {
     case ColorMode::red:
@@ -58,7 +62,7 @@ double ColorScale::value(const Rgb& b) const {
     case ColorMode::luminance:
       break;
   }
-  return 0.2126 * b.r + 0.7152 * b.g + 0.0722 * b.b;
+  return luminance(b);
 }
 
 double ColorScale::position(double v) const {

@@ -13,6 +13,9 @@ namespace transillum::viewer {
 /// What of red, green and blue is shown.
 enum class ColorMode { true_color, luminance, red, green, blue };
 
+/// Rec. 709.
+double luminance(const Rgb& value);
+
 /// The way from a quantity of patches (radiosity, W/m², if nothing else is said) to the screen, the
 /// same in every view.
 class ColorScale {
@@ -30,7 +33,7 @@ class ColorScale {
   /// The colours of many patches at once.
   void color(std::span<const Rgb> radiosity, std::vector<Color8>& colors) const;
 
-  /// The shown value: luminance (Rec. 709) or one channel; luminance in true colour.
+  /// The shown value: luminance or one channel; luminance in true colour.
   double value(const Rgb& radiosity) const;
   /// Where `value` lies between low and high, not clamped.
   double position(double value) const;

@@ -36,33 +36,43 @@ const Pose& pose_of(const Scene& scene) {
 
 }  // namespace
 
-ViewPoint initial_view(const Scene& scene, double aspect) {
-  const Pose& pose = pose_of(scene);
+ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up, double view_angle,
+                      double aspect) {
   ViewPoint view;
-  view.up = pose.up;
-  view.view_angle = pose.view_angle;
+  view.up = up;
+  view.view_angle = view_angle;
   view.target = scene.bounds().center();
-  view.radius = std::max(0.5 * pose.radius_share * scene.bounds().diagonal(), 1e-9);
+  view.radius = std::max(0.5 * scene.bounds().diagonal(), 1e-9);
 
-  // Far enough for every corner of what matters to be within the picture, and no farther.
-  const Vec3 back = normalized(pose.toward_eye);
-  const Vec3 right = normalized(cross(pose.up, back));
-  const Vec3 up = cross(back, right);
-  const double tan_vertical = std::tan(view.view_angle / 2 * std::numbers::pi / 180);
+  // Far enough for every corner to be within the picture, and no farther.
+  const Vec3 back = normalized(toward_eye);
+  const Vec3 right = normalized(cross(up, back));
+  const Vec3 above = cross(back, right);
+  const double tan_vertical = std::tan(view_angle / 2 * std::numbers::pi / 180);
   const double tan_horizontal = tan_vertical * aspect;
   constexpr double margin = 1.06;
   double distance = 0;
-  if (pose.radius_share < 1) {
-    distance = view.radius / std::sin(std::atan(std::min(tan_vertical, tan_horizontal)));
-  } else {
-    for (const Vec3& p : scene.points()) {
-      const Vec3 q = p - view.target;
-      const double needed =
-          std::max(std::abs(dot(q, right)) / tan_horizontal, std::abs(dot(q, up)) / tan_vertical);
-      distance = std::max(distance, dot(q, back) + margin * needed);
-    }
+  for (const Vec3& p : scene.points()) {
+    const Vec3 q = p - view.target;
+    const double needed =
+        std::max(std::abs(dot(q, right)) / tan_horizontal, std::abs(dot(q, above)) / tan_vertical);
+    distance = std::max(distance, dot(q, back) + margin * needed);
   }
   view.eye = view.target + distance * back;
+  return view;
+}
+
+ViewPoint initial_view(const Scene& scene, double aspect) {
+  const Pose& pose = pose_of(scene);
+  ViewPoint view = view_of_all(scene, pose.toward_eye, pose.up, pose.view_angle, aspect);
+  if (pose.radius_share < 1) {
+    // What matters is small in its enclosure: far enough for a sphere round that.
+    view.radius *= pose.radius_share;
+    const double tangent =
+        std::tan(view.view_angle / 2 * std::numbers::pi / 180) * std::min(1.0, aspect);
+    view.eye =
+        view.target + view.radius / std::sin(std::atan(tangent)) * normalized(pose.toward_eye);
+  }
   return view;
 }
 

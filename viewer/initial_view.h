@@ -16,4 +16,8 @@ struct ViewPoint {
 /// not drawn, so a closed room is looked into from outside, through its nearest wall.
 ViewPoint initial_view(const Scene& scene, double aspect);
 
+/// All of `scene`, with the eye from its middle toward `toward_eye`.
+ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up, double view_angle,
+                      double aspect);
+
 }  // namespace transillum::viewer

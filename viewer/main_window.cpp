@@ -24,6 +24,7 @@
 #include "convergence_view.h"
 #include "direction_view.h"
 #include "help_dialogs.h"
+#include "inspection.h"
 #include "lesson_panel.h"
 #include "map_view.h"
 #include "number_text.h"
@@ -50,7 +51,7 @@ namespace transillum::viewer {
 namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 5;
+constexpr int layout_version = 6;
 
 constexpr PatchId few_patches = 64;
 
@@ -72,6 +73,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   step_actions_ = new StepActions(focus_, selection_, this);
   study_ =
       new StudyDialog(remember ? ReferenceCache::default_folder() : std::filesystem::path(), this);
+  inspection_ = new Inspection(selection_, colors_, session_, this);
   make_center();
   make_docks();
   make_menus();
@@ -120,8 +122,10 @@ void MainWindow::make_docks() {
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
   docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
+  inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 480}, {inspect, right, 450}, {debug, right, 480}});
+  inspection_->add_tables_to(docks_);
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
              {{teach, right, 360}, {debug, left, 560}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
@@ -156,6 +160,8 @@ void MainWindow::make_menus() {
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 
+  inspection_->add_to(*menuBar());
+
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
   actions_->add_to(*solve);
   solve->addSeparator();
@@ -176,8 +182,7 @@ void MainWindow::make_menus() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   docks_.add_to(*view);
   view->addSeparator();
-  view->addAction(tr("Reset view"), scene_view_, &SceneView::reset_view,
-                  QKeySequence(Qt::Key_Home));
+  view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
   view->addAction(
@@ -220,8 +225,8 @@ void MainWindow::connect_session() {
     show_failure(message);
     emit failed(message, bad_input);
   });
-  connect(&colors_, &ColorChoice::form_factors_wanted, &session_,
-          &SolverSession::want_form_factors);
+  connect(inspection_, &Inspection::light_changed, this, &MainWindow::show_snapshot);
+  connect(inspection_, &Inspection::failed, this, &MainWindow::show_failure);
   connect(&focus_feed_, &FocusFeed::failed, this, &MainWindow::show_failure);
 
   connect(actions_, &SolveActions::run, this, &MainWindow::run);
@@ -339,6 +344,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   scene_options_ = asked_scene_options_;
   selection_.select(no_patch);
   focus_feed_.clear();
+  inspection_->show_scene(*loaded_);
   map_view_->clear();
   direction_view_->clear();
   received_view_->clear();
@@ -369,7 +375,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   if (snapshot->loaded != loaded_) return;
   QElapsedTimer timer;
   timer.start();
-  snapshot_ = std::move(snapshot);
+  snapshot_ = inspection_->lit(std::move(snapshot));
   settings_->set_in_effect(snapshot_->options, scene_options_);
   study_->set_solve(snapshot_->options);
   colors_.fit(snapshot_);
@@ -379,6 +385,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   direction_view_->show_snapshot(snapshot_);
   received_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
+  inspection_->show_snapshot(snapshot_);
   algorithm_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
@@ -400,7 +407,7 @@ void MainWindow::show_state(SessionState state) {
 bool MainWindow::settled() const {
   const bool resting =
       session_.state() == SessionState::paused || session_.state() == SessionState::finished;
-  return resting && snapshot_ && stage_->arrived() &&
+  return resting && snapshot_ && stage_->arrived() && inspection_->up_to_date() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 

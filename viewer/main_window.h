@@ -24,6 +24,7 @@ class AlgorithmView;
 class BreakpointPanel;
 class ConvergenceView;
 class DirectionView;
+class Inspection;
 class LessonPanel;
 class MapView;
 class PatchInspector;
@@ -73,6 +74,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   DockLayouts& docks() { return docks_; }
   ScenePage* page() const { return page_; }
+  Inspection& inspection() { return *inspection_; }
   MapView* map_view() const { return map_view_; }
   Stage& stage() { return *stage_; }
   QString banner_text() const;
@@ -119,6 +121,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const SolverSnapshot> snapshot_;
 
   Stage* stage_ = nullptr;
+  Inspection* inspection_;
   SolveActions* actions_;
   StepActions* step_actions_;
   ScenePage* page_;

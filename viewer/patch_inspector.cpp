@@ -68,8 +68,8 @@ void PatchInspector::show_patch() {
   area_->setText(number_text(p.area));
   center_->setText(vector_text(p.center));
   normal_->setText(vector_text(p.normal));
-  exitance_->setText(rgb_text(scene.exitance(patch)));
-  reflectance_->setText(rgb_text(scene.reflectance(patch)));
+  exitance_->setText(rgb_text(material_of(*snapshot_, patch).exitance));
+  reflectance_->setText(rgb_text(material_of(*snapshot_, patch).reflectance));
   radiosity_->setText(rgb_text(snapshot_->radiosity[index]));
   form_factor_sum_->setText(QString::number(snapshot_->form_factor_sums[index], 'f', 6));
   const Color8 c = colors_.patch_colors()[index];

@@ -22,10 +22,11 @@ std::vector<Rgb> grays(const std::vector<double>& values) {
   return result;
 }
 
-std::vector<Rgb> of_materials(const Scene& scene, Rgb Material::*member) {
+std::vector<Rgb> of_materials(const SolverSnapshot& snapshot, Rgb Material::*member) {
   std::vector<Rgb> values;
-  values.reserve(scene.patches().size());
-  for (PatchId i = 0; i < scene.patch_count(); ++i) values.push_back(scene.material(i).*member);
+  values.reserve(snapshot.radiosity.size());
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i)
+    values.push_back(material_of(snapshot, i).*member);
   return values;
 }
 
@@ -126,12 +127,11 @@ std::vector<int> fragment_counts(const LoadedScene& loaded) {
 
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
                       const SolverSnapshot* other) {
-  const Scene& scene = *snapshot.loaded->scene;
   switch (quantity) {
     case Quantity::exitance:
-      return {of_materials(scene, &Material::exitance), {}};
+      return {of_materials(snapshot, &Material::exitance), {}};
     case Quantity::reflectance:
-      return {of_materials(scene, &Material::reflectance), {}};
+      return {of_materials(snapshot, &Material::reflectance), {}};
     case Quantity::irradiance:
       if (snapshot.progress.iteration == 0)
         return {{}, tr("There is an irradiance when the first iteration is done.")};

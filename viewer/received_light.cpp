@@ -3,10 +3,6 @@
 
 namespace transillum::viewer {
 
-double luminance(const Rgb& color) {
-  return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
-}
-
 std::vector<ReceivedLight> received_light(const DirectionSights::Request& asked,
                                           std::span<const DirectionSights::Sights> sights,
                                           const std::vector<Rgb>& radiosity, int passes) {

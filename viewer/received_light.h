@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "color_scale.h"
 #include "direction_sights.h"
 
 namespace transillum::viewer {
@@ -19,9 +20,6 @@ struct ReceivedLight {
 
   friend bool operator==(const ReceivedLight&, const ReceivedLight&) = default;
 };
-
-/// Of a colour, Rec. 709.
-double luminance(const Rgb& color);
 
 /// One for each direction of `sights`, in their order, both ways where the run goes both.
 /// @param radiosity B(n), W/m², one a patch

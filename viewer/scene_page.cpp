@@ -10,6 +10,7 @@
 #include "color_bar.h"
 #include "color_controls.h"
 #include "scene_view.h"
+#include "show_menu.h"
 #include "theme.h"
 #include "welcome_page.h"
 
@@ -28,7 +29,12 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
           &SceneView::set_direction_shown);
   connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
           &SceneView::set_outlines_shown);
-  connect(color_controls_, &ColorControls::reset_view_clicked, scene_view_, &SceneView::reset_view);
+  const ShowMenu* show = color_controls_->show_menu();
+  connect(show, &ShowMenu::overlay_toggled, scene_view_, &SceneView::set_overlay_shown);
+  connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);
+  connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
+  camera_ = new CameraMenu(*scene_view_, bookmarks_);
+  color_controls_->add_tool(camera_);
 
   note_ = new QLabel;
   note_->setObjectName("color_note");
@@ -41,8 +47,10 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   note_->setPalette(dark);
   note_->setAutoFillBackground(true);
   const auto show_note = [this, &colors] {
-    note_->setText(colors.missing());
-    note_->setVisible(!colors.missing().isEmpty());
+    const QString note =
+        colors.shows_kept_run() ? tr("A, the kept run, while the key is down") : colors.missing();
+    note_->setText(note);
+    note_->setVisible(!note.isEmpty());
   };
   connect(&colors, &ColorChoice::changed, note_, show_note);
   connect(&colors, &ColorChoice::fitted, note_, show_note);

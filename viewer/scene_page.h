@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "camera_menu.h"
 #include "color_choice.h"
 #include "focus.h"
 #include "selection.h"
@@ -27,6 +28,8 @@ class ScenePage : public QWidget {
   Banner* banner() const { return banner_; }
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
+  QMenu* camera_menu() const { return camera_->menu(); }
+  CameraBookmarks& bookmarks() { return bookmarks_; }
   /// Puts the scene where there were scenes to choose from.
   void show_scene();
 
@@ -35,6 +38,8 @@ class ScenePage : public QWidget {
   void built_in_clicked(const QString& name);
 
  private:
+  CameraBookmarks bookmarks_;
+  CameraMenu* camera_;
   Banner* banner_;
   QLabel* note_;  ///< why there are no colours
   QStackedWidget* pages_;

@@ -74,7 +74,6 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   canvas_->interactor()->SetInteractorStyle(style);
 
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetScalarModeToUseCellData();
   mapper->SetColorModeToDirectScalars();
   surface_ = vtkSmartPointer<vtkActor>::New();
   surface_->SetMapper(mapper);
@@ -87,6 +86,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   outline_ = line_actor(*renderer_, theme::selection);
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
+  overlays_ = std::make_unique<SceneOverlays>(*renderer_);
 
   canvas_->installEventFilter(this);
   connect(&selection_, &Selection::changed, this, [this] {
@@ -112,11 +112,13 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
-  vtkPolyDataMapper::SafeDownCast(surface_->GetMapper())->SetInputData(mesh_->surface());
+  smooth_mesh_ = nullptr;
+  show_surface();
   surface_->VisibilityOn();
   glyph_->hide();
   show_selection();
   reset_view();
+  overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
 }
 
 void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -138,6 +140,40 @@ void SceneView::set_outlines_shown(bool shown) {
   render();
 }
 
+void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
+  overlays_->set_shown(kind, shown);
+  render();
+}
+
+void SceneView::set_wireframe(bool wireframe) {
+  if (wireframe)
+    surface_->GetProperty()->SetRepresentationToWireframe();
+  else
+    surface_->GetProperty()->SetRepresentationToSurface();
+  render();
+}
+
+void SceneView::set_smooth_shading(bool smooth) {
+  smooth_shading_ = smooth;
+  if (!loaded_) return;
+  show_surface();
+  recolor();
+  render();
+}
+
+void SceneView::show_surface() {
+  if (smooth_shading_ && !smooth_mesh_)
+    smooth_mesh_ = std::make_unique<SmoothMesh>(*loaded_->scene);
+  auto* mapper = vtkPolyDataMapper::SafeDownCast(surface_->GetMapper());
+  if (smooth_shading_) {
+    mapper->SetScalarModeToUsePointData();
+    mapper->SetInputData(smooth_mesh_->surface());
+  } else {
+    mapper->SetScalarModeToUseCellData();
+    mapper->SetInputData(mesh_->surface());
+  }
+}
+
 void SceneView::set_smooth(bool smooth) {
   if (smooth == smooth_) return;
   smooth_ = smooth;
@@ -146,11 +182,28 @@ void SceneView::set_smooth(bool smooth) {
 
 void SceneView::reset_view() {
   if (!loaded_) return;
-  const double aspect = static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
-  const ViewPoint view = initial_view(*loaded_->scene, aspect);
+  const ViewPoint view = initial_view(*loaded_->scene, aspect());
   focus_point_ = view.target;
   radius_ = view.radius;
   place_camera(view);
+}
+
+double SceneView::aspect() const {
+  return static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
+}
+
+void SceneView::look_at_all() {
+  if (loaded_) place_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
+}
+
+void SceneView::look_at_selected() {
+  const PatchId patch = selection_.patch();
+  if (loaded_ && patch >= 0 && patch < loaded_->scene->patch_count())
+    place_camera(patch_view(*loaded_->scene, patch, view_point()));
+}
+
+void SceneView::look_from_side(Side side) {
+  if (loaded_) place_camera(standard_view(*loaded_->scene, side, aspect()));
 }
 
 ViewPoint SceneView::view_point() const {
@@ -177,7 +230,10 @@ void SceneView::recolor() {
   if (!mesh_ || !snapshot_) return;
   patch_colors_ = colors_.patch_colors();
   if (stepping()) dim_what_is_to_come(*focus_.map(), focus_.moment().step, patch_colors_);
-  mesh_->color(patch_colors_);
+  if (smooth_shading_)
+    smooth_mesh_->color(patch_colors_);
+  else
+    mesh_->color(patch_colors_);
 }
 
 bool SceneView::stepping() const {
@@ -242,6 +298,7 @@ void SceneView::render() {
   outline_->GetProperty()->SetLineWidth(2.5F * scale);
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
+  overlays_->set_line_width(1.2 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
   renderer_->SetUseFXAA(smooth_ && !pressed_ && !rest_->isActive());
   renderer_->ResetCameraClippingRange();

@@ -12,12 +12,15 @@
 #include <memory>
 #include <vector>
 
+#include "camera_views.h"
 #include "color_choice.h"
 #include "direction_glyph.h"
 #include "focus.h"
 #include "initial_view.h"
 #include "scene_mesh.h"
+#include "scene_overlays.h"
 #include "selection.h"
+#include "smooth_mesh.h"
 #include "snapshot.h"
 #include "step_glyph.h"
 
@@ -40,9 +43,16 @@ class SceneView : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void set_direction_shown(bool shown);
   void set_outlines_shown(bool shown);
+  void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
+  void set_wireframe(bool wireframe);
+  /// Colours run over the patches; in place of one colour a patch.
+  void set_smooth_shading(bool smooth);
   /// Smooths edges: for a scene at rest, since it doubles what a picture costs without a GPU.
   void set_smooth(bool smooth);
   void reset_view();
+  void look_at_all();
+  void look_at_selected();
+  void look_from_side(Side side);
   /// Where it is looked from; look_from() keeps the radius of what is worth looking at.
   ViewPoint view_point() const;
   void look_from(const ViewPoint& view);
@@ -56,6 +66,8 @@ class SceneView : public QWidget {
 
  private:
   void place_camera(const ViewPoint& view);
+  double aspect() const;
+  void show_surface();
   void recolor();
   void show_direction();
   bool stepping() const;
@@ -69,6 +81,8 @@ class SceneView : public QWidget {
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::unique_ptr<SceneMesh> mesh_;
+  std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when it is first shown
+  bool smooth_shading_ = false;
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;
   double radius_ = 1;
@@ -86,6 +100,7 @@ class SceneView : public QWidget {
   vtkSmartPointer<vtkActor> halo_, outline_;
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;
+  std::unique_ptr<SceneOverlays> overlays_;
 };
 
 }  // namespace transillum::viewer

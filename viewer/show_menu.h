@@ -3,6 +3,8 @@
 
 #include <QToolButton>
 
+#include "scene_overlays.h"
+
 class QAction;
 
 namespace transillum::viewer {
@@ -16,6 +18,11 @@ class ShowMenu : public QToolButton {
 
   QAction* outlines() const { return outlines_; }
   QAction* direction() const { return direction_; }
+
+ signals:
+  void overlay_toggled(transillum::viewer::SceneOverlays::Kind kind, bool shown);
+  void wireframe_toggled(bool shown);
+  void smooth_toggled(bool shown);
 
  private:
   QAction *outlines_, *direction_;

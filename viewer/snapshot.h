@@ -36,6 +36,8 @@ struct SolverSnapshot {
   std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
   /// Of all passes so far; null until the session was asked for them and has them.
   std::shared_ptr<const FormFactors> form_factors;
+  /// E and rho that radiosity and irradiance are of, where they are not the scene's; else null.
+  std::shared_ptr<const std::vector<Material>> materials;
   bool form_factors_fit = true;  ///< false: they would take too much memory
   /// B(n), one a patch, for each n from 0 whose step has begun; null where memory would not do.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
@@ -51,6 +53,13 @@ struct SolverSnapshot {
     return n < kept_directions.size() && kept_directions[n] ? kept_directions[n] : directions;
   }
 };
+
+/// E and rho that the snapshot is of.
+inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
+  const Scene& scene = *snapshot.loaded->scene;
+  const auto m = static_cast<std::size_t>(scene.patch(i).material);
+  return snapshot.materials ? (*snapshot.materials)[m] : scene.materials()[m];
+}
 
 /// What the session is doing.
 enum class SessionState { empty, loading, paused, running, finished };

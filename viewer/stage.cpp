@@ -49,7 +49,7 @@ void Stage::show(const ViewState& state) {
     window_.docks().arrange(*wish_.layout);
   for (const std::string& panel : wish_.panels) window_.docks().bring_to_front(panel);
   ColorChoice& colors = window_.colors();
-  colors.set_quantity(Quantity::radiosity);
+  colors.set_quantity(wish_.quantity);
   colors.set_range_rule(RangeRule::automatic);
   colors.set_mode(wish_.color_mode);
   colors.set_map(wish_.color_map);
@@ -171,6 +171,7 @@ ViewState Stage::state() const {
   state.selection = window_.selection().patch();
   state.camera = window_.page()->scene_view()->view_point();
   const ColorChoice& colors = window_.colors();
+  if (colors.quantity() != Quantity::difference) state.quantity = colors.quantity();
   state.color_mode = colors.mode();
   state.color_map = colors.map();
   state.logarithmic = colors.scale().logarithmic;

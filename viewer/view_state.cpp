@@ -27,6 +27,16 @@ constexpr Word<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color}
                                            {"red", ColorMode::red},
                                            {"green", ColorMode::green},
                                            {"blue", ColorMode::blue}};
+constexpr Word<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
+                                         {"exitance", Quantity::exitance},
+                                         {"reflectance", Quantity::reflectance},
+                                         {"irradiance", Quantity::irradiance},
+                                         {"form-factor-from", Quantity::form_factor_from},
+                                         {"form-factor-to", Quantity::form_factor_to},
+                                         {"form-factor-sum", Quantity::form_factor_sum},
+                                         {"fragments", Quantity::fragments},
+                                         {"error", Quantity::error},
+                                         {"last-change", Quantity::last_change}};
 constexpr Word<ColorMap> color_maps[] = {
     {"viridis", ColorMap::viridis}, {"cividis", ColorMap::cividis}, {"inferno", ColorMap::inferno}};
 constexpr Word<Phase> phases[] = {
@@ -140,6 +150,7 @@ json to_json(const ViewPoint& camera) {
 
 void read_colors(ViewState& state, const json& value, const std::string& where) {
   JsonObject object(value, where);
+  read(object, "quantity", quantities, state.quantity);
   read(object, "show", color_modes, state.color_mode);
   read(object, "map", color_maps, state.color_map);
   object.read("logarithmic", state.logarithmic);
@@ -194,7 +205,8 @@ json to_json(const ViewState& state) {
                  {"solve", to_json(state.solve)},
                  {"focus", to_json(state.focus)},
                  {"colors",
-                  {{"show", word_of(color_modes, state.color_mode)},
+                  {{"quantity", word_of(quantities, state.quantity)},
+                   {"show", word_of(color_modes, state.color_mode)},
                    {"map", word_of(color_maps, state.color_map)},
                    {"logarithmic", state.logarithmic}}},
                  {"direction", state.direction_shown},

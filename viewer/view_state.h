@@ -11,6 +11,7 @@
 #include "dock_layouts.h"
 #include "focus.h"
 #include "initial_view.h"
+#include "quantity.h"
 #include "run_options.h"
 #include "solver_session.h"
 
@@ -40,7 +41,8 @@ struct ViewState {
   Goal solve{Goal::Kind::finished};
   std::optional<FocusChoice> focus;  ///< none: the newest direction is followed
   PatchId selection = no_patch;
-  std::optional<ViewPoint> camera;  ///< none: as at first
+  std::optional<ViewPoint> camera;          ///< none: as at first
+  Quantity quantity = Quantity::radiosity;  ///< coloured; a difference is not kept
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = ColorMap::viridis;
   bool logarithmic = false;

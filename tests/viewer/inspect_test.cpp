@@ -1,0 +1,244 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTemporaryDir>
+
+#include "camera_views.h"
+#include "inspection.h"
+#include "patch_table.h"
+#include "patch_table_panel.h"
+#include "scene_page.h"
+#include "solved_window.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+struct Inspected : SolvedWindow {
+  using SolvedWindow::SolvedWindow;
+
+  template <class Part>
+  Part* part(const char* name) const {
+    return window->findChild<Part*>(name);
+  }
+  void raise(const char* dock) const {
+    part<QDockWidget>(dock)->show();
+    part<QDockWidget>(dock)->raise();
+    QTest::qWait(50);
+  }
+  const PatchTable& table(const char* name) const {
+    return *qobject_cast<PatchTable*>(part<QTableView>(name)->model());
+  }
+  bool has_form_factors() const {
+    return wait_for([this] { return window->snapshot()->form_factors != nullptr; });
+  }
+  QImage picture() const { return scene_view->canvas()->grab().toImage(); }
+};
+
+double distance_of(const ViewPoint& a, const ViewPoint& b) { return norm(a.eye - b.eye); }
+
+}  // namespace
+
+class InspectTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void form_factors_come_when_they_are_asked_for() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    QVERIFY(!shown.window->snapshot()->form_factors);
+    const QImage before = shown.picture();
+    shown.window->colors().set_quantity(Quantity::form_factor_from);
+    QCOMPARE(shown.text("color_note"), QString("Click a patch to see its form factors."));
+    shown.window->selection().select(4);
+    QVERIFY(shown.has_form_factors());
+    QVERIFY(wait_for([&] { return shown.window->colors().missing().isEmpty(); }));
+    QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
+    QVERIFY(wait_for([&] { return shown.picture() != before; }));
+  }
+
+  void tables_and_views_share_the_selection() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.raise("table_dock");
+    const PatchTable& all = shown.table("patch_table");
+    QVERIFY(wait_for([&] { return all.rowCount() > 0; }));
+    auto* view = shown.part<QTableView>("patch_table");
+    view->sortByColumn(2, Qt::DescendingOrder);
+    const QRect cell = view->visualRect(all.index(1, 0));
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, cell.center());
+    QCOMPARE(shown.window->selection().patch(), all.patch(1));
+    QCOMPARE(shown.text("patch_id"), QString::number(all.patch(1)));
+    shown.window->selection().select(7);
+    QCOMPARE(view->selectionModel()->selectedRows().size(), 1);
+    QCOMPARE(all.patch(view->selectionModel()->selectedRows().front().row()), PatchId{7});
+
+    auto* tabs = shown.part<PatchTablePanel>("table_panel")->findChild<QTabWidget*>();
+    tabs->setCurrentIndex(1);
+    const PatchTable& partners = shown.table("partner_table");
+    QVERIFY(wait_for([&] { return partners.rowCount() > 0; }));
+    QCOMPARE(partners.row_of(7), -1);
+    const PatchId first = partners.patch(0);
+    shown.window->selection().select(first);
+    QCOMPARE(partners.row_of(first), -1);
+    QVERIFY(partners.row_of(7) >= 0);
+  }
+
+  void a_search_finds_and_a_file_is_written_whole() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("find_patch");
+    auto* search = shown.part<QLineEdit>("patch_search");
+    const PatchTable& all = shown.table("patch_table");
+    QVERIFY(wait_for([&] { return all.rowCount() > 0; }));
+    QTest::keyClicks(search, "12");
+    QTest::keyClick(search, Qt::Key_Return);
+    QCOMPARE(shown.window->selection().patch(), PatchId{12});
+
+    const QTemporaryDir folder;
+    auto* panel = shown.part<PatchTablePanel>("table_panel");
+    panel->write_csv(folder.filePath("patches.csv"));
+    QFile file(folder.filePath("patches.csv"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QCOMPARE(file.readAll().count('\n'), all.rowCount() + 1);
+    QVERIFY_EXCEPTION_THROWN(panel->write_csv(folder.filePath("no/such/folder.csv")),
+                             std::runtime_error);
+  }
+
+  void a_slider_changes_the_light_and_undo_brings_it_back() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.raise("material_dock");
+    auto* slider = shown.part<QSlider>("exitance_red");
+    QVERIFY(wait_for([&] { return slider->isEnabled(); }));
+    const auto before = shown.window->snapshot();
+    const Scene& scene = *before->loaded->scene;
+    PatchId light = 0;
+    while (max_abs(scene.exitance(light)) == 0) ++light;
+    shown.window->selection().select(light);
+    QCOMPARE(shown.part<QComboBox>("material")->currentIndex(), scene.patch(light).material);
+
+    QSignalSpy snapshots(shown.window.get(), &MainWindow::snapshot_shown);
+    slider->setValue(2 * slider->value());
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+    const auto after = shown.window->snapshot();
+    QCOMPARE(after->progress.passes, before->progress.passes);
+    QVERIFY(std::abs(material_of(*after, light).exitance.r / scene.exitance(light).r - 2) < 1e-9);
+    // The relation of the channels is kept, so all light doubles; but it is that of all iterations.
+    const Rgb dark = relight(scene, *before->form_factors, scene.materials()).radiosity[0];
+    QVERIFY(max_abs(after->radiosity[0] - 2 * dark) < 1e-4 * max_abs(dark));
+
+    shown.trigger("undo");
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials == nullptr; }));
+    QVERIFY(shown.window->snapshot()->radiosity == before->radiosity);
+    shown.trigger("redo");
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+  }
+
+  void a_drag_is_undone_as_one() {
+    MaterialEdits edits;
+    edits.start_with(load_scene("cornell-box")->materials());
+    const Rgb rho = edits.materials()[0].reflectance;
+    edits.begin_drag();
+    for (const double r : {0.1, 0.2, 0.3}) edits.set(0, {}, {r, r, r});
+    edits.begin_drag();
+    edits.set(0, {}, {0.5, 0.5, 0.5});
+    QCOMPARE(edits.undo_stack().count(), 2);
+    edits.undo_stack().undo();
+    QCOMPARE(edits.materials()[0].reflectance.r, 0.3);
+    edits.undo_stack().undo();
+    QVERIFY(edits.materials()[0].reflectance == rho && !edits.any());
+    edits.undo_stack().redo();
+    edits.restore();
+    QVERIFY(!edits.any());
+    edits.undo_stack().undo();
+    QCOMPARE(edits.materials()[0].reflectance.r, 0.3);
+  }
+
+  void a_held_key_shows_the_kept_run() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("keep_run");
+    shown.window->colors().set_automatic_exposure(false);
+    shown.window->session().advance_one_iteration();
+    QVERIFY(wait_for([&] {
+      return shown.window->snapshot()->progress.iteration == 2 && shown.window->settled();
+    }));
+    const auto second = shown.window->colors().patch_colors();
+    QTest::keyPress(shown.window.get(), Qt::Key_A);
+    QVERIFY(shown.window->colors().shows_kept_run());
+    QVERIFY(shown.window->colors().patch_colors() != second);
+    QTest::keyRelease(shown.window.get(), Qt::Key_A);
+    QVERIFY(shown.window->colors().patch_colors() == second);
+    shown.trigger("show_difference");
+    QVERIFY(shown.window->colors().quantity() == Quantity::difference);
+    QVERIFY(shown.window->colors().missing().isEmpty());
+  }
+
+  void each_thing_to_show_changes_the_picture() {
+    const Inspected shown("rooms");
+    QVERIFY(shown.ready);
+    for (const char* name :
+         {"show_normals", "show_back_faces", "show_fragments", "show_wireframe", "show_smooth"}) {
+      const QImage before = shown.picture();
+      shown.trigger(name);
+      QVERIFY2(wait_for([&] { return shown.picture() != before; }, 3000), name);
+      shown.trigger(name);
+      QVERIFY2(wait_for([&] { return shown.picture() == before; }, 3000), name);
+    }
+  }
+
+  void views_are_from_their_sides_and_show_all() {
+    for (const char* spec : {"cornell-box", "rooms"}) {
+      const auto scene = load_scene(spec);
+      const Vec3 middle = scene->bounds().center();
+      const Vec3 up = initial_view(*scene, 1.5).up;
+      Vec3 sum;
+      for (const Side side :
+           {Side::front, Side::back, Side::left, Side::right, Side::top, Side::bottom}) {
+        const ViewPoint view = standard_view(*scene, side, 1.5);
+        const Vec3 way = normalized(view.eye - middle);
+        sum = sum + way;
+        QVERIFY(std::abs(dot(way, normalized(view.up))) < 1e-12);
+        QCOMPARE(dot(way, up) > 0.5, side == Side::top);
+        for (const Vec3& p : scene->points()) {
+          // Within the cone of sight, upright.
+          const double depth = dot(view.eye - p, way);
+          QVERIFY(std::abs(dot(p - view.eye, view.up)) <=
+                  depth * std::tan(0.5 * view.view_angle * 0.017453292519943295));
+        }
+      }
+      QVERIFY(norm(sum) < 1e-12);  // opposite sides
+    }
+  }
+
+  void kept_views_bring_the_camera_back() {
+    const Inspected shown("rooms");
+    QVERIFY(shown.ready);
+    const ViewPoint first = shown.scene_view->view_point();
+    shown.trigger("keep_view");
+    shown.trigger("view_top");
+    QVERIFY(distance_of(shown.scene_view->view_point(), first) > 0.1);
+    const auto& kept = shown.window->page()->bookmarks().all();
+    QCOMPARE(kept.size(), std::size_t{1});
+    shown.scene_view->look_from(kept[0].view);
+    QVERIFY(distance_of(shown.scene_view->view_point(), first) < 1e-9);
+    shown.window->selection().select(5);
+    shown.trigger("view_patch");
+    const ViewPoint near = shown.scene_view->view_point();
+    QVERIFY(norm(near.target - shown.window->snapshot()->loaded->scene->patch(5).center) < 1e-9);
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(InspectTest)
+#include "inspect_test.moc"

@@ -1,0 +1,79 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "material_edits.h"
+
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+bool same(const Material& a, const Material& b) {
+  return a.exitance == b.exitance && a.reflectance == b.reflectance;
+}
+
+}  // namespace
+
+class MaterialEdits::Change : public QUndoCommand {
+ public:
+  Change(MaterialEdits& edits, int material, Material after)
+      : edits_(edits),
+        material_(material),
+        drag_(edits.drag_),
+        before_(edits.now_[static_cast<std::size_t>(material)]),
+        after_(std::move(after)) {
+    setText(MaterialEdits::tr("change of %1").arg(QString::fromStdString(before_.name)));
+  }
+  int id() const override { return 1; }
+  bool mergeWith(const QUndoCommand* other) override {
+    const auto* later = static_cast<const Change*>(other);
+    if (later->material_ != material_ || later->drag_ != drag_) return false;
+    after_ = later->after_;
+    return true;
+  }
+  void undo() override { edits_.put(material_, before_.exitance, before_.reflectance); }
+  void redo() override { edits_.put(material_, after_.exitance, after_.reflectance); }
+
+ private:
+  MaterialEdits& edits_;
+  int material_;
+  int drag_;
+  Material before_, after_;
+};
+
+void MaterialEdits::start_with(std::vector<Material> materials) {
+  originals_ = now_ = std::move(materials);
+  undo_.clear();
+  emit changed();
+}
+
+bool MaterialEdits::any() const {
+  for (std::size_t m = 0; m < now_.size(); ++m)
+    if (!same(now_[m], originals_[m])) return true;
+  return false;
+}
+
+void MaterialEdits::set(int material, const Rgb& exitance, const Rgb& reflectance) {
+  Material after = now_[static_cast<std::size_t>(material)];
+  after.exitance = exitance;
+  after.reflectance = reflectance;
+  if (!same(after, now_[static_cast<std::size_t>(material)]))
+    undo_.push(new Change(*this, material, std::move(after)));
+}
+
+void MaterialEdits::restore() {
+  if (!any()) return;
+  begin_drag();
+  undo_.beginMacro(tr("return to the scene's materials"));
+  for (std::size_t m = 0; m < now_.size(); ++m)
+    set(static_cast<int>(m), originals_[m].exitance, originals_[m].reflectance);
+  undo_.endMacro();
+}
+
+void MaterialEdits::put(int material, const Rgb& exitance, const Rgb& reflectance) {
+  Material& changed_one = now_[static_cast<std::size_t>(material)];
+  changed_one.exitance = exitance;
+  changed_one.reflectance = reflectance;
+  emit changed();
+}
+
+}  // namespace transillum::viewer

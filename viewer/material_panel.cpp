@@ -1,0 +1,110 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "material_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "channel_sliders.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double most_reflectance = 0.99;
+
+// The slider's end: some way above what the scene has, so that a dark material can be lit too.
+double most_exitance(const std::vector<Material>& materials) {
+  double most = 0;
+  for (const Material& material : materials) most = std::max(most, max_abs(material.exitance));
+  return most > 0 ? 4 * most : 10;
+}
+
+}  // namespace
+
+MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection, QWidget* parent)
+    : QWidget(parent), relighting_(relighting), selection_(selection) {
+  material_ = new QComboBox;
+  material_->setObjectName("material");
+  material_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  material_->setMinimumContentsLength(8);
+  words_ = new QLabel;
+  words_->setObjectName("material_words");
+  words_->setWordWrap(true);
+  words_->setForegroundRole(QPalette::PlaceholderText);
+  reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
+  exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
+  restore_ = new QPushButton(tr("As in the scene"));
+  restore_->setObjectName("restore_materials");
+  restore_->setToolTip(tr("Take back all changes of materials"));
+  sliders_ = new QWidget;
+  auto* column = new QVBoxLayout(sliders_);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(10);
+  column->addWidget(reflectance_);
+  column->addWidget(exitance_);
+  column->addWidget(restore_);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 8, 12, 10);
+  layout->setSpacing(10);
+  layout->addWidget(material_);
+  layout->addWidget(words_);
+  layout->addWidget(sliders_);
+  layout->addStretch(1);
+
+  MaterialEdits& edits = relighting_.edits();
+  for (ChannelSliders* sliders : {reflectance_, exitance_})
+    connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
+  connect(reflectance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
+    const auto m = static_cast<std::size_t>(material());
+    edits.set(material(), edits.materials()[m].exitance, value);
+  });
+  connect(exitance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
+    const auto m = static_cast<std::size_t>(material());
+    edits.set(material(), value, edits.materials()[m].reflectance);
+  });
+  connect(restore_, &QPushButton::clicked, &edits, &MaterialEdits::restore);
+  connect(material_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &MaterialPanel::show_material);
+  connect(&edits, &MaterialEdits::changed, this, &MaterialPanel::show_material);
+  connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
+    if (scene_ && patch != no_patch) material_->setCurrentIndex(scene_->patch(patch).material);
+  });
+  show_state();
+}
+
+int MaterialPanel::material() const { return material_->currentIndex(); }
+
+void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
+  scene_ = std::move(scene);
+  material_->clear();
+  for (const Material& material : scene_->materials())
+    material_->addItem(QString::fromStdString(material.name));
+  show_material();
+}
+
+void MaterialPanel::show_state() {
+  const QString obstacle = relighting_.obstacle();
+  sliders_->setEnabled(obstacle.isEmpty() && material() >= 0);
+  words_->setText(!obstacle.isEmpty() ? obstacle
+                  : relighting_.edits().any()
+                      ? tr("Changed: B is found from the kept form factors, without a new pass.")
+                      : tr("Draw a slider: B follows from the kept form factors."));
+}
+
+void MaterialPanel::show_material() {
+  const MaterialEdits& edits = relighting_.edits();
+  const auto m = static_cast<std::size_t>(material());
+  restore_->setEnabled(edits.any());
+  if (material() >= 0 && m < edits.materials().size()) {
+    reflectance_->show_value(edits.materials()[m].reflectance, most_reflectance);
+    exitance_->show_value(edits.materials()[m].exitance, most_exitance(edits.originals()));
+  }
+  show_state();
+}
+
+}  // namespace transillum::viewer
