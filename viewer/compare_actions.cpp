@@ -23,8 +23,8 @@ bool is_typed_into(const QWidget* widget) {
 
 }  // namespace
 
-CompareActions::CompareActions(ColorChoice& colors, QWidget* window)
-    : QObject(window), colors_(colors), window_(window) {
+CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent)
+    : QObject(parent), colors_(colors), window_(window) {
   keep_ = new QAction(tr("Keep this run as A"), this);
   keep_->setObjectName("keep_run");
   keep_->setShortcut(Qt::Key_K);

@@ -16,7 +16,7 @@ class CompareActions : public QObject {
 
  public:
   /// Keys count while `window` is the active one.
-  CompareActions(ColorChoice& colors, QWidget* window);
+  CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent = nullptr);
 
   void add_to(QMenu& menu) const;
 
@@ -27,7 +27,7 @@ class CompareActions : public QObject {
   void show_state();
 
   ColorChoice& colors_;
-  QWidget* window_;
+  const QWidget* window_;
   QAction *keep_, *show_, *difference_;
 };
 

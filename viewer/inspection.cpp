@@ -21,7 +21,7 @@ Inspection::Inspection(Selection& selection, ColorChoice& colors, SolverSession&
   materials_ = new MaterialPanel(relighting_, selection);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
-  compare_ = new CompareActions(colors, window);
+  compare_ = new CompareActions(colors, window, this);
   connect(&colors, &ColorChoice::form_factors_wanted, &session, &SolverSession::want_form_factors);
   connect(&relighting_, &Relighting::form_factors_wanted, &session,
           &SolverSession::want_form_factors);

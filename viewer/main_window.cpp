@@ -87,6 +87,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
 }
 
 MainWindow::~MainWindow() {
+  delete inspection_;  // it watches the window's events
   map_dock_->disconnect(this);  // it hides when most of the window is gone
 }
 
