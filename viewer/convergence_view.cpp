@@ -11,6 +11,23 @@
 
 namespace transillum::viewer {
 
+std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
+  constexpr std::size_t most = 1000;
+  const SolveStatistics& s = snapshot.statistics;
+  const double rate = s.predicted_contraction;
+  std::vector<double> predicted;
+  // Of other schemes each step has a matrix of its own.
+  if (snapshot.options.scheme != Scheme::fixed || s.steps.empty() || !(rate > 0 && rate < 1))
+    return predicted;
+  const int wanted = snapshot.options.iterations;
+  const auto last = wanted > 0 ? static_cast<std::size_t>(wanted) : most;
+  for (double change = s.steps.front().change; predicted.size() < last; change *= rate) {
+    predicted.push_back(change);
+    if (wanted == 0 && change <= snapshot.options.tolerance) break;
+  }
+  return predicted;
+}
+
 ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
   steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
   steps_->set_hint(tr("A point for every finished iteration"));
@@ -51,7 +68,8 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   if (snapshot.options.iterations == 0)
     levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
                       snapshot.options.tolerance});
-  steps_->show_lines({{tr("step against the last"), theme::accent, std::move(changes), true}},
+  steps_->show_lines({{tr("change"), theme::accent, std::move(changes), true},
+                      {tr("at most (eq. 25)"), theme::good, predicted_changes(snapshot), false}},
                      std::move(levels), std::max(snapshot.options.iterations, 8));
 
   passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));

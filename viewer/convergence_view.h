@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <vector>
 
 #include "focus.h"
 #include "snapshot.h"
@@ -28,5 +29,9 @@ class ConvergenceView : public QWidget {
   LogChart* passes_;
   int shown_iteration_ = 0;  ///< that of passes_, from 0
 };
+
+/// What the changes of B per iteration stay below by eq. 22 and 25, given the first: up to the one
+/// within the tolerance. Empty where nothing is promised.
+std::vector<double> predicted_changes(const SolverSnapshot& snapshot);
 
 }  // namespace transillum::viewer

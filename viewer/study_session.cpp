@@ -44,9 +44,17 @@ void StudySession::start(Request request) {
 }
 
 void StudySession::stop() {
-  const std::lock_guard lock(mutex_);
-  request_.reset();
-  cancellation_.cancel();
+  std::optional<Request> never_begun;
+  {
+    const std::lock_guard lock(mutex_);
+    never_begun = std::exchange(request_, std::nullopt);
+    cancellation_.cancel();
+  }
+  if (!never_begun) return;
+  StudySnapshot ended;
+  ended.loaded = never_begun->loaded;
+  ended.series = never_begun->options.series;
+  post(std::move(ended));
 }
 
 void StudySession::work() {

@@ -48,7 +48,7 @@ class StudySession : public QObject {
   ~StudySession() override;
 
   void start(Request request);
-  /// Ends the study under way; its points stay.
+  /// Ends the study under way, or one that waits; a last snapshot tells so.
   void stop();
 
  signals:

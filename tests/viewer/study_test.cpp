@@ -11,6 +11,7 @@
 #include <QTemporaryDir>
 
 #include "banner.h"
+#include "convergence_view.h"
 #include "number_text.h"
 #include "solved_window.h"
 #include "study_chart.h"
@@ -120,6 +121,29 @@ class StudyTest : public QObject {
     const QString bound = number_text(directions_if_homogeneous(rho, 0.01));
     QVERIFY2(text("summary_bound").startsWith(QString("M = %1 (eq. 37)").arg(bound)),
              qPrintable(text("summary_bound")));
+  }
+
+  void stopped_at_once_it_is_stopped() {
+    const Shown shown("cornell-box");
+    for (int k = 0; k < 20; ++k) {
+      shown.run()->click();
+      shown.run()->click();
+      QVERIFY(wait_for([&] { return shown.run()->text() == "Run the study"; }));
+    }
+  }
+
+  void changes_stay_below_what_is_predicted() {
+    // In a brighter scene eq. 21 promises nothing of 64 directions.
+    const SolvedWindow shown("furnace");
+    shown.window->session().run();
+    QVERIFY(wait_for([&] { return shown.window->snapshot()->progress.finished; }));
+    const auto snapshot = shown.window->snapshot();
+    const auto& steps = snapshot->statistics.steps;
+    const std::vector<double> predicted = predicted_changes(*snapshot);
+    QVERIFY(predicted.size() >= steps.size());
+    QVERIFY(predicted.back() <= snapshot->options.tolerance);
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      QVERIFY(steps[k].change <= predicted[k] * (1 + 1e-12));
   }
 
   void another_scene_ends_it() {
