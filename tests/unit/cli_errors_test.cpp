@@ -57,6 +57,8 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"solve", "furnace", "--lines", "1e7"}, "at most 1e6"},
       {{"solve", "furnace", "--engine", "zbuffer", "--resolution", "0"}, "--resolution: \"0\""},
       {{"transfers", "furnace", "--resolution", "16385"}, "from 1 to 16384"},
+      {{"map", "furnace", "--direction", "1,0,0", "--engine", "fast", "--out", "f.png"}, "no map"},
+      {{"map", "furnace", "--resolution", "1025"}, "from 1 to 1024"},
       {{"solve", "furnace", "--engine", "painter", "--order", "depth"}, "bsp, newell"},
       {{"transfers", "furnace", "--lines", "nan"}, "--lines"},
       {{"transfers", "furnace", "--direction", "1,2,3", "--engine", "hemicube"}, "no directions"},

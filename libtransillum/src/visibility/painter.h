@@ -59,6 +59,11 @@ class Painter {
   }
 
   void paint_span(PatchId patch, int row, int begin, int end) {
+    painted_ += end - begin;
+    if (painted_ > most_pixels / 4) {
+      painted_ = 0;
+      cancellation_.throw_if_cancelled();
+    }
     PatchId* const items = items_.data() + static_cast<std::size_t>(row - first_row_) *
                                                static_cast<std::size_t>(grid_.columns());
     while (begin < end) {
@@ -77,6 +82,7 @@ class Painter {
   const Cancellation& cancellation_;
   ScanConverter converter_;
   int first_row_ = 0, end_row_ = 0;
+  int painted_ = 0;             ///< pixels since cancellation was looked for
   std::vector<PatchId> items_;  ///< the buffer: who is seen from below so far
 };
 

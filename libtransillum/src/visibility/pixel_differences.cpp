@@ -56,7 +56,6 @@ class Differences {
 
   void mark() {
     for (std::size_t k = 0; k < exact_.polygons.size(); ++k) {
-      cancellation_.throw_if_cancelled();
       add(static_cast<std::int32_t>(k));
     }
     mark_uncovered();
@@ -88,6 +87,7 @@ class Differences {
         whole.begin(), whole.end(), [](const Vec2& a, const Vec2& b) { return a.y < b.y; });
     const int last = row_of(high->y);
     for (int row = row_of(low->y); row <= last; ++row) {
+      cancellation_.throw_if_cancelled();
       cut_to(&Vec2::y, y(row), y(row + 1), whole, in_row_, spare_);
       if (in_row_.size() >= 3) add_row(k, polygon, row);
     }

@@ -81,7 +81,7 @@ class ZBuffer {
     spans_.clear();
     std::size_t done = 0;
     for (const std::int32_t number : numbers_) {
-      if (done++ % 256 == 0) cancellation_.throw_if_cancelled();
+      if (done++ % 16 == 0) cancellation_.throw_if_cancelled();
       convert(number, begin, end);
     }
     std::stable_sort(spans_.begin(), spans_.end(),
