@@ -133,7 +133,7 @@ Run add_map_command(CLI::App& program) {
       ->required();
   command.footer(
       "Example: transillum map cornell-box --direction 1,2,3 --out map.svg\n"
-      "         transillum map cornell-box --direction 1,2,3 --receiver 0 --engine zbuffer \\\n"
+      "         transillum map cornell-box --direction 1,2,3 --receiver 26 --engine zbuffer \\\n"
       "           --resolution 64 --difference --out pixels.png");
   return [call] { return run(*call); };
 }
