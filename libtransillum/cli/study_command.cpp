@@ -328,7 +328,7 @@ Run add_study_command(CLI::App& program) {
   add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
   command
       .add_option("-o,--out", call->out,
-                  "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds,engine,"
+                  "CSV: sampling,directions,passes,rms_error,max_error,bound, seconds,engine,"
                   "resolution (default: a table on standard output)")
       ->type_name("FILE.csv");
   command
