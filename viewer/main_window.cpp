@@ -21,6 +21,7 @@
 #include "banner.h"
 #include "breakpoint_panel.h"
 #include "color_controls.h"
+#include "compare_view.h"
 #include "convergence_view.h"
 #include "direction_view.h"
 #include "help_dialogs.h"
@@ -111,6 +112,7 @@ void MainWindow::make_docks() {
   convergence_view_ = new ConvergenceView(focus_);
   direction_view_ = new DirectionView(focus_, selection_, colors_, sights_);
   received_view_ = new ReceivedView(focus_, selection_, sights_);
+  compare_view_ = new CompareView(focus_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
   lesson_panel_ = new LessonPanel(built_in_lessons());
@@ -139,6 +141,7 @@ void MainWindow::make_docks() {
              {{teach, right, 360, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
+  docks_.add(tr("Compare engines"), "compare_dock", compare_view_, {{inspect, right, 400, true}});
   QDockWidget* timeline_dock =
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
@@ -349,6 +352,7 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   map_view_->clear();
   direction_view_->clear();
   received_view_->clear();
+  compare_view_->clear();
   page_->show_scene();
   scene_view_->show_scene(loaded_);
   page_->color_controls()->set_outlines(outlined_at_first());
@@ -385,6 +389,7 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   convergence_view_->show_snapshot(*snapshot_);
   direction_view_->show_snapshot(snapshot_);
   received_view_->show_snapshot(snapshot_);
+  compare_view_->show_snapshot(snapshot_);
   inspector_->show_snapshot(snapshot_);
   inspection_->show_snapshot(snapshot_);
   algorithm_->show_snapshot(snapshot_);

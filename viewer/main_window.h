@@ -22,6 +22,7 @@ namespace transillum::viewer {
 
 class AlgorithmView;
 class BreakpointPanel;
+class CompareView;
 class ConvergenceView;
 class DirectionView;
 class Inspection;
@@ -130,6 +131,7 @@ class MainWindow : public QMainWindow {
   ConvergenceView* convergence_view_;
   DirectionView* direction_view_;
   ReceivedView* received_view_;
+  CompareView* compare_view_;
   PatchInspector* inspector_;
   SettingsPanel* settings_;
   SolveSummary* summary_;

@@ -1,0 +1,204 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "compare_view.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "difference_picture.h"
+#include "number_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+/// While the newest direction is followed, so often at most.
+constexpr int refresh_interval_ms = 400;
+
+bool has_pixels(Engine engine) {
+  return engine == Engine::zbuffer || engine == Engine::painter || engine == Engine::rays;
+}
+
+QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+
+}  // namespace
+
+CompareView::CompareView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
+  first_ = make_choice("first", Engine::fast);
+  other_ = make_choice("other", Engine::zbuffer);
+  auto* choices = new QHBoxLayout;
+  choices->setContentsMargins(10, 6, 10, 4);
+  choices->setSpacing(6);
+  choices->addWidget(first_.engine, 1);
+  choices->addWidget(first_.resolution);
+  choices->addWidget(new QLabel(tr("against")));
+  choices->addWidget(other_.engine, 1);
+  choices->addWidget(other_.resolution);
+  words_ = new QLabel;
+  words_->setObjectName(QStringLiteral("compare_words"));
+  words_->setWordWrap(true);
+  words_->setContentsMargins(10, 0, 10, 6);
+  picture_ = new DifferencePicture;
+  table_ = new QTableWidget(4, 2);
+  table_->setObjectName(QStringLiteral("compare_table"));
+  table_->setVerticalHeaderLabels(
+      {tr("Processor time"), tr("Pairs"), tr("Area exchanged"), tr("Covered")});
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->verticalHeader()->setDefaultSectionSize(22);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setFocusPolicy(Qt::NoFocus);
+  table_->setFrameShape(QFrame::NoFrame);
+  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->setFixedHeight(4 * 22 + 28);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(choices);
+  layout->addWidget(words_);
+  layout->addWidget(picture_, 1);
+  layout->addWidget(table_);
+
+  later_ = new QTimer(this);
+  later_->setSingleShot(true);
+  later_->setInterval(refresh_interval_ms);
+  connect(later_, &QTimer::timeout, this, &CompareView::ask);
+  connect(&focus_, &Focus::moved, this, [this] {
+    if (isVisible() && !later_->isActive()) later_->start();
+  });
+  connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
+  show_comparison(nullptr);
+}
+
+CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
+  Choice choice{new QComboBox, new QSpinBox};
+  choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
+  choice.engine->setToolTip(tr("Who finds out who sees whom"));
+  for (const std::string& each : engine_names()) {
+    if (takes_directions(engine_from_name(each))) {
+      choice.engine->addItem(QString::fromStdString(each));
+    }
+  }
+  choice.engine->setCurrentText(QString::fromStdString(name_of(engine)));
+  choice.resolution->setObjectName(QString::fromLatin1(name) + QStringLiteral("_resolution"));
+  choice.resolution->setToolTip(tr("Pixels along the longer side of the map"));
+  choice.resolution->setRange(8, 4096);
+  choice.resolution->setValue(128);
+  choice.resolution->setSingleStep(64);
+  choice.resolution->setSuffix(tr(" px"));
+  if (!has_pixels(engine)) choice.resolution->hide();
+  connect(choice.engine, &QComboBox::currentTextChanged, this, [this, choice] {
+    choice.resolution->setVisible(has_pixels(engine_of(choice)));
+    ask();
+  });
+  connect(choice.resolution, QOverload<int>::of(&QSpinBox::valueChanged), this,
+          [this] { later_->start(); });
+  return choice;
+}
+
+Engine CompareView::engine_of(const Choice& choice) const {
+  return engine_from_name(choice.engine->currentText().toStdString());
+}
+
+int CompareView::resolution_of(const Choice& choice) const {
+  return has_pixels(engine_of(choice)) ? choice.resolution->value() : 0;
+}
+
+void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  if (isVisible() && !up_to_date() && !later_->isActive()) later_->start();
+}
+
+void CompareView::clear() {
+  snapshot_ = nullptr;
+  asked_ = {};
+  comparer_.clear();
+  show_comparison(nullptr);
+}
+
+bool CompareView::up_to_date() const {
+  return focus_.map() && comparison_ && comparison_->loaded == focus_.map()->loaded &&
+         comparison_->direction == asked_.direction &&
+         focus_.map()->record().frame.omega == asked_.direction;
+}
+
+void CompareView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+void CompareView::ask() {
+  if (!isVisible() || !snapshot_ || !focus_.map()) return;
+  EngineComparer::Request request;
+  request.loaded = focus_.map()->loaded;
+  request.direction = focus_.map()->record().frame.omega;
+  request.options = snapshot_->options.engine_options;
+  request.first = engine_of(first_);
+  request.first_resolution = resolution_of(first_);
+  request.other = engine_of(other_);
+  request.other_resolution = resolution_of(other_);
+  if (request == asked_) return;
+  asked_ = request;
+  words_->setText(tr("Comparing…"));
+  comparer_.request(std::move(request));
+}
+
+void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {
+  comparison_ = std::move(comparison);
+  picture_->show(focus_.map(), comparison_);
+  table_->clearContents();
+  if (!comparison_) {
+    words_->setText(tr("Solve a scene to compare two engines on one of its directions."));
+    table_->setHorizontalHeaderLabels({QStringLiteral("–"), QStringLiteral("–")});
+    return;
+  }
+  const EngineComparison& c = *comparison_;
+  for (const EngineComparison::Side* side : {&c.first, &c.other}) {
+    if (side->failure.empty()) continue;
+    words_->setText(QStringLiteral("%1: %2").arg(QString::fromStdString(name_of(side->engine)),
+                                                 QString::fromStdString(side->failure)));
+    return;
+  }
+  fill_table(c);
+  const Transfer& largest = c.transfers.largest;
+  QString text =
+      tr("Along this direction %1 of what %2 exchanges is between other patches with %3.")
+          .arg(percent_text(c.transfers.misplaced), QString::fromStdString(name_of(c.first.engine)),
+               QString::fromStdString(name_of(c.other.engine)));
+  if (largest.receiver != no_patch) {
+    text +=
+        tr(" Most: patches %1 and %2, %3 m² %4.")
+            .arg(largest.receiver)
+            .arg(largest.source)
+            .arg(number_text(std::abs(largest.area)), largest.area > 0 ? tr("less") : tr("more"));
+  }
+  words_->setText(text);
+}
+
+void CompareView::fill_table(const EngineComparison& comparison) {
+  const auto fill = [&](int column, const EngineComparison::Side& side, double exchanged) {
+    QString name = QString::fromStdString(name_of(side.engine));
+    if (side.resolution > 0) name += QStringLiteral(", %1 px").arg(side.resolution);
+    table_->setHorizontalHeaderItem(column, new QTableWidgetItem(name));
+    const QString texts[] = {number_text(1000 * side.seconds) + tr(" ms"),
+                             count_text(static_cast<std::int64_t>(side.pairs)),
+                             number_text(exchanged) + tr(" m²"), percent_text(side.covered_share)};
+    for (int row = 0; row < 4; ++row) {
+      auto* item = new QTableWidgetItem(texts[row]);
+      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      table_->setItem(row, column, item);
+    }
+  };
+  fill(0, comparison.first, comparison.transfers.exchanged);
+  fill(1, comparison.other, comparison.transfers.other_exchanged);
+}
+
+}  // namespace transillum::viewer
