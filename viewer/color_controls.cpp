@@ -85,7 +85,7 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
 }
 
 void ColorControls::add_tool(QWidget* tool) {
-  layout()->addWidget(tool);
+  layout()->addWidget(spare_.emplace_back(tool));
   measure();
 }
 

@@ -30,7 +30,7 @@ class ColorControls : public QWidget {
   void set_outlines(bool shown);
   bool outlines() const;
   ShowMenu* show_menu() const { return show_; }
-  /// Puts a tool at the right end.
+  /// Puts a tool at the right end, where there is room for it.
   void add_tool(QWidget* tool);
 
  signals:
