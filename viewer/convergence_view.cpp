@@ -2,6 +2,7 @@
 #include "convergence_view.h"
 
 #include <QVBoxLayout>
+#include <algorithm>
 #include <numbers>
 
 #include "log_chart.h"
@@ -12,7 +13,6 @@
 namespace transillum::viewer {
 
 std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
-  constexpr std::size_t most = 1000;
   const SolveStatistics& s = snapshot.statistics;
   const double rate = s.predicted_contraction;
   std::vector<double> predicted;
@@ -20,7 +20,9 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   if (snapshot.options.scheme != Scheme::fixed || s.steps.empty() || !(rate > 0 && rate < 1))
     return predicted;
   const int wanted = snapshot.options.iterations;
-  const auto last = wanted > 0 ? static_cast<std::size_t>(wanted) : most;
+  // As far again as the steps have come: more would leave them no room in a chart.
+  const auto last =
+      wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(8, 2 * s.steps.size());
   for (double change = s.steps.front().change; predicted.size() < last; change *= rate) {
     predicted.push_back(change);
     if (wanted == 0 && change <= snapshot.options.tolerance) break;
@@ -69,7 +71,7 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
     levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
                       snapshot.options.tolerance});
   steps_->show_lines({{tr("change"), theme::accent, std::move(changes), true},
-                      {tr("at most (eq. 25)"), theme::good, predicted_changes(snapshot), false}},
+                      {tr("eq. 25"), theme::good, predicted_changes(snapshot), false}},
                      std::move(levels), std::max(snapshot.options.iterations, 8));
 
   passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));

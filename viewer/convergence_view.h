@@ -30,8 +30,8 @@ class ConvergenceView : public QWidget {
   int shown_iteration_ = 0;  ///< that of passes_, from 0
 };
 
-/// What the changes of B per iteration stay below by eq. 22 and 25, given the first: up to the one
-/// within the tolerance. Empty where nothing is promised.
+/// What the changes of B per iteration stay below by eq. 22 and 25, given the first: for the steps
+/// done and some more, up to the tolerance. Empty where nothing is promised.
 std::vector<double> predicted_changes(const SolverSnapshot& snapshot);
 
 }  // namespace transillum::viewer
