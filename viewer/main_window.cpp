@@ -141,7 +141,8 @@ void MainWindow::make_docks() {
              {{teach, right, 360, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
-  docks_.add(tr("Compare engines"), "compare_dock", compare_view_, {{inspect, right, 400, true}});
+  docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
+             {{inspect, right, 400, true}});
   QDockWidget* timeline_dock =
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
