@@ -153,9 +153,9 @@ void AlgorithmView::show_moment() {
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const CodeLine line = algorithm_code()[k].line;
     const bool on = std::find(current.begin(), current.end(), line) != current.end();
-    const QString style =
-        on ? QStringLiteral("background: %1; font-weight: bold;").arg(theme::processed.name())
-           : QString();
+    const QString style = on ? QStringLiteral("background: %1; color: %2; font-weight: bold;")
+                                   .arg(theme::processed.name(), theme::on_yellow.name())
+                             : QString();
     if (lines_[k]->styleSheet() != style) lines_[k]->setStyleSheet(style);
   }
   if (kind() == MapKind::local) {

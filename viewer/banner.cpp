@@ -36,9 +36,11 @@ void Banner::say(Kind kind, const QString& text, const QString& details) {
       theme::icon(error ? theme::Icon::error : theme::Icon::warning).pixmap(QSize(20, 20)));
   text_->setText(text);
   setToolTip(details);
-  setStyleSheet(error ? QStringLiteral("#banner { background: #fdecec; border: none; "
+  setStyleSheet(error ? QStringLiteral("#banner, #banner QLabel { color: #1b212a; } "
+                                       "#banner { background: #fdecec; border: none; "
                                        "border-bottom: 1px solid #e3b4b4; }")
-                      : QStringLiteral("#banner { background: #fff6e0; border: none; "
+                      : QStringLiteral("#banner, #banner QLabel { color: #1b212a; } "
+                                       "#banner { background: #fff6e0; border: none; "
                                        "border-bottom: 1px solid #e5cf97; }"));
   show();
 }

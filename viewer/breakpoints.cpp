@@ -85,6 +85,23 @@ QString words_of(const Breakpoint& b) {
   return {};
 }
 
+const char* name_of(Kind kind) {
+  return std::find_if(std::begin(kind_names), std::end(kind_names),
+                      [kind](const auto& name) { return name.first == kind; })
+      ->second;
+}
+
+std::optional<Kind> breakpoint_kind(const std::string& name) {
+  for (const auto& [kind, known] : kind_names)
+    if (name == known) return kind;
+  return std::nullopt;
+}
+
+void Breakpoints::set_list(std::vector<Breakpoint> list) {
+  list_ = std::move(list);
+  emit changed();
+}
+
 void Breakpoints::add(const Breakpoint& breakpoint) {
   list_.push_back(breakpoint);
   emit changed();
@@ -127,8 +144,7 @@ void Breakpoints::save(QSettings& settings) const {
   for (std::size_t k = 0; k < list_.size(); ++k) {
     const Breakpoint& b = list_[k];
     settings.setArrayIndex(static_cast<int>(k));
-    for (const auto& [kind, name] : kind_names)
-      if (kind == b.kind) settings.setValue("kind", name);
+    settings.setValue("kind", name_of(b.kind));
     settings.setValue("patch", b.patch);
     settings.setValue("other", b.other);
     settings.setValue("value", b.value);
@@ -142,12 +158,9 @@ void Breakpoints::load(QSettings& settings) {
   const int count = settings.beginReadArray("breakpoints");
   for (int k = 0; k < count; ++k) {
     settings.setArrayIndex(k);
-    const QString written = settings.value("kind").toString();
-    const auto* named =
-        std::find_if(std::begin(kind_names), std::end(kind_names),
-                     [&](const auto& name) { return written == QLatin1String(name.second); });
-    if (named == std::end(kind_names)) continue;
-    list_.push_back({named->first, settings.value("patch").toInt(), settings.value("other").toInt(),
+    const auto kind = breakpoint_kind(settings.value("kind").toString().toStdString());
+    if (!kind) continue;
+    list_.push_back({*kind, settings.value("patch").toInt(), settings.value("other").toInt(),
                      settings.value("value").toDouble(), settings.value("enabled", true).toBool()});
   }
   settings.endArray();

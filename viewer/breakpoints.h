@@ -3,6 +3,8 @@
 
 #include <QObject>
 #include <QString>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "step_finder.h"
@@ -31,6 +33,9 @@ struct Breakpoint {
 
 bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t step);
 QString words_of(const Breakpoint& breakpoint);
+/// As files and settings name a kind.
+const char* name_of(Breakpoint::Kind kind);
+std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);
 
 /// The list of breakpoints, kept from one run of the program to the next.
 class Breakpoints : public QObject {
@@ -40,6 +45,7 @@ class Breakpoints : public QObject {
   using QObject::QObject;
 
   const std::vector<Breakpoint>& list() const { return list_; }
+  void set_list(std::vector<Breakpoint> list);
   void add(const Breakpoint& breakpoint);
   void remove(std::size_t k);
   void set_enabled(std::size_t k, bool enabled);

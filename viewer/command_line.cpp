@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "run_options.h"
 #include "transillum/errors.h"
 
 namespace transillum::viewer {
@@ -17,45 +18,45 @@ struct Words {
   bool one_way = false, two_way = false;
 };
 
-std::string joined(const std::vector<std::string>& names) {
+// The setting's sentence, and the names it takes.
+std::string described(const char* setting, const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : " | ") + name;
-  return text;
+  return std::string(sentence_of(setting)) + ": " + text;
 }
 
 void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   SolveOptions& solve = line.solve_options;
-  app.add_option("-m,--directions", solve.directions, "passes an iteration step takes")
+  app.add_option("-m,--directions", solve.directions, sentence_of("directions"))
       ->capture_default_str();
-  app.add_option("--sampling", words.sampling, joined(sampling_names()))->capture_default_str();
-  app.add_option("--seed", solve.seed, "for random and scrambled directions")
+  app.add_option("--sampling", words.sampling, described("sampling", sampling_names()))
       ->capture_default_str();
-  app.add_option("--rotate", solve.rotation, "seed of a random rotation of all directions");
-  app.add_option("--engine", words.engine, joined(engine_names()))->capture_default_str();
-  app.add_option("--resolution", solve.engine_options.resolution,
-                 "zbuffer, painter, rays: pixels along the longer side")
+  app.add_option("--seed", solve.seed, sentence_of("seed"))->capture_default_str();
+  app.add_option("--rotate", solve.rotation, sentence_of("rotate"));
+  app.add_option("--engine", words.engine, described("engine", engine_names()))
+      ->capture_default_str();
+  app.add_option("--resolution", solve.engine_options.resolution, sentence_of("resolution"))
       ->check(CLI::Range(1, EngineOptions::largest_resolution));
   auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
   app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")
       ->excludes(one_way);
-  app.add_option("--normalize", words.normalize, joined(normalization_names()))
+  app.add_option("--normalize", words.normalize, described("normalize", normalization_names()))
       ->capture_default_str();
-  app.add_option("--scheme", words.scheme, joined(scheme_names()))->capture_default_str();
-  app.add_option("--first-shot", words.first_shot, "none | auto | R²/A of sources shot first")
+  app.add_option("--scheme", words.scheme, described("scheme", scheme_names()))
       ->capture_default_str();
-  app.add_option("--burn-in", solve.burn_in, "semi-iterative: steps left out of the mean")
+  app.add_option("--first-shot", words.first_shot,
+                 described("first-shot", {"none", "auto", "R²/A"}))
       ->capture_default_str();
-  app.add_option("--replicas", solve.replicas, "rotated sets that give standard errors")
-      ->capture_default_str();
-  auto* iterations = app.add_option("--iterations", solve.iterations, "stop after so many steps")
+  app.add_option("--burn-in", solve.burn_in, sentence_of("burn-in"))->capture_default_str();
+  app.add_option("--replicas", solve.replicas, sentence_of("replicas"))->capture_default_str();
+  auto* iterations = app.add_option("--iterations", solve.iterations, sentence_of("iterations"))
                          ->check(CLI::PositiveNumber);
-  app.add_option("--tolerance", solve.tolerance, "stop at this relative change")
+  app.add_option("--tolerance", solve.tolerance, sentence_of("tolerance"))
       ->capture_default_str()
       ->excludes(iterations);
-  app.add_flag("--two-sided", line.scene_options.two_sided,
-               "every face lights and receives on both sides");
+  app.add_flag("--two-sided", line.scene_options.two_sided, sentence_of("two-sided"));
   app.add_option("--max-patch-area", line.scene_options.max_patch_area,
-                 "refine faces into patches no larger than this, m²")
+                 sentence_of("max-patch-area"))
       ->check(CLI::PositiveNumber);
   app.add_option("--memory", solve.memory, "what kept form factors may take, 2G or 800M")
       ->transform(CLI::AsSizeValue(false));
@@ -98,7 +99,9 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   CLI::App app("Watch diffuse light settle in a scene, direction by direction.",
                "transillum-viewer");
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
-  app.add_option("SCENE", line.scene, "an .obj file or a built-in scene; solved at once");
+  app.add_option(
+      "SCENE", line.scene,
+      "an .obj file or a built-in scene, solved at once; or a session or lesson (.json)");
   add_solve_options(app, line, words);
   auto* lesson = app.add_option("--lesson", line.lesson,
                                 "a lesson's file, or the number of one that comes along");

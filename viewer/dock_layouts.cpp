@@ -85,6 +85,12 @@ void DockLayouts::arrange(Layout layout) {
   });
 }
 
+bool DockLayouts::restore(int layout, const QByteArray& state, int version) {
+  if (layout < 0 || layout > static_cast<int>(Layout::debug) || state.isEmpty()) return false;
+  arrange(static_cast<Layout>(layout));
+  return window_.restoreState(state, version);
+}
+
 void DockLayouts::add_to(QMenu& menu) {
   for (const Dock& dock : docks_) menu.addAction(dock.widget->toggleViewAction());
   menu.addSeparator();
@@ -97,6 +103,10 @@ void DockLayouts::add_to(QMenu& menu) {
   add_layout(Layout::teach, "layout_teach", tr("Lay out to teach"), "Ctrl+1");
   add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+2");
   add_layout(Layout::debug, "layout_debug", tr("Lay out to debug a map"), "Ctrl+3");
+  menu.addAction(
+          tr("Reset the layout"), this, [this] { arrange(current_); },
+          QKeySequence(QStringLiteral("Ctrl+0")))
+      ->setObjectName("layout_reset");
 }
 
 namespace {

@@ -31,6 +31,9 @@ class DockLayouts : public QObject {
   QDockWidget* add(const QString& title, const char* name, QWidget* content,
                    std::vector<Place> places);
   void arrange(Layout layout);
+  /// Takes back a state of the window's that was saved in a layout, by its number. False where it
+  /// does not fit.
+  bool restore(int layout, const QByteArray& state, int version);
   /// The one arranged last.
   Layout current() const { return current_; }
   /// Shows a panel, in front of those it shares its place with. `panel` is its dock's name without

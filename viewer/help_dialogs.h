@@ -5,7 +5,6 @@ class QWidget;
 
 namespace transillum::viewer {
 
-void show_keys(QWidget* parent);
 void show_about(QWidget* parent);
 
 }  // namespace transillum::viewer

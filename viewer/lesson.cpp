@@ -2,11 +2,11 @@
 #include "lesson.h"
 
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <algorithm>
 
 #include "json_object.h"
+#include "session_file.h"
 
 // Resources of a static library are found only once it is asked for them.
 static void find_resources() { Q_INIT_RESOURCE(lessons); }
@@ -16,8 +16,6 @@ namespace transillum::viewer {
 using nlohmann::json;
 
 namespace {
-
-constexpr qint64 largest_file = 16 << 20;  // a lesson is words
 
 // One string, or a list of them: the lines.
 std::string text_from(const json* value, const JsonObject& page) {
@@ -43,15 +41,6 @@ void tell(json& told, const json& show) {
     told = std::move(kept);
   }
   told.merge_patch(show);
-}
-
-std::string contents_of(const QString& path) {
-  QFile file(path);
-  const std::string name = path.toStdString();
-  if (!file.open(QIODevice::ReadOnly))
-    throw InputError(name + ": " + file.errorString().toStdString());
-  if (file.size() > largest_file) throw InputError(name + ": too large for a lesson");
-  return file.readAll().toStdString();
 }
 
 }  // namespace
@@ -86,8 +75,8 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
 }
 
 Lesson read_lesson(const std::string& path) {
-  const QString file = QString::fromStdString(path);
-  return lesson_from_text(contents_of(file), path, QFileInfo(file).path().toStdString());
+  return lesson_from_text(text_of_file(path), path,
+                          QFileInfo(QString::fromStdString(path)).path().toStdString());
 }
 
 void check_panels(const Lesson& lesson, const std::string& name,
@@ -108,7 +97,8 @@ const std::vector<Lesson>& built_in_lessons() {
     std::vector<Lesson> all;
     const QDir folder(QStringLiteral(":/lessons"));
     for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name))
-      all.push_back(lesson_from_text(contents_of(folder.filePath(name)), name.toStdString()));
+      all.push_back(
+          lesson_from_text(text_of_file(folder.filePath(name).toStdString()), name.toStdString()));
     return all;
   }();
   return lessons;

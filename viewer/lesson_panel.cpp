@@ -2,6 +2,7 @@
 #include "lesson_panel.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QComboBox>
 #include <QFontInfo>
 #include <QHBoxLayout>
@@ -130,6 +131,11 @@ void LessonPanel::fill_list() {
   list_->addItem(tr("Open a lesson…"));
 }
 
+void LessonPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) show_state();
+}
+
 void LessonPanel::show_page(int lesson, int page) {
   lesson_ = lesson;
   page_ = page;
@@ -166,7 +172,7 @@ void LessonPanel::show_state() {
     text_->setMarkdown(QString::fromStdString(page.text));
     place_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages));
   }
-  const int size = QWidget::font().pixelSize();
+  const int size = QFontInfo(qApp->font()).pixelSize();
   QFont large = font();
   large.setPixelSize(static_cast<int>(text_scale * size));
   text_->setFont(large);

@@ -37,6 +37,9 @@ class LessonPanel : public QWidget {
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void fill_list();
   void turn(int pages);

@@ -137,7 +137,7 @@ void LogChart::paintEvent(QPaintEvent*) {
   }
   for (const Level& level : levels_) {
     if (!drawable(level.value)) continue;
-    painter.setPen(QPen(level.color, 1.5, Qt::DashLine));
+    painter.setPen(QPen(level.color, 1.5 * theme::scale(), Qt::DashLine));
     painter.drawLine(QPointF(f.plot.left(), f.y(level.value)),
                      QPointF(f.plot.right(), f.y(level.value)));
   }
@@ -222,7 +222,8 @@ void LogChart::draw_line(QPainter& painter, const Frame& f, const Line& l) const
     add(std::min(low, high));
     if (low != high) add(std::max(low, high));
   }
-  painter.setPen(QPen(l.color, l.dots ? 2 : 1.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setPen(QPen(l.color, (l.dots ? 2 : 1.4) * theme::scale(), Qt::SolidLine, Qt::RoundCap,
+                      Qt::RoundJoin));
   painter.setBrush(Qt::NoBrush);
   painter.drawPath(path);
   if (l.dots) {

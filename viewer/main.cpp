@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "command_line.h"
+#include "file_actions.h"
 #include "main_window.h"
 #include "screenshot.h"
 #include "theme.h"
@@ -74,19 +75,15 @@ int main(int argc, char** argv) {
         [give_up](const QString& message, bool bad_input) { give_up(message, bad_input ? 2 : 1); });
   }
   window.show();
-  if (!wish.scene.empty()) {
-    Goal goal{Goal::Kind::finished};
-    if (for_screenshot)
-      goal = wish.after > 0 ? Goal{Goal::Kind::passes, wish.after} : Goal{Goal::Kind::iteration};
-    window.open(QString::fromStdString(wish.scene), goal);
-  }
-  if (!wish.lesson.empty()) {
-    try {
-      window.begin_lesson(wish.lesson, wish.page);
-    } catch (const transillum::InputError& error) {
-      say(QString::fromStdString(error.what()));
-      return 2;
-    }
+  Goal goal{Goal::Kind::finished};
+  if (for_screenshot)
+    goal = wish.after > 0 ? Goal{Goal::Kind::passes, wish.after} : Goal{Goal::Kind::iteration};
+  try {
+    if (!wish.scene.empty()) window.files().open(QString::fromStdString(wish.scene), goal);
+    if (!wish.lesson.empty()) window.begin_lesson(wish.lesson, wish.page);
+  } catch (const transillum::InputError& error) {
+    say(QString::fromStdString(error.what()));
+    return 2;
   }
   QApplication::exec();
   return status;

@@ -10,6 +10,7 @@
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
@@ -24,8 +25,11 @@
 #include "compare_view.h"
 #include "convergence_view.h"
 #include "direction_view.h"
+#include "export_actions.h"
+#include "file_actions.h"
 #include "help_dialogs.h"
 #include "inspection.h"
+#include "key_list.h"
 #include "lesson_panel.h"
 #include "map_view.h"
 #include "number_text.h"
@@ -34,6 +38,7 @@
 #include "received_view.h"
 #include "scene_page.h"
 #include "scene_view.h"
+#include "setting_list.h"
 #include "settings_panel.h"
 #include "solve_actions.h"
 #include "solve_summary.h"
@@ -75,6 +80,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   study_ =
       new StudyDialog(remember ? ReferenceCache::default_folder() : std::filesystem::path(), this);
   inspection_ = new Inspection(selection_, colors_, session_, this);
+  files_ = new FileActions(*this);
+  exports_ = new ExportActions(*this);
   make_center();
   make_docks();
   make_menus();
@@ -84,18 +91,22 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   connect_session();
   stage_ = new Stage(*this);
   connect(lesson_panel_, &LessonPanel::page_shown, stage_, &Stage::show);
+  connect(&appearance_, &AppearanceActions::changed, this, [this] {
+    if (snapshot_) show_snapshot(snapshot_);
+    map_view_->update();
+  });
   restore_layout();
 }
 
 MainWindow::~MainWindow() {
-  delete inspection_;  // it watches the window's events
+  delete inspection_;           // it watches the window's events
   map_dock_->disconnect(this);  // it hides when most of the window is gone
 }
 
 void MainWindow::make_center() {
   page_ = new ScenePage(focus_, selection_, colors_);
   scene_view_ = page_->scene_view();
-  connect(page_, &ScenePage::open_clicked, this, &MainWindow::choose_file);
+  connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
   connect(page_, &ScenePage::built_in_clicked, this, [this](const QString& name) { open(name); });
   setCentralWidget(page_);
 }
@@ -116,29 +127,33 @@ void MainWindow::make_docks() {
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
   lesson_panel_ = new LessonPanel(built_in_lessons());
+  notes_ = new QPlainTextEdit;
+  notes_->setObjectName("notes");
+  notes_->setPlaceholderText(tr("Words of your own; a session file keeps them"));
   auto* events = new StepPanel(focus_, selection_);
   timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return breakpoints_.steps_in(history); });
 
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
+  docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
   docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
   docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
-                         {{teach, right, 480}, {inspect, right, 450}, {debug, right, 480}});
+                         {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});
   inspection_->add_tables_to(docks_);
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
-             {{teach, right, 360}, {debug, left, 560}});
+             {{teach, right, 420}, {debug, left, 560}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
   docks_.add(tr("Convergence"), "convergence_dock", convergence_view_,
-             {{teach, right, 360, true}, {inspect, right, 400}});
+             {{teach, right, 420, true}, {inspect, right, 400}});
   docks_.add(tr("Directions"), "direction_dock", direction_view_,
-             {{teach, right, 360, true}, {inspect, right, 400, true}});
-  docks_.add(tr("Events"), "event_dock", events, {{teach, right, 360, true}, {debug, right, 260}});
+             {{teach, right, 420, true}, {inspect, right, 400, true}});
+  docks_.add(tr("Events"), "event_dock", events, {{teach, right, 420, true}, {debug, right, 260}});
   docks_.add(tr("BSP tree"), "tree_dock", new TreeView(focus_, selection_),
-             {{teach, right, 360, true}, {debug, right, 260, true}});
+             {{teach, right, 420, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
   docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
@@ -147,6 +162,7 @@ void MainWindow::make_docks() {
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
   timeline_dock->setTitleBarWidget(new QWidget);  // no room for one on a projector
+  connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(lesson_panel_, &LessonPanel::open_clicked, this, &MainWindow::choose_lesson);
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
   connect(map_dock_, &QDockWidget::visibilityChanged, this,
@@ -156,12 +172,9 @@ void MainWindow::make_docks() {
 
 void MainWindow::make_menus() {
   QMenu* file = menuBar()->addMenu(tr("&File"));
-  auto* open_file = new QAction(theme::icon(theme::Icon::open), tr("Open…"), this);
-  open_file->setShortcut(QKeySequence::Open);
-  open_file->setToolTip(tr("Open an OBJ file (Ctrl+O), or drop one onto the window"));
-  connect(open_file, &QAction::triggered, this, &MainWindow::choose_file);
-  file->addAction(open_file);
   fill_open_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
+  files_->add_to(*file);
+  exports_->add_to(*file->addMenu(tr("Export")));
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 
@@ -187,6 +200,9 @@ void MainWindow::make_menus() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   docks_.add_to(*view);
   view->addSeparator();
+  appearance_.add_to(*view);
+  view->addAction(full_screen_.action());
+  view->addSeparator();
   view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
@@ -196,8 +212,8 @@ void MainWindow::make_menus() {
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help->addAction(
-      tr("Keys and mouse"), this, [this] { show_keys(this); },
-      QKeySequence(QKeySequence::HelpContents));
+      tr("Keys and mouse"), this, [this] { show_keys(*this); }, QKeySequence(Qt::Key_Question));
+  help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
   help->addAction(tr("About transillum"), this, [this] { show_about(this); });
 
   auto* bar = new QToolBar(tr("Tools"));
@@ -205,7 +221,7 @@ void MainWindow::make_menus() {
   bar->setMovable(false);
   bar->setIconSize(QSize(20, 20));
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  bar->addAction(open_file);
+  bar->addAction(files_->open_action());
   bar->addSeparator();
   actions_->add_to(*bar);
   bar->addSeparator();
@@ -250,10 +266,12 @@ void MainWindow::restore_layout() {
   if (!remember_) return;
   QSettings settings;
   breakpoints_.load(settings);
+  appearance_.load(settings);
+  files_->load(settings);
   restoreGeometry(settings.value("window/geometry").toByteArray());
   // After an update of Qt or of the docks the old state may not fit any more.
-  const QByteArray state = settings.value("window/state").toByteArray();
-  if (!state.isEmpty() && !restoreState(state, layout_version))
+  const int layout = settings.value("window/layout", -1).toInt();
+  if (!docks_.restore(layout, settings.value("window/state").toByteArray(), layout_version))
     docks_.arrange(DockLayouts::Layout::inspect);
 }
 
@@ -266,12 +284,6 @@ void MainWindow::open(const QString& spec, Goal then) {
   asked_spec_ = spec.toStdString();
   asked_scene_options_ = settings_->scene_options();
   session_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
-}
-
-void MainWindow::choose_file() {
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open a scene"), {},
-                                                    tr("Wavefront OBJ (*.obj);;All files (*)"));
-  if (!path.isEmpty()) open(path);
 }
 
 RunOptions MainWindow::options() const {
@@ -318,6 +330,20 @@ void MainWindow::begin_lesson(const std::string& which, int page) {
     throw InputError(fmt("the lesson has pages 1 to %1", pages));
   page_->banner()->dismiss();
   lesson_panel_->show_page(lesson, page - 1);
+}
+
+void MainWindow::show_session(const Session& session) {
+  page_->banner()->dismiss();
+  stage_->show(session.state);
+  if (session.state.layout && !session.docks.isEmpty())
+    docks_.restore(static_cast<int>(*session.state.layout), session.docks, layout_version);
+  breakpoints_.set_list(session.breakpoints);
+  notes_->setPlainText(QString::fromStdString(session.notes));
+}
+
+Session MainWindow::current_session() const {
+  return {stage_->state(), breakpoints_.list(), notes_->toPlainText().toStdString(),
+          saveState(layout_version)};
 }
 
 bool MainWindow::at_start() const {
@@ -432,15 +458,19 @@ void MainWindow::dropEvent(QDropEvent* event) {
   const QString file = dropped_file(*event->mimeData());
   if (file.isEmpty()) return;
   event->acceptProposedAction();
-  open(file);
+  files_->try_open(file);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  full_screen_.show_all();
   if (remember_) {
     QSettings settings;
     settings.setValue("window/geometry", saveGeometry());
     settings.setValue("window/state", saveState(layout_version));
     breakpoints_.save(settings);
+    appearance_.save(settings);
+    files_->save(settings);
+    settings.setValue("window/layout", static_cast<int>(docks_.current()));
   }
   QMainWindow::closeEvent(event);
 }

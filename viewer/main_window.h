@@ -5,18 +5,22 @@
 #include <memory>
 #include <string>
 
+#include "appearance_actions.h"
 #include "breakpoints.h"
 #include "color_choice.h"
 #include "direction_sights.h"
 #include "dock_layouts.h"
 #include "focus.h"
 #include "focus_feed.h"
+#include "full_screen.h"
 #include "run_options.h"
 #include "selection.h"
+#include "session_file.h"
 #include "solver_session.h"
 
 class QDockWidget;
 class QMenu;
+class QPlainTextEdit;
 
 namespace transillum::viewer {
 
@@ -25,6 +29,8 @@ class BreakpointPanel;
 class CompareView;
 class ConvergenceView;
 class DirectionView;
+class ExportActions;
+class FileActions;
 class Inspection;
 class LessonPanel;
 class MapView;
@@ -54,6 +60,13 @@ class MainWindow : public QMainWindow {
   void open(const QString& spec, Goal then = {Goal::Kind::finished});
   /// A lesson of a JSON file; shows its first page, or says what is wrong with it.
   void open_lesson(const QString& path);
+  /// Goes where a session was saved, and what a session is to keep now.
+  void show_session(const Session& session);
+  Session current_session() const;
+  FileActions& files() { return *files_; }
+  ExportActions& exports() { return *exports_; }
+  /// Says what has gone wrong above the scene.
+  void show_failure(const QString& message);
   /// As the command line names it: a file, or a number from 1. @throws InputError
   void begin_lesson(const std::string& which, int page);
   /// What the next solve will be told.
@@ -74,6 +87,7 @@ class MainWindow : public QMainWindow {
   ColorChoice& colors() { return colors_; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   DockLayouts& docks() { return docks_; }
+  FullScreen& full_screen() { return full_screen_; }
   ScenePage* page() const { return page_; }
   Inspection& inspection() { return *inspection_; }
   MapView* map_view() const { return map_view_; }
@@ -97,14 +111,12 @@ class MainWindow : public QMainWindow {
   void fill_open_menu(QMenu& menu);
   void connect_session();
   void restore_layout();
-  void choose_file();
   void choose_lesson();
   void run();
   void solve_anew();
   void show_loaded(std::shared_ptr<const LoadedScene> loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void show_state(SessionState state);
-  void show_failure(const QString& message);
   bool at_start() const;
 
   const bool remember_;
@@ -116,6 +128,8 @@ class MainWindow : public QMainWindow {
   Breakpoints breakpoints_;
   DirectionSights sights_;
   DockLayouts docks_{*this};
+  FullScreen full_screen_{*this};
+  AppearanceActions appearance_{this};
   std::string asked_spec_, spec_;  // the scene asked for last, and the open one
   SceneOptions asked_scene_options_, scene_options_;
   std::shared_ptr<const LoadedScene> loaded_;
@@ -123,6 +137,9 @@ class MainWindow : public QMainWindow {
 
   Stage* stage_ = nullptr;
   Inspection* inspection_;
+  FileActions* files_;
+  ExportActions* exports_;
+  QPlainTextEdit* notes_;
   SolveActions* actions_;
   StepActions* step_actions_;
   ScenePage* page_;

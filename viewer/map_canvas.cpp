@@ -152,7 +152,8 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
     if (row.patch == patch) fragments.push_back(row_polygon(record, row, shown));
   }
   painter.setBrush(Qt::NoBrush);
-  for (const QPen& pen : {QPen(Qt::black, 4), QPen(theme::selection, 2)}) {
+  for (const QPen& pen :
+       {QPen(Qt::black, 4 * theme::scale()), QPen(theme::selection, 2 * theme::scale())}) {
     painter.setPen(pen);
     for (const QPolygonF& fragment : fragments) painter.drawPolygon(fragment);
   }

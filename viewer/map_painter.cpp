@@ -213,7 +213,7 @@ class MapPainting {
 
   void label(const std::vector<std::int32_t>& rows) {
     QFont font = painter_.font();
-    font.setPixelSize(static_cast<int>(std::lround(11 * ratio_)));
+    font.setPixelSize(static_cast<int>(std::lround(11 * ratio_ * theme::scale())));
     painter_.setFont(font);
     const QFontMetricsF metrics(font);
     for (const std::int32_t r : rows) {
@@ -246,7 +246,8 @@ class MapPainting {
 
   void outline(const std::vector<QPolygonF>& polygons, const QColor& color, double width) {
     painter_.setBrush(Qt::NoBrush);
-    painter_.setPen(QPen(color, width * ratio_, Qt::SolidLine, Qt::SquareCap, Qt::RoundJoin));
+    painter_.setPen(
+        QPen(color, width * ratio_ * theme::scale(), Qt::SolidLine, Qt::SquareCap, Qt::RoundJoin));
     for (const QPolygonF& polygon : polygons) painter_.drawPolygon(polygon);
   }
 

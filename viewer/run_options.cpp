@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "run_options.h"
 
+#include <algorithm>
+
 #include "json_object.h"
 #include "transillum/first_shot.h"
 
@@ -40,6 +42,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   read_seed(object, "seed", solve.seed);
   if (object.find("rotate")) read_seed(object, "rotate", solve.rotation.emplace());
   read_named(object, "engine", solve.engine, engine_from_name);
+  object.read("resolution", solve.engine_options.resolution, 0, EngineOptions::largest_resolution);
   object.read("two-way", solve.two_way);
   read_named(object, "normalize", solve.normalize, normalization_from_name);
   read_named(object, "scheme", solve.scheme, scheme_from_name);
@@ -62,28 +65,53 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
 }
 
 json to_json(const RunOptions& options) {
-  const RunOptions usual;
-  const SolveOptions &solve = options.solve, &standard = usual.solve;
-  json result = json::object();
-  const auto write = [&result](const char* key, const auto& value, const auto& otherwise) {
-    if (value != otherwise) result[key] = value;
+  const SolveOptions& solve = options.solve;
+  return {{"directions", solve.directions},
+          {"sampling", name_of(solve.sampling)},
+          {"seed", solve.seed},
+          {"rotate", solve.rotation ? json(*solve.rotation) : json()},
+          {"engine", name_of(solve.engine)},
+          {"resolution", solve.engine_options.resolution},
+          {"two-way", solve.two_way},
+          {"normalize", name_of(solve.normalize)},
+          {"scheme", name_of(solve.scheme)},
+          {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
+          {"burn-in", solve.burn_in},
+          {"replicas", solve.replicas},
+          {"iterations", solve.iterations},
+          {"tolerance", solve.tolerance},
+          {"two-sided", options.scene.two_sided},
+          {"max-patch-area", options.scene.max_patch_area}};
+}
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = {
+      {"directions", "a number", "Passes an iteration step takes, one a direction"},
+      {"sampling", "a name", "Where the directions come from (section 4 of the paper)"},
+      {"seed", "a number", "Of random and scrambled directions"},
+      {"rotate", "a number, or none", "Seed of a random rotation of all directions"},
+      {"engine", "a name", "The algorithm that finds what sees what"},
+      {"resolution", "a number", "Pixels along the longer side, of zbuffer, painter and rays"},
+      {"two-way", "yes or no", "Let a pass serve its direction and the opposite one"},
+      {"normalize", "a name",
+       "Mend the quadrature's error: by rows of form factors, or symmetrically"},
+      {"scheme", "a name", "Which directions each iteration step takes"},
+      {"first-shot", "none, auto or R²/A", "Shoot small bright sources before the passes"},
+      {"burn-in", "a number", "Semi-iterative: steps left out of the mean"},
+      {"replicas", "a number",
+       "Independently rotated sets, whose spread tells how far B may be off"},
+      {"iterations", "a number, 0: none", "Stop after so many steps"},
+      {"tolerance", "a number", "Stop at this relative change of B, the largest of all patches"},
+      {"two-sided", "yes or no", "Let every face light and receive on both sides"},
+      {"max-patch-area", "m², 0: none", "Cut faces into patches no larger than this"},
   };
-  write("directions", solve.directions, standard.directions);
-  write("sampling", name_of(solve.sampling), name_of(standard.sampling));
-  write("seed", solve.seed, standard.seed);
-  if (solve.rotation) result["rotate"] = *solve.rotation;
-  write("engine", name_of(solve.engine), name_of(standard.engine));
-  write("two-way", solve.two_way, standard.two_way);
-  write("normalize", name_of(solve.normalize), name_of(standard.normalize));
-  write("scheme", name_of(solve.scheme), name_of(standard.scheme));
-  if (solve.first_shot) result["first-shot"] = json(*solve.first_shot).dump();
-  write("burn-in", solve.burn_in, standard.burn_in);
-  write("replicas", solve.replicas, standard.replicas);
-  write("iterations", solve.iterations, standard.iterations);
-  write("tolerance", solve.tolerance, standard.tolerance);
-  write("two-sided", options.scene.two_sided, usual.scene.two_sided);
-  write("max-patch-area", options.scene.max_patch_area, usual.scene.max_patch_area);
-  return result;
+  return all;
+}
+
+const char* sentence_of(const std::string& name) {
+  return std::find_if(settings().begin(), settings().end(),
+                      [&](const Setting& setting) { return name == setting.name; })
+      ->sentence;
 }
 
 }  // namespace transillum::viewer

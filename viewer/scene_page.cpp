@@ -24,6 +24,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   scene_view_->setObjectName("scene_view");
   auto* welcome = new WelcomePage;
   connect(welcome, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
+  connect(welcome, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
   connect(welcome, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
   connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
           &SceneView::set_direction_shown);

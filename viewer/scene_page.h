@@ -35,6 +35,7 @@ class ScenePage : public QWidget {
 
  signals:
   void open_clicked();
+  void lesson_clicked();
   void built_in_clicked(const QString& name);
 
  private:

@@ -5,6 +5,7 @@
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -12,6 +13,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <QApplication>
 #include <QMouseEvent>
@@ -293,7 +295,7 @@ void SceneView::show_selection() {
 }
 
 void SceneView::render() {
-  const auto scale = static_cast<float>(canvas_->devicePixelRatioF());
+  const auto scale = static_cast<float>(canvas_->devicePixelRatioF() * theme::scale());
   halo_->GetProperty()->SetLineWidth(5 * scale);
   outline_->GetProperty()->SetLineWidth(2.5F * scale);
   glyph_->set_line_width(1.5 * scale);
@@ -303,6 +305,21 @@ void SceneView::render() {
   renderer_->SetUseFXAA(smooth_ && !pressed_ && !rest_->isActive());
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) window_->Render();
+}
+
+QImage SceneView::picture(int scale) const {
+  vtkNew<vtkWindowToImageFilter> filter;
+  filter->SetInput(window_);
+  filter->SetScale(scale);
+  filter->ReadFrontBufferOff();
+  filter->SetInputBufferTypeToRGB();
+  filter->Update();
+  vtkImageData* pixels = filter->GetOutput();
+  const int* size = pixels->GetDimensions();
+  const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());
+  if (!bytes) return {};
+  // VTK counts rows from below.
+  return QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
 }
 
 PatchId SceneView::patch_at(const QPoint& position) const {

@@ -7,6 +7,7 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
+#include <QImage>
 #include <QPoint>
 #include <QWidget>
 #include <memory>
@@ -57,6 +58,8 @@ class SceneView : public QWidget {
   ViewPoint view_point() const;
   void look_from(const ViewPoint& view);
 
+  /// What is drawn, in `scale` times as many pixels a side.
+  QImage picture(int scale) const;
   /// The patch drawn at a point of canvas(), in Qt's own (logical) pixels; no_patch for none.
   PatchId patch_at(const QPoint& position) const;
   QWidget* canvas() const;

@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "run_options.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -23,6 +25,8 @@ namespace {
 bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
 }
+
+QString tip(const char* setting) { return SettingsPanel::tr(sentence_of(setting)); }
 
 QString capitalized(const std::string& name) {
   QString text = QString::fromStdString(name);
@@ -57,21 +61,21 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   directions_->setRange(1, 1 << 24);
   directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   directions_->setGroupSeparatorShown(false);
-  directions_->setToolTip(tr("Passes an iteration step takes"));
+  directions_->setToolTip(tip("directions"));
   sampling_ = new QComboBox;
   for (const std::string& name : sampling_names()) sampling_->addItem(capitalized(name));
-  sampling_->setToolTip(tr("Where the directions come from (section 4 of the paper)"));
+  sampling_->setToolTip(tip("sampling"));
   seed_ = new QSpinBox;
   seed_->setRange(0, std::numeric_limits<int>::max());
-  seed_->setToolTip(tr("For random and scrambled directions"));
+  seed_->setToolTip(tip("seed"));
   engine_ = new QComboBox;
   for (const std::string& name : engine_names()) {
     if (takes_directions(engine_from_name(name))) engine_->addItem(capitalized(name));
   }
-  engine_->setToolTip(tr("The algorithm that finds what sees what"));
+  engine_->setToolTip(tip("engine"));
   ways_ = new QComboBox;
   ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
-  ways_->setToolTip(tr("Both ways: a pass serves its direction and the opposite one"));
+  ways_->setToolTip(tip("two-way"));
   normalize_ = new QComboBox;
   normalize_->addItems({tr("None, as the paper"), tr("Rows"), tr("Symmetric")});
   normalize_->setToolTip(
@@ -87,9 +91,7 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   replicas_->setObjectName("replicas");
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
-  replicas_->setToolTip(
-      tr("Make the directions so many independently rotated sets:\n"
-         "their spread tells how far B may be off"));
+  replicas_->setToolTip(tip("replicas"));
   stop_at_ = new QComboBox;
   stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
   tolerance_ = new QLineEdit;
@@ -98,7 +100,7 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   tolerance_->setValidator(positive);
   tolerance_->setMinimumWidth(60);
   stop_at_->setMinimumWidth(60);
-  tolerance_->setToolTip(tr("Relative change of B, largest of all patches, at which to stop"));
+  tolerance_->setToolTip(tip("tolerance"));
   iterations_ = new QSpinBox;
   iterations_->setRange(1, 1'000'000);
 
@@ -135,9 +137,9 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
   max_patch_area_->setSuffix(tr(" m²"));
-  max_patch_area_->setToolTip(tr("Cut faces into patches no larger than this"));
+  max_patch_area_->setToolTip(tip("max-patch-area"));
   two_sided_ = new QCheckBox(tr("Two-sided faces"));
-  two_sided_->setToolTip(tr("Every face lights and receives on both sides"));
+  two_sided_->setToolTip(tip("two-sided"));
   form.addRow(tr("Patch area"), max_patch_area_);
   form.addRow(QString(), two_sided_);
   connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,

@@ -22,6 +22,10 @@ StepFinder find_named(StepName name, PatchId selection) {
       return find_exchanges();
     case StepName::event:
       return find_events_of(selection);
+    case StepName::fullest:
+      return [](const MapHistory& history, std::int32_t, Way) {
+        return history.record().fullest_step();
+      };
     case StepName::polygon:
       return find_where([selection](const MapHistory& history, std::int32_t step) {
         return history.step(step).patch == selection;
@@ -54,8 +58,17 @@ void Stage::show(const ViewState& state) {
   colors.set_mode(wish_.color_mode);
   colors.set_map(wish_.color_map);
   colors.set_logarithmic(wish_.logarithmic);
+  if (wish_.range) colors.set_range(wish_.range->first, wish_.range->second);
   window_.map_view()->set_labels_shown(wish_.labels);
   begin_run();
+}
+
+void Stage::reload() {
+  if (window_.spec().empty()) return;
+  wish_ = state();
+  act_ = Act::awaits_scene;
+  window_.set_options(wish_.options.solve, wish_.options.scene);
+  window_.open(QString::fromStdString(wish_.scene), wish_.solve);
 }
 
 void Stage::begin_run() {
@@ -172,6 +185,8 @@ ViewState Stage::state() const {
   state.camera = window_.page()->scene_view()->view_point();
   const ColorChoice& colors = window_.colors();
   if (colors.quantity() != Quantity::difference) state.quantity = colors.quantity();
+  if (colors.range_rule() == RangeRule::fixed)
+    state.range = {colors.scale().low, colors.scale().high};
   state.color_mode = colors.mode();
   state.color_map = colors.map();
   state.logarithmic = colors.scale().logarithmic;

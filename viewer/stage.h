@@ -20,6 +20,8 @@ class Stage : public QObject {
 
   /// A newer wish replaces an older. A scene that is open with the same options is not solved anew.
   void show(const ViewState& state);
+  /// Reads the open scene's file again, and shows the same of it.
+  void reload();
   /// Whether nothing of the newest wish is still to come.
   bool arrived() const;
   /// What the window shows now.

@@ -3,15 +3,25 @@
 
 #include <QApplication>
 #include <QFontInfo>
+#include <QIconEngine>
 #include <QPainter>
 #include <QPainterPath>
 #include <QPalette>
 #include <QStyleFactory>
-#include <QtMath>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace transillum::viewer::theme {
 
 namespace {
+
+constexpr double projector_scale = 1.4;
+constexpr int type_size = 13;  // pixels
+
+Appearance current;
+std::atomic<double> line_scale = 1;
+QColor faded;  // what cannot be used now
 
 QPolygonF triangle(double left, double right) {
   return {{QPointF(left, 5), QPointF(right, 12), QPointF(left, 19)}};
@@ -159,7 +169,7 @@ QColor color_of(Icon which) {
       return good;
     case Icon::stop:
     case Icon::error:
-      return {0xb9, 0x2d, 0x2d};
+      return current.dark ? QColor(0xe0, 0x5a, 0x5a) : QColor(0xb9, 0x2d, 0x2d);
     case Icon::warning:
       return {0xb3, 0x6b, 0x00};
     default:
@@ -167,29 +177,66 @@ QColor color_of(Icon which) {
   }
 }
 
-QPixmap pixmap(Icon which, int size, const QColor& color) {
-  QPixmap picture(size, size);
-  picture.fill(Qt::transparent);
-  QPainter painter(&picture);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.scale(size / 24.0, size / 24.0);
-  draw(painter, which, color);
-  return picture;
-}
+class DrawnIcon : public QIconEngine {
+ public:
+  explicit DrawnIcon(Icon which) : which_(which) {}
 
-}  // namespace
-
-QIcon icon(Icon which) {
-  QIcon result;
-  for (const int size : {16, 20, 24, 32, 40, 48, 64}) {
-    result.addPixmap(pixmap(which, size, color_of(which)), QIcon::Normal);
-    result.addPixmap(pixmap(which, size, {0xb4, 0xba, 0xc2}), QIcon::Disabled);
+  void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    const int size = std::min(rect.width(), rect.height());
+    painter->translate(QRectF(rect).center() - QPointF(size, size) / 2);
+    painter->scale(size / 24.0, size / 24.0);
+    draw(*painter, which_, mode == QIcon::Disabled ? faded : color_of(which_));
+    painter->restore();
   }
-  return result;
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+    QPixmap picture(size);
+    picture.fill(Qt::transparent);
+    QPainter painter(&picture);
+    paint(&painter, QRect(QPoint(), size), mode, state);
+    return picture;
+  }
+  QIconEngine* clone() const override { return new DrawnIcon(which_); }
+
+ private:
+  Icon which_;
+};
+
+void set_colors(const Appearance& appearance) {
+  if (appearance.dark) {
+    window = {0x23, 0x27, 0x2e};
+    paper = {0x1a, 0x1d, 0x22};
+    ink = {0xe8, 0xeb, 0xef};
+    ink_dim = {0xa4, 0xad, 0xb8};
+    rule = {0x41, 0x48, 0x52};
+    accent = {0x6a, 0xa8, 0xf0};
+    warm = {0xff, 0x9a, 0x45};
+    good = {0x52, 0xc4, 0x86};
+    hover = {0x36, 0x3d, 0x47};
+    title = {0x2d, 0x32, 0x3a};
+    faded = {0x62, 0x6a, 0x75};
+  } else {
+    window = {0xf4, 0xf5, 0xf7};
+    paper = {0xff, 0xff, 0xff};
+    ink = {0x1b, 0x21, 0x2a};
+    ink_dim = {0x5a, 0x64, 0x72};
+    rule = {0xd3, 0xd8, 0xde};
+    accent = {0x1f, 0x66, 0xc2};
+    warm = {0xd9, 0x5f, 0x02};
+    good = {0x1a, 0x7f, 0x4b};
+    hover = {0xe3, 0xe8, 0xef};
+    title = {0xe6, 0xe9, 0xee};
+    faded = {0xb4, 0xba, 0xc2};
+  }
+  if (!appearance.projector) return;
+  // A projector in a lit room makes greys one.
+  ink = appearance.dark ? QColor(Qt::white) : QColor(Qt::black);
+  ink_dim = appearance.dark ? QColor(0xd0, 0xd6, 0xdd) : QColor(0x33, 0x3b, 0x46);
+  rule = appearance.dark ? rule.lighter(130) : rule.darker(125);
 }
 
-void apply(QApplication& application) {
-  application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+QPalette make_palette() {
   QPalette palette;
   palette.setColor(QPalette::Window, window);
   palette.setColor(QPalette::WindowText, ink);
@@ -197,42 +244,62 @@ void apply(QApplication& application) {
   palette.setColor(QPalette::AlternateBase, window);
   palette.setColor(QPalette::Text, ink);
   palette.setColor(QPalette::PlaceholderText, ink_dim);
-  palette.setColor(QPalette::Button, QColor(0xfb, 0xfb, 0xfc));
+  palette.setColor(QPalette::Button, current.dark ? hover : QColor(0xfb, 0xfb, 0xfc));
   palette.setColor(QPalette::ButtonText, ink);
+  palette.setColor(QPalette::BrightText, ink);
   palette.setColor(QPalette::ToolTipBase, paper);
   palette.setColor(QPalette::ToolTipText, ink);
   palette.setColor(QPalette::Highlight, accent);
-  palette.setColor(QPalette::HighlightedText, Qt::white);
+  palette.setColor(QPalette::HighlightedText, current.dark ? paper : QColor(Qt::white));
   palette.setColor(QPalette::Link, accent);
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
-    palette.setColor(QPalette::Disabled, role, QColor(0x9a, 0xa2, 0xac));
-  application.setPalette(palette);
+    palette.setColor(QPalette::Disabled, role, faded.darker(current.dark ? 90 : 118));
+  return palette;
+}
 
-  QFont font = application.font();
-  const QFont wished(QStringLiteral("DejaVu Sans"));
-  if (QFontInfo(wished).family() == wished.family()) font.setFamily(wished.family());
-  font.setPixelSize(13);
-  application.setFont(font);
-
-  application.setStyleSheet(QStringLiteral(R"(
-    QToolBar { border: none; border-bottom: 1px solid #d3d8de; padding: 3px 6px; spacing: 4px; }
+QString style_sheet() {
+  return QStringLiteral(R"(
+    QToolBar { border: none; border-bottom: 1px solid %1; padding: 3px 6px; spacing: 4px; }
     QToolBar QToolButton { padding: 4px 9px 4px 6px; border-radius: 4px; }
-    QToolBar QToolButton:hover:enabled { background: #e3e8ef; }
-    QToolBar QToolButton:pressed { background: #cfd8e4; }
-    QStatusBar { border-top: 1px solid #d3d8de; }
+    QToolBar QToolButton:hover:enabled { background: %2; }
+    QToolBar QToolButton:pressed { background: %1; }
+    QStatusBar { border-top: 1px solid %1; }
     QStatusBar::item { border: none; }
     QDockWidget { font-weight: bold; }
-    QDockWidget::title { background: #e6e9ee; padding: 6px 8px; }
+    QDockWidget::title { background: %3; padding: 6px 8px; }
     QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: right center;
       subcontrol-origin: padding; position: absolute; width: 16px; height: 16px; padding: 0;
       border: none; background: transparent; icon-size: 12px; }
     QDockWidget::close-button { right: 8px; }
     QDockWidget::float-button { right: 30px; }
-    QDockWidget::close-button:hover, QDockWidget::float-button:hover { background: #cfd8e4; }
-    QMainWindow::separator { background: #d3d8de; width: 4px; height: 4px; }
-    QMainWindow::separator:hover { background: #1f66c2; }
-    QToolTip { border: 1px solid #d3d8de; padding: 4px; }
-  )"));
+    QDockWidget::close-button:hover, QDockWidget::float-button:hover { background: %1; }
+    QMainWindow::separator { background: %1; width: 4px; height: 4px; }
+    QMainWindow::separator:hover { background: %4; }
+    QToolTip { border: 1px solid %1; padding: 4px; }
+  )")
+      .arg(rule.name(), hover.name(), title.name(), accent.name());
+}
+
+}  // namespace
+
+QIcon icon(Icon which) { return QIcon(new DrawnIcon(which)); }
+
+double scale() { return line_scale.load(std::memory_order_relaxed); }
+
+const Appearance& appearance() { return current; }
+
+void apply(QApplication& application, const Appearance& wished) {
+  current = wished;
+  line_scale = wished.projector ? projector_scale : 1;
+  set_colors(wished);
+  application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  application.setPalette(make_palette());
+  QFont font = application.font();
+  const QFont wished_font(QStringLiteral("DejaVu Sans"));
+  if (QFontInfo(wished_font).family() == wished_font.family()) font.setFamily(wished_font.family());
+  font.setPixelSize(static_cast<int>(std::lround(type_size * scale())));
+  application.setFont(font);
+  application.setStyleSheet(style_sheet());
 }
 
 }  // namespace transillum::viewer::theme

@@ -9,14 +9,22 @@ class QApplication;
 /// The window's looks: one palette, one set of icons, used everywhere.
 namespace transillum::viewer::theme {
 
-inline const QColor window{0xf4, 0xf5, 0xf7};
-inline const QColor paper{0xff, 0xff, 0xff};
-inline const QColor ink{0x1b, 0x21, 0x2a};
-inline const QColor ink_dim{0x5a, 0x64, 0x72};
-inline const QColor rule{0xd3, 0xd8, 0xde};
-inline const QColor accent{0x1f, 0x66, 0xc2};
-inline const QColor warm{0xd9, 0x5f, 0x02};  ///< second line of a chart
-inline const QColor good{0x1a, 0x7f, 0x4b};
+/// How the window may look.
+struct Appearance {
+  bool dark = false;
+  bool projector = false;  ///< larger type, thicker lines, more contrast
+
+  friend bool operator==(const Appearance&, const Appearance&) = default;
+};
+
+/// These follow the appearance; the thread of the window may read them.
+inline QColor window, paper, ink, ink_dim, rule, accent, good;
+inline QColor warm;   ///< second line of a chart
+inline QColor hover;  ///< under the pointer
+inline QColor title;  ///< behind a dock's title
+
+/// The others are the same in each appearance.
+inline const QColor on_yellow{0x1b, 0x21, 0x2a};  ///< text on `processed`
 inline const QColor selection{0xff, 0x3e, 0x9e};  ///< in no scene and no colour map
 
 /// A step of the visibility map: told apart by brightness too.
@@ -54,10 +62,14 @@ enum class Icon {
   newest,
   study
 };
-/// Drawn for 1x and 2x screens.
+/// Drawn in the size and the colours that are wanted, whenever it is.
 QIcon icon(Icon which);
 
-/// Style, palette and fonts of the whole application.
-void apply(QApplication& application);
+/// What lines are thicker and type is larger by; any thread.
+double scale();
+
+/// Style, palette and fonts of the whole application, at its start or later.
+void apply(QApplication& application, const Appearance& appearance = {});
+const Appearance& appearance();
 
 }  // namespace transillum::viewer::theme

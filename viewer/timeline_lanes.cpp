@@ -15,8 +15,10 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double name_room = 78, value_room = 128;  // left and right of a lane
-constexpr double line = 18;                         // height of the upper lanes
+// Left and right of a lane.
+double name_room() { return 78 * theme::scale(); }
+double value_room() { return 128 * theme::scale(); }
+constexpr double line = 18;  // height of the upper lanes
 
 }  // namespace
 
@@ -46,12 +48,12 @@ void TimelineLanes::set_progress(int iteration, int directions) {
 }
 
 QRectF TimelineLanes::rect_of(Lane lane) const {
-  const double width_left = std::max(width() - name_room - value_room, 20.0);
+  const double width_left = std::max(width() - name_room() - value_room(), 20.0);
   const double top = lane == Lane::iterations   ? 3
                      : lane == Lane::directions ? 3 + line
                                                 : 7 + 2 * line;
   const double bottom = lane == Lane::steps ? height() - 5 : top + line - 4;
-  return {name_room, top, width_left, bottom - top};
+  return {name_room(), top, width_left, bottom - top};
 }
 
 double TimelineLanes::position(const QRectF& lane, int k, int count) {
@@ -128,14 +130,15 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
                               const QString& value) const {
   const QRectF rect = rect_of(lane);
   painter.setPen(theme::ink_dim);
-  const QRectF name_rect(10, rect.top() - 4, name_room - 18, std::min(rect.height() + 8, 26.0));
+  const QRectF name_rect(10, rect.top() - 4, name_room() - 18, std::min(rect.height() + 8, 26.0));
   painter.drawText(name_rect, Qt::AlignVCenter | Qt::AlignLeft, name);
   painter.setPen(theme::ink);
-  const QRectF value_rect(rect.right() + 10, name_rect.top(), value_room - 14, name_rect.height());
+  const QRectF value_rect(rect.right() + 10, name_rect.top(), value_room() - 14,
+                          name_rect.height());
   painter.drawText(value_rect, Qt::AlignVCenter | Qt::AlignLeft, value);
 
   painter.setPen(Qt::NoPen);
-  painter.setBrush(QColor(0xe2, 0xe6, 0xec));
+  painter.setBrush(theme::hover);
   painter.drawRoundedRect(rect, 2, 2);
   if (count == 0) return;
   // What has been computed so far.

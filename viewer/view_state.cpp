@@ -44,6 +44,7 @@ constexpr Word<Phase> phases[] = {
 constexpr Word<StepName> step_names[] = {{"exchange", StepName::exchange},
                                          {"cut", StepName::cut},
                                          {"event", StepName::event},
+                                         {"fullest", StepName::fullest},
                                          {"polygon", StepName::polygon}};
 constexpr Word<DockLayouts::Layout> layouts[] = {{"teach", DockLayouts::Layout::teach},
                                                  {"inspect", DockLayouts::Layout::inspect},
@@ -154,6 +155,12 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   read(object, "show", color_modes, state.color_mode);
   read(object, "map", color_maps, state.color_map);
   object.read("logarithmic", state.logarithmic);
+  if (const json* range = object.find("range")) {
+    const bool numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
+                         (*range)[1].is_number();
+    if (!numbers) object.fail_at("range", "must be two numbers [low, high]");
+    state.range = {(*range)[0].get<double>(), (*range)[1].get<double>()};
+  }
   object.done();
 }
 
@@ -211,6 +218,8 @@ json to_json(const ViewState& state) {
                    {"logarithmic", state.logarithmic}}},
                  {"direction", state.direction_shown},
                  {"labels", state.labels}};
+  if (state.range)
+    result["colors"]["range"] = json::array({state.range->first, state.range->second});
   if (state.selection != no_patch) result["select"] = state.selection;
   if (state.camera) result["camera"] = to_json(*state.camera);
   if (state.outlines) result["outlines"] = *state.outlines;

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,7 @@ enum class StepName {
   exchange,  ///< a polygon that exchanges light
   cut,       ///< one that cuts a fragment of V in two
   event,     ///< one that concerns the selected patch
+  fullest,   ///< the one after which most of V shines
   polygon,   ///< the selected patch's own
 };
 using StepChoice = std::variant<std::int32_t, StepName>;
@@ -46,7 +48,8 @@ struct ViewState {
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = ColorMap::viridis;
   bool logarithmic = false;
-  std::optional<bool> outlines;  ///< none: as the scene has it at first
+  std::optional<std::pair<double, double>> range;  ///< fixed ends of the colour map
+  std::optional<bool> outlines;                    ///< none: as the scene has it at first
   bool direction_shown = true;
   bool labels = false;                        ///< patches named in the map
   std::optional<DockLayouts::Layout> layout;  ///< none: as it is

@@ -1,16 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QScrollArea>
 #include <QString>
 #include <QVector>
-#include <QWidget>
 
-class QLabel;
+class QGridLayout;
+class QPushButton;
 
 namespace transillum::viewer {
 
-/// What the window shows before there is a scene.
-class WelcomePage : public QWidget {
+/// What the window shows before there is a scene: those that come along, as pictures.
+class WelcomePage : public QScrollArea {
   Q_OBJECT
 
  public:
@@ -18,14 +19,18 @@ class WelcomePage : public QWidget {
 
  signals:
   void open_clicked();
+  void lesson_clicked();
   void built_in_clicked(const QString& name);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QWidget* column_;
-  QVector<QLabel*> summaries_;
+  void place_cards();
+
+  QGridLayout* grid_;
+  QVector<QPushButton*> cards_;
+  int columns_ = 0;
 };
 
 }  // namespace transillum::viewer

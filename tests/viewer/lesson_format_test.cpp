@@ -29,7 +29,7 @@ class LessonFormatTest : public QObject {
           "sampling": "random", "seed": 7, "first-shot": "auto", "max-patch-area": 0.5},
           "solve": 12, "focus": {"iteration": 2, "direction": 3, "step": 4, "phase": "split"},
           "select": 5, "camera": {"eye": [1, 2, 3], "target": [0, 0, 1], "up": [0, 0, 1],
-          "angle": 40}, "colors": {"show": "luminance", "map": "cividis", "logarithmic": true},
+          "angle": 40}, "colors": {"quantity": "irradiance", "range": [0.5, 2], "show": "luminance", "map": "cividis", "logarithmic": true},
           "outlines": true, "direction": false, "labels": true, "layout": "debug",
           "panels": ["map"])")),
         "a.json");
@@ -54,6 +54,7 @@ class LessonFormatTest : public QObject {
     QVERIFY(s.camera.has_value());
     QCOMPARE(s.camera->eye.z, 3.0);
     QVERIFY(s.color_mode == ColorMode::luminance && s.color_map == ColorMap::cividis);
+    QVERIFY(s.quantity == Quantity::irradiance && s.range && s.range->second == 2);
     QVERIFY(s.logarithmic && s.labels && !s.direction_shown && s.outlines == true);
     QVERIFY(s.layout == DockLayouts::Layout::debug);
     QCOMPARE(s.panels, std::vector<std::string>{"map"});
@@ -126,6 +127,8 @@ class LessonFormatTest : public QObject {
     row("eye", lesson(page(R"("camera": {"eye": [1, 2]})")), "page 1, camera, eye: ");
     row("same", lesson(page(R"("camera": {"eye": [1, 2, 3], "target": [1, 2, 3]})")), "camera: ");
     row("angle", lesson(page(R"("camera": {"angle": 0})")), "page 1, camera, angle: ");
+    row("quantity", lesson(page(R"("colors": {"quantity": "light"})")), "colors, quantity: ");
+    row("range", lesson(page(R"("colors": {"range": [1]})")), "colors, range: ");
     row("layout", lesson(page(R"("layout": "debugging")")), "page 1, layout: ");
     row("panels", lesson(page(R"("panels": "map")")), "page 1, panels: ");
   }
@@ -144,6 +147,16 @@ class LessonFormatTest : public QObject {
 
   void a_file_that_is_not_there_is_told() {
     QVERIFY_EXCEPTION_THROWN(read_lesson("/no/such/lesson.json"), InputError);
+  }
+
+  void every_setting_is_declared_once() {
+    const nlohmann::json defaults = to_json(RunOptions{});
+    QCOMPARE(settings().size(), defaults.size());
+    for (const Setting& setting : settings()) {
+      QVERIFY2(defaults.contains(setting.name), setting.name);
+      QVERIFY(*setting.type && *setting.sentence);
+    }
+    QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});
   }
 
   void unknown_panels_are_told() {

@@ -1,0 +1,125 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QAction>
+#include <QApplication>
+#include <QDialog>
+#include <QDockWidget>
+#include <QFile>
+#include <QFontInfo>
+#include <QMenuBar>
+#include <QTextBrowser>
+
+#include "full_screen.h"
+#include "key_list.h"
+#include "solved_window.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+// Keys go to the active window; without a window manager nobody makes one.
+std::unique_ptr<MainWindow> make_active_window() {
+  auto window = make_window();
+  window->activateWindow();
+  (void)QTest::qWaitForWindowActive(window.get());
+  return window;
+}
+
+}  // namespace
+
+class AppearanceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void projector_mode_enlarges_and_comes_back() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const int size = QFontInfo(solved.window->font()).pixelSize();
+    solved.trigger("projector");
+    QVERIFY(QFontInfo(solved.window->font()).pixelSize() >= 1.3 * size);
+    QVERIFY(theme::scale() > 1.3);
+    solved.trigger("projector");
+    QCOMPARE(QFontInfo(solved.window->font()).pixelSize(), size);
+  }
+
+  void dark_is_dark() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const auto lightness = [&] {
+      const QImage picture =
+          solved.window->findChild<QDockWidget*>("settings_dock")->grab().toImage();
+      qint64 sum = 0;
+      for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) sum += qGray(picture.pixel(x, y));
+      return static_cast<double>(sum) / (picture.width() * picture.height());
+    };
+    QVERIFY(lightness() > 200);
+    solved.trigger("dark");
+    QVERIFY2(lightness() < 80, qPrintable(QString::number(lightness())));
+    solved.trigger("dark");
+    QVERIFY(lightness() > 200);
+  }
+
+  void one_view_takes_the_whole_screen() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    MainWindow& window = *solved.window;
+    auto* map = window.findChild<QDockWidget*>("map_dock");
+    auto* settings = window.findChild<QDockWidget*>("settings_dock");
+    window.full_screen().show_only(map);
+    QVERIFY(wait_for([&] { return map->width() > 0.95 * window.width(); }, 5000));
+    QVERIFY(window.isFullScreen() && !settings->isVisible() && !solved.scene_view->isVisible());
+    // The keys go on working, though no menu is there to see.
+    QTest::keyClick(&window, Qt::Key_F11);
+    QVERIFY(
+        wait_for([&] { return settings->isVisible() && solved.scene_view->isVisible(); }, 5000));
+    QVERIFY(!window.isFullScreen() && window.menuBar()->isVisible());
+    window.full_screen().show_only(window.centralWidget());
+    QVERIFY(wait_for([&] { return solved.scene_view->width() > 0.8 * window.width(); }, 5000));
+    QVERIFY(!map->isVisible());
+    window.full_screen().show_all();
+    QVERIFY(map->isVisible());
+  }
+
+  void all_keys_are_told_and_no_key_does_two_things() {
+    const auto window = make_active_window();
+    std::map<QString, QString> uses;
+    for (const KeyGroup& group : keys_of(*window))
+      for (const KeyUse& key : group.keys)
+        for (const QString& one : key.keys.split(' ')) {
+          QVERIFY2(uses.emplace(one, key.text).second, qPrintable(one + ": " + key.text));
+        }
+    QVERIFY(uses.size() > 30);
+    QTest::keyClick(window.get(), Qt::Key_Question);
+    auto* dialog = window->findChild<QDialog*>("keys");
+    QVERIFY(dialog && dialog->isVisible());
+    const QString page = dialog->findChild<QTextBrowser*>()->toPlainText();
+    for (const auto& [key, text] : uses) QVERIFY2(page.contains(text), qPrintable(text));
+
+    QFile manual(QStringLiteral(TRANSILLUM_MANUAL));
+    QVERIFY(manual.open(QIODevice::ReadOnly));
+    const QString words = QString::fromUtf8(manual.readAll());
+    for (const auto& [key, text] : uses)
+      QVERIFY2(words.contains('`' + key + '`'), qPrintable(key + ": " + text));
+  }
+
+  void layouts_have_keys() {
+    const auto window = make_active_window();
+    const auto shown = [&](const char* dock) {
+      return window->findChild<QDockWidget*>(dock)->isVisible();
+    };
+    QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
+    QVERIFY(shown("lesson_dock") && shown("map_dock") && !shown("settings_dock"));
+    QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+    QVERIFY(!shown("lesson_dock") && shown("settings_dock"));
+    QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
+    QVERIFY(shown("breakpoint_dock") && !shown("settings_dock"));
+    window->findChild<QDockWidget*>("breakpoint_dock")->close();
+    QTest::keyClick(window.get(), Qt::Key_0, Qt::ControlModifier);
+    QVERIFY(shown("breakpoint_dock"));
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(AppearanceTest)
+#include "appearance_test.moc"

@@ -1,0 +1,133 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The pictures of the manual and of the welcome page. Where TRANSILLUM_PICTURES names a folder they
+// are written there (viewer/pictures/make); otherwise a few are taken, and looked at only by
+// machine: none may be blank.
+#include <QDir>
+
+#include "lesson_panel.h"
+#include "solved_window.h"
+#include "stage.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+constexpr QSize window_size{1440, 900};
+
+QString folder() { return qEnvironmentVariable("TRANSILLUM_PICTURES"); }
+
+// Not blank, and not one view in front of nothing; kept where it is asked for.
+void keep(const QImage& picture, const QString& name, const QSize& size) {
+  QVERIFY2(color_count(picture) > 40, qPrintable(name));
+  if (folder().isEmpty()) return;
+  const QImage small = picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
+}
+
+bool settles(MainWindow& window) {
+  const auto still = [&] { return window.settled(); };
+  if (!wait_for(still, 120000)) return false;
+  QTest::qWait(150);  // views that are about to ask for a new picture
+  return wait_for(still, 120000);
+}
+
+QImage whole(MainWindow& window) { return window.grab().toImage(); }
+
+}  // namespace
+
+class PicturesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void layouts() {
+    MainWindow window(false);
+    window.resize(window_size);
+    window.show();
+    SolveOptions options;
+    options.directions = 64;
+    window.set_options(options, {});
+    window.open("cornell-box");
+    QVERIFY(settles(window));
+    window.selection().select(16);
+    for (const char* layout : {"inspect", "debug"}) {
+      window.findChild<QAction*>(QStringLiteral("layout_%1").arg(layout))->trigger();
+      if (layout == QByteArray("debug")) {
+        window.focus().go_to({0, 9, -1});
+        QVERIFY(settles(window));
+        window.findChild<QAction*>("next_event")->trigger();
+        window.focus().set_phase(Phase::split);
+      }
+      QVERIFY(settles(window));
+      keep(whole(window), QStringLiteral("layout-%1.png").arg(layout), {960, 600});
+    }
+  }
+
+  void first_pages_of_lessons() {
+    MainWindow window(false);
+    window.resize(window_size);
+    window.show();
+    auto* panel = window.findChild<LessonPanel*>();
+    const int lessons = static_cast<int>(panel->lessons().size());
+    for (int lesson = 0; lesson < (folder().isEmpty() ? 1 : lessons); ++lesson) {
+      panel->show_page(lesson, 0);
+      QVERIFY(settles(window));
+      keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
+    }
+    // The layout to teach, where something happens.
+    panel->show_page(2, 1);
+    QVERIFY(settles(window));
+    keep(whole(window), "layout-teach.png", {960, 600});
+  }
+
+  void projector_and_dark() {
+    if (folder().isEmpty()) QSKIP("only for the manual");
+    MainWindow window(false);
+    window.resize(window_size);
+    window.show();
+    window.findChild<LessonPanel*>()->show_page(3, 3);
+    window.findChild<QAction*>("projector")->trigger();
+    QVERIFY(settles(window));
+    keep(whole(window), "projector.png", {960, 600});
+    window.findChild<QAction*>("projector")->trigger();
+    window.findChild<QAction*>("dark")->trigger();
+    QVERIFY(settles(window));
+    keep(whole(window), "dark.png", {960, 600});
+    window.findChild<QAction*>("dark")->trigger();
+  }
+
+  void built_in_scenes_alone() {
+    for (const BuiltInScene& scene : built_in_scenes()) {
+      const QString name = QString::fromStdString(scene.name);
+      if (folder().isEmpty() && name != "boards") continue;
+      MainWindow window(false);
+      window.resize(window_size);
+      window.show();
+      SolveOptions options;
+      options.directions = name == "sphere-flake" ? 16 : 128;
+      options.first_shot = name == "stars" ? std::optional<double>(1000) : std::nullopt;
+      SceneOptions refined;
+      if (name == "cornell-box") refined.max_patch_area = 0.0025;
+      if (name == "stars" || name == "rooms") refined.max_patch_area = 0.25;
+      window.set_options(options, refined);
+      // One iteration brings the light of a sky; a room wants them all.
+      window.open(name, {name == "sphere-flake" ? Goal::Kind::iteration : Goal::Kind::finished});
+      QVERIFY(settles(window));
+      auto* view = window.findChild<SceneView*>();
+      view->set_outlines_shown(name == "furnace" || name == "boards");
+      view->set_direction_shown(false);
+      const QImage picture = view->picture(1);
+      // The middle, of the card's shape.
+      const int height = std::min(picture.height(), picture.width() * 5 / 8);
+      const int width = height * 8 / 5;
+      keep(picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width,
+                        height),
+           QStringLiteral("scene-%1.png").arg(name), {480, 300});
+    }
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(PicturesTest)
+#include "pictures_test.moc"

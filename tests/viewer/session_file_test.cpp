@@ -1,0 +1,201 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QAction>
+#include <QDir>
+#include <QPlainTextEdit>
+#include <QTemporaryDir>
+
+#include "export_actions.h"
+#include "file_actions.h"
+#include "session_file.h"
+#include "solved_window.h"
+#include "stage.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+const char* const triangle_room =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+
+void write(const QString& path, const QByteArray& text) {
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(text);
+}
+
+QByteArray contents(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+bool settles(MainWindow& window) {
+  return wait_for([&] { return window.settled(); });
+}
+
+}  // namespace
+
+class SessionFileTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void what_is_saved_comes_back() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("mine.json");
+    ViewPoint camera;
+    {
+      SolvedWindow solved("furnace");
+      QVERIFY(solved.ready);
+      MainWindow& window = *solved.window;
+      window.selection().select(7);
+      window.colors().set_mode(ColorMode::luminance);
+      window.focus().go_to({0, 5, 3});
+      QVERIFY(settles(window));
+      window.focus().set_phase(Phase::split);
+      window.breakpoints().set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
+      window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
+      camera = solved.scene_view->view_point();
+      camera.eye.x += 1;
+      solved.scene_view->look_from(camera);
+      window.files().save_session(path);
+    }
+    const auto window = make_window(16);
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QCOMPARE(window->spec(), std::string("furnace"));
+    QCOMPARE(window->snapshot()->options.directions, 32);
+    QCOMPARE(window->selection().patch(), PatchId{7});
+    QVERIFY(window->colors().scale().mode == ColorMode::luminance);
+    const Moment there{0, 5, 3};
+    QVERIFY(window->focus().moment() == there);
+    QVERIFY(window->focus().phase() == Phase::split);
+    QCOMPARE(window->breakpoints().list().size(), std::size_t{1});
+    QVERIFY(window->breakpoints().list()[0].kind == Breakpoint::Kind::pair);
+    QVERIFY(!window->breakpoints().list()[0].enabled);
+    QCOMPARE(window->findChild<QPlainTextEdit*>("notes")->toPlainText(),
+             QString("mind the \"gap\"\nω"));
+    QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
+  }
+
+  void a_session_and_its_scene_move_together() {
+    const QTemporaryDir folder;
+    write(folder.filePath("room.obj"), triangle_room);
+    Session session;
+    session.state.scene = folder.filePath("room.obj").toStdString();
+    const std::string text = to_text(session, folder.path().toStdString());
+    QVERIFY(text.find(folder.path().toStdString()) == std::string::npos);
+    const QTemporaryDir other;
+    write(other.filePath("room.obj"), triangle_room);
+    const Session read = session_from_text(text, "s.json", other.path().toStdString());
+    QCOMPARE(QString::fromStdString(read.state.scene), other.filePath("room.obj"));
+  }
+
+  void a_bad_session_is_told_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("told");
+    QTest::newRow("no JSON") << "{"
+                             << "bad.json, line 1";
+    QTest::newRow("neither") << "{}"
+                             << "neither a session";
+    QTest::newRow("a list") << "[1]"
+                            << "neither a session";
+    QTest::newRow("scene") << R"({"show": {"scene": 1}})"
+                           << "bad.json, show, scene";
+    QTest::newRow("kind") << R"({"show": {}, "breakpoints": [{"kind": "x"}]})"
+                          << "breakpoint 1, kind";
+    QTest::newRow("patch") << R"({"show": {}, "breakpoints": [{"kind": "cut", "patch": -1}]})"
+                           << "breakpoint 1, patch";
+    QTest::newRow("notes") << R"({"show": {}, "notes": []})"
+                           << "bad.json, notes";
+    QTest::newRow("key") << R"({"show": {}, "note": ""})"
+                         << "\"note\"";
+  }
+  void a_bad_session_is_told() {
+    QFETCH(QString, text);
+    QFETCH(QString, told);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("bad.json");
+    write(path, text.toUtf8());
+    const auto window = make_window();
+    window->files().try_open(path);
+    QVERIFY2(window->banner_text().contains(told), qPrintable(window->banner_text()));
+    QVERIFY(!window->snapshot());
+  }
+
+  void files_opened_lately_are_kept() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("room.obj");
+    write(path, triangle_room);
+    const auto window = make_window(4);
+    window->files().open(path);
+    QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
+    QCOMPARE(window->files().recent(), QStringList{path});
+    window->files().open("furnace");
+    QVERIFY(wait_for([&] { return window->spec() == "furnace"; }));
+    QCOMPARE(window->files().recent(), QStringList{path});  // a built-in is no file
+  }
+
+  void a_file_that_changes_is_read_again() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("room.obj");
+    write(path, triangle_room);
+    const auto window = make_window(4);
+    window->files().open(path);
+    QVERIFY(settles(*window) && window->snapshot()->radiosity.size() == 4);
+    window->selection().select(2);
+    window->findChild<QAction*>("watch")->setChecked(true);
+    // As a program that writes beside and renames.
+    write(path + ".new", QByteArray(triangle_room) + "f 1 2 3\n");
+    QVERIFY(QFile::remove(path) && QFile::rename(path + ".new", path));
+    QVERIFY(wait_for([&] { return window->snapshot()->radiosity.size() == 5; }, 10000));
+    QVERIFY(settles(*window));
+    QCOMPARE(window->selection().patch(), PatchId{2});
+  }
+
+  void exports() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const ExportActions& exports = solved.window->exports();
+    const QTemporaryDir folder;
+    exports.write_scene(folder.filePath("scene.png"), 2);
+    const QImage picture(folder.filePath("scene.png"));
+    const QSize canvas =
+        solved.scene_view->canvas()->size() * solved.scene_view->canvas()->devicePixelRatioF();
+    QCOMPARE(picture.size(), 2 * canvas);
+    QVERIFY(color_count(picture) > 5);
+
+    exports.write_map_picture(folder.filePath("map.svg"));
+    QVERIFY(contents(folder.filePath("map.svg")).count("<path") > 3);
+    exports.write_charts(folder.filePath("charts.svg"));
+    const QByteArray charts = contents(folder.filePath("charts.svg"));
+    QVERIFY(charts.contains("<polyline") || charts.contains("<path"));
+    QVERIFY(!charts.contains("<image"));  // true vectors
+    exports.write_chart_figures(folder.filePath("figures.csv"));
+    const QByteArray figures = contents(folder.filePath("figures.csv"));
+    QVERIFY(figures.startsWith("chart,x,change,quadrature_error\niteration,1,"));
+    QCOMPARE(figures.count("direction,"), 32);
+    QVERIFY_EXCEPTION_THROWN(exports.write_scene(folder.filePath("no/such.png"), 1),
+                             std::runtime_error);
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 4);
+  }
+
+  void frames_are_the_progress() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    ExportActions& exports = solved.window->exports();
+    exports.begin_frames(folder.path());
+    solved.trigger("one_direction");
+    QVERIFY(wait_for([&] { return exports.frames() >= 2; }));
+    exports.end_frames();
+    const int frames = exports.frames();
+    solved.trigger("one_direction");
+    QTest::qWait(200);
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
+    QVERIFY(color_count(QImage(folder.filePath("frame_00001.png"))) > 5);
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(SessionFileTest)
+#include "session_file_test.moc"
