@@ -34,6 +34,7 @@ struct DrawnPiece {
 /// What all hemicubes see: immutable.
 struct HemicubeScene {
   const Scene& scene;
+  const Cancellation& cancellation;
   int resolution;
   double nothing;  ///< distance from a plane that counts as none
   bool in_air;     ///< no lit side sees a back
@@ -41,8 +42,11 @@ struct HemicubeScene {
   std::vector<DrawnPiece> pieces;   ///< what covers what it coincides with comes after it
   std::vector<std::size_t> eye_of;  ///< a patch: its largest piece
 
-  HemicubeScene(const Scene& seen, int pixels, const Cancellation& cancellation)
-      : scene(seen), resolution(pixels), nothing(thin * seen.bounds().diagonal()) {
+  HemicubeScene(const Scene& seen, int pixels, const Cancellation& stop)
+      : scene(seen),
+        cancellation(stop),
+        resolution(pixels),
+        nothing(thin * seen.bounds().diagonal()) {
     // The scene outlives this; the tree is of use here only.
     const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
     in_air = lit_sides_see_no_backs(borrowed, std::make_shared<const BspTree>(scene, cancellation));
@@ -144,6 +148,8 @@ class HemicubeRows {
     if ((lit ? -offset : offset) <= shared_.nothing || piece.patch == own) return;
     const Vec3 to_center = piece.center - eye_;
     if (dot(up_, to_center) <= -piece.radius) return;
+    // At high resolutions a cube takes seconds.
+    shared_.cancellation.throw_if_cancelled();
     corners_.clear();
     for (std::uint32_t k = piece.begin; k < piece.end; ++k) {
       corners_.push_back(turned(shared_.corners[k] - eye_));
