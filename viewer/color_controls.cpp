@@ -40,6 +40,10 @@ void offer(QComboBox& list, int item, bool offered) {
   model->item(item)->setEnabled(offered);
 }
 
+int room_for(const QWidget& widget) {
+  return std::max(widget.minimumSizeHint().width(), widget.minimumWidth()) + spacing;
+}
+
 QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
 
 }  // namespace
@@ -90,10 +94,8 @@ void ColorControls::add_tool(QWidget* tool) {
 }
 
 void ColorControls::measure() {
-  roomy_width_ = layout()->minimumSize().width();
-  int narrowest = roomy_width_;
-  for (const QWidget* widget : spare_)
-    narrowest -= std::max(widget->minimumSizeHint().width(), widget->minimumWidth()) + spacing;
+  int narrowest = layout()->minimumSize().width();
+  for (const QWidget* widget : spare_) narrowest -= room_for(*widget);
   setMinimumWidth(narrowest);
 }
 
@@ -111,7 +113,13 @@ void ColorControls::fill_quantities() {
 
 void ColorControls::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  for (QWidget* widget : spare_) widget->setVisible(width() >= roomy_width_);
+  int left = width() - minimumWidth();
+  // The last ones added are missed most.
+  for (auto widget = spare_.rbegin(); widget != spare_.rend(); ++widget) {
+    const int needed = room_for(**widget);
+    (*widget)->setVisible(needed <= left);
+    if (needed <= left) left -= needed;
+  }
 }
 
 QWidget* ColorControls::make_true_color_page() {

@@ -58,7 +58,6 @@ class ColorControls : public QWidget {
   QCheckBox* logarithmic_;
   ShowMenu* show_;
   std::vector<QWidget*> spare_;  ///< left out where the strip is narrow, as on a projector
-  int roomy_width_ = 0;          ///< from here on nothing is left out
 };
 
 }  // namespace transillum::viewer
