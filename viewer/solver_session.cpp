@@ -171,7 +171,7 @@ void SolverSession::load(const OpenRequest& request) {
     auto loaded = std::make_shared<LoadedScene>();
     report(tr("Loading %1").arg(name), -1);
     loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
-    loaded->picker = std::make_shared<const Picker>(loaded->scene);
+    loaded->picker = std::make_shared<const Picker>(loaded->scene, cancellation);
     loaded->measures = measure(*loaded->scene, cancellation);
     loaded->seconds_load = seconds_since(load_begin);
 

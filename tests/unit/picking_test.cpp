@@ -67,6 +67,13 @@ TEST(Picker, MeetsTwoSidedFacesOnTheSideOfTheRay) {
   }
 }
 
+TEST(Picker, IsLeftWhenCancelled) {
+  const auto scene = load_scene("sphere-flake:levels=1");
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(Picker(scene, cancellation), Cancelled);
+}
+
 TEST(Picker, AimsFromFarAway) {
   const auto scene = load_scene("sphere-flake:levels=1");
   const Picker picker(scene);

@@ -154,6 +154,7 @@ TEST(BspTree, IsLeftWhenCancelled) {
   const Cancellation cancellation;
   cancellation.cancel();
   EXPECT_THROW(BspTree(*scene, cancellation), Cancelled);
+  EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, cancellation), Cancelled);
 }
 
 /// Of coincident faces, the receiving comes first in the light's way; a lamp covers its ceiling.

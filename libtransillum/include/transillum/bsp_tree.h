@@ -90,7 +90,8 @@ class BspTree {
   /// All fragments, those farthest toward `omega` first. Among coincident ones of one plane the
   /// receiving come before the emitting, and of those that face the same way the one with the
   /// larger exitance (then the smaller area, then the later number) covers the other.
-  std::vector<FragmentId> order(const Vec3& omega) const;
+  /// @throws Cancelled
+  std::vector<FragmentId> order(const Vec3& omega, const Cancellation& cancellation = {}) const;
 
  private:
   friend class BspBuilder;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "transillum/cancellation.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -23,7 +24,8 @@ struct PickedPoint {
 /// with its logarithm. Threads: immutable, any number may ask.
 class Picker {
  public:
-  explicit Picker(std::shared_ptr<const Scene> scene);
+  /// @throws Cancelled
+  explicit Picker(std::shared_ptr<const Scene> scene, const Cancellation& cancellation = {});
   ~Picker();
   Picker(Picker&&) noexcept;
   Picker& operator=(Picker&&) noexcept;

@@ -106,9 +106,9 @@ struct Gathering {
   std::uint64_t seed;
   std::vector<std::vector<std::uint32_t>> pieces_of;  ///< by patch
 
-  Gathering(const Scene& gathered, const GatherOptions& options)
+  Gathering(const Scene& gathered, const GatherOptions& options, const Cancellation& cancellation)
       : scene(gathered),
-        embree(gathered),
+        embree(gathered, cancellation),
         lattice(make_lattice(options.rays_per_patch)),
         seed(options.seed),
         pieces_of(static_cast<std::size_t>(gathered.patch_count())) {
@@ -255,7 +255,7 @@ FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options
                                 const Cancellation& cancellation,
                                 const std::function<void(double)>& progress) {
   options.validate();
-  const Gathering all(scene, options);
+  const Gathering all(scene, options, cancellation);
   return gather_rows(
       scene.patch_count(), options.threads, batch, std::numeric_limits<std::uint64_t>::max(),
       [&all] { return RowGatherer(all); }, cancellation, progress);

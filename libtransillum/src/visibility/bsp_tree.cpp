@@ -18,14 +18,15 @@ BspTree::BspTree(const Scene& scene, const Cancellation& cancellation,
   BspBuilder(scene, *this, cancellation, progress).build();
 }
 
-std::vector<FragmentId> BspTree::order(const Vec3& omega) const {
+std::vector<FragmentId> BspTree::order(const Vec3& omega, const Cancellation& cancellation) const {
   std::vector<FragmentId> order;
   order.reserve(fragments_.size());
 
   // A visited node waits on the stack, complemented, until its nearer side is done.
   std::vector<std::int32_t> stack;
   if (root() != no_node) stack.push_back(root());
-  while (!stack.empty()) {
+  for (std::size_t visit = 0; !stack.empty(); ++visit) {
+    if (visit % 16384 == 0) cancellation.throw_if_cancelled();
     const std::int32_t top = stack.back();
     stack.pop_back();
     const bool returning = top < 0;

@@ -30,7 +30,8 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
         .paint(newell_order(scene, grid, pieces, heights, cancellation));
   } else {
     const FragmentOutlines fragments(tree, grid);
-    Painter(fragments, grid, heights, book, cancellation).paint(tree.order(grid.frame().omega));
+    Painter(fragments, grid, heights, book, cancellation)
+        .paint(tree.order(grid.frame().omega, cancellation));
   }
 }
 

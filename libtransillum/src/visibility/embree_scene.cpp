@@ -86,7 +86,7 @@ RTCRayHit make_ray(const Vec3& origin, const Vec3& direction) {
   return ray;
 }
 
-EmbreeScene::EmbreeScene(const Scene& scene)
+EmbreeScene::EmbreeScene(const Scene& scene, const Cancellation& cancellation)
     : description_(scene),
       center_(scene.bounds().center()),
       scale_(2 / scene.bounds().diagonal()),
@@ -97,7 +97,13 @@ EmbreeScene::EmbreeScene(const Scene& scene)
   // Robust: a line does not slip through between two triangles.
   rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filter_flag));
   add_triangles();
+  const auto go_on = [](void* wish, double) {
+    return !static_cast<const Cancellation*>(wish)->cancelled();
+  };
+  rtcSetSceneProgressMonitorFunction(scene_.get(), go_on, const_cast<Cancellation*>(&cancellation));
   rtcCommitScene(scene_.get());
+  rtcSetSceneProgressMonitorFunction(scene_.get(), nullptr, nullptr);
+  cancellation.throw_if_cancelled();
   check(device_.get());
 }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "transillum/cancellation.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -25,8 +26,8 @@ inline bool has_hit(const RTCRayHit& ray) { return ray.hit.geomID != RTC_INVALID
 class EmbreeScene {
  public:
   /// Keeps a reference.
-  /// @throws std::bad_alloc, std::runtime_error where Embree fails.
-  explicit EmbreeScene(const Scene& scene);
+  /// @throws Cancelled, std::bad_alloc, std::runtime_error where Embree fails.
+  explicit EmbreeScene(const Scene& scene, const Cancellation& cancellation = {});
 
   /// A point of the scene in Embree's coordinates.
   Vec3 inside(const Vec3& p) const { return scale_ * (p - center_); }

@@ -59,7 +59,7 @@ class FastPass {
     look_all<Way::up>(cancellation);
     if (!shared_.in_air) look_all<Way::down>(cancellation);
     TRANSILLUM_INVARIANT(nothing_is_covered_twice(), "more is covered than projected");
-    sort_exchanges();
+    sort_exchanges(cancellation);
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
       return std::chrono::duration<double>(to - from).count();
     };
@@ -237,7 +237,7 @@ class FastPass {
   }
 
   /// By receiver, then source, one entry a pair; parts summed in the order they were found.
-  void sort_exchanges() {
+  void sort_exchanges(const Cancellation& cancellation) {
     const std::size_t patches = transfers_.forward.size();
     row_ends_.assign(patches + 1, 0);
     for (const Transfer& t : found_) ++row_ends_[static_cast<std::size_t>(t.receiver) + 1];
@@ -250,6 +250,7 @@ class FastPass {
     exchanges.reserve(found_.size());
     std::size_t begin = 0;
     for (std::size_t i = 0; i < patches; ++i) {
+      if (i % 4096 == 0) cancellation.throw_if_cancelled();
       sort_by_source(sorted_.data() + begin, sorted_.data() + row_ends_[i]);
       const std::size_t row = exchanges.size();
       for (; begin < row_ends_[i]; ++begin) {

@@ -107,15 +107,14 @@ void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) 
 
 void FastFaces::project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
                         const Vec3& omega, const Cancellation& cancellation) {
-  grid.project(scene, tree, omega);
-  cancellation.throw_if_cancelled();
+  grid.project(scene, tree, omega, cancellation);
   boxes.clear();
   faces.clear();
   corners.clear();
   boxes.reserve(outlines.outlines.size());
   faces.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
-  const std::vector<FragmentId> order = tree.order(omega);
+  const std::vector<FragmentId> order = tree.order(omega, cancellation);
   for (std::size_t place = 0; place < order.size(); ++place) {
     if (place % 4096 == 0) cancellation.throw_if_cancelled();
     fetch(outlines, order, place);

@@ -171,7 +171,7 @@ class GlobalMap {
   std::vector<TilePolygon> look_at_fragments() {
     std::vector<TilePolygon> polygons;
     SeenFragment<Rational> seen(tree_, projection_);
-    for (const FragmentId f : tree_.order(omega_)) {
+    for (const FragmentId f : tree_.order(omega_, cancellation_)) {
       cancellation_.throw_if_cancelled();
       const BspTree::Fragment& fragment = tree_.fragment(f);
       if (!seen.look_at(fragment)) continue;

@@ -6,7 +6,8 @@
 
 namespace transillum {
 
-void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3& omega) {
+void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3& omega,
+                             const Cancellation& cancellation) {
   frame = plane_frame(scene, omega);
   // Of more than 53 bits, as the grid is.
   using Wide = long double;
@@ -22,7 +23,11 @@ void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3
 
   points.clear();
   points.reserve(tree.points().size());
+  const auto look_for_cancellation = [&] {
+    if (points.size() % 16384 == 0) cancellation.throw_if_cancelled();
+  };
   for (const Vec3& p : scene.points()) {
+    look_for_cancellation();
     const Wide x = static_cast<Wide>(p.x) - frame.origin.x;
     const Wide y = static_cast<Wide>(p.y) - frame.origin.y;
     const Wide z = static_cast<Wide>(p.z) - frame.origin.z;
@@ -30,6 +35,7 @@ void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3
         {std::llrint(u[0] * x + u[1] * y + u[2] * z), std::llrint(v[0] * x + v[1] * y + v[2] * z)});
   }
   for (const BspTree::CutPoint& cut : tree.cut_points()) {
+    look_for_cancellation();
     const GridPoint a = points[static_cast<std::size_t>(cut.a)];
     const GridPoint b = points[static_cast<std::size_t>(cut.b)];
     points.push_back({a.x + std::llrint(cut.t * static_cast<Wide>(b.x - a.x)),

@@ -22,7 +22,9 @@ struct GridProjection {
   double step = 1;  ///< metres, a power of two
   std::vector<GridPoint> points;
 
-  void project(const Scene& scene, const BspTree& tree, const Vec3& omega);
+  /// @throws Cancelled
+  void project(const Scene& scene, const BspTree& tree, const Vec3& omega,
+               const Cancellation& cancellation);
 };
 
 }  // namespace transillum

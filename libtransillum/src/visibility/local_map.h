@@ -51,7 +51,7 @@ class LocalMap {
         sums_(scene.patch_count()) {}
 
   Transfers run() {
-    const std::vector<FragmentId> order = tree_.order(omega_);
+    const std::vector<FragmentId> order = tree_.order(omega_, cancellation_);
     begin_record(order);
     for (step_ = 0; step_ < static_cast<std::int32_t>(order.size()); ++step_) {
       if (step_ % 64 == 0) cancellation_.throw_if_cancelled();

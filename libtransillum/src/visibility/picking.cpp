@@ -13,7 +13,8 @@ struct Picker::Impl {
   std::shared_ptr<const Scene> scene;
   EmbreeScene embree;
 
-  explicit Impl(std::shared_ptr<const Scene> picked) : scene(std::move(picked)), embree(*scene) {}
+  Impl(std::shared_ptr<const Scene> picked, const Cancellation& cancellation)
+      : scene(std::move(picked)), embree(*scene, cancellation) {}
 
   std::optional<PickedPoint> hit(const Vec3& origin, const Vec3& direction, bool lit_only) const {
     const Vec3 way = normalized(direction / max_abs(direction));
@@ -46,8 +47,8 @@ struct Picker::Impl {
   }
 };
 
-Picker::Picker(std::shared_ptr<const Scene> scene)
-    : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Picker::Picker(std::shared_ptr<const Scene> scene, const Cancellation& cancellation)
+    : impl_(std::make_unique<Impl>(std::move(scene), cancellation)) {}
 Picker::~Picker() = default;
 Picker::Picker(Picker&&) noexcept = default;
 Picker& Picker::operator=(Picker&&) noexcept = default;
