@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "number_text.h"
+#include "scrolling.h"
 #include "theme.h"
 #include "value_grid.h"
 
@@ -157,6 +158,7 @@ void AlgorithmView::show_moment() {
                                    .arg(theme::processed.name(), theme::on_yellow.name())
                              : QString();
     if (lines_[k]->styleSheet() != style) lines_[k]->setStyleSheet(style);
+    if (on) scroll_to(lines_[k]);
   }
   if (kind() == MapKind::local) {
     const auto state =

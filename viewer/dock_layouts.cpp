@@ -4,11 +4,8 @@
 #include <QAction>
 #include <QDockWidget>
 #include <QMenu>
-#include <QScrollArea>
-#include <QStyle>
 #include <QTabBar>
 #include <QTimer>
-#include <algorithm>
 #include <utility>
 
 namespace transillum::viewer {
@@ -131,18 +128,6 @@ std::vector<std::string> DockLayouts::panels() const {
   std::vector<std::string> names;
   for (const Dock& dock : docks_) names.push_back(panel_name(*dock.widget));
   return names;
-}
-
-QWidget* scrollable(QWidget* content) {
-  auto* area = new QScrollArea;
-  area->setWidget(content);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  // Never so narrow that something is cut off at the right.
-  area->setMinimumWidth(std::max(content->minimumSizeHint().width(), content->minimumWidth()) +
-                        area->style()->pixelMetric(QStyle::PM_ScrollBarExtent));
-  return area;
 }
 
 }  // namespace transillum::viewer

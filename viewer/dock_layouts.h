@@ -54,7 +54,4 @@ class DockLayouts : public QObject {
   Layout current_ = Layout::inspect;
 };
 
-/// `content` with a scroll bar where it is too high, and never too narrow for it.
-QWidget* scrollable(QWidget* content);
-
 }  // namespace transillum::viewer

@@ -11,6 +11,7 @@
 #include "dock_layouts.h"
 #include "material_panel.h"
 #include "patch_table_panel.h"
+#include "scrolling.h"
 #include "solver_session.h"
 
 namespace transillum::viewer {

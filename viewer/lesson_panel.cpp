@@ -131,11 +131,6 @@ void LessonPanel::fill_list() {
   list_->addItem(tr("Open a lesson…"));
 }
 
-void LessonPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::FontChange) show_state();
-}
-
 void LessonPanel::show_page(int lesson, int page) {
   lesson_ = lesson;
   page_ = page;

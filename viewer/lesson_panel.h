@@ -31,14 +31,13 @@ class LessonPanel : public QWidget {
   int lesson() const { return lesson_; }
   int page() const { return page_; }
   void show_page(int lesson, int page);
+  /// Takes the application's font anew.
+  void refresh() { show_state(); }
 
  signals:
   /// The window is to show what the page tells.
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
-
- protected:
-  void changeEvent(QEvent* event) override;
 
  private:
   void fill_list();

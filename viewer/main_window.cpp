@@ -38,6 +38,7 @@
 #include "received_view.h"
 #include "scene_page.h"
 #include "scene_view.h"
+#include "scrolling.h"
 #include "setting_list.h"
 #include "settings_panel.h"
 #include "solve_actions.h"
@@ -94,6 +95,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
     if (snapshot_) show_snapshot(snapshot_);
     map_view_->update();
+    lesson_panel_->refresh();
   });
   restore_layout();
 }

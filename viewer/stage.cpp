@@ -67,6 +67,7 @@ void Stage::reload() {
   if (window_.spec().empty()) return;
   wish_ = state();
   act_ = Act::awaits_scene;
+  opens_ = true;
   window_.set_options(wish_.options.solve, wish_.options.scene);
   window_.open(QString::fromStdString(wish_.scene), wish_.solve);
 }
@@ -86,6 +87,7 @@ void Stage::begin_run() {
   const auto snapshot = window_.snapshot();
   if (!snapshot || !window_.shows(wish_.scene, wish_.options.scene)) {
     act_ = Act::awaits_scene;
+    opens_ = true;
     window_.open(QString::fromStdString(wish_.scene), wish_.solve);
     return;
   }
@@ -99,11 +101,11 @@ void Stage::begin_run() {
   on_snapshot();
 }
 
+// Of wishes that follow one another quickly each asks for the scene, and more than one may get it;
+// every time it begins anew.
 void Stage::on_scene() {
-  if (act_ == Act::awaits_scene && window_.shows(wish_.scene, wish_.options.scene))
-    act_ = Act::awaits_run;
-  else
-    act_ = Act::idle;  // the user has opened another
+  opens_ = opens_ && window_.shows(wish_.scene, wish_.options.scene);
+  act_ = opens_ ? Act::awaits_run : Act::idle;  // idle: the user has opened another
 }
 
 // Snapshots of the run before may still be on their way.

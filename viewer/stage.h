@@ -42,6 +42,7 @@ class Stage : public QObject {
   MainWindow& window_;
   ViewState wish_;
   Act act_ = Act::idle;
+  bool opens_ = false;  ///< the scene was asked for by us; it may come more than once
 };
 
 }  // namespace transillum::viewer

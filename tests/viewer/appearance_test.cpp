@@ -10,6 +10,7 @@
 
 #include "full_screen.h"
 #include "key_list.h"
+#include "lesson_panel.h"
 #include "solved_window.h"
 
 using namespace transillum;
@@ -41,6 +42,18 @@ class AppearanceTest : public QObject {
     QVERIFY(theme::scale() > 1.3);
     solved.trigger("projector");
     QCOMPARE(QFontInfo(solved.window->font()).pixelSize(), size);
+  }
+
+  void projector_mode_enlarges_a_lesson() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    solved.window->findChild<LessonPanel*>()->show_page(3, 0);
+    const auto* text = solved.window->findChild<QTextBrowser*>("lesson_text");
+    const int size = text->document()->defaultFont().pixelSize();
+    solved.trigger("projector");
+    QVERIFY(text->document()->defaultFont().pixelSize() >= 1.3 * size);
+    solved.trigger("projector");
+    QCOMPARE(text->document()->defaultFont().pixelSize(), size);
   }
 
   void dark_is_dark() {
