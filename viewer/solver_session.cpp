@@ -200,7 +200,15 @@ void SolverSession::load(const OpenRequest& request) {
     }
     loaded_ = loaded;
     take_solver(std::move(solver));
-    post([this, loaded] { emit scene_loaded(loaded); });
+    {
+      const std::lock_guard lock(mutex_);
+      mailbox_ = nullptr;  // of the scene before
+    }
+    post([this, loaded] {
+      announced_ = loaded;
+      emit scene_loaded(loaded);
+      deliver_snapshot();
+    });
     post_snapshot();
   } catch (const Cancelled&) {
     // The user's wish: nothing to say.
@@ -397,14 +405,18 @@ void SolverSession::post_snapshot() {
     mailbox_ = std::move(snapshot);
     if (message_under_way) return;
   }
-  post([this] {
-    std::shared_ptr<const SolverSnapshot> newest;
-    {
-      const std::lock_guard lock(mutex_);
-      newest = std::exchange(mailbox_, nullptr);
-    }
-    if (newest) emit snapshot_ready(newest);
-  });
+  post([this] { deliver_snapshot(); });
+}
+
+void SolverSession::deliver_snapshot() {
+  std::shared_ptr<const SolverSnapshot> newest;
+  {
+    const std::lock_guard lock(mutex_);
+    // That of a scene which is still to be announced waits for it.
+    if (!mailbox_ || mailbox_->loaded != announced_) return;
+    newest = std::exchange(mailbox_, nullptr);
+  }
+  emit snapshot_ready(newest);
 }
 
 SessionState SolverSession::resting_state() const {

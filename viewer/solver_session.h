@@ -74,6 +74,7 @@ class SolverSession : public QObject {
 
  private:
   void aim(Goal goal);
+  void deliver_snapshot();
   // The rest runs on the worker's thread.
   void work();
   void load(const OpenRequest& request);
@@ -92,7 +93,8 @@ class SolverSession : public QObject {
   void post_failure(const QString& message, bool bad_input);
   SessionState resting_state() const;
 
-  SessionState state_ = SessionState::empty;  // as the window knows it
+  SessionState state_ = SessionState::empty;      // as the window knows it
+  std::shared_ptr<const LoadedScene> announced_;  // likewise
 
   std::mutex mutex_;  // guards all down to `mailbox_`
   std::condition_variable wake_;

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QTest>
+#include <QThread>
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -63,6 +64,20 @@ class SessionTest : public QObject {
     QVERIFY(w.snapshot);
     QCOMPARE(w.snapshot->progress.direction, 0);
     QCOMPARE(w.snapshot->radiosity.size(), std::size_t(w.loaded->scene->patch_count()));
+  }
+
+  // While the window is busy a scene is solved and another opened and solved.
+  void a_scene_comes_before_its_snapshots() {
+    Watched w;
+    QObject::connect(&w.session, &SolverSession::snapshot_ready, &w.session,
+                     [&w](const auto& newest) { QVERIFY(newest->loaded == w.loaded); });
+    for (int k = 0; k < 2; ++k) {
+      w.open("furnace", 16, {Goal::Kind::finished});
+      QThread::msleep(400);
+    }
+    QVERIFY(w.comes_to(SessionState::finished));
+    QTRY_VERIFY(w.snapshot && w.snapshot->loaded == w.loaded);
+    QVERIFY(w.snapshot->progress.finished);
   }
 
   void one_direction_is_exactly_one() {
