@@ -58,7 +58,7 @@ namespace transillum::viewer {
 namespace {
 
 // Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 6;
+constexpr int layout_version = 7;
 
 constexpr PatchId few_patches = 64;
 
@@ -146,6 +146,8 @@ void MainWindow::make_docks() {
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});
   inspection_->add_tables_to(docks_);
+  docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
+             {{inspect, right, 450, true}});
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
              {{teach, right, 420}, {debug, left, 560}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
@@ -158,8 +160,6 @@ void MainWindow::make_docks() {
              {{teach, right, 420, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
-  docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
-             {{inspect, right, 400, true}});
   QDockWidget* timeline_dock =
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
