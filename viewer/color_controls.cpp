@@ -94,9 +94,13 @@ void ColorControls::add_tool(QWidget* tool) {
 }
 
 void ColorControls::measure() {
+  for (QWidget* widget : spare_) widget->setVisible(true);
+  for (int page = 0; page < pages_->count(); ++page) pages_->widget(page)->layout()->invalidate();
+  layout()->invalidate();
   int narrowest = layout()->minimumSize().width();
   for (const QWidget* widget : spare_) narrowest -= room_for(*widget);
   setMinimumWidth(narrowest);
+  leave_out();
 }
 
 void ColorControls::fill_quantities() {
@@ -113,6 +117,10 @@ void ColorControls::fill_quantities() {
 
 void ColorControls::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
+  leave_out();
+}
+
+void ColorControls::leave_out() {
   int left = width() - minimumWidth();
   // The last ones added are missed most.
   for (auto widget = spare_.rbegin(); widget != spare_.rend(); ++widget) {
@@ -153,7 +161,7 @@ QWidget* ColorControls::make_true_color_page() {
   layout->addWidget(automatic_);
   layout->addSpacing(8);
   layout->addWidget(spare_.emplace_back(label_for(gamma_, tr("Gamma"))));
-  layout->addWidget(gamma_);
+  layout->addWidget(spare_.emplace_back(gamma_));
 
   connect(exposure_slider_, &QSlider::valueChanged, this, [this](int value) {
     colors_.set_exposure(static_cast<double>(value) / slider_steps_per_ev);

@@ -32,6 +32,8 @@ class ColorControls : public QWidget {
   ShowMenu* show_menu() const { return show_; }
   /// Puts a tool at the right end, where there is room for it.
   void add_tool(QWidget* tool);
+  /// Asks anew how much room all needs, as after a change of fonts.
+  void measure();
 
  signals:
   void direction_toggled(bool shown);
@@ -44,7 +46,7 @@ class ColorControls : public QWidget {
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
-  void measure();
+  void leave_out();
   void show_choice();
 
   ColorChoice& colors_;

@@ -14,6 +14,7 @@
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTimer>
 #include <QToolBar>
 #include <algorithm>
 #include <utility>
@@ -96,6 +97,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
     if (snapshot_) show_snapshot(snapshot_);
     map_view_->update();
     lesson_panel_->refresh();
+    // Once the layouts have heard of the fonts.
+    QTimer::singleShot(0, page_->color_controls(), &ColorControls::measure);
   });
   restore_layout();
 }

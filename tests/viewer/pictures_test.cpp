@@ -21,7 +21,8 @@ QString folder() { return qEnvironmentVariable("TRANSILLUM_PICTURES"); }
 
 // Not blank, and not one view in front of nothing; kept where it is asked for.
 void keep(const QImage& picture, const QString& name, const QSize& size) {
-  QVERIFY2(color_count(picture) > 40, qPrintable(name));
+  // A furnace has one radiosity: what is left are outlines.
+  QVERIFY2(color_count(picture) > (name == "scene-furnace.png" ? 10 : 40), qPrintable(name));
   if (folder().isEmpty()) return;
   const QImage small = picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation);
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
