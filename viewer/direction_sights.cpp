@@ -5,7 +5,6 @@
 #include <chrono>
 #include <utility>
 
-#include "thread_priority.h"
 #include "transillum/engine.h"
 
 namespace transillum::viewer {
@@ -23,17 +22,14 @@ DirectionSights::Sights sights_of(PatchId patch, const Transfers& transfers, boo
 
 }  // namespace
 
-DirectionSights::DirectionSights(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
-
-DirectionSights::~DirectionSights() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-    cancellation_.cancel();
-  }
-  wake_.notify_one();
-  worker_.join();
-}
+DirectionSights::DirectionSights(QObject* parent)
+    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
+        try {
+          look(task, cancellation);
+        } catch (const std::exception&) {
+          // Cancelled, or the engine's failure, which the solver has told already.
+        }
+      }) {}
 
 void DirectionSights::request(Request request) {
   const bool goes_on = request.patch == wanted_.patch && request.directions == wanted_.directions &&
@@ -41,55 +37,25 @@ void DirectionSights::request(Request request) {
   if (goes_on && request.count <= wanted_.count) return;
   if (!goes_on) found_.clear();
   wanted_ = request;
-  {
-    const std::lock_guard lock(mutex_);
-    // What is under way is dropped: it would come back later with more.
-    ++number_;
-    cancellation_.cancel();
-    request_ = std::move(request);
-    request_first_ = static_cast<int>(found_.size());
-  }
-  wake_.notify_one();
+  // What is under way is dropped: it would come back later with more.
+  worker_.request({std::move(request), static_cast<int>(found_.size()), ++number_});
 }
 
 void DirectionSights::clear() {
   wanted_ = {};
   found_.clear();
-  const std::lock_guard lock(mutex_);
   ++number_;
-  request_.reset();
-  cancellation_.cancel();
+  worker_.clear();
 }
 
-void DirectionSights::work() {
-  give_way_to_the_window();
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return quit_ || request_; });
-    if (quit_) return;
-    const Request request = *std::exchange(request_, std::nullopt);
-    const int first = request_first_;
-    const quint64 number = number_;
-    cancellation_ = Cancellation();
-    const Cancellation cancellation = cancellation_;
-    lock.unlock();
-    try {
-      look(request, first, cancellation, number);
-    } catch (const std::exception&) {
-      // Cancelled, or the engine's failure, which the solver has told already.
-    }
-    lock.lock();
-  }
-}
-
-void DirectionSights::look(const Request& request, int first, const Cancellation& cancellation,
-                           quint64 number) {
+void DirectionSights::look(const Task& task, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
+  const Request& request = task.request;
   const TransferEngine engine = make_engine(request.engine, request.loaded->scene,
                                             request.loaded->tree, request.engine_options);
   std::vector<Sights> more;
   auto delivered = Clock::now();
-  for (int k = first; k < request.count; ++k) {
+  for (int k = task.first; k < request.count; ++k) {
     const Vec3& omega = (*request.directions)[static_cast<std::size_t>(k)];
     more.push_back(sights_of(request.patch, engine(omega, cancellation), request.two_way));
     const bool last = k + 1 == request.count;
@@ -97,7 +63,7 @@ void DirectionSights::look(const Request& request, int first, const Cancellation
     delivered = Clock::now();
     QMetaObject::invokeMethod(
         this,
-        [this, number, part = std::exchange(more, {})]() mutable {
+        [this, number = task.number, part = std::exchange(more, {})]() mutable {
           deliver(std::move(part), number);
         },
         Qt::QueuedConnection);
@@ -105,10 +71,7 @@ void DirectionSights::look(const Request& request, int first, const Cancellation
 }
 
 void DirectionSights::deliver(std::vector<Sights> more, quint64 number) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (number != number_) return;
-  }
+  if (number != number_) return;
   for (Sights& sights : more) found_.push_back(std::move(sights));
   emit grown();
 }

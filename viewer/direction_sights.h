@@ -2,15 +2,11 @@
 #pragma once
 
 #include <QObject>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
+#include "request_worker.h"
 #include "snapshot.h"
-#include "transillum/cancellation.h"
 
 namespace transillum::viewer {
 
@@ -42,7 +38,6 @@ class DirectionSights : public QObject {
   };
 
   explicit DirectionSights(QObject* parent = nullptr);
-  ~DirectionSights() override;
 
   void request(Request request);
   /// Gives up what is under way, and forgets what was found.
@@ -56,22 +51,20 @@ class DirectionSights : public QObject {
   void grown();
 
  private:
-  void work();
-  void look(const Request& request, int first, const Cancellation& cancellation, quint64 number);
+  struct Task {
+    Request request;
+    int first;  ///< direction that is not found yet
+    quint64 number;
+  };
+  void look(const Task& task, const Cancellation& cancellation);
   void deliver(std::vector<Sights> more, quint64 number);
 
   // The window's own.
   Request wanted_;
   std::vector<Sights> found_;
+  quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<Request> request_;
-  int request_first_ = 0;
-  quint64 number_ = 0;
-  bool quit_ = false;
-  Cancellation cancellation_;
-  std::thread worker_;
+  RequestWorker<Task> worker_;
 };
 
 }  // namespace transillum::viewer

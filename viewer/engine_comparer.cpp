@@ -5,7 +5,6 @@
 #include <ctime>
 #include <utility>
 
-#include "thread_priority.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 
@@ -73,61 +72,26 @@ EngineComparison compare_engines(const EngineComparer::Request& request,
 
 }  // namespace
 
-EngineComparer::EngineComparer(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
+EngineComparer::EngineComparer(QObject* parent)
+    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
+        work(task, cancellation);
+      }) {}
 
-EngineComparer::~EngineComparer() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-    cancellation_.cancel();
-  }
-  wake_.notify_one();
-  worker_.join();
-}
-
-void EngineComparer::request(Request request) {
-  {
-    const std::lock_guard lock(mutex_);
-    ++number_;
-    cancellation_.cancel();
-    request_ = std::move(request);
-  }
-  wake_.notify_one();
-}
+void EngineComparer::request(Request request) { worker_.request({std::move(request), ++number_}); }
 
 void EngineComparer::clear() {
-  const std::lock_guard lock(mutex_);
   ++number_;
-  request_.reset();
-  cancellation_.cancel();
+  worker_.clear();
 }
 
-void EngineComparer::work() {
-  give_way_to_the_window();
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return quit_ || request_; });
-    if (quit_) return;
-    const Request request = *std::exchange(request_, std::nullopt);
-    const quint64 number = number_;
-    cancellation_ = Cancellation();
-    const Cancellation cancellation = cancellation_;
-    lock.unlock();
-    try {
-      auto done = std::make_shared<const EngineComparison>(compare_engines(request, cancellation));
-      QMetaObject::invokeMethod(
-          this,
-          [this, number, done = std::move(done)] {
-            std::unique_lock newest(mutex_);
-            if (number != number_) return;
-            newest.unlock();
-            emit compared(done);
-          },
-          Qt::QueuedConnection);
-    } catch (const Cancelled&) {
-    }
-    lock.lock();
-  }
+void EngineComparer::work(const Task& task, const Cancellation& cancellation) {
+  auto done = std::make_shared<const EngineComparison>(compare_engines(task.request, cancellation));
+  QMetaObject::invokeMethod(
+      this,
+      [this, number = task.number, done = std::move(done)] {
+        if (number == number_) emit compared(done);
+      },
+      Qt::QueuedConnection);
 }
 
 }  // namespace transillum::viewer

@@ -2,15 +2,12 @@
 #pragma once
 
 #include <QObject>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
+#include <vector>
 
+#include "request_worker.h"
 #include "snapshot.h"
-#include "transillum/cancellation.h"
 #include "transillum/transfer_comparison.h"
 
 namespace transillum::viewer {
@@ -52,7 +49,6 @@ class EngineComparer : public QObject {
   };
 
   explicit EngineComparer(QObject* parent = nullptr);
-  ~EngineComparer() override;
 
   void request(Request request);
   /// Gives up what is under way.
@@ -62,15 +58,14 @@ class EngineComparer : public QObject {
   void compared(std::shared_ptr<const transillum::viewer::EngineComparison> comparison);
 
  private:
-  void work();
+  struct Task {
+    Request request;
+    quint64 number;
+  };
+  void work(const Task& task, const Cancellation& cancellation);
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<Request> request_;
-  quint64 number_ = 0;
-  bool quit_ = false;
-  Cancellation cancellation_;
-  std::thread worker_;
+  quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
+  RequestWorker<Task> worker_;
 };
 
 }  // namespace transillum::viewer

@@ -4,75 +4,49 @@
 #include <QMetaObject>
 #include <utility>
 
-#include "thread_priority.h"
+#include "transillum/errors.h"
 
 namespace transillum::viewer {
 
-Relighter::Relighter(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
-
-Relighter::~Relighter() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-    cancellation_.cancel();
-  }
-  wake_.notify_one();
-  worker_.join();
-}
+Relighter::Relighter(QObject* parent)
+    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
+        work(task, cancellation);
+      }) {}
 
 void Relighter::request(Request request) {
-  {
-    // What is under way goes on: while a slider is drawn, a late picture is better than none.
-    const std::lock_guard lock(mutex_);
-    request_ = std::move(request);
-    request_number_ = ++asked_;
-  }
-  wake_.notify_one();
+  // What is under way goes on: while a slider is drawn, a late picture is better than none.
+  worker_.request({std::move(request), ++asked_}, UnderWay::goes_on);
 }
 
 void Relighter::clear() {
-  const std::lock_guard lock(mutex_);
-  request_.reset();
-  cancellation_.cancel();
+  worker_.clear();
   delivered_ = asked_;
 }
 
-void Relighter::work() {
-  give_way_to_the_window();
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return quit_ || request_; });
-    if (quit_) return;
-    Request request = *std::exchange(request_, std::nullopt);
-    const quint64 number = request_number_;
-    cancellation_ = Cancellation();
-    const Cancellation cancellation = cancellation_;
-    lock.unlock();
-
-    std::shared_ptr<const Relit> light;
-    QString error;
-    try {
-      RelightOptions options;
-      options.tolerance = request.tolerance;
-      options.start = request.start;
-      light = std::make_shared<const Relit>(
-          relight(*request.scene, *request.form_factors, request.materials, options, cancellation));
-    } catch (const Cancelled&) {
-      // Nobody waits for it any more.
-    } catch (const std::exception& failure) {
-      error = QString::fromUtf8(failure.what());
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, light, error, number, materials = std::move(request.materials)] {
-          if (number <= delivered_) return;  // cleared since
-          delivered_ = number;
-          if (light) emit relit(light, materials);
-          if (!error.isEmpty()) emit failed(error);
-        },
-        Qt::QueuedConnection);
-    lock.lock();
+void Relighter::work(const Task& task, const Cancellation& cancellation) {
+  const Request& request = task.request;
+  std::shared_ptr<const Relit> light;
+  QString error;
+  try {
+    RelightOptions options;
+    options.tolerance = request.tolerance;
+    options.start = request.start;
+    light = std::make_shared<const Relit>(
+        relight(*request.scene, *request.form_factors, request.materials, options, cancellation));
+  } catch (const Cancelled&) {
+    // Nobody waits for it any more.
+  } catch (const std::exception& failure) {
+    error = QString::fromUtf8(failure.what());
   }
+  QMetaObject::invokeMethod(
+      this,
+      [this, light, error, number = task.number, materials = request.materials] {
+        if (number <= delivered_) return;  // cleared since
+        delivered_ = number;
+        if (light) emit relit(light, materials);
+        if (!error.isEmpty()) emit failed(error);
+      },
+      Qt::QueuedConnection);
 }
 
 }  // namespace transillum::viewer

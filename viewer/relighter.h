@@ -2,14 +2,10 @@
 #pragma once
 
 #include <QObject>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
-#include "transillum/cancellation.h"
+#include "request_worker.h"
 #include "transillum/form_factors.h"
 #include "transillum/relight.h"
 #include "transillum/scene.h"
@@ -33,7 +29,6 @@ class Relighter : public QObject {
   };
 
   explicit Relighter(QObject* parent = nullptr);
-  ~Relighter() override;
 
   void request(Request request);
   /// Gives up what is under way and what waits.
@@ -47,17 +42,15 @@ class Relighter : public QObject {
   void failed(const QString& message);
 
  private:
-  void work();
+  struct Task {
+    Request request;
+    quint64 number;
+  };
+  void work(const Task& task, const Cancellation& cancellation);
 
   quint64 asked_ = 0, delivered_ = 0;  // the window's own
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<Request> request_;
-  quint64 request_number_ = 0;
-  bool quit_ = false;
-  Cancellation cancellation_;
-  std::thread worker_;
+  RequestWorker<Task> worker_;
 };
 
 }  // namespace transillum::viewer

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <utility>
 
-#include "thread_priority.h"
 #include "transillum/reference_cache.h"
 
 namespace transillum::viewer {
@@ -22,54 +21,21 @@ std::int64_t now_ns() {
 }  // namespace
 
 StudySession::StudySession(std::filesystem::path cache, QObject* parent)
-    : QObject(parent), cache_(std::move(cache)), worker_([this] { work(); }) {}
+    : QObject(parent),
+      cache_(std::move(cache)),
+      worker_([this](const Request& request, const Cancellation& cancellation) {
+        run(request, cancellation);
+      }) {}
 
-StudySession::~StudySession() {
-  {
-    const std::lock_guard lock(mutex_);
-    quit_ = true;
-    cancellation_.cancel();
-  }
-  wake_.notify_one();
-  worker_.join();
-}
-
-void StudySession::start(Request request) {
-  {
-    const std::lock_guard lock(mutex_);
-    cancellation_.cancel();
-    request_ = std::move(request);
-  }
-  wake_.notify_one();
-}
+void StudySession::start(Request request) { worker_.request(std::move(request)); }
 
 void StudySession::stop() {
-  std::optional<Request> never_begun;
-  {
-    const std::lock_guard lock(mutex_);
-    never_begun = std::exchange(request_, std::nullopt);
-    cancellation_.cancel();
-  }
+  const std::optional<Request> never_begun = worker_.clear();
   if (!never_begun) return;
   StudySnapshot ended;
   ended.loaded = never_begun->loaded;
   ended.series = never_begun->options.series;
   post(std::move(ended));
-}
-
-void StudySession::work() {
-  give_way_to_the_window();
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return quit_ || request_; });
-    if (quit_) return;
-    const Request request = *std::exchange(request_, std::nullopt);
-    cancellation_ = Cancellation();
-    const Cancellation cancellation = cancellation_;
-    lock.unlock();
-    run(request, cancellation);
-    lock.lock();
-  }
 }
 
 void StudySession::run(const Request& request, const Cancellation& cancellation) {

@@ -3,16 +3,13 @@
 
 #include <QObject>
 #include <QString>
-#include <condition_variable>
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
+#include "request_worker.h"
 #include "snapshot.h"
-#include "transillum/cancellation.h"
 #include "transillum/study.h"
 
 namespace transillum::viewer {
@@ -45,7 +42,6 @@ class StudySession : public QObject {
 
   /// @param cache where references are kept (ReferenceCache)
   explicit StudySession(std::filesystem::path cache, QObject* parent = nullptr);
-  ~StudySession() override;
 
   void start(Request request);
   /// Ends the study under way, or one that waits; a last snapshot tells so.
@@ -58,22 +54,17 @@ class StudySession : public QObject {
 
  private:
   // The worker's own from here on.
-  void work();
   void run(const Request& request, const Cancellation& cancellation);
   std::vector<Rgb> reference_radiosity(const Request& request, const Cancellation& cancellation);
   void post(StudySnapshot snapshot);
   bool due();
 
   const std::filesystem::path cache_;
-  std::mutex mutex_;  // guards all down to `mailbox_`
-  std::condition_variable wake_;
-  std::optional<Request> request_;
-  bool quit_ = false;
-  Cancellation cancellation_;
+  std::mutex mutex_;  // guards `mailbox_`
   std::shared_ptr<const StudySnapshot> mailbox_;
 
   std::int64_t last_post_ns_ = 0;
-  std::thread worker_;
+  RequestWorker<Request> worker_;
 };
 
 }  // namespace transillum::viewer
