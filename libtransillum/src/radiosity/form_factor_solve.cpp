@@ -1,4 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,30 +18,51 @@ namespace {
 constexpr const char* divergent =
     "the iteration does not converge: rows of form factors sum to too much";
 
+/// sum_j F_ij B_j
+Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<Rgb>& b) {
+  Rgb gathered;
+  for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
+    gathered += form_factors.value[k] * b[static_cast<std::size_t>(form_factors.source[k])];
+  }
+  return gathered;
+}
+
 }  // namespace
 
-void JacobiIteration::run(const Scene& scene, const FormFactors& form_factors, int most,
-                          double tolerance, const Cancellation& cancellation) {
+JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_factors,
+                                 std::span<const Material> materials, int threads)
+    : scene_(scene),
+      form_factors_(form_factors),
+      materials_(materials),
+      threads_(threads > 0 ? threads : oneapi::tbb::info::default_concurrency()) {
+  for (const Patch& patch : scene.patches()) {
+    b.push_back(materials[static_cast<std::size_t>(patch.material)].exitance);
+  }
+  h.resize(b.size());
+}
+
+void JacobiIteration::run(int most, double tolerance, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
-  b.clear();
-  for (PatchId i = 0; i < scene.patch_count(); ++i) b.push_back(scene.exitance(i));
-  h.assign(b.size(), {});
+  const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(threads_));
+  oneapi::tbb::task_arena arena(threads_);
   std::vector<Rgb> next(b.size());
   double last_change = 0;
   while (!converged && static_cast<int>(steps.size()) < most) {
     const auto start = Clock::now();
+    arena.execute([&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, b.size(), [&](std::size_t i) {
+        cancellation.throw_if_cancelled();
+        const Material& material =
+            materials_[static_cast<std::size_t>(scene_.patches()[i].material)];
+        h[i] = gather(form_factors_, i, b);
+        next[i] = material.exitance + material.reflectance * h[i];
+      });
+    });
     double change = 0, largest = 0;
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      if (i % 64 == 0) cancellation.throw_if_cancelled();
-      const auto row = static_cast<std::size_t>(i);
-      Rgb gathered;
-      for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
-        gathered += form_factors.value[k] * b[static_cast<std::size_t>(form_factors.source[k])];
-      }
-      h[row] = gathered;
-      next[row] = scene.exitance(i) + scene.reflectance(i) * gathered;
-      change = std::max(change, max_abs(next[row] - b[row]));
-      largest = std::max(largest, max_abs(next[row]));
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      change = std::max(change, max_abs(next[i] - b[i]));
+      largest = std::max(largest, max_abs(next[i]));
     }
     b.swap(next);
     if (!std::isfinite(largest)) throw std::runtime_error(divergent);
@@ -50,12 +76,15 @@ void JacobiIteration::run(const Scene& scene, const FormFactors& form_factors, i
   }
 }
 
+void JacobiIteration::run_to(double tolerance, const Cancellation& cancellation) {
+  run(most_steps, tolerance, cancellation);
+  if (!converged) throw std::runtime_error(divergent);
+}
+
 std::vector<Rgb> solve_radiosity(const Scene& scene, const FormFactors& form_factors,
                                  double tolerance) {
-  constexpr int most_steps = 10'000;
-  JacobiIteration iteration;
-  iteration.run(scene, form_factors, most_steps, tolerance, {});
-  if (!iteration.converged) throw std::runtime_error(divergent);
+  JacobiIteration iteration(scene, form_factors, scene.materials(), 1);
+  iteration.run_to(tolerance, {});
   return std::move(iteration.b);
 }
 

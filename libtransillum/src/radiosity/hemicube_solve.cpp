@@ -19,9 +19,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Steps after which an iteration by tolerance gives up.
-constexpr int most_steps = 10'000;
-
 HemicubeOptions hemicube_options(const SolveOptions& options) {
   options.validate();
   if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
@@ -80,8 +77,8 @@ Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptio
   SolveStatistics& statistics = solution.statistics;
   statistics.seconds_transfers = seconds_since(start);
   const auto start_iteration = Clock::now();
-  JacobiIteration iteration;
-  iteration.run(*scene, form_factors, options.iterations > 0 ? options.iterations : most_steps,
+  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
+  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::most_steps,
                 options.iterations > 0 ? 0 : options.tolerance, cancellation);
   statistics.seconds_iterate = seconds_since(start_iteration);
   add_power(*scene, form_factors, iteration, statistics);

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "transillum/cancellation.h"
@@ -9,16 +10,34 @@
 
 namespace transillum {
 
-/// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j, from B = E on.
+/// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j, rows dealt out to threads; the
+/// result does not depend on how many there are.
 struct JacobiIteration {
-  std::vector<Rgb> b, h;  ///< W/m², one a patch
+  /// An iteration by tolerance that takes so many steps does not converge.
+  static constexpr int most_steps = 10'000;
+
+  /// From B = E on.
+  /// @param materials E and rho: as many as the scene has, in its order
+  /// @param threads 0: all cores
+  JacobiIteration(const Scene& scene, const FormFactors& form_factors,
+                  std::span<const Material> materials, int threads);
+
+  std::vector<Rgb> b, h;  ///< W/m², one a patch; `b` may be set to start from it
   std::vector<IterationRecord> steps;
   bool converged = false;
 
   /// Goes on for `most` steps, or until no patch changes by more than `tolerance` of the largest B.
   /// @throws Cancelled, std::runtime_error where B outgrows all numbers.
-  void run(const Scene& scene, const FormFactors& form_factors, int most, double tolerance,
-           const Cancellation& cancellation);
+  void run(int most, double tolerance, const Cancellation& cancellation);
+  /// The same by tolerance only.
+  /// @throws Cancelled, std::runtime_error where it does not get there.
+  void run_to(double tolerance, const Cancellation& cancellation);
+
+ private:
+  const Scene& scene_;
+  const FormFactors& form_factors_;
+  std::span<const Material> materials_;
+  int threads_;
 };
 
 }  // namespace transillum
