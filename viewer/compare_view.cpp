@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "difference_picture.h"
+#include "engine_text.h"
 #include "number_text.h"
 
 namespace transillum::viewer {
@@ -20,10 +21,6 @@ namespace {
 
 /// While the newest direction is followed, so often at most.
 constexpr int refresh_interval_ms = 400;
-
-bool has_pixels(Engine engine) {
-  return engine == Engine::zbuffer || engine == Engine::painter || engine == Engine::rays;
-}
 
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
 
@@ -81,22 +78,20 @@ CompareView::CompareView(Focus& focus, QWidget* parent) : QWidget(parent), focus
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   Choice choice{new QComboBox, new QSpinBox};
   choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
-  choice.engine->setToolTip(tr("Who finds out who sees whom"));
-  for (const std::string& each : engine_names()) {
-    if (takes_directions(engine_from_name(each))) {
-      choice.engine->addItem(QString::fromStdString(each));
-    }
-  }
-  choice.engine->setCurrentText(QString::fromStdString(name_of(engine)));
+  add_engines(*choice.engine, false);
+  choose_engine(*choice.engine, engine);
+  choice.engine->setToolTip(engine_sentence(engine));
   choice.resolution->setObjectName(QString::fromLatin1(name) + QStringLiteral("_resolution"));
   choice.resolution->setToolTip(tr("Pixels along the longer side of the map"));
   choice.resolution->setRange(8, 4096);
   choice.resolution->setValue(128);
   choice.resolution->setSingleStep(64);
   choice.resolution->setSuffix(tr(" px"));
-  if (!has_pixels(engine)) choice.resolution->hide();
-  connect(choice.engine, &QComboBox::currentTextChanged, this, [this, choice] {
-    choice.resolution->setVisible(has_pixels(engine_of(choice)));
+  if (!takes_resolution(engine)) choice.resolution->hide();
+  connect(choice.engine, qOverload<int>(&QComboBox::currentIndexChanged), this, [this, choice] {
+    const Engine chosen = engine_of(*choice.engine);
+    choice.engine->setToolTip(engine_sentence(chosen));
+    choice.resolution->setVisible(takes_resolution(chosen));
     ask();
   });
   connect(choice.resolution, QOverload<int>::of(&QSpinBox::valueChanged), this,
@@ -104,12 +99,8 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   return choice;
 }
 
-Engine CompareView::engine_of(const Choice& choice) const {
-  return engine_from_name(choice.engine->currentText().toStdString());
-}
-
 int CompareView::resolution_of(const Choice& choice) const {
-  return has_pixels(engine_of(choice)) ? choice.resolution->value() : 0;
+  return takes_resolution(engine_of(*choice.engine)) ? choice.resolution->value() : 0;
 }
 
 void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -141,9 +132,9 @@ void CompareView::ask() {
   request.loaded = focus_.map()->loaded;
   request.direction = focus_.map()->record().frame.omega;
   request.options = snapshot_->options.engine_options;
-  request.first = engine_of(first_);
+  request.first = engine_of(*first_.engine);
   request.first_resolution = resolution_of(first_);
-  request.other = engine_of(other_);
+  request.other = engine_of(*other_.engine);
   request.other_resolution = resolution_of(other_);
   if (request == asked_) return;
   asked_ = request;
@@ -163,7 +154,7 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
   const EngineComparison& c = *comparison_;
   for (const EngineComparison::Side* side : {&c.first, &c.other}) {
     if (side->failure.empty()) continue;
-    words_->setText(QStringLiteral("%1: %2").arg(QString::fromStdString(name_of(side->engine)),
+    words_->setText(QStringLiteral("%1: %2").arg(engine_label(side->engine),
                                                  QString::fromStdString(side->failure)));
     return;
   }
@@ -171,8 +162,8 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
   const Transfer& largest = c.transfers.largest;
   QString text =
       tr("Along this direction %1 of what %2 exchanges is between other patches with %3.")
-          .arg(percent_text(c.transfers.misplaced), QString::fromStdString(name_of(c.first.engine)),
-               QString::fromStdString(name_of(c.other.engine)));
+          .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
+               engine_label(c.other.engine));
   if (largest.receiver != no_patch) {
     text +=
         tr(" Most: patches %1 and %2, %3 m² %4.")
@@ -185,7 +176,7 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
 
 void CompareView::fill_table(const EngineComparison& comparison) {
   const auto fill = [&](int column, const EngineComparison::Side& side, double exchanged) {
-    QString name = QString::fromStdString(name_of(side.engine));
+    QString name = engine_label(side.engine);
     if (side.resolution > 0) name += QStringLiteral(", %1 px").arg(side.resolution);
     table_->setHorizontalHeaderItem(column, new QTableWidgetItem(name));
     const QString texts[] = {number_text(1000 * side.seconds) + tr(" ms"),

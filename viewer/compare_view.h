@@ -38,7 +38,6 @@ class CompareView : public QWidget {
     QSpinBox* resolution;
   };
   Choice make_choice(const char* name, Engine engine);
-  Engine engine_of(const Choice& choice) const;
   int resolution_of(const Choice& choice) const;
   void ask();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);

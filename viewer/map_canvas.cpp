@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "number_text.h"
+#include "pixel_view.h"
 #include "theme.h"
-#include "thread_priority.h"
 
 namespace transillum::viewer {
 
@@ -22,16 +22,20 @@ constexpr double smallest_zoom = 0.5, largest_zoom = 500;
 }  // namespace
 
 MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
-    : QWidget(parent), selection_(selection) {
+    : QWidget(parent),
+      selection_(selection),
+      painter_([this](const Order& order, const Cancellation& cancellation) {
+        auto picture = std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
+        QMetaObject::invokeMethod(
+            this, [this, picture, number = order.number] { take(picture, number); },
+            Qt::QueuedConnection);
+      }) {
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setToolTip(tr("Drag to move, wheel to enlarge, double click to see all, click to select"));
-  painter_pool_.setMaxThreadCount(1);
   connect(&selection_, &Selection::changed, this, qOverload<>(&QWidget::update));
 }
-
-MapCanvas::~MapCanvas() { painter_pool_.waitForDone(); }
 
 void MapCanvas::show_map(Content content) {
   content_ = std::move(content);
@@ -41,7 +45,8 @@ void MapCanvas::show_map(Content content) {
 void MapCanvas::clear() {
   content_ = {};
   picture_ = nullptr;
-  stale_ = false;
+  painter_.clear();
+  painted_ = ++asked_.number;  // what is still on its way is late
   zoom_ = 1;
   pan_ = {};
   update();
@@ -78,30 +83,22 @@ MapTransform MapCanvas::transform() const {
 void MapCanvas::repaint_map() {
   update();
   if (!content_.map) return;
-  if (painting_) {
-    stale_ = true;  // newest wins: painted when the one under way is done
-    return;
-  }
-  painting_ = true;
-  stale_ = false;
-  const MapPictureRequest request{
-      content_.map,    content_.step,   content_.phase,     content_.step_shown,
-      content_.labels, content_.pixels, pixels(),           content_.patch_colors,
-      transform(),     size(),          devicePixelRatioF()};
-  painter_pool_.start([this, request] {
-    give_way_to_the_window();
-    auto picture = std::make_shared<const MapPicture>(paint_map(request));
-    QMetaObject::invokeMethod(
-        this, [this, picture] { take(picture); }, Qt::QueuedConnection);
-  });
+  // While the view moves, or newer directions come by themselves, pictures under way are finished:
+  // better an old one now and then than none. What the user asked for does not wait for them.
+  const bool wanted = content_.pixels != asked_.picture.pixels ||
+                      (content_.step_shown && content_.map != asked_.picture.map);
+  asked_ = {
+      {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
+       content_.pixels, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
+      asked_.number + 1};
+  painter_.request(asked_, wanted ? UnderWay::given_up : UnderWay::goes_on);
 }
 
-void MapCanvas::take(std::shared_ptr<const MapPicture> picture) {
-  painting_ = false;
-  if (!content_.map) return;
+void MapCanvas::take(std::shared_ptr<const MapPicture> picture, quint64 number) {
+  if (!content_.map || number <= painted_) return;
+  painted_ = number;
   picture_ = std::move(picture);
   update();
-  if (stale_) repaint_map();
   emit painted();
 }
 
@@ -135,11 +132,22 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   const QPointF corner = now.middle - share * painted.middle;
   painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
+  if (pixels() && !pixels()->failure.empty()) {
+    draw_failure(painter);
+    return;
+  }
   draw_selection(painter, now);
   draw_probe(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
   draw_legend(painter);
+}
+
+void MapCanvas::draw_failure(QPainter& painter) const {
+  painter.setPen(theme::on_dark);
+  painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                   tr("Nothing is drawn, for the engine gave up:\n\n%1")
+                       .arg(QString::fromStdString(pixels()->failure)));
 }
 
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
@@ -204,19 +212,29 @@ void MapCanvas::draw_axes(QPainter& painter) const {
 
 void MapCanvas::draw_legend(QPainter& painter) const {
   if (width() < 330) return;  // no room between scale bar and axes
-  const bool differences = picture_->pixels && picture_->request.pixels.differences;
-  double x = width() / 2.0 - (differences ? 60 : 8);
-  const auto entry = [&](const QBrush& brush, const QString& words) {
-    const QRectF box(x, height() - 23, 16, 12);
+  std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
+  const PixelChoice& choice = picture_->request.pixels;
+  if (choice.engine == Engine::corrected && choice.differences) {
+    entries.emplace_back(theme::inside, tr("too open"));
+    entries.emplace_back(theme::outside, tr("too hidden"));
+  } else if (choice.engine && choice.differences) {
+    entries.emplace_back(theme::difference, tr("differs"));
+  }
+  constexpr double box_width = 16, gap = 8, axes = 64;
+  double total = 0;
+  for (const auto& [brush, words] : entries)
+    total += box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+  // Right of the scale bar, with its words, and left of the axes.
+  double x = std::min(std::max(width() / 2.0 - 8, width() / 4.0 + 80), width() - axes - total);
+  for (const auto& [brush, words] : entries) {
+    const QRectF box(x, height() - 23, box_width, 12);
     painter.setPen(QPen(theme::on_dark_dim, 1));
     painter.setBrush(brush);
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
-    painter.drawText(box.bottomRight() + QPointF(8, -1), words);
-    x = box.right() + 24 + painter.fontMetrics().horizontalAdvance(words);
-  };
-  entry(back_side_brush(1), tr("back side"));
-  if (differences) entry(theme::difference, tr("differs"));
+    painter.drawText(box.bottomRight() + QPointF(gap, -1), words);
+    x += box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+  }
 }
 
 void MapCanvas::resizeEvent(QResizeEvent* event) {

@@ -1,13 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QThreadPool>
 #include <QWidget>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "map_painter.h"
+#include "request_worker.h"
 #include "selection.h"
 
 namespace transillum::viewer {
@@ -21,7 +21,6 @@ class MapCanvas : public QWidget {
 
  public:
   explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
-  ~MapCanvas() override;
 
   /// What of a map is to be drawn; the canvas knows where.
   struct Content {
@@ -40,7 +39,7 @@ class MapCanvas : public QWidget {
   /// Brings the step's polygon and what it cuts near.
   void fit_step();
   /// Whether the picture on the screen is the one that was asked for.
-  bool up_to_date() const { return !painting_ && !stale_; }
+  bool up_to_date() const { return painted_ == asked_.number; }
   /// The patch drawn at a point, in logical pixels; no_patch for none.
   PatchId patch_at(const QPointF& position) const;
   /// Metres on the plane of a point in logical pixels; nothing without a picture.
@@ -67,7 +66,8 @@ class MapCanvas : public QWidget {
  private:
   MapTransform transform() const;
   void repaint_map();
-  void take(std::shared_ptr<const MapPicture> picture);
+  void take(std::shared_ptr<const MapPicture> picture, quint64 number);
+  void draw_failure(QPainter& painter) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
@@ -82,8 +82,13 @@ class MapCanvas : public QWidget {
   bool dragging_ = false;
 
   std::shared_ptr<const MapPicture> picture_;
-  bool painting_ = false, stale_ = false;
-  QThreadPool painter_pool_;
+  struct Order {
+    MapPictureRequest picture;
+    quint64 number = 0;
+  };
+  Order asked_;          // the newest
+  quint64 painted_ = 0;  // number of the order that picture_ answers
+  RequestWorker<Order> painter_;
 };
 
 }  // namespace transillum::viewer

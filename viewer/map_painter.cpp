@@ -1,12 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map_painter.h"
 
-#include <QFontMetricsF>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 
+#include "corrected_drawing.h"
 #include "pixel_view.h"
+#include "polygon_label.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -97,8 +98,9 @@ namespace {
 /// Draws one picture; coordinates are device pixels.
 class MapPainting {
  public:
-  explicit MapPainting(const MapPictureRequest& request)
+  MapPainting(const MapPictureRequest& request, const Cancellation& cancellation)
       : request_(request),
+        cancellation_(cancellation),
         history_(request.map->history),
         ratio_(request.pixel_ratio),
         transform_(request.transform),
@@ -111,33 +113,45 @@ class MapPainting {
   }
 
   MapPicture paint() {
-    MapPicture picture;
-    picture.request = request_;
+    picture_.request = request_;
     const QSize size(static_cast<int>(std::lround(request_.size.width() * ratio_)),
                      static_cast<int>(std::lround(request_.size.height() * ratio_)));
     view_ = QRectF(QPointF(0, 0), QSizeF(size));
-    picture.image = QImage(size, QImage::Format_RGB32);
-    picture.image.fill(theme::scene_background);
-    painter_.begin(&picture.image);
-    picture.rows = drawn_rows();
+    picture_.image = QImage(size, QImage::Format_RGB32);
+    picture_.image.fill(theme::scene_background);
+    painter_.begin(&picture_.image);
+    picture_.rows = drawn_rows();
     if (request_.pixels.engine) {
-      picture.pixels = pixels();
-      draw_pixels(painter_, *picture.pixels, transform_, *request_.patch_colors, hatch_);
+      picture_.pixels = pixels();
+      draw(*picture_.pixels);
     } else {
-      fill(picture.rows);
+      fill(picture_.rows);
     }
     if (step_row_ != MapRecord::no_row) mark_step();
-    if (request_.labels) label(picture.rows);
+    if (request_.labels && !draws_corrected()) label(picture_.rows);
     painter_.end();
-    picture.image.setDevicePixelRatio(ratio_);
-    return picture;
+    picture_.image.setDevicePixelRatio(ratio_);
+    return std::move(picture_);
   }
 
  private:
   std::shared_ptr<const PixelView> pixels() const {
     const std::shared_ptr<const PixelView>& known = request_.known_pixels;
     if (known && known->shows(*request_.map, request_.step, request_.pixels)) return known;
-    return make_pixel_view(request_.map, request_.step, request_.pixels);
+    return make_pixel_view(request_.map, request_.step, request_.pixels, cancellation_);
+  }
+
+  bool draws_corrected() const { return request_.pixels.engine == Engine::corrected; }
+
+  void draw(const PixelView& view) {
+    if (!view.failure.empty()) return;
+    if (!draws_corrected()) {
+      draw_pixels(painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
+      return;
+    }
+    draw_corrected(painter_, *view.corrected, transform_, *request_.patch_colors, hatch_,
+                   request_.pixels.differences, cancellation_);
+    if (request_.labels) label_corrected(painter_, *view.corrected, transform_, ratio_);
   }
 
   std::vector<std::int32_t> drawn_rows() const {
@@ -159,7 +173,9 @@ class MapPainting {
     std::vector<QPolygonF> outlines;
     const bool dim = step_row_ != MapRecord::no_row && request_.phase == Phase::split;
     painter_.setPen(Qt::NoPen);
+    std::size_t done = 0;
     for (const std::int32_t r : rows) {
+      if (done++ % 64 == 0) cancellation_.throw_if_cancelled();
       const QPolygonF polygon = polygon_of(r);
       if (outside(polygon, view_)) continue;
       const Color8& c = (*request_.patch_colors)[static_cast<std::size_t>(row(r).patch)];
@@ -212,26 +228,10 @@ class MapPainting {
   }
 
   void label(const std::vector<std::int32_t>& rows) {
-    QFont font = painter_.font();
-    font.setPixelSize(static_cast<int>(std::lround(11 * ratio_ * theme::scale())));
-    painter_.setFont(font);
-    const QFontMetricsF metrics(font);
+    PolygonLabels labels(painter_, ratio_);
     for (const std::int32_t r : rows) {
       const QPolygonF polygon = polygon_of(r);
-      const QRectF box = polygon.boundingRect();
-      const QString text = QString::number(row(r).patch);
-      const QSizeF size(metrics.horizontalAdvance(text) + 4 * ratio_, metrics.height());
-      // A triangle's middle is half as wide as its box.
-      const bool room = box.width() > 1.6 * size.width() && box.height() > 1.6 * size.height();
-      if (!room || !box.intersects(view_)) continue;
-      QPointF middle;
-      for (const QPointF& p : polygon) middle += p / polygon.size();
-      const QRectF place(middle - QPointF(size.width(), size.height()) / 2, size);
-      painter_.setPen(Qt::NoPen);
-      painter_.setBrush(QColor(0, 0, 0, 150));
-      painter_.drawRoundedRect(place, 2 * ratio_, 2 * ratio_);
-      painter_.setPen(theme::on_dark);
-      painter_.drawText(place, Qt::AlignCenter, text);
+      if (!outside(polygon, view_)) labels.write(polygon, QString::number(row(r).patch));
     }
   }
 
@@ -262,18 +262,22 @@ class MapPainting {
   }
 
   const MapPictureRequest& request_;
+  const Cancellation& cancellation_;
   const MapHistory& history_;
   double ratio_;
   MapTransform transform_;
   QBrush hatch_;
   std::int32_t step_row_ = MapRecord::no_row;  ///< the step's polygon, where it is to be marked
   QRectF view_;
-  QPainter painter_;
+  MapPicture picture_;
+  QPainter painter_;  // on its image
 };
 
 }  // namespace
 
-MapPicture paint_map(const MapPictureRequest& request) { return MapPainting(request).paint(); }
+MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation) {
+  return MapPainting(request, cancellation).paint();
+}
 
 std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](std::int32_t row) {

@@ -40,11 +40,13 @@ struct MapTransform {
 /// The whole scene in a picture of `size` (logical pixels).
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
-/// How V is drawn: exactly, or in the pixels of a discrete engine, zbuffer or painter.
+/// How V is drawn: exactly, in the pixels of an engine that has some (has_pixels()), or as engine
+/// corrected takes it.
 struct PixelChoice {
-  std::optional<Engine> engine;  ///< none: exactly
-  int resolution = 64;           ///< pixels along the longer side
-  bool differences = true;       ///< mark where pixels are wrong
+  std::optional<Engine> engine;              ///< none: exactly
+  PaintersOrder order = PaintersOrder::bsp;  ///< painter's
+  int resolution = 64;                       ///< pixels along the longer side
+  bool differences = true;                   ///< mark where pixels are wrong
 
   friend bool operator==(const PixelChoice&, const PixelChoice&) = default;
 };
@@ -76,7 +78,8 @@ struct MapPicture {
 QBrush back_side_brush(double pixel_ratio);
 
 /// Lit sides in their patch's colour, back sides grey and hatched. Any thread.
-MapPicture paint_map(const MapPictureRequest& request);
+/// @throws Cancelled
+MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation = {});
 
 /// What a step is about: its polygon and all that it cuts, metres; null rectangle for none.
 QRectF step_bounds(const RecordedMap& map, std::int32_t step);

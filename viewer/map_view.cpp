@@ -201,9 +201,13 @@ void MapView::show_title() {
 
 QString MapView::pixel_text() const {
   const PixelView& view = *canvas_->pixels();
+  if (!view.failure.empty()) return tr("The engine gave up");
   const QString after =
       tr("V after %1 of %2 polygons")
           .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
+  if (view.corrected) {
+    return after + tr(", none cut: %1 % of it taken wrongly").arg(100 * view.wrong, 0, 'g', 2);
+  }
   if (!view.choice.differences) {
     return after + tr(", pixels of %1 m").arg(number_text(view.drawn.pixels.side));
   }

@@ -4,38 +4,53 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include "engine_text.h"
+#include "transillum/pixel_map.h"
+
 namespace transillum::viewer {
 
 namespace {
 
-QString name_of_engine(const std::optional<Engine>& engine) {
-  if (!engine) return PixelMenu::tr("Exact");
-  return *engine == Engine::zbuffer ? PixelMenu::tr("Z-buffer") : PixelMenu::tr("Painter");
+QString label_of(const PixelChoice& choice) {
+  if (!choice.engine) return PixelMenu::tr("Exact");
+  const QString name = engine_label(*choice.engine);
+  return choice.order == PaintersOrder::newell ? PixelMenu::tr("%1 by Newell's tests").arg(name)
+                                               : name;
 }
 
 }  // namespace
 
 PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   setObjectName("map_engine");
-  setToolTip(tr("Draw V exactly, or as a discrete engine's pixels show it"));
+  setToolTip(tr("Draw V exactly, or as another engine sees it"));
   setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(this);
   menu->addSection(tr("Engine"));
   auto* engines = new QActionGroup(this);
-  const auto add_engine = [&](std::optional<Engine> engine, const char* name, const QString& text) {
-    QAction* action = engines->addAction(text);
+  const auto add_engine = [&](std::optional<Engine> engine, const char* name,
+                              PaintersOrder order = PaintersOrder::bsp) {
+    PixelChoice shown;
+    shown.engine = engine;
+    shown.order = order;
+    QAction* action = engines->addAction(label_of(shown));
     action->setObjectName(QString::fromLatin1(name));
+    action->setToolTip(engine ? engine_sentence(*engine) : tr("V itself"));
     action->setCheckable(true);
-    action->setChecked(engine == choice_.engine);
-    connect(action, &QAction::triggered, this, [this, engine] {
+    action->setChecked(!engine);
+    connect(action, &QAction::triggered, this, [this, engine, order] {
       PixelChoice next = choice_;
       next.engine = engine;
+      next.order = order;
       change(next);
     });
   };
-  add_engine(std::nullopt, "map_exact", tr("Exact"));
-  add_engine(Engine::zbuffer, "map_zbuffer", tr("Z-buffer: a list of patches a pixel"));
-  add_engine(Engine::painter, "map_painter", tr("Painter: one item buffer, painted over"));
+  menu->setToolTipsVisible(true);
+  add_engine(std::nullopt, "map_exact");
+  add_engine(Engine::zbuffer, "map_zbuffer");
+  add_engine(Engine::painter, "map_painter");
+  add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
+  add_engine(Engine::rays, "map_rays");
+  add_engine(Engine::corrected, "map_corrected");
   menu->addActions(engines->actions());
   menu->addSection(tr("Pixels along the longer side"));
   resolutions_ = new QActionGroup(this);
@@ -66,10 +81,13 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
 
 void PixelMenu::change(const PixelChoice& choice) {
   choice_ = choice;
-  resolutions_->setEnabled(choice_.engine.has_value());
+  const bool pixels = choice_.engine && has_pixels(*choice_.engine);
+  resolutions_->setEnabled(pixels);
   differences_->setEnabled(choice_.engine.has_value());
-  setText(choice_.engine ? tr("%1 %2 ").arg(name_of_engine(choice_.engine)).arg(choice_.resolution)
-                         : name_of_engine(choice_.engine) + QLatin1Char(' '));
+  QString label = label_of(choice_);
+  if (choice_.engine == Engine::painter)  // short, as there is little room
+    label = choice_.order == PaintersOrder::newell ? tr("Painter (Newell)") : tr("Painter (BSP)");
+  setText(pixels ? tr("%1, %2 px ").arg(label).arg(choice_.resolution) : label + QLatin1Char(' '));
   emit changed();
 }
 

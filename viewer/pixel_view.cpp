@@ -3,9 +3,9 @@
 
 #include <QPolygonF>
 #include <algorithm>
-#include <utility>
 
 #include "theme.h"
+#include "transillum/errors.h"
 
 namespace transillum::viewer {
 
@@ -26,39 +26,62 @@ QPolygonF polygon_of(const VisibilityMap& map, const VisibilityMap::Polygon& pol
 
 }  // namespace
 
-std::shared_ptr<const PixelView> make_pixel_view(std::shared_ptr<const RecordedMap> map,
-                                                 std::int32_t step, const PixelChoice& choice) {
+std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const RecordedMap>& map,
+                                                 std::int32_t step, const PixelChoice& choice,
+                                                 const Cancellation& cancellation) {
   auto view = std::make_shared<PixelView>();
   const LoadedScene& loaded = *map->loaded;
-  const PixelMap pixels = pixel_map_after(*choice.engine, *loaded.scene, *loaded.tree,
-                                          map->record(), step, choice.resolution);
-  view->drawn = drawn_in_pixels(*loaded.scene, pixels);
-  if (choice.differences) {
-    const VisibilityMap exact = map_after(map->record(), step);
-    mark_differences(pixels, exact, view->drawn);
-    const double shown = std::max(area_of(exact.polygons), area_of(view->drawn.polygons));
-    view->wrong = shown > 0 ? area_of(view->drawn.pixels.differences) / shown : 0;
-  }
-  view->of = std::move(map);
+  EngineOptions options;
+  options.resolution = choice.resolution;
+  options.order = choice.order;
+  view->of = map;
   view->step = step;
   view->choice = choice;
+  try {
+    if (choice.engine == Engine::corrected) {
+      view->corrected =
+          corrected_map_after(loaded.scene, loaded.tree, map->record(), step, cancellation);
+      view->wrong = view->corrected->wrong_share();
+      return view;
+    }
+    const PixelMap pixels = pixel_map_after(*choice.engine, *loaded.scene, *loaded.tree,
+                                            map->record(), step, options, cancellation);
+    view->drawn = drawn_in_pixels(*loaded.scene, pixels, cancellation);
+    if (choice.differences) {
+      const VisibilityMap exact = map_after(map->record(), step);
+      mark_differences(pixels, exact, view->drawn, cancellation);
+      const double shown = std::max(area_of(exact.polygons), area_of(view->drawn.polygons));
+      view->wrong = shown > 0 ? area_of(view->drawn.pixels.differences) / shown : 0;
+    }
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
+    view->failure = error.what();
+  }
   return view;
 }
 
 void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& transform,
-                 const std::vector<Color8>& patch_colors, const QBrush& back_side) {
+                 const std::vector<Color8>& patch_colors, const QBrush& back_side,
+                 const Cancellation& cancellation) {
   const VisibilityMap& map = view.drawn;
   painter.save();
   // Rectangles that meet are filled without antialiasing: no seams.
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);
+  std::size_t done = 0;
+  const auto look_out = [&] {
+    if (done++ % 256 == 0) cancellation.throw_if_cancelled();
+  };
   for (const VisibilityMap::Polygon& polygon : map.polygons) {
+    look_out();
     const Color8& c = patch_colors[static_cast<std::size_t>(polygon.patch)];
     painter.setBrush(polygon.front_facing ? back_side : QBrush(QColor(c[0], c[1], c[2])));
     painter.drawPolygon(polygon_of(map, polygon, transform));
   }
   painter.setBrush(theme::difference);
   for (const VisibilityMap::Polygon& polygon : map.pixels.differences) {
+    look_out();
     painter.drawPolygon(polygon_of(map, polygon, transform));
   }
   // Thinner where the picture's pixels are as small as lines.
@@ -67,6 +90,7 @@ void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& t
   painter.setRenderHint(QPainter::Antialiasing);
   const std::vector<Vec2>& ends = map.pixels.borders;
   for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+    look_out();
     painter.drawLine(transform.to_pixels(ends[k]), transform.to_pixels(ends[k + 1]));
   }
   painter.restore();

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine_text.h"
 #include "run_options.h"
 
 namespace transillum::viewer {
@@ -36,7 +37,7 @@ QString capitalized(const std::string& name) {
 }  // namespace
 
 SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
-  auto* form = new QFormLayout;
+  auto* form = form_ = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
   form->setHorizontalSpacing(10);
   form->setVerticalSpacing(6);
@@ -69,10 +70,19 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   seed_->setRange(0, std::numeric_limits<int>::max());
   seed_->setToolTip(tip("seed"));
   engine_ = new QComboBox;
-  for (const std::string& name : engine_names()) {
-    if (takes_directions(engine_from_name(name))) engine_->addItem(capitalized(name));
-  }
-  engine_->setToolTip(tip("engine"));
+  engine_->setObjectName("engine");
+  add_engines(*engine_, false);
+  resolution_ = new QSpinBox;
+  resolution_->setObjectName("resolution");
+  resolution_->setRange(0, EngineOptions::largest_resolution);
+  resolution_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  resolution_->setSuffix(tr(" px"));
+  order_ = new QComboBox;
+  order_->setObjectName("painters_order");
+  order_->addItems({tr("BSP tree"), tr("Newell's tests")});
+  order_->setToolTip(
+      tr("Who is painted first\nBSP tree: cuts what overlaps in a circle, so there always is an "
+         "order\nNewell's tests: cut nothing, and give up on such circles"));
   ways_ = new QComboBox;
   ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
   ways_->setToolTip(tip("two-way"));
@@ -108,6 +118,8 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   form.addRow(tr("Sampling"), sampling_);
   form.addRow(tr("Seed"), seed_);
   form.addRow(tr("Engine"), engine_);
+  form.addRow(tr("Resolution"), resolution_);
+  form.addRow(tr("Painter's order"), order_);
   form.addRow(tr("Light goes"), ways_);
   form.addRow(tr("Normalize"), normalize_);
   form.addRow(tr("Scheme"), scheme_);
@@ -120,12 +132,12 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   stop_row->addWidget(stop_at_, 1);
   stop_row->addWidget(stop_value_, 1);
   form.addRow(tr("Stop at"), stop_row);
-  for (QComboBox* box : {sampling_, engine_, ways_, normalize_, scheme_, stop_at_}) {
+  for (QComboBox* box : {sampling_, engine_, order_, ways_, normalize_, scheme_, stop_at_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
   }
-  for (QSpinBox* box : {directions_, seed_, replicas_, iterations_})
+  for (QSpinBox* box : {directions_, seed_, resolution_, replicas_, iterations_})
     connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
   connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
 }
@@ -154,7 +166,9 @@ SolveOptions SettingsPanel::solve_options() const {
   // A seed beyond the box's range came from the command line; it stays until it is changed here.
   const auto shown = static_cast<std::uint64_t>(seed_->value());
   if (shown < static_cast<std::uint64_t>(seed_->maximum())) options.seed = shown;
-  options.engine = static_cast<Engine>(engine_->currentIndex());
+  options.engine = engine_of(*engine_);
+  options.engine_options.resolution = resolution_->value();
+  options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
   options.two_way = ways_->currentIndex() == 0;
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
@@ -176,7 +190,9 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
   seed_->setValue(static_cast<int>(
       std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
-  engine_->setCurrentIndex(static_cast<int>(solve.engine));
+  choose_engine(*engine_, solve.engine);
+  resolution_->setValue(solve.engine_options.resolution);
+  order_->setCurrentIndex(static_cast<int>(solve.engine_options.order));
   ways_->setCurrentIndex(solve.two_way ? 0 : 1);
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
   scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
@@ -208,6 +224,18 @@ void SettingsPanel::show_state() {
   if (!restart_) return;  // still under construction
   seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
+  const Engine engine = engine_of(*engine_);
+  engine_->setToolTip(engine_sentence(engine));
+  show_row(resolution_, takes_resolution(engine));
+  show_row(order_, engine == Engine::painter);
+  const bool rays = engine == Engine::rays;
+  resolution_->setSpecialValueText(
+      rays ? tr("%1 rays a patch").arg(solve_in_effect_.engine_options.lines_per_patch)
+           : tr("Default: %1 px").arg(EngineOptions::default_resolution));
+  resolution_->setToolTip(
+      rays ? tr("Pixels along the longer side of the projected scene, a ray in each;\n"
+                "least: so many rays a patch instead")
+           : tr("Pixels along the longer side of the projected scene"));
   const bool differs = enabled_ && differ_from_effect();
   restart_->setEnabled(enabled_);
   restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
@@ -215,6 +243,11 @@ void SettingsPanel::show_state() {
   QFont font = restart_->font();
   font.setBold(differs);
   restart_->setFont(font);
+}
+
+void SettingsPanel::show_row(QWidget* field, bool shown) {
+  field->setVisible(shown);
+  form_->labelForField(field)->setVisible(shown);
 }
 
 }  // namespace transillum::viewer

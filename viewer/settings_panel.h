@@ -39,15 +39,19 @@ class SettingsPanel : public QWidget {
   void add_solve_rows(QFormLayout& form);
   void add_scene_rows(QFormLayout& form);
   void show_state();
+  void show_row(QWidget* field, bool shown);
 
   SolveOptions base_;  ///< carries what has no control here: threads and memory
   SolveOptions solve_in_effect_;
   SceneOptions scene_in_effect_;
   bool enabled_ = false;
+  QFormLayout* form_;
   QSpinBox* directions_;
   QComboBox* sampling_;
   QSpinBox* seed_;
   QComboBox* engine_;
+  QSpinBox* resolution_;
+  QComboBox* order_;
   QComboBox* ways_;
   QComboBox* normalize_;
   QComboBox* stop_at_;

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "engine_text.h"
 #include "number_text.h"
 #include "transillum/errors.h"
 
@@ -103,7 +104,7 @@ void StudyChoices::set_solve(const SolveOptions& solve) {
 
 void StudyChoices::show_solve() {
   rest_->setText(tr("Engine %1, normalization %2, scheme %3: as in the solve")
-                     .arg(QString::fromStdString(name_of(solve_.engine)),
+                     .arg(engine_label(solve_.engine),
                           QString::fromStdString(name_of(solve_.normalize)),
                           QString::fromStdString(name_of(solve_.scheme))));
   show_size();

@@ -8,6 +8,7 @@
 
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
+#include "transillum/corrected_map.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
@@ -138,6 +139,60 @@ TEST(CorrectedEngine, StopsWhenAsked) {
   Cancellation cancellation;
   cancellation.cancel();
   EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Cancelled);
+}
+
+/// The map is the engine's own account: what it does not count as open it has given to somebody.
+TEST(CorrectedMap, IsWhatTheEngineBooks) {
+  for (const char* spec : {"cornell-box", "rooms", "boards", "sphere-flake:levels=1"}) {
+    const auto scene = load_scene(spec);
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const TransferEngine engine = make_engine(Engine::corrected, scene, tree);
+    for (const Vec3& omega : {normalized({1, 2, 3}), normalized({-3, 1, -2})}) {
+      const RecordedDirection direction = record_local_map(*scene, *tree, omega);
+      const MapRecord& record = direction.record;
+      const CorrectedMap map = corrected_map_after(scene, tree, record, record.step_count() - 1);
+      const Transfers booked = engine(omega, {});
+      std::vector<double> given(booked.backward.size()), open(given.size());
+      double area = 0;
+      for (const CorrectedMap::Part& part : map.parts) {
+        area += part.area;
+        if (part.front_facing) continue;
+        given[static_cast<std::size_t>(part.patch)] += part.area - part.open;
+        open[static_cast<std::size_t>(part.patch)] += part.exact;
+      }
+      for (std::size_t i = 0; i < given.size(); ++i) {
+        ASSERT_NEAR(given[i], booked.backward[i].covered, 1e-9 * area) << spec << " " << i;
+        const Coverage& truly = direction.transfers.backward[i];
+        if (std::string(spec) == "boards") continue;  // backs cover there, which no receiver books
+        ASSERT_NEAR(open[i], truly.projected - truly.covered, 1e-9 * area) << spec << " " << i;
+      }
+    }
+  }
+}
+
+TEST(CorrectedMap, TellsWhatIsTakenWrongly) {
+  testing::Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  // Over a wide receiver a light, and half over that another one: between their parts is a gap that
+  // only shapes could tell of.
+  sketch.face({{0, 0, 3}, {0, 1, 3}, {2, 1, 3}, {2, 0, 3}}, grey);
+  sketch.face({{1, 0, 2}, {1, 1, 2}, {3, 1, 2}, {3, 0, 2}}, grey);
+  sketch.face({{0.5, 0, 1}, {3.5, 0, 1}, {3.5, 1, 1}, {0.5, 1, 1}}, grey);
+  const auto scene = sketch.scene();
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const MapRecord record = record_local_map(*scene, *tree, {0, 0, 1}).record;
+  EXPECT_TRUE(corrected_map_after(scene, tree, record, -1).parts.empty());
+  const CorrectedMap first = corrected_map_after(scene, tree, record, 0);
+  ASSERT_EQ(first.parts.size(), 1U);
+  EXPECT_NEAR(first.parts[0].open, 2, 1e-9);
+  EXPECT_EQ(first.wrong_share(), 0);
+  const CorrectedMap last = corrected_map_after(scene, tree, record, 2);
+  ASSERT_EQ(last.parts.size(), 3U);
+  EXPECT_NEAR(last.parts[0].exact, 0.5, 1e-9);
+  EXPECT_NEAR(last.parts[0].open, 0, 1e-6);  // the receiver must be covered, so it takes all of it
+  EXPECT_NEAR(last.parts[1].exact, 0, 1e-9);
+  EXPECT_NEAR(last.parts[1].open, 0, 1e-6);
+  EXPECT_NEAR(last.wrong_share(), 1, 1e-5);
 }
 
 }  // namespace

@@ -150,6 +150,53 @@ TEST(PixelMap, ZBufferAndPainterShowTheSame) {
   }
 }
 
+/// A step of a direction, in pixels of 1/`resolution`.
+struct Step {
+  PixelMap pixels;
+  double wrong;  ///< share of V
+};
+
+Step after_step(const std::shared_ptr<const Scene>& scene, const BspTree& tree,
+                const MapRecord& record, std::int32_t step, Engine engine,
+                const EngineOptions& options) {
+  Step result{pixel_map_after(engine, *scene, tree, record, step, options), 0};
+  VisibilityMap drawn = drawn_in_pixels(*scene, result.pixels);
+  const VisibilityMap exact = map_after(record, step);
+  mark_differences(result.pixels, exact, drawn);
+  result.wrong = area_of(drawn.pixels.differences) / area_of(exact.polygons);
+  return result;
+}
+
+TEST(PixelMap, AllEnginesShowEachStepOfADirection) {
+  Sketch concave;  // the L lies under one square and over another
+  const int grey = concave.material(0.5, 1);
+  concave.face({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, grey);
+  concave.face({{2, 0, 1}, {3, 0, 1}, {3, 2, 1}, {2, 2, 1}}, grey);
+  concave.face({{0, 2, -1}, {2, 2, -1}, {2, 3, -1}, {0, 3, -1}}, grey);
+  for (const auto& scene : {load_scene("cornell-box"), load_scene("sphere-flake:levels=1"),
+                            concave.scene({.two_sided = true})}) {
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const RecordedDirection direction = record_local_map(*scene, *tree, normalized({1, 2, 3}));
+    const MapRecord& record = direction.record;
+    for (const std::int32_t step :
+         {-1, record.step_count() / 3, record.fullest_step(), record.step_count() - 1}) {
+      const auto show = [&](Engine engine, const EngineOptions& options) {
+        return after_step(scene, *tree, record, step, engine, options);
+      };
+      const Step painter = show(Engine::painter, {.resolution = 100});
+      const Step newell =
+          show(Engine::painter, {.resolution = 100, .order = PaintersOrder::newell});
+      EXPECT_EQ(newell.pixels.items, painter.pixels.items) << scene->name() << " " << step;
+      EXPECT_EQ(show(Engine::zbuffer, {.resolution = 100}).pixels.items, painter.pixels.items);
+      if (step < 0) continue;
+      // Rays meet another point of each pixel, and the same share of it is wrong.
+      const Step rays = show(Engine::rays, {.resolution = 100});
+      EXPECT_NE(rays.pixels.items, painter.pixels.items);
+      EXPECT_NEAR(rays.wrong / painter.wrong, 1.3, 0.45) << scene->name() << " " << step;
+    }
+  }
+}
+
 TEST(PixelMap, IsWrittenAndDrawn) {
   const Views views(load_scene("cornell-box"), normalized({1, 2, 3}), Engine::zbuffer, 32, 14);
   const test::TemporaryFolder folder;

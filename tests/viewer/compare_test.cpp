@@ -26,8 +26,8 @@ class CompareTest : public QObject {
     QVERIFY(wait_for([&] { return view->up_to_date(); }));
     const auto* table = view->findChild<QTableWidget*>("compare_table");
     const auto* picture = view->findChild<QWidget*>("difference_picture");
-    QCOMPARE(table->horizontalHeaderItem(0)->text(), QStringLiteral("fast"));
-    QCOMPARE(table->horizontalHeaderItem(1)->text(), QStringLiteral("zbuffer, 128 px"));
+    QCOMPARE(table->horizontalHeaderItem(0)->text(), QStringLiteral("Fast"));
+    QCOMPARE(table->horizontalHeaderItem(1)->text(), QStringLiteral("Z-buffer, 128 px"));
     const auto total = [&] {
       double sum = 0;
       for (PatchId i = 0; i < 27; ++i)
@@ -41,12 +41,12 @@ class CompareTest : public QObject {
     const QString before = shown.text("compare_words");
     view->findChild<QSpinBox*>("other_resolution")->setValue(1024);
     QVERIFY(wait_for([&] {
-      return table->horizontalHeaderItem(1)->text() == QStringLiteral("zbuffer, 1024 px");
+      return table->horizontalHeaderItem(1)->text() == QStringLiteral("Z-buffer, 1024 px");
     }));
     QVERIFY(shown.text("compare_words") != before);
     QVERIFY(total() < coarse);
-    view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("fast"));
-    QVERIFY(wait_for([&] { return table->horizontalHeaderItem(1)->text() == "fast"; }));
+    view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Fast"));
+    QVERIFY(wait_for([&] { return table->horizontalHeaderItem(1)->text() == "Fast"; }));
     QCOMPARE(total(), 0.0);
     QVERIFY(shown.text("compare_words").contains(QStringLiteral("0 %")));
   }

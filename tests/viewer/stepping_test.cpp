@@ -12,6 +12,7 @@
 #include "pixel_view.h"
 #include "solved_window.h"
 #include "timeline_lanes.h"
+#include "transillum/errors.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -104,11 +105,62 @@ class SteppingTest : public QObject {
     QVERIFY(s.text("map_text").contains("differ"));
     QVERIFY(choose("map_painter"));
     QCOMPARE(wrong(), of_zbuffer);  // the same centres
+    QVERIFY(choose("map_newell"));
+    QCOMPARE(wrong(), of_zbuffer);
+    QVERIFY(choose("map_rays"));
+    QVERIFY(wrong() > of_zbuffer && wrong() < 3 * of_zbuffer);
+    save_picture(*s.window, "map-rays");
+    QVERIFY(choose("map_corrected"));
+    QVERIFY(s.map_view->canvas()->pixels()->corrected);
+    QCOMPARE(wrong(), s.map_view->canvas()->pixels()->corrected->wrong_share());
+    QVERIFY(color_count(s.map_view->canvas()->grab().toImage()) > 8);
+    s.map_view->set_labels_shown(true);
+    QVERIFY(s.settles());
+    save_picture(*s.window, "map-corrected");
+    s.map_view->set_labels_shown(false);
+    QVERIFY(choose("map_painter"));
     QVERIFY(choose("map_difference"));
     QCOMPARE(wrong(), 0.0);
     QVERIFY(!s.text("map_text").contains("differ"));
     QVERIFY(choose("map_exact"));
     QVERIFY(!s.map_view->canvas()->pixels());
+  }
+
+  void pictures_under_way_can_be_given_up() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    MapPictureRequest request;
+    request.map = s.focus.map();
+    request.step = request.map->record().fullest_step();
+    request.patch_colors = std::make_shared<const std::vector<Color8>>(27);
+    request.size = {300, 200};
+    request.transform = fit_map(*request.map, request.size);
+    Cancellation given_up;
+    given_up.cancel();
+    for (const std::optional<Engine> engine :
+         {std::optional<Engine>(), std::optional(Engine::zbuffer), std::optional(Engine::painter),
+          std::optional(Engine::rays), std::optional(Engine::corrected)}) {
+      request.pixels.engine = engine;
+      QVERIFY(!paint_map(request).image.isNull());
+      QVERIFY_EXCEPTION_THROWN(paint_map(request, given_up), Cancelled);
+    }
+  }
+
+  void tells_why_newell_gives_up() {
+    const Stepping s("boards");
+    QVERIFY(s.ready);
+    s.focus.go_to({0, 3, 2});
+    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+    s.trigger("map_newell");
+    QVERIFY(s.settles());
+    const auto pixels = s.map_view->canvas()->pixels();
+    QVERIFY2(pixels->failure.find("overlap in a circle") != std::string::npos,
+             pixels->failure.c_str());
+    QVERIFY(s.text("map_text").contains("gave up"));
+    const QImage picture = s.map_view->canvas()->grab().toImage();
+    QVERIFY(share_of(picture, theme::scene_background) > 0.8);
+    QVERIFY(color_count(picture) > 4);  // the words
+    save_picture(*s.window, "map-newell");
   }
 
   void keys_step() {

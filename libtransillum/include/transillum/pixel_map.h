@@ -40,15 +40,15 @@ PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
                    const Cancellation& cancellation = {});
 
 /// The same of V after step `step` of a recorded direction: of the polygons processed so far.
-/// Engine zbuffer or painter.
+/// @throws InputError too where the painter's order newell gives up
 PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
-                         const MapRecord& record, std::int32_t step, int resolution,
+                         const MapRecord& record, std::int32_t step, const EngineOptions& options,
                          const Cancellation& cancellation = {});
-/// V itself after step `step`, to compare; without exchanges.
-VisibilityMap map_after(const MapRecord& record, std::int32_t step);
 
 /// The pixels as a map for files and pictures: runs of pixels that show the same, as rectangles.
-VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels);
+/// @throws Cancelled
+VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels,
+                              const Cancellation& cancellation = {});
 
 /// Adds to `drawn`.pixels.differences where the pixels show not what is there: convex polygons that
 /// do not overlap. Of each, `patch` is what is truly seen, or no_patch.

@@ -104,6 +104,8 @@ struct VisibilityMap {
     return {corners.data() + polygon.begin, polygon.end - polygon.begin};
   }
 };
+/// V after step `step` (-1: before the first), without exchanges.
+VisibilityMap map_after(const MapRecord& record, std::int32_t step);
 /// V after the last step: what is seen from below the scene.
 VisibilityMap map_from_below(const RecordedDirection& direction);
 /// What patch `receiver` of the scene sees: the inside lists of the steps that process it. Without

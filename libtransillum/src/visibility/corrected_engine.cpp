@@ -5,7 +5,10 @@
 // of it is only known how much is still open, as if that were spread evenly. What two faces
 // exchange is their overlap, corrected by what is open of them. Where this leaves a receiver with
 // less than must lie above it, all that lies there gives more: what is received stays right.
+#include "transillum/corrected_map.h"
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -42,28 +45,46 @@ class CorrectedPass {
       : shared_(shared), bins_(faces_, shared.in_air), overlap_(faces_) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
-    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
-    bins_.fill(cancellation);
+    begin(omega, cancellation);
     TransferSums<double> sums(shared_.scene->patch_count());
-    const double unit = faces_.grid.step * faces_.grid.step;
-    open_below_.clear();
-    met_by_.assign(faces_.faces.size(), -1);
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(faces_.faces.size()); ++k) {
+    for (std::int32_t k = 0; k < face_count(); ++k) {
       if (k % 64 == 0) cancellation.throw_if_cancelled();
       const FastFaces::Face& below = face(k);
-      open_below_.push_back(below.area);
-      sums.project(below.patch, below.front, unit * below.area);
-      if (shared_.in_air && !below.front) continue;
-      find_above(k);
-      exchange(below);
+      sums.project(below.patch, below.front, unit() * below.area);
+      look(k);
       for (const Above& above : above_) {
         if (!(above.seen > 0)) continue;
         const FastFaces::Face& other = face(above.face);
-        sums.see(below.patch, below.front, other.patch, other.front, unit * above.seen);
+        sums.see(below.patch, below.front, other.patch, other.front, unit() * above.seen);
       }
     }
     return sums.finish(omega, cancellation);
   }
+
+  // The same face by face, for those who want to watch.
+
+  void begin(const Vec3& omega, const Cancellation& cancellation) {
+    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
+    bins_.fill(cancellation);
+    open_below_.clear();
+    met_by_.assign(faces_.faces.size(), -1);
+  }
+  std::int32_t face_count() const { return static_cast<std::int32_t>(faces_.faces.size()); }
+  const FastFaces::Face& face(std::int32_t k) const {
+    return faces_.faces[static_cast<std::size_t>(k)];
+  }
+  /// m² of a step squared.
+  double unit() const { return faces_.grid.step * faces_.grid.step; }
+  /// Finds what face k sees; those before it have looked.
+  void look(std::int32_t k) {
+    open_below_.push_back(face(k).area);
+    above_.clear();
+    if (shared_.in_air && !face(k).front) return;
+    find_above(k);
+    exchange(face(k));
+  }
+  /// Of a face that has looked, what looks down unhindered; steps squared.
+  double open_below(std::int32_t k) const { return open_below_[static_cast<std::size_t>(k)]; }
 
  private:
   /// A face above the one that looks.
@@ -72,10 +93,6 @@ class CorrectedPass {
     double overlap;  ///< steps squared; < 0: not looked for yet
     double seen;
   };
-  const FastFaces::Face& face(std::int32_t k) const {
-    return faces_.faces[static_cast<std::size_t>(k)];
-  }
-  double& open_below(std::int32_t k) { return open_below_[static_cast<std::size_t>(k)]; }
 
   /// Those whose boxes overlap that of face k, nearest first.
   void find_above(std::int32_t k) {
@@ -130,7 +147,7 @@ class CorrectedPass {
 
   void take(Above& above, double seen) {
     above.seen += seen;
-    open_below(above.face) -= seen;
+    open_below_[static_cast<std::size_t>(above.face)] -= seen;
     open_ -= seen;
   }
 
@@ -162,6 +179,84 @@ TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
   return [shared = std::move(shared)](const Vec3& omega, const Cancellation& cancellation) {
     return CorrectedPass(*shared).run(omega, cancellation);
   };
+}
+
+namespace {
+
+/// Of each step's polygon, what is open in V after step `step`, m².
+std::vector<double> open_in_map(const MapRecord& record, std::int32_t step) {
+  std::vector<double> open(record.order.size(), 0);
+  std::vector<std::int32_t> origin;  // of each row: the step that put it, or what it is of, into V
+  for (const MapRecord::Row& row : record.rows) {
+    if (row.made > step) break;
+    origin.push_back(
+        row.parent == MapRecord::no_row ? row.made : origin[static_cast<std::size_t>(row.parent)]);
+    if (row.consumed > step) {
+      open[static_cast<std::size_t>(origin.back())] += std::max(record.area(row), 0.0);
+    }
+  }
+  return open;
+}
+
+/// The step that takes each outline's fragment.
+std::vector<std::int32_t> steps_of(const FastOutlines& outlines, const MapRecord& record) {
+  std::vector<std::int32_t> steps(outlines.outlines.size());
+  for (std::int32_t k = 0; k < record.step_count(); ++k) {
+    const auto fragment = static_cast<std::size_t>(record.order[static_cast<std::size_t>(k)]);
+    std::fill(steps.begin() + outlines.first[fragment],
+              steps.begin() + outlines.first[fragment + 1], k);
+  }
+  return steps;
+}
+
+}  // namespace
+
+CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
+                                 const std::shared_ptr<const BspTree>& tree,
+                                 const MapRecord& record, std::int32_t step,
+                                 const Cancellation& cancellation) {
+  const CorrectedScene shared(scene, tree);
+  CorrectedPass pass(shared);
+  pass.begin(record.frame.omega, cancellation);
+  CorrectedMap map;
+  map.frame = record.frame;
+  const std::vector<double> exact = open_in_map(record, step);
+  const std::vector<std::int32_t> steps = steps_of(shared.outlines, record);
+  std::vector<std::size_t> part_of_step(record.order.size(), exact.size());
+  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // face, and the part that it is of
+  for (std::int32_t f = 0; f < pass.face_count(); ++f) {
+    if (f % 64 == 0) cancellation.throw_if_cancelled();
+    const FastFaces::Face& face = pass.face(f);
+    const std::int32_t at = steps[face.outline];
+    if (at > step) break;
+    pass.look(f);
+    std::size_t& part = part_of_step[static_cast<std::size_t>(at)];
+    if (part == exact.size()) {
+      part = map.parts.size();
+      const auto begin = static_cast<std::uint32_t>(map.corners.size());
+      const FragmentId fragment = record.order[static_cast<std::size_t>(at)];
+      for (const BspTree::Corner& corner : tree->corners(tree->fragment(fragment))) {
+        map.corners.push_back(
+            map.frame.project(tree->points()[static_cast<std::size_t>(corner.point)]));
+      }
+      map.parts.push_back({face.patch, face.front, 0, 0, exact[static_cast<std::size_t>(at)], begin,
+                           static_cast<std::uint32_t>(map.corners.size())});
+    }
+    map.parts[part].area += pass.unit() * face.area;
+    parts.emplace_back(f, part);
+  }
+  for (const auto& [f, part] : parts) map.parts[part].open += pass.unit() * pass.open_below(f);
+  return map;
+}
+
+double CorrectedMap::wrong_share() const {
+  double wrong = 0, all = 0;
+  for (const Part& part : parts) {
+    if (part.front_facing) continue;
+    wrong += std::abs(part.open - part.exact);
+    all += std::max(part.open, 0.0) + part.exact;
+  }
+  return all > 0 ? wrong / all : 0;
 }
 
 }  // namespace transillum

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "transillum/errors.h"
 #include "visibility/counted_transfers.h"
@@ -35,6 +37,32 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
   }
 }
 
+/// Fragments in the order of the pieces that they are parts of.
+std::vector<FragmentId> in_newell_order(const Scene& scene, const BspTree& tree,
+                                        std::span<const FragmentId> fragments,
+                                        const PixelGrid& grid, const PatchHeights& heights,
+                                        const Cancellation& cancellation) {
+  const PieceOutlines pieces(scene, grid);
+  const std::vector<std::int32_t> order = newell_order(scene, grid, pieces, heights, cancellation);
+  std::vector<std::size_t> place(scene.pieces().size(), order.size());  // edge-on ones last
+  for (std::size_t n = 0; n < order.size(); ++n) place[static_cast<std::size_t>(order[n])] = n;
+  const PieceFinder finder(scene, tree, grid.frame());
+  std::vector<std::pair<std::size_t, FragmentId>> placed;
+  for (const FragmentId f : fragments) {
+    placed.emplace_back(place[finder.piece_of(f)], f);
+  }
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<FragmentId> sorted;
+  for (const auto& [at, f] : placed) sorted.push_back(f);
+  return sorted;
+}
+
+[[noreturn]] void refuse(Engine engine) {
+  throw InputError(
+      fmt::format("engine {} has no pixels: choose zbuffer, painter or rays", name_of(engine)));
+}
+
 }  // namespace
 
 void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
@@ -46,10 +74,31 @@ void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
     case Engine::painter:
       return paint(scene, tree, options.order, grid, heights, book, cancellation);
     case Engine::rays:
-      return cast_lines(scene, options.seed, grid, heights, book, cancellation);
+      return cast_lines(scene, options.seed, grid, heights, nullptr, book, cancellation);
     default:
-      throw InputError(
-          fmt::format("engine {} has no pixels: choose zbuffer, painter or rays", name_of(engine)));
+      refuse(engine);
+  }
+}
+
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 std::span<const FragmentId> fragments, const EngineOptions& options,
+                 const PixelGrid& grid, const PatchHeights& heights, PixelBook& book,
+                 const Cancellation& cancellation) {
+  switch (engine) {
+    case Engine::zbuffer:
+      return fill_zbuffer(tree, fragments, grid, heights, book, cancellation);
+    case Engine::painter: {
+      const FragmentOutlines outlines(tree, grid);
+      Painter painter(outlines, grid, heights, book, cancellation);
+      if (options.order == PaintersOrder::bsp) return painter.paint(fragments);
+      return painter.paint(in_newell_order(scene, tree, fragments, grid, heights, cancellation));
+    }
+    case Engine::rays: {
+      const ProcessedParts parts(scene, tree, fragments, grid.frame());
+      return cast_lines(scene, options.seed, grid, heights, &parts, book, cancellation);
+    }
+    default:
+      refuse(engine);
   }
 }
 

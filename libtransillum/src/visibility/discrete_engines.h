@@ -1,10 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <span>
+
 #include "transillum/engine.h"
 #include "visibility/patch_heights.h"
 #include "visibility/pixel_book.h"
 #include "visibility/pixel_grid.h"
+#include "visibility/processed_parts.h"
 
 namespace transillum {
 
@@ -15,8 +18,16 @@ void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
                  const EngineOptions& options, const PixelGrid& grid, const PatchHeights& heights,
                  PixelBook& book, const Cancellation& cancellation);
 
+/// The same as if there were some fragments of the tree alone.
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 std::span<const FragmentId> fragments, const EngineOptions& options,
+                 const PixelGrid& grid, const PatchHeights& heights, PixelBook& book,
+                 const Cancellation& cancellation);
+
 /// The part of fill_pixels() for engine rays.
+/// @param parts all there is; null: the whole scene
 void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
-                const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation);
+                const PatchHeights& heights, const ProcessedParts* parts, PixelBook& book,
+                const Cancellation& cancellation);
 
 }  // namespace transillum

@@ -10,8 +10,6 @@
 #include "transillum/errors.h"
 #include "visibility/counted_transfers.h"
 #include "visibility/discrete_engines.h"
-#include "visibility/painter.h"
-#include "visibility/zbuffer.h"
 
 namespace transillum {
 namespace {
@@ -90,36 +88,15 @@ PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
 }
 
 PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
-                         const MapRecord& record, std::int32_t step, int resolution,
+                         const MapRecord& record, std::int32_t step, const EngineOptions& options,
                          const Cancellation& cancellation) {
-  if (engine != Engine::zbuffer && engine != Engine::painter) {
-    throw InputError(fmt::format("engine {} does not go by steps", name_of(engine)));
-  }
   const std::span<const FragmentId> all(record.order);
   const auto fragments = all.first(static_cast<std::size_t>(step + 1));
-  return map_from(scene, record.frame.omega, resolution, no_patch, cancellation,
+  return map_from(scene, record.frame.omega, options.resolution, no_patch, cancellation,
                   [&](const PixelGrid& grid, const PatchHeights& heights, PixelBook& book) {
-                    if (engine == Engine::zbuffer) {
-                      fill_zbuffer(tree, fragments, grid, heights, book, cancellation);
-                    } else {
-                      const FragmentOutlines outlines(tree, grid);
-                      Painter(outlines, grid, heights, book, cancellation).paint(fragments);
-                    }
+                    fill_pixels(engine, scene, tree, fragments, options, grid, heights, book,
+                                cancellation);
                   });
-}
-
-VisibilityMap map_after(const MapRecord& record, std::int32_t step) {
-  VisibilityMap map;
-  map.frame = record.frame;
-  for (const std::int32_t r : record.map_after(step)) {
-    const MapRecord::Row& row = record.rows[static_cast<std::size_t>(r)];
-    const auto outline = record.outline(row);
-    const auto begin = static_cast<std::uint32_t>(map.corners.size());
-    map.corners.insert(map.corners.end(), outline.begin(), outline.end());
-    map.polygons.push_back({row.patch, row.front_facing, std::max(record.area(row), 0.0), begin,
-                            static_cast<std::uint32_t>(map.corners.size())});
-  }
-  return map;
 }
 
 namespace {
@@ -128,13 +105,15 @@ namespace {
 /// the same run.
 class Rectangles {
  public:
-  Rectangles(const PixelMap& pixels, VisibilityMap& map) : pixels_(pixels), map_(map) {}
+  Rectangles(const PixelMap& pixels, VisibilityMap& map, const Cancellation& cancellation)
+      : pixels_(pixels), map_(map), cancellation_(cancellation) {}
 
   /// of(index) is what a pixel shows; `nothing` is left out.
   template <class Of, class Add>
   void find(PatchId nothing, Of of, Add add) {
     std::map<std::pair<int, PatchId>, Run> open;  // by first column and item
     for (int row = 0; row <= pixels_.rows; ++row) {
+      cancellation_.throw_if_cancelled();
       std::map<std::pair<int, PatchId>, Run> grown;
       for (int begin = 0; row < pixels_.rows && begin < pixels_.columns;) {
         const PatchId item = of(pixels_.index(begin, row));
@@ -174,6 +153,7 @@ class Rectangles {
 
   const PixelMap& pixels_;
   VisibilityMap& map_;
+  const Cancellation& cancellation_;
 };
 
 /// The sides of pixels between what differs.
@@ -207,14 +187,15 @@ std::vector<Vec2> borders(const PixelMap& pixels) {
 
 }  // namespace
 
-VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels) {
+VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels,
+                              const Cancellation& cancellation) {
   VisibilityMap map;
   map.frame = pixels.frame;
   map.receiver = pixels.receiver;
   map.exchanges = pixels.exchanges;
   map.pixels.side = pixels.side;
   map.pixels.borders = borders(pixels);
-  Rectangles rectangles(pixels, map);
+  Rectangles rectangles(pixels, map, cancellation);
   if (pixels.receiver != no_patch) {
     rectangles.find(
         no_patch, [&](std::size_t at) { return pixels.window[at] ? pixels.receiver : no_patch; },

@@ -129,8 +129,8 @@ struct Meetings {
 class RayPass {
  public:
   RayPass(const Scene& scene, const EmbreeScene& embree, const LineGrid& grid, bool gridded,
-          const PlaneFrame& frame, const PatchHeights& heights, PixelBook& book,
-          const Cancellation& cancellation)
+          const PlaneFrame& frame, const PatchHeights& heights, const ProcessedParts* parts,
+          PixelBook& book, const Cancellation& cancellation)
       : scene_(scene),
         embree_(embree),
         cancellation_(cancellation),
@@ -138,6 +138,7 @@ class RayPass {
         frame_(frame),
         grid_(grid),
         heights_(heights),
+        parts_(parts),
         book_(book),
         meetings_{embree, {}} {
     aim();
@@ -185,23 +186,14 @@ class RayPass {
     hits_.clear();
     for (const PatchId i : meetings_.patches[k]) {
       if (heights_.edge_on(i)) continue;
+      if (parts_ != nullptr && !parts_->hold(i, {lines_.x[k], lines_.y[k]})) continue;
       hits_.push_back({i, heights_.height(i, {lines_.x[k], lines_.y[k]})});
     }
     heights_.sort(hits_);
   }
 
-  /// Whether the projection of patch i holds the point. Both patches at an edge compute the same
-  /// numbers, so one of two neighbours has it.
   bool contains(PatchId i, double x, double y) const {
-    bool inside = false;
-    const auto outline = scene_.outline(i);
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      const auto [p, q] = std::minmax(outline[k], outline[(k + 1) % outline.size()]);
-      const Vec2 a = frame_.project(scene_.point(p)), b = frame_.project(scene_.point(q));
-      if ((a.y > y) == (b.y > y)) continue;
-      if (x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    }
-    return inside;
+    return holds(scene_.outline(i), scene_.points(), frame_, {x, y});
   }
 
   /// A line through the seam of two patches may meet both in float32, but only one in truth, or
@@ -241,6 +233,7 @@ class RayPass {
   const PlaneFrame& frame_;
   const LineGrid& grid_;
   const PatchHeights& heights_;
+  const ProcessedParts* parts_;  ///< all that is met; null: everything
   PixelBook& book_;
 
   // The packet at hand.
@@ -253,10 +246,11 @@ class RayPass {
 }  // namespace
 
 void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
-                const PatchHeights& heights, PixelBook& book, const Cancellation& cancellation) {
-  const EmbreeScene embree(scene);
+                const PatchHeights& heights, const ProcessedParts* parts, PixelBook& book,
+                const Cancellation& cancellation) {
+  const EmbreeScene embree(scene, cancellation);
   const LineGrid lines(grid, true, key_of(grid.frame().omega, seed));
-  RayPass(scene, embree, lines, true, grid.frame(), heights, book, cancellation).run();
+  RayPass(scene, embree, lines, true, grid.frame(), heights, parts, book, cancellation).run();
 }
 
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
@@ -275,7 +269,8 @@ TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOption
             ? LineGrid(PixelGrid(*scene, omega, options.resolution), options.gridded, key)
             : LineGrid(plane_window(*scene, frame), options.lines_per_patch * scene->patch_count(),
                        options.gridded, key);
-    RayPass(*scene, *embree, grid, options.gridded, frame, heights, counted, cancellation).run();
+    RayPass(*scene, *embree, grid, options.gridded, frame, heights, nullptr, counted, cancellation)
+        .run();
     return counted.finish(omega, grid.area_of_line());
   };
 }

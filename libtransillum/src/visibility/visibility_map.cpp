@@ -9,10 +9,9 @@ namespace {
 /// Copies rows of a record, with their corners, into a map.
 class MapMaker {
  public:
-  MapMaker(const RecordedDirection& direction, PatchId receiver) : record_(direction.record) {
+  explicit MapMaker(const MapRecord& record, PatchId receiver = no_patch) : record_(record) {
     map_.frame = record_.frame;
     map_.receiver = receiver;
-    map_.exchanges = direction.transfers.exchanges;
   }
 
   void add(std::vector<VisibilityMap::Polygon> VisibilityMap::*list, const MapRecord::Row& row) {
@@ -38,20 +37,25 @@ class MapMaker {
 
 }  // namespace
 
-VisibilityMap map_from_below(const RecordedDirection& direction) {
-  const MapRecord& record = direction.record;
-  MapMaker maker(direction, no_patch);
-  for (const std::int32_t row : record.map_after(record.step_count() - 1)) {
+VisibilityMap map_after(const MapRecord& record, std::int32_t step) {
+  MapMaker maker(record);
+  for (const std::int32_t row : record.map_after(step)) {
     maker.add(&VisibilityMap::polygons, record.rows[static_cast<std::size_t>(row)]);
   }
   return maker.finish();
+}
+
+VisibilityMap map_from_below(const RecordedDirection& direction) {
+  VisibilityMap map = map_after(direction.record, direction.record.step_count() - 1);
+  map.exchanges = direction.transfers.exchanges;
+  return map;
 }
 
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver) {
   const MapRecord& record = direction.record;
   // The receiver's own polygon tells whether it looks up, and is made after what it sees.
   std::vector<bool> looks_up(record.order.size(), false);
-  MapMaker maker(direction, receiver);
+  MapMaker maker(record, receiver);
   for (const MapRecord::Row& row : record.rows) {
     if (row.parent != MapRecord::no_row || row.patch != receiver || !row.front_facing) continue;
     looks_up[static_cast<std::size_t>(row.made)] = true;
@@ -61,7 +65,9 @@ VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiv
     if (row.made != row.consumed || !looks_up[static_cast<std::size_t>(row.made)]) continue;
     maker.add(&VisibilityMap::polygons, row);
   }
-  return maker.finish();
+  VisibilityMap map = maker.finish();
+  map.exchanges = direction.transfers.exchanges;
+  return map;
 }
 
 }  // namespace transillum
