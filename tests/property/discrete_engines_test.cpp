@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 
+#include "support/pair_areas.h"
 #include "support/scenes.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -13,14 +13,9 @@
 namespace transillum {
 namespace {
 
+using testing::areas_of;
+using testing::PairAreas;
 using testing::Sketch;
-using PairAreas = std::map<std::pair<PatchId, PatchId>, double>;
-
-PairAreas areas_of(const Transfers& transfers) {
-  PairAreas areas;
-  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
-  return areas;
-}
 
 TransferEngine engine_of(Engine engine, const std::shared_ptr<const Scene>& scene,
                          const EngineOptions& options = {}) {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 #include <thread>
 
+#include "support/pair_areas.h"
 #include "support/scenes.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -15,15 +15,9 @@
 namespace transillum {
 namespace {
 
+using testing::areas_of;
+using testing::PairAreas;
 using testing::Sketch;
-
-using PairAreas = std::map<std::pair<PatchId, PatchId>, double>;
-
-PairAreas areas_of(const Transfers& transfers) {
-  PairAreas areas;
-  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
-  return areas;
-}
 
 double total(const Transfers& transfers) {
   double sum = 0;

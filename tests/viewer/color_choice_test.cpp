@@ -6,36 +6,15 @@
 #include <cmath>
 
 #include "form_factor_views.h"
+#include "solved_snapshot.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
 
 namespace {
 
-std::shared_ptr<const LoadedScene> load(const char* spec) {
-  auto loaded = std::make_shared<LoadedScene>();
-  loaded->scene = load_scene(spec);
-  loaded->tree = std::make_shared<const BspTree>(*loaded->scene);
-  return loaded;
-}
-
-// What the session would tell of a solve after one iteration, and what the test wants of it.
 std::shared_ptr<SolverSnapshot> solved(const char* spec, int replicas = 1) {
-  auto snapshot = std::make_shared<SolverSnapshot>();
-  snapshot->loaded = load(spec);
-  snapshot->options.directions = 64;
-  snapshot->options.replicas = replicas;
-  RadiositySolver solver(snapshot->loaded->scene, snapshot->options, snapshot->loaded->tree);
-  snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));
-  solver.advance(RadiositySolver::Until::iteration);
-  snapshot->kept_radiosity.push_back(std::make_shared<std::vector<Rgb>>(solver.radiosity()));
-  snapshot->progress = solver.progress();
-  snapshot->radiosity = solver.radiosity();
-  snapshot->irradiance = solver.irradiance();
-  snapshot->form_factor_sums = solver.form_factor_sums();
-  snapshot->form_factors = std::make_shared<const FormFactors>(solver.form_factors());
-  snapshot->error = solver.error_estimate();
-  return snapshot;
+  return test::solved_snapshot(spec, 64, replicas);
 }
 
 std::shared_ptr<SolverSnapshot> times(const SolverSnapshot& snapshot, double factor) {
@@ -198,8 +177,8 @@ class ColorChoiceTest : public QObject {
   }
 
   void the_histogram_weighs_by_area() {
-    const auto loaded = load("cornell-box");
-    const Scene& scene = *loaded->scene;
+    const auto scene_of_values = load_scene("cornell-box");
+    const Scene& scene = *scene_of_values;
     std::vector<Rgb> values(static_cast<std::size_t>(scene.patch_count()), Rgb{0.9, 0, 0});
     values[0] = {0.1, 0, 0};
     values[1] = {5, 0, 0};  // beyond the range
