@@ -37,6 +37,14 @@ void check_statistics_path(const std::filesystem::path& path);
 /// Writes a solution as the ending of `path` says (cli.md for the columns of CSV).
 void write_result(const std::filesystem::path& path, const Solution& solution);
 
+/// Whether `path` ends in .vtp, as what read_result() reads.
+bool is_result_file(const std::filesystem::path& path);
+/// A solution as write_result() has written it to a .vtp file: the same patches with the same E,
+/// rho, B and H, to the bit. The patches are the faces of its scene; which were parts of one face
+/// is not told. Of the statistics and the error estimate it has what the file keeps.
+/// @throws InputError naming the file and what is wrong with it, Cancelled
+Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});
+
 /// receiver,source,area; source -1: nothing above, or a back side. Only the forward direction.
 void write_transfers_csv(std::ostream& out, const Transfers& transfers);
 void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);

@@ -5,7 +5,9 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 
+#include "io/result_figures.h"
 #include "io/result_writers.h"
 #include "io/vtp_output.h"
 
@@ -54,6 +56,7 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_integers(fields, "face", count, [&](PatchId i) { return scene.patch(i).face; });
   add_integers(fields, "patch", count, [](PatchId i) { return i; });
   add_numbers(fields, "area", count, [&](PatchId i) { return scene.patch(i).area; });
+  add_integers(fields, "material", count, [&](PatchId i) { return scene.patch(i).material; });
   add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
   add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
   add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
@@ -64,19 +67,29 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
 }
 
+void add_words(vtkFieldData& fields, const char* name, const std::vector<Material>& materials) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const Material& material : materials) array->InsertNextValue(material.name);
+  fields.AddArray(array);
+}
+
 /// What the viewer needs to say what it shows.
 void add_solve_values(vtkFieldData& fields, const Solution& solution) {
-  const SolveStatistics& statistics = solution.statistics;
+  const Scene& scene = *solution.scene;
   add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
-  add_field(fields, "scene", solution.scene->name());
-  add_field(fields, "complete", solution.complete ? 1.0 : 0.0);
-  add_field(fields, "two_sided", solution.scene->options().two_sided ? 1.0 : 0.0);
-  add_field(fields, "max_patch_area", solution.scene->options().max_patch_area);
-  add_field(fields, "directions", statistics.directions);
-  add_field(fields, "passes", statistics.passes);
-  add_field(fields, "iterations", statistics.iterations);
-  add_field(fields, "closure_defect_max", statistics.closure_defect_max);
-  add_field(fields, "energy_defect", statistics.energy_defect);
+  add_field(fields, "scene", scene.name());
+  add_words(fields, "materials", scene.materials());
+  add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
+  add_field(fields, "max_patch_area", scene.options().max_patch_area);
+  visit_figures(solution, [&](const char* name, const auto& value) {
+    add_field(fields, name, static_cast<double>(value));
+  });
+  const auto& steps = solution.statistics.steps;
+  const int count = static_cast<int>(steps.size());
+  add_numbers(fields, "change", count, [&](int k) { return steps[std::size_t(k)].change; });
+  add_numbers(fields, "contraction", count,
+              [&](int k) { return steps[std::size_t(k)].contraction; });
 }
 
 }  // namespace

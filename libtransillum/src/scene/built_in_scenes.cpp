@@ -69,6 +69,9 @@ bool names_a_file(const std::string& spec) {
 SceneDescription read_file(const std::string& spec, const Cancellation& cancellation) {
   std::error_code ignored;
   if (!std::filesystem::exists(spec, ignored)) throw InputError(spec + ": no such file");
+  if (file_ending(spec) == ".vtp") {
+    throw InputError(spec + ": is a result, which transillum-viewer opens; a scene ends in .obj");
+  }
   if (file_ending(spec) != ".obj") {
     throw InputError(spec + ": only files that end in .obj can be read");
   }

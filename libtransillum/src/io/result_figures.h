@@ -1,0 +1,45 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include "transillum/radiosity.h"
+
+namespace transillum {
+
+/// Shows `visit` each single number that a .vtp file keeps of a solve, by its name there. Any may
+/// be missing from a file, of an older version for one.
+/// @tparam Result Solution, or const Solution.
+template <class Result, class Visit>
+void visit_figures(Result& solution, Visit visit) {
+  visit("complete", solution.complete);
+  auto& s = solution.statistics;
+  visit("fragments", s.fragments);
+  visit("directions", s.directions);
+  visit("passes", s.passes);
+  visit("passes_made", s.passes_made);
+  visit("hemicubes", s.hemicubes);
+  visit("iterations", s.iterations);
+  visit("transfers", s.transfers);
+  visit("form_factors", s.form_factors);
+  visit("kept_form_factors", s.kept_form_factors);
+  visit("converged", s.converged);
+  visit("closure_defect_max", s.closure_defect_max);
+  visit("closure_defect_grazing", s.closure_defect_grazing);
+  visit("escaped", s.escaped);
+  visit("energy_defect", s.energy_defect);
+  visit("energy_balance", s.energy_balance);
+  visit("rho_max", s.rho_max);
+  visit("predicted_contraction", s.predicted_contraction);
+  visit("seconds_total", s.seconds_total);
+  auto& error = solution.error;
+  visit("replicas", error.replicas);
+  visit("error_quantile", error.quantile);
+  visit("error_rms", error.rms);
+  visit("mean_radiosity_r", error.mean_radiosity.r);
+  visit("mean_radiosity_g", error.mean_radiosity.g);
+  visit("mean_radiosity_b", error.mean_radiosity.b);
+  visit("mean_standard_error_r", error.mean_standard_error.r);
+  visit("mean_standard_error_g", error.mean_standard_error.g);
+  visit("mean_standard_error_b", error.mean_standard_error.b);
+}
+
+}  // namespace transillum

@@ -1,0 +1,242 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "io/vtp_output.h"
+#include "program_run.h"
+#include "support/refusal.h"
+#include "support/scenes.h"
+#include "transillum/files.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::testing {
+namespace {
+
+using test::refusal;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+void expect_same(const Solution& read, const Solution& written) {
+  const Scene &a = *read.scene, &b = *written.scene;
+  EXPECT_EQ(a.name(), b.name());
+  EXPECT_EQ(a.options().two_sided, b.options().two_sided);
+  ASSERT_EQ(a.patch_count(), b.patch_count());
+  for (PatchId i = 0; i < a.patch_count(); ++i) {
+    EXPECT_EQ(a.patch(i).normal, b.patch(i).normal);
+    EXPECT_EQ(a.patch(i).area, b.patch(i).area);
+    EXPECT_EQ(a.exitance(i), b.exitance(i));
+    EXPECT_EQ(a.reflectance(i), b.reflectance(i));
+    EXPECT_EQ(a.material(i).name, b.material(i).name);
+    ASSERT_EQ(a.outline(i).size(), b.outline(i).size());
+    for (std::size_t k = 0; k < a.outline(i).size(); ++k)
+      EXPECT_EQ(a.point(a.outline(i)[k]), b.point(b.outline(i)[k]));
+  }
+  EXPECT_EQ(read.radiosity, written.radiosity);
+  EXPECT_EQ(read.irradiance, written.irradiance);
+  EXPECT_EQ(read.complete, written.complete);
+  EXPECT_EQ(read.error.standard_error, written.error.standard_error);
+  EXPECT_EQ(read.error.rms, written.error.rms);
+  const SolveStatistics &s = read.statistics, &t = written.statistics;
+  EXPECT_EQ(s.patches, t.patches);
+  EXPECT_EQ(s.directions, t.directions);
+  EXPECT_EQ(s.passes_made, t.passes_made);
+  EXPECT_EQ(s.transfers, t.transfers);
+  EXPECT_EQ(s.kept_form_factors, t.kept_form_factors);
+  EXPECT_EQ(s.energy_defect, t.energy_defect);
+  ASSERT_EQ(s.steps.size(), t.steps.size());
+  for (std::size_t k = 0; k < s.steps.size(); ++k) EXPECT_EQ(s.steps[k].change, t.steps[k].change);
+}
+
+class ResultReader : public ::testing::Test {
+ protected:
+  /// A solved scene of two triangles and a concave quadrilateral, written.
+  ResultReader() {
+    Sketch sketch("awkward");
+    const int grey = sketch.material(1.0 / 3, 0.1), bright = sketch.material(0.7, 5);
+    sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, grey);
+    sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}}, bright);
+    sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, grey);
+    solution_ = solve(sketch.scene(), {.directions = 16});
+    write_result(path_, solution_);
+  }
+
+  /// Writes a file anew after a change by VTK's means.
+  void change(const std::function<void(vtkPolyData&)>& edit) const {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path_.c_str());
+    reader->Update();
+    edit(*reader->GetOutput());
+    write_file_whole(path_, [&](std::ostream& out) { write_polygons(out, *reader->GetOutput()); });
+  }
+  void replace(const std::string& from, const std::string& to) const {
+    std::string text = read_file(path_);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write_text(path_, text.replace(at, from.size(), to));
+  }
+  void expect_refused(const std::string& what) const {
+    const std::string sentence = refusal([&] { read_result(path_); });
+    EXPECT_THAT(sentence, StartsWith(path_ + ": "));
+    EXPECT_THAT(sentence, HasSubstr(what));
+    EXPECT_EQ(sentence.find('\n'), std::string::npos);
+  }
+
+  TemporaryFolder folder_;
+  const std::string path_ = folder_ / "r.vtp";
+  Solution solution_;
+};
+
+TEST_F(ResultReader, GivesWhatWasWritten) { expect_same(read_result(path_), solution_); }
+
+TEST_F(ResultReader, GivesBothSidesOfRefinedFacesAndTheErrorEstimate) {
+  const auto scene = load_scene("boards", {.two_sided = true, .max_patch_area = 0.4});
+  ASSERT_GT(scene->patch_count(), 2 * scene->report().faces);
+  solution_ = solve(scene, {.directions = 16, .replicas = 2});
+  ASSERT_EQ(solution_.error.replicas, 2);
+  write_result(path_, solution_);
+  const Solution read = read_result(path_);
+  expect_same(read, solution_);
+  EXPECT_EQ(read.error.replicas, 2);
+  EXPECT_EQ(read.scene->patch(1).face, 0);
+  EXPECT_EQ(read.scene->patch(2).face, 1);
+  // What is read can be written, and read, again.
+  write_result(path_, read);
+  expect_same(read_result(path_), solution_);
+}
+
+TEST_F(ResultReader, NeedsNoMaterialsNorFigures) {
+  change([](vtkPolyData& mesh) {
+    mesh.GetCellData()->RemoveArray("material");
+    mesh.GetFieldData()->Initialize();
+  });
+  const Solution read = read_result(path_);
+  EXPECT_EQ(read.radiosity, solution_.radiosity);
+  EXPECT_EQ(read.scene->name(), path_);
+  ASSERT_EQ(read.scene->materials().size(), 2U);
+  EXPECT_EQ(read.scene->material(1).exitance, solution_.scene->material(1).exitance);
+}
+
+TEST_F(ResultReader, RefusesOtherFiles) {
+  EXPECT_THAT(refusal([&] { read_result(folder_ / "none.vtp"); }), HasSubstr("no such file"));
+  EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("not a plain file"));
+  for (const char* text : {"", "v 0 0 0\n", "<a><AppendedData", "<VTKFile/><AppendedData/>",
+                           "<VTKFile type=\"ImageData\"><AppendedData encoding=\"raw\">_"}) {
+    write_text(path_, text);
+    expect_refused("is no VTK file");
+  }
+}
+
+TEST_F(ResultReader, RefusesOtherPolygons) {
+  change([](vtkPolyData& mesh) { mesh.GetCellData()->RemoveArray("B"); });
+  expect_refused("has no array \"B\"");
+}
+
+TEST_F(ResultReader, RefusesValuesThatCannotBe) {
+  struct Case {
+    const char* what;
+    std::function<void(vtkPolyData&)> edit;
+  };
+  const auto set = [](const char* name, double value) {
+    return
+        [=](vtkPolyData& mesh) { mesh.GetCellData()->GetArray(name)->SetComponent(1, 2, value); };
+  };
+  const auto figure = [](const char* name, double value) {
+    return [=](vtkPolyData& mesh) { mesh.GetFieldData()->GetArray(name)->SetTuple1(0, value); };
+  };
+  const Case cases[] = {
+      {"B of patch 1 is not a finite number", set("B", std::nan(""))},
+      {"H of patch 1 is not a finite number", set("H", HUGE_VAL)},
+      {"reflectance rho (Kd) is 1", set("rho", 1)},
+      {"exitance E (Ke) is -1", set("E", -1)},
+      {"passes is -1, which cannot be", figure("passes", -1)},
+      {"passes is 1e+300", figure("passes", 1e300)},
+      {"transfers is 0.5", figure("transfers", 0.5)},
+      {"patch 0 has no other side", figure("two_sided", 1)},
+      {"two_sided is 7", figure("two_sided", 7)},
+      {"a polygon's corner is point 99",
+       [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 99); }},
+      {"a polygon's corner is point -1",
+       [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, -1); }},
+      {"face 1: it has no area",
+       [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(3, mesh.GetPoint(4)); }},
+      {"is not planar", [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, 2, 3); }},
+      {"coordinate is not a finite number",
+       [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, std::nan(""), 3); }},
+      {"must hold polygons, and nothing else",
+       [](vtkPolyData& mesh) { mesh.SetLines(mesh.GetPolys()); }},
+      {"has no polygons", [](vtkPolyData& mesh) { mesh.SetPolys(vtkNew<vtkCellArray>()); }},
+      {"\"E\" must be 3 numbers each",
+       [](vtkPolyData& mesh) {
+         vtkNew<vtkDoubleArray> gray;
+         gray->SetName("E");
+         gray->SetNumberOfTuples(3);
+         mesh.GetCellData()->AddArray(gray);
+       }},
+  };
+  for (const Case& wrong : cases) {
+    SCOPED_TRACE(wrong.what);
+    write_result(path_, solution_);
+    change(wrong.edit);
+    expect_refused(wrong.what);
+  }
+}
+
+TEST_F(ResultReader, MakesNoRoomForWhatAFileCannotHold) {
+  for (const char* claim : {"1000000000000", "-1", "99999999999999999999999", "x"}) {
+    write_result(path_, solution_);
+    replace("NumberOfPolys=\"3\"", "NumberOfPolys=\"" + std::string(claim) + "\"");
+    expect_refused("NumberOfPolys cannot be");
+  }
+  write_result(path_, solution_);
+  replace("NumberOfComponents=\"3\"", "NumberOfComponents=\"1000\"");
+  expect_refused("NumberOfComponents cannot be `1000`");
+}
+
+/// Half a file, and files with a few bytes changed: a sentence, or a scene.
+TEST_F(ResultReader, SurvivesDamage) {
+  const std::string whole = read_file(path_);
+  const auto take = [&](const std::string& text) {
+    write_text(path_, text);
+    const std::string sentence = refusal([&] { read_result(path_); });
+    EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    return sentence;
+  };
+  for (std::size_t size = 0; size < whole.find("AppendedData>\n</"); size += 397)
+    EXPECT_NE(take(whole.substr(0, size)), "") << size;
+  std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same files each time
+  for (int k = 0; k < 150; ++k) {
+    std::string text = whole;
+    for (int n = 0; n <= k % 4; ++n) text[random() % text.size()] = "0AzM\"<=9"[random() % 8];
+    take(text);
+  }
+}
+
+TEST_F(ResultReader, CanBeCancelled) {
+  const Cancellation cancelled;
+  cancelled.cancel();
+  EXPECT_THROW(read_result(path_, cancelled), Cancelled);
+}
+
+TEST(CliResult, IsNoSceneToSolve) {
+  const ProgramResult result = run_program({"solve", "r.vtp"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("r.vtp: no such file"));
+  const TemporaryFolder folder;
+  write_text(folder / "r.vtp", "");
+  EXPECT_THAT(run_program({"info", folder / "r.vtp"}).err,
+              HasSubstr("is a result, which transillum-viewer opens"));
+}
+
+}  // namespace
+}  // namespace transillum::testing
