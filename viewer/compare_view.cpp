@@ -13,7 +13,9 @@
 
 #include "difference_picture.h"
 #include "engine_text.h"
+#include "map_canvas.h"
 #include "number_text.h"
+#include "transillum/pixel_map.h"
 
 namespace transillum::viewer {
 
@@ -21,27 +23,28 @@ namespace {
 
 /// While the newest direction is followed, so often at most.
 constexpr int refresh_interval_ms = 400;
+constexpr int map_height = 165;  ///< pixels, at least
 
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
 
 }  // namespace
 
-CompareView::CompareView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
+CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& colors,
+                         QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
   first_ = make_choice("first", Engine::fast);
   other_ = make_choice("other", Engine::zbuffer);
-  auto* choices = new QHBoxLayout;
-  choices->setContentsMargins(10, 6, 10, 4);
-  choices->setSpacing(6);
-  choices->addWidget(first_.engine, 1);
-  choices->addWidget(first_.resolution);
-  choices->addWidget(new QLabel(tr("against")));
-  choices->addWidget(other_.engine, 1);
-  choices->addWidget(other_.resolution);
+  auto* sides = new QHBoxLayout;
+  sides->setSpacing(2);
+  sides->addLayout(column_of(first_), 1);
+  sides->addLayout(column_of(other_), 1);
   words_ = new QLabel;
   words_->setObjectName(QStringLiteral("compare_words"));
   words_->setWordWrap(true);
-  words_->setContentsMargins(10, 0, 10, 6);
-  picture_ = new DifferencePicture;
+  words_->setContentsMargins(10, 6, 10, 6);
+  picture_ = new DifferencePicture(selection_);
+  picture_->canvas()->set_height_hint(map_height);
+  link({first_.map, other_.map, picture_->canvas()});
   table_ = new QTableWidget(4, 2);
   table_->setObjectName(QStringLiteral("compare_table"));
   table_->setVerticalHeaderLabels(
@@ -59,7 +62,7 @@ CompareView::CompareView(Focus& focus, QWidget* parent) : QWidget(parent), focus
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addLayout(choices);
+  layout->addLayout(sides, 1);
   layout->addWidget(words_);
   layout->addWidget(picture_, 1);
   layout->addWidget(table_);
@@ -72,18 +75,22 @@ CompareView::CompareView(Focus& focus, QWidget* parent) : QWidget(parent), focus
     if (isVisible() && !later_->isActive()) later_->start();
   });
   connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
+  connect(&focus_, &Focus::probed, this, &CompareView::show_maps);
+  connect(&colors_, &ColorChoice::changed, this, &CompareView::show_maps);
   show_comparison(nullptr);
 }
 
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
-  Choice choice{new QComboBox, new QSpinBox};
+  Choice choice{new QComboBox, new QSpinBox, new MapCanvas(selection_)};
+  choice.map->set_height_hint(map_height);
+  choice.map->setObjectName(QString::fromLatin1(name) + QStringLiteral("_map"));
   choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
   add_engines(*choice.engine, false);
   choose_engine(*choice.engine, engine);
   choice.engine->setToolTip(engine_sentence(engine));
   choice.resolution->setObjectName(QString::fromLatin1(name) + QStringLiteral("_resolution"));
   choice.resolution->setToolTip(tr("Pixels along the longer side of the map"));
-  choice.resolution->setRange(8, 4096);
+  choice.resolution->setRange(8, PixelMap::largest_resolution);
   choice.resolution->setValue(128);
   choice.resolution->setSingleStep(64);
   choice.resolution->setSuffix(tr(" px"));
@@ -99,6 +106,30 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   return choice;
 }
 
+QBoxLayout* CompareView::column_of(const Choice& choice) const {
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(6, 6, 6, 4);
+  row->setSpacing(4);
+  row->addWidget(choice.engine, 1);
+  row->addWidget(choice.resolution);
+  auto* column = new QVBoxLayout;
+  column->setSpacing(0);
+  column->addLayout(row);
+  column->addWidget(choice.map, 1);
+  return column;
+}
+
+void CompareView::link(const std::vector<MapCanvas*>& maps) {
+  for (MapCanvas* map : maps) {
+    connect(map, &MapCanvas::view_changed, this, [map, maps] {
+      for (MapCanvas* another : maps)
+        if (another != map) another->set_view(map->view());
+    });
+    connect(map, &MapCanvas::clicked, this,
+            [this, map](const QPointF& position) { focus_.set_probe(map->point_at(position)); });
+  }
+}
+
 int CompareView::resolution_of(const Choice& choice) const {
   return takes_resolution(engine_of(*choice.engine)) ? choice.resolution->value() : 0;
 }
@@ -112,13 +143,15 @@ void CompareView::clear() {
   snapshot_ = nullptr;
   asked_ = {};
   comparer_.clear();
+  for (const Choice* choice : {&first_, &other_}) choice->map->clear();
   show_comparison(nullptr);
 }
 
 bool CompareView::up_to_date() const {
   return focus_.map() && comparison_ && comparison_->loaded == focus_.map()->loaded &&
          comparison_->direction == asked_.direction &&
-         focus_.map()->record().frame.omega == asked_.direction;
+         focus_.map()->record().frame.omega == asked_.direction && first_.map->up_to_date() &&
+         other_.map->up_to_date() && picture_->canvas()->up_to_date();
 }
 
 void CompareView::showEvent(QShowEvent* event) {
@@ -127,6 +160,7 @@ void CompareView::showEvent(QShowEvent* event) {
 }
 
 void CompareView::ask() {
+  show_maps();
   if (!isVisible() || !snapshot_ || !focus_.map()) return;
   EngineComparer::Request request;
   request.loaded = focus_.map()->loaded;
@@ -140,6 +174,26 @@ void CompareView::ask() {
   asked_ = request;
   words_->setText(tr("Comparing…"));
   comparer_.request(std::move(request));
+}
+
+void CompareView::show_maps() {
+  const auto map = focus_.map();
+  if (!isVisible() || !snapshot_ || !map || snapshot_->loaded != map->loaded) return;
+  MapCanvas::Content content;
+  content.map = map;
+  content.step = map->record().fullest_step();
+  content.probe = focus_.probe();
+  content.patch_colors = std::make_shared<const std::vector<Color8>>(colors_.patch_colors());
+  for (const Choice* choice : {&first_, &other_}) {
+    const Engine engine = engine_of(*choice->engine);
+    content.pixels = {};
+    if (has_pixels(engine) || engine == Engine::corrected) {
+      content.pixels.engine = engine;
+      content.pixels.order = snapshot_->options.engine_options.order;
+      content.pixels.resolution = choice->resolution->value();
+    }
+    choice->map->show_map(content);
+  }
 }
 
 void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {

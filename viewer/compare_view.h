@@ -4,9 +4,12 @@
 #include <QWidget>
 #include <memory>
 
+#include "color_choice.h"
 #include "engine_comparer.h"
 #include "focus.h"
+#include "selection.h"
 
+class QBoxLayout;
 class QComboBox;
 class QLabel;
 class QSpinBox;
@@ -16,13 +19,16 @@ class QTimer;
 namespace transillum::viewer {
 
 class DifferencePicture;
+class MapCanvas;
 
-/// Two engines on the direction in focus: what each takes and finds, and where they differ.
+/// Two engines on the direction in focus, side by side: what each shows of the plane, takes and
+/// finds, and where they differ. The maps move and grow together.
 class CompareView : public QWidget {
   Q_OBJECT
 
  public:
-  explicit CompareView(Focus& focus, QWidget* parent = nullptr);
+  CompareView(Focus& focus, Selection& selection, const ColorChoice& colors,
+              QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
@@ -36,14 +42,20 @@ class CompareView : public QWidget {
   struct Choice {
     QComboBox* engine;
     QSpinBox* resolution;
+    MapCanvas* map;
   };
   Choice make_choice(const char* name, Engine engine);
+  QBoxLayout* column_of(const Choice& choice) const;
+  void link(const std::vector<MapCanvas*>& maps);
   int resolution_of(const Choice& choice) const;
   void ask();
+  void show_maps();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
   void fill_table(const EngineComparison& comparison);
 
   Focus& focus_;
+  Selection& selection_;
+  const ColorChoice& colors_;
   EngineComparer comparer_;
   EngineComparer::Request asked_;
   std::shared_ptr<const SolverSnapshot> snapshot_;

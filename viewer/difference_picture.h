@@ -5,29 +5,27 @@
 #include <memory>
 
 #include "engine_comparer.h"
-#include "recorded_map.h"
+#include "map_canvas.h"
 
 namespace transillum::viewer {
 
-/// Where two engines differ: the map V of a direction's fullest step, each patch by the share of
-/// its projection that goes to other patches. White: none; red: a tenth or more.
+/// Where two engines differ: the map V of a direction, each patch by the share of its projection
+/// that goes to other patches. White: none; red: a tenth or more.
 class DifferencePicture : public QWidget {
  public:
   static constexpr double full_color_at = 0.1;
 
-  explicit DifferencePicture(QWidget* parent = nullptr);
+  explicit DifferencePicture(Selection& selection, QWidget* parent = nullptr);
 
   /// Nothing is shown unless both are there, of one direction.
-  void show(std::shared_ptr<const RecordedMap> map,
+  void show(const std::shared_ptr<const RecordedMap>& map,
             std::shared_ptr<const EngineComparison> comparison);
   /// Of a patch, or below 0 where nothing is known.
   double share(PatchId patch) const;
-
- protected:
-  void paintEvent(QPaintEvent* event) override;
+  MapCanvas* canvas() const { return canvas_; }
 
  private:
-  std::shared_ptr<const RecordedMap> map_;
+  MapCanvas* canvas_;
   std::shared_ptr<const EngineComparison> comparison_;
 };
 

@@ -128,7 +128,7 @@ void MainWindow::make_docks() {
   convergence_view_ = new ConvergenceView(focus_);
   direction_view_ = new DirectionView(focus_, selection_, colors_, sights_);
   received_view_ = new ReceivedView(focus_, selection_, sights_);
-  compare_view_ = new CompareView(focus_);
+  compare_view_ = new CompareView(focus_, selection_, colors_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
   lesson_panel_ = new LessonPanel(built_in_lessons());

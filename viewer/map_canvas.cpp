@@ -53,8 +53,18 @@ void MapCanvas::clear() {
 }
 
 void MapCanvas::fit() {
-  zoom_ = 1;
-  pan_ = {};
+  set_view({});
+  emit view_changed();
+}
+
+MapCanvas::View MapCanvas::view() const {
+  if (!content_.map) return {};
+  return {zoom_, pan_ / fit_map(*content_.map, size()).scale};
+}
+
+void MapCanvas::set_view(const View& view) {
+  zoom_ = view.zoom;
+  pan_ = content_.map ? view.shift * fit_map(*content_.map, size()).scale : QPointF();
   repaint_map();
 }
 
@@ -71,6 +81,7 @@ void MapCanvas::fit_step() {
   const QPointF middle = near.to_pixels({bounds.center().x(), bounds.center().y()});
   pan_ = fitted.middle - middle;
   repaint_map();
+  emit view_changed();
 }
 
 MapTransform MapCanvas::transform() const {
@@ -252,6 +263,7 @@ void MapCanvas::wheelEvent(QWheelEvent* event) {
   pan_ += arm * (1 - zoom / zoom_);
   zoom_ = zoom;
   repaint_map();
+  emit view_changed();
   event->accept();
 }
 
@@ -271,6 +283,7 @@ void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
   pan_ += position - last_position_;
   last_position_ = position;
   repaint_map();
+  emit view_changed();
 }
 
 void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {

@@ -36,6 +36,16 @@ class MapCanvas : public QWidget {
   void show_map(Content content);
   void clear();
   void fit();
+  /// How the map is moved and enlarged, whatever the canvas' size; canvases can share it.
+  struct View {
+    double zoom = 1;  ///< times the scale at which all of it fits
+    QPointF shift;    ///< of the middle, metres on the plane times `zoom`
+
+    friend bool operator==(const View&, const View&) = default;
+  };
+  View view() const;
+  /// Without view_changed().
+  void set_view(const View& view);
   /// Brings the step's polygon and what it cuts near.
   void fit_step();
   /// Whether the picture on the screen is the one that was asked for.
@@ -48,11 +58,13 @@ class MapCanvas : public QWidget {
   std::shared_ptr<const PixelView> pixels() const { return picture_ ? picture_->pixels : nullptr; }
   std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
 
-  QSize sizeHint() const override { return {420, 380}; }
+  QSize sizeHint() const override { return {420, height_hint_}; }
+  void set_height_hint(int pixels) { height_hint_ = pixels; }
 
  signals:
   void painted();
   void clicked(const QPointF& position);
+  void view_changed();  ///< by the user
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -80,6 +92,7 @@ class MapCanvas : public QWidget {
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;
   bool dragging_ = false;
+  int height_hint_ = 380;
 
   std::shared_ptr<const MapPicture> picture_;
   struct Order {

@@ -3,9 +3,12 @@
 #include <QDockWidget>
 #include <QSpinBox>
 #include <QTableWidget>
+#include <QWheelEvent>
 
 #include "compare_view.h"
 #include "difference_picture.h"
+#include "engine_text.h"
+#include "pixel_view.h"
 #include "solved_window.h"
 
 using namespace transillum;
@@ -51,6 +54,51 @@ class CompareTest : public QObject {
     QVERIFY(shown.text("compare_words").contains(QStringLiteral("0 %")));
   }
 
+  void shows_both_side_by_side() {
+    SolvedWindow shown(QStringLiteral("cornell-box"));
+    QVERIFY(shown.ready);
+    auto* view = shown.window->findChild<CompareView*>();
+    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
+    dock->show();
+    dock->raise();
+    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    const auto* first = view->findChild<MapCanvas*>("first_map");
+    const auto* other = view->findChild<MapCanvas*>("other_map");
+    const auto* difference = view->findChild<MapCanvas*>("difference_canvas");
+    QVERIFY(!first->pixels());
+    QVERIFY(other->pixels() && other->pixels()->choice.engine == Engine::zbuffer);
+    QCOMPARE(other->pixels()->choice.resolution, 128);
+    auto* engine = view->findChild<QComboBox*>("other_engine");
+    for (const char* name : {"Painter's algorithm", "Parallel rays", "No cutting, corrected"}) {
+      engine->setCurrentText(QString::fromLatin1(name));
+      QVERIFY(wait_for([&] { return view->up_to_date(); }));
+      QVERIFY(other->pixels() && other->pixels()->choice.engine == engine_of(*engine));
+      QVERIFY(color_count(view->findChild<MapCanvas*>("other_map")->grab().toImage()) > 8);
+    }
+    save_picture(*shown.window, "compare-corrected");
+
+    // They move and grow together, and show the same patch and point.
+    auto* moved = view->findChild<MapCanvas*>("first_map");
+    QWheelEvent wheel(QPointF(60, 60), QPointF(moved->mapToGlobal(QPoint(60, 60))), {}, {0, 480},
+                      Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(moved, &wheel);
+    QVERIFY(moved->view().zoom > 1.5);
+    for (const MapCanvas* map : {other, difference}) {
+      QCOMPARE(map->view().zoom, moved->view().zoom);
+      QVERIFY((map->view().shift - moved->view().shift).manhattanLength() < 1e-9);
+    }
+    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    const auto middle = [](const MapCanvas* map) {
+      return QPointF(map->width() / 2, map->height() / 2);
+    };
+    const auto at = *moved->point_at(middle(moved));
+    QTest::mouseClick(moved, Qt::LeftButton, {}, middle(moved).toPoint());
+    QVERIFY(shown.window->focus().probe().has_value());
+    QVERIFY(std::abs(shown.window->focus().probe()->x - at.x) < 0.02);
+    QCOMPARE(shown.window->selection().patch(), moved->patch_at(middle(moved)));
+    save_picture(*shown.window, "compare-near");
+  }
+
   void tells_why_there_is_nothing() {
     SolvedWindow shown(QStringLiteral("boards"));
     QVERIFY(shown.ready);
@@ -64,5 +112,5 @@ class CompareTest : public QObject {
   }
 };
 
-QTEST_MAIN(CompareTest)
+TRANSILLUM_VIEWER_TEST_MAIN(CompareTest)
 #include "compare_test.moc"
