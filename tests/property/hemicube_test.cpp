@@ -10,6 +10,8 @@
 
 #include "support/scenes.h"
 #include "transillum/errors.h"
+#include "transillum/exact_form_factors.h"
+#include "transillum/hemicube_image.h"
 #include "visibility/hemicube.h"
 
 namespace transillum {
@@ -132,6 +134,99 @@ TEST(HemicubeFactors, ALightInItsCeilingShines) {
     sketch.face(square(0.1, 0, true), grey);
     const FormFactors f = hemicube_form_factors(*sketch.scene(), {.resolution = 128});
     EXPECT_NEAR(factor(f, 2, light_first ? 0 : 1), 0.1042, 5e-3);
+  }
+}
+
+/// How many parts each patch has in the unfolded picture.
+std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
+  const int size = image.cross();
+  std::vector<PatchId> cells;
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      const auto pixel = image.pixel_at(column, row);
+      cells.push_back(pixel ? image.items[*pixel] : no_patch);
+    }
+  }
+  std::vector<int> parts(static_cast<std::size_t>(patches), 0), todo;
+  for (std::size_t first = 0; first < cells.size(); ++first) {
+    const PatchId patch = cells[first];
+    if (patch == no_patch) continue;
+    ++parts[static_cast<std::size_t>(patch)];
+    todo.assign(1, static_cast<int>(first));
+    while (!todo.empty()) {
+      const int at = todo.back(), column = at % size, row = at / size;
+      todo.pop_back();
+      if (cells[static_cast<std::size_t>(at)] != patch) continue;
+      cells[static_cast<std::size_t>(at)] = no_patch;
+      if (column > 0) todo.push_back(at - 1);
+      if (column + 1 < size) todo.push_back(at + 1);
+      if (row > 0) todo.push_back(at - size);
+      if (row + 1 < size) todo.push_back(at + size);
+    }
+  }
+  return parts;
+}
+
+/// What lies over a fold stays in one piece: a ring of faces half way up, small enough not to reach
+/// the corners.
+TEST(HemicubeImage, UnfoldsToACross) {
+  Sketch sketch;
+  const int grey = sketch.material(0.5, 1);
+  sketch.face(square(0.1, 0, true), grey);
+  constexpr int count = 16;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    const Vec3 out{std::cos(angle), std::sin(angle), 0};
+    const Vec3 along = 0.75 * Vec3{-out.y, out.x, 0}, up = 0.5 * (Vec3{0, 0, 1} - out);
+    const Vec3 middle = 5 * out + Vec3{0, 0, 5};
+    sketch.face(
+        {middle + along - up, middle - along - up, middle - along + up, middle + along + up}, grey);
+  }
+  const auto scene = sketch.scene();
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  const HemicubeImage image = hemicube_image(scene, tree, 0, {.resolution = 100});
+  std::vector<int> met(image.items.size(), 0);
+  for (int row = 0; row < image.cross(); ++row) {
+    for (int column = 0; column < image.cross(); ++column) {
+      if (const auto pixel = image.pixel_at(column, row)) ++met[*pixel];
+    }
+  }
+  EXPECT_THAT(met, ::testing::Each(1));
+  std::vector<int> parts = parts_in_cross(image, scene->patch_count());
+  parts.erase(parts.begin());
+  EXPECT_THAT(parts, ::testing::Each(1));
+}
+
+TEST(HemicubeImage, IsTheRowOfTheEngine) {
+  for (const char* spec : {"cornell-box", "boards", "sphere-flake:levels=0"}) {
+    const auto scene = load_scene(spec);
+    const auto tree = std::make_shared<const BspTree>(*scene);
+    const FormFactors f = hemicube_form_factors(*scene, {.resolution = 32});
+    for (const PatchId i : {0, scene->patch_count() / 2, scene->patch_count() - 1}) {
+      const HemicubeImage image = hemicube_image(scene, tree, i, {.resolution = 32});
+      for (PatchId j = 0; j < scene->patch_count(); ++j) {
+        EXPECT_EQ(image.form_factors[static_cast<std::size_t>(j)], factor(f, i, j)) << spec;
+      }
+    }
+  }
+}
+
+TEST(ExactFormFactors, SumToOneAndAreWhatHemicubesComeTo) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  for (const PatchId i : {3, scene->patch_count() / 2}) {
+    const std::vector<double> exact = exact_form_factors(*scene, i);
+    EXPECT_NEAR(std::accumulate(exact.begin(), exact.end(), 0.0), 1, 1e-3);
+    const auto off = [&](int resolution) {
+      const HemicubeImage image = hemicube_image(scene, tree, i, {.resolution = resolution});
+      double sum = 0;
+      for (std::size_t j = 0; j < exact.size(); ++j) {
+        sum += std::abs(image.form_factors[j] - exact[j]) / 2;
+      }
+      return sum;
+    };
+    EXPECT_LT(off(256), 0.1);           // patches are not small
+    EXPECT_LT(off(256), 0.9 * off(8));  // but pixels are
   }
 }
 

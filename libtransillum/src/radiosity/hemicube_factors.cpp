@@ -11,7 +11,7 @@
 #include "radiosity/form_factor_rows.h"
 #include "radiosity/memory_limit.h"
 #include "transillum/errors.h"
-#include "transillum/hemicube.h"
+#include "transillum/hemicube_image.h"
 #include "visibility/engines.h"
 #include "visibility/hemicube.h"
 
@@ -42,14 +42,14 @@ struct HemicubeScene {
   std::vector<DrawnPiece> pieces;   ///< what covers what it coincides with comes after it
   std::vector<std::size_t> eye_of;  ///< a patch: its largest piece
 
-  HemicubeScene(const Scene& seen, int pixels, const Cancellation& stop)
-      : scene(seen),
+  /// Keeps references, but to the tree.
+  HemicubeScene(const std::shared_ptr<const Scene>& seen,
+                const std::shared_ptr<const BspTree>& tree, int pixels, const Cancellation& stop)
+      : scene(*seen),
         cancellation(stop),
         resolution(pixels),
-        nothing(thin * seen.bounds().diagonal()) {
-    // The scene outlives this; the tree is of use here only.
-    const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
-    in_air = lit_sides_see_no_backs(borrowed, std::make_shared<const BspTree>(scene, cancellation));
+        nothing(thin * seen->bounds().diagonal()),
+        in_air(lit_sides_see_no_backs(seen, tree)) {
     for (const Piece& piece : scene.pieces()) add(piece);
     std::stable_sort(pieces.begin(), pieces.end(), [this](const auto& a, const auto& b) {
       return rank(a.patch) < rank(b.patch);
@@ -124,6 +124,8 @@ class HemicubeRows {
     for (const DrawnPiece& piece : shared_.pieces) draw(i, piece, true);
     return add_up();
   }
+  /// What it saw last.
+  const Hemicube& cube() const { return cube_; }
 
  private:
   /// The frame of a patch, turned about its normal by an angle of its own: pixels that err alike
@@ -201,10 +203,47 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                   const Cancellation& cancellation,
                                   const std::function<void(double)>& progress) {
   options.validate();
-  const HemicubeScene shared(scene, options.resolution, cancellation);
+  // The scene outlives this.
+  const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
+  const HemicubeScene shared(borrowed, std::make_shared<const BspTree>(scene, cancellation),
+                             options.resolution, cancellation);
   return gather_rows(
       scene.patch_count(), options.threads, batch, memory_limit(options.memory),
       [&shared] { return HemicubeRows(shared); }, cancellation, progress);
+}
+
+HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
+                             const std::shared_ptr<const BspTree>& tree, PatchId eye,
+                             const HemicubeOptions& options, const Cancellation& cancellation) {
+  options.validate();
+  const HemicubeScene shared(scene, tree, options.resolution, cancellation);
+  HemicubeRows rows(shared);
+  HemicubeImage image{eye, options.resolution, {}, {}, {}};
+  image.form_factors.resize(static_cast<std::size_t>(scene->patch_count()));
+  for (const auto& [j, value] : rows.gather(eye)) {
+    image.form_factors[static_cast<std::size_t>(j)] = value;
+  }
+  image.items = rows.cube().patches();
+  image.delta = rows.cube().delta_form_factors();
+  return image;
+}
+
+std::optional<std::size_t> HemicubeImage::pixel_at(int column, int row) const {
+  const int half = resolution / 2;
+  // From the top's first pixel, and how far out of the top.
+  const int x = column - half, y = row - half;
+  const bool in_x = x >= 0 && x < resolution, in_y = y >= 0 && y < resolution;
+  const auto pixel = [this](int side, int a, int b) {
+    const int before = side == 0 ? 0 : resolution * resolution * (side + 1) / 2;
+    return static_cast<std::size_t>(before + b * resolution + a);
+  };
+  if (in_x && in_y) return pixel(0, x, y);
+  // Rows of a side go upward: from its base, which is outermost, to the fold.
+  if (in_y && x >= resolution) return pixel(1, y, half - 1 - (x - resolution));
+  if (in_x && y >= resolution) return pixel(2, resolution - 1 - x, half - 1 - (y - resolution));
+  if (in_y) return pixel(3, resolution - 1 - y, column);
+  if (in_x) return pixel(4, x, row);
+  return std::nullopt;
 }
 
 }  // namespace transillum
