@@ -41,7 +41,7 @@ struct MapTransform {
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
 /// How V is drawn: exactly, in the pixels of an engine that has some (has_pixels()), or as engine
-/// corrected takes it.
+/// corrected takes it. (A hemicube has another picture: HemicubeView.)
 struct PixelChoice {
   std::optional<Engine> engine;              ///< none: exactly
   PaintersOrder order = PaintersOrder::bsp;  ///< painter's

@@ -5,11 +5,13 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
+#include <QStackedWidget>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
 
+#include "hemicube_view.h"
 #include "map_canvas.h"
 #include "number_text.h"
 #include "pixel_menu.h"
@@ -57,7 +59,12 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addLayout(words);
-  layout->addWidget(canvas_, 1);
+  hemicube_ = new HemicubeView(selection);
+  hemicube_->setObjectName("hemicube_view");
+  pictures_ = new QStackedWidget;
+  pictures_->addWidget(canvas_);
+  pictures_->addWidget(hemicube_);
+  layout->addWidget(pictures_, 1);
   layout->addWidget(make_controls());
 
   recolor_timer_ = new QTimer(this);
@@ -67,6 +74,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(&focus_, &Focus::wished, this, &MapView::show_title);
   connect(&focus_, &Focus::probed, this, &MapView::show_moment);
   connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
+  connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
   canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::offer_runs);
   connect(canvas_, &MapCanvas::clicked, this,
@@ -142,6 +150,7 @@ void MapView::clear() {
   snapshot_ = nullptr;
   recolor_timer_->stop();
   canvas_->clear();
+  hemicube_->clear();
   show_title();
 }
 
@@ -149,7 +158,12 @@ void MapView::set_labels_shown(bool shown) { labels_->setChecked(shown); }
 
 bool MapView::labels_shown() const { return labels_->isChecked(); }
 
-bool MapView::up_to_date() const { return canvas_->up_to_date() && !recolor_timer_->isActive(); }
+bool MapView::up_to_date() const {
+  const bool painted = shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date();
+  return painted && !recolor_timer_->isActive();
+}
+
+bool MapView::shows_hemicube() const { return pixels_->choice().engine == Engine::hemicube; }
 
 void MapView::show_moment() {
   const auto map = focus_.map();
@@ -161,6 +175,14 @@ void MapView::show_moment() {
   if (!snapshot_ || snapshot_->loaded != map->loaded) return;
   recolor_timer_->stop();
   auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
+  pictures_->setCurrentWidget(shows_hemicube() ? static_cast<QWidget*>(hemicube_) : canvas_);
+  if (shows_hemicube()) {
+    hemicube_->show_scene({map->loaded, pixels_->choice().resolution, pixels_->choice().differences,
+                           std::move(patch_colors)});
+    show_title();
+    return;
+  }
+  hemicube_->clear();
   canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
                      labels_->isChecked(), pixels_->choice(), focus_.probe(),
                      std::move(patch_colors)});
@@ -170,7 +192,8 @@ void MapView::show_title() {
   const auto map = focus_.map();
   for (QAbstractButton* button : phases_->buttons())
     button->setEnabled(map && !pixels_->choice().engine);
-  near_->setEnabled(map != nullptr);
+  near_->setEnabled(map && !shows_hemicube());
+  labels_->setEnabled(!shows_hemicube());
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
   if (!map) {
     title_->setText(tr("No direction yet"));
@@ -181,6 +204,14 @@ void MapView::show_title() {
                       .arg(count_text(map->direction + 1), count_text(map->passes)));
   title_->setToolTip(tr("ω = %1 points to where the light comes from")
                          .arg(vector_text(map->record().frame.omega)));
+  if (shows_hemicube()) {
+    title_->setText(tr("Through a hemicube, seen from inside"));
+    title_->setToolTip(
+        tr("Half a cube on the middle of the selected patch, unfolded:\nits top in "
+           "the middle, its four sides about it"));
+    step_text_->setText(hemicube_->words());
+    return;
+  }
   if (canvas_->pixels()) {
     step_text_->setText(pixel_text());
     return;

@@ -11,11 +11,13 @@
 
 class QButtonGroup;
 class QLabel;
+class QStackedWidget;
 class QTimer;
 class QToolButton;
 
 namespace transillum::viewer {
 
+class HemicubeView;
 class MapCanvas;
 class PixelMenu;
 
@@ -43,6 +45,7 @@ class MapView : public QWidget {
   void show_moment();
   void show_title();
   QString pixel_text() const;
+  bool shows_hemicube() const;
 
   Focus& focus_;
   const ColorChoice& colors_;
@@ -50,6 +53,8 @@ class MapView : public QWidget {
   QLabel* title_;
   QLabel* step_text_;
   MapCanvas* canvas_;
+  HemicubeView* hemicube_;
+  QStackedWidget* pictures_;
   QButtonGroup* phases_;
   QToolButton* labels_;
   QToolButton* near_;

@@ -5,7 +5,6 @@
 #include <QMenu>
 
 #include "engine_text.h"
-#include "transillum/pixel_map.h"
 
 namespace transillum::viewer {
 
@@ -51,6 +50,7 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
   add_engine(Engine::rays, "map_rays");
   add_engine(Engine::corrected, "map_corrected");
+  add_engine(Engine::hemicube, "map_hemicube");
   menu->addActions(engines->actions());
   menu->addSection(tr("Pixels along the longer side"));
   resolutions_ = new QActionGroup(this);
@@ -66,7 +66,7 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   }
   menu->addActions(resolutions_->actions());
   menu->addSeparator();
-  differences_ = menu->addAction(tr("Mark what differs from the exact map"));
+  differences_ = menu->addAction(tr("Mark what is not exact"));
   differences_->setObjectName("map_difference");
   differences_->setCheckable(true);
   differences_->setChecked(choice_.differences);
@@ -81,7 +81,7 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
 
 void PixelMenu::change(const PixelChoice& choice) {
   choice_ = choice;
-  const bool pixels = choice_.engine && has_pixels(*choice_.engine);
+  const bool pixels = choice_.engine && takes_resolution(*choice_.engine);
   resolutions_->setEnabled(pixels);
   differences_->setEnabled(choice_.engine.has_value());
   QString label = label_of(choice_);

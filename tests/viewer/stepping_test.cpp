@@ -8,6 +8,7 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "hemicube_view.h"
 #include "log_chart.h"
 #include "pixel_view.h"
 #include "solved_window.h"
@@ -144,6 +145,41 @@ class SteppingTest : public QObject {
       QVERIFY(!paint_map(request).image.isNull());
       QVERIFY_EXCEPTION_THROWN(paint_map(request, given_up), Cancelled);
     }
+  }
+
+  void shows_the_hemicube_of_the_selected_patch() {
+    const Stepping s("cornell-box");
+    QVERIFY(s.ready);
+    s.trigger("map_hemicube");
+    QVERIFY(s.settles());
+    const auto* hemicube = s.map_view->findChild<HemicubeView*>("hemicube_view");
+    QVERIFY(hemicube->isVisible() && !hemicube->sight());
+    QVERIFY(s.text("map_text").contains("Select a patch"));
+    s.window->selection().select(14);
+    QVERIFY(s.settles());
+    QVERIFY(hemicube->sight());
+    QCOMPARE(hemicube->sight()->request.eye, 14);
+    QCOMPARE(hemicube->sight()->image.resolution, 64);
+    QCOMPARE(hemicube->sight()->exact.size(), std::size_t{27});
+    const double wrong = hemicube->sight()->wrong_share();
+    QVERIFY(wrong > 0.001 && wrong < 0.4);
+    QVERIFY(s.text("map_text").contains("On patch 14"));
+    const auto picture = [&] {
+      return s.map_view->findChild<QWidget*>("hemicube_view")->grab().toImage();
+    };
+    const QImage by_difference = picture();
+    QVERIFY(color_count(by_difference) > 6);
+    save_picture(*s.window, "hemicube-difference");
+    s.trigger("map_difference");
+    QVERIFY(s.settles());
+    QVERIFY(hemicube->sight()->exact.empty());
+    QVERIFY(color_count(picture()) > 6);
+    QVERIFY(picture() != by_difference);
+    save_picture(*s.window, "hemicube-colors");
+    s.trigger("map_exact");
+    QVERIFY(s.settles());
+    QVERIFY(s.map_view->canvas()->isVisible());
+    QVERIFY(!hemicube->sight());
   }
 
   void tells_why_newell_gives_up() {
