@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QSpinBox>
+#include <QStackedWidget>
 #include <QTableWidget>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -13,6 +14,7 @@
 
 #include "difference_picture.h"
 #include "engine_text.h"
+#include "hemicube_view.h"
 #include "map_canvas.h"
 #include "number_text.h"
 #include "transillum/pixel_map.h"
@@ -26,6 +28,38 @@ constexpr int refresh_interval_ms = 400;
 constexpr int map_height = 165;  ///< pixels, at least
 
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+
+QString words_of_direction(const EngineComparison& c) {
+  QString text = CompareView::tr(
+                     "Along this direction %1 of what “%2” exchanges is between other "
+                     "patches by “%3”.")
+                     .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
+                          engine_label(c.other.engine));
+  const Transfer& largest = c.transfers.largest;
+  if (largest.receiver == no_patch) return text;
+  return text + CompareView::tr(" Most: patches %1 and %2, %3 m² %4.")
+                    .arg(largest.receiver)
+                    .arg(largest.source)
+                    .arg(number_text(std::abs(largest.area)),
+                         largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
+}
+
+QString words_of_row(const EngineComparison& c, std::size_t directions) {
+  QString text = CompareView::tr(
+                     "A hemicube knows no direction. Of what patch %1 sees by “%2”, %3 "
+                     "is other patches by “%4” (all %5 directions of the run).")
+                     .arg(c.eye)
+                     .arg(engine_label(c.first.engine), percent_text(c.transfers.misplaced),
+                          engine_label(c.other.engine))
+                     .arg(directions);
+  const Transfer& largest = c.transfers.largest;
+  if (largest.receiver == no_patch) return text;
+  const double area = c.projected[static_cast<std::size_t>(c.eye)];
+  return text + CompareView::tr(" Most: patch %1, form factor %2 %3.")
+                    .arg(largest.source)
+                    .arg(number_text(std::abs(largest.area) / area),
+                         largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
+}
 
 }  // namespace
 
@@ -75,17 +109,23 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
     if (isVisible() && !later_->isActive()) later_->start();
   });
   connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
+  connect(&selection_, &Selection::changed, this, [this] {
+    if (first_.is_hemicube() || other_.is_hemicube()) later_->start();
+  });
   connect(&focus_, &Focus::probed, this, &CompareView::show_maps);
   connect(&colors_, &ColorChoice::changed, this, &CompareView::show_maps);
   show_comparison(nullptr);
 }
 
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
-  Choice choice{new QComboBox, new QSpinBox, new MapCanvas(selection_)};
+  Choice choice{new QComboBox, new QSpinBox, new MapCanvas(selection_),
+                new HemicubeView(selection_), new QStackedWidget};
+  choice.picture->addWidget(choice.map);
+  choice.picture->addWidget(choice.hemicube);
   choice.map->set_height_hint(map_height);
   choice.map->setObjectName(QString::fromLatin1(name) + QStringLiteral("_map"));
   choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
-  add_engines(*choice.engine, false);
+  add_engines(*choice.engine, true);
   choose_engine(*choice.engine, engine);
   choice.engine->setToolTip(engine_sentence(engine));
   choice.resolution->setObjectName(QString::fromLatin1(name) + QStringLiteral("_resolution"));
@@ -115,7 +155,7 @@ QBoxLayout* CompareView::column_of(const Choice& choice) const {
   auto* column = new QVBoxLayout;
   column->setSpacing(0);
   column->addLayout(row);
-  column->addWidget(choice.map, 1);
+  column->addWidget(choice.picture, 1);
   return column;
 }
 
@@ -130,8 +170,15 @@ void CompareView::link(const std::vector<MapCanvas*>& maps) {
   }
 }
 
-int CompareView::resolution_of(const Choice& choice) const {
-  return takes_resolution(engine_of(*choice.engine)) ? choice.resolution->value() : 0;
+bool CompareView::Choice::is_hemicube() const { return engine_of(*engine) == Engine::hemicube; }
+
+bool CompareView::Choice::up_to_date() const {
+  return is_hemicube() ? hemicube->up_to_date() : map->up_to_date();
+}
+
+int CompareView::Choice::resolution_asked() const {
+  if (is_hemicube()) return resolution->value() / 2 * 2;
+  return takes_resolution(engine_of(*engine)) ? resolution->value() : 0;
 }
 
 void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -143,15 +190,20 @@ void CompareView::clear() {
   snapshot_ = nullptr;
   asked_ = {};
   comparer_.clear();
-  for (const Choice* choice : {&first_, &other_}) choice->map->clear();
+  for (const Choice* choice : {&first_, &other_}) {
+    choice->map->clear();
+    choice->hemicube->clear();
+  }
   show_comparison(nullptr);
 }
 
 bool CompareView::up_to_date() const {
-  return focus_.map() && comparison_ && comparison_->loaded == focus_.map()->loaded &&
-         comparison_->direction == asked_.direction &&
-         focus_.map()->record().frame.omega == asked_.direction && first_.map->up_to_date() &&
-         other_.map->up_to_date() && picture_->canvas()->up_to_date();
+  if (!focus_.map() || !comparison_ || comparison_->loaded != focus_.map()->loaded) return false;
+  const Vec3& omega = focus_.map()->record().frame.omega;
+  const bool right = asked_.compares_rows()
+                         ? comparison_->eye == asked_.eye || !comparison_->ok()
+                         : comparison_->direction == asked_.direction && omega == asked_.direction;
+  return right && first_.up_to_date() && other_.up_to_date() && picture_->canvas()->up_to_date();
 }
 
 void CompareView::showEvent(QShowEvent* event) {
@@ -167,9 +219,15 @@ void CompareView::ask() {
   request.direction = focus_.map()->record().frame.omega;
   request.options = snapshot_->options.engine_options;
   request.first = engine_of(*first_.engine);
-  request.first_resolution = resolution_of(first_);
+  request.first_resolution = first_.resolution_asked();
   request.other = engine_of(*other_.engine);
-  request.other_resolution = resolution_of(other_);
+  request.other_resolution = other_.resolution_asked();
+  if (request.compares_rows()) {
+    request.direction = {};  // it does not matter
+    request.eye = selection_.patch();
+    request.directions = snapshot_->directions;
+    request.two_way = snapshot_->options.two_way;
+  }
   if (request == asked_) return;
   asked_ = request;
   words_->setText(tr("Comparing…"));
@@ -186,6 +244,13 @@ void CompareView::show_maps() {
   content.patch_colors = std::make_shared<const std::vector<Color8>>(colors_.patch_colors());
   for (const Choice* choice : {&first_, &other_}) {
     const Engine engine = engine_of(*choice->engine);
+    choice->picture->setCurrentIndex(choice->is_hemicube() ? 1 : 0);
+    if (choice->is_hemicube()) {
+      choice->hemicube->show_scene(
+          {map->loaded, choice->resolution_asked(), false, content.patch_colors});
+      continue;
+    }
+    choice->hemicube->clear();
     content.pixels = {};
     if (has_pixels(engine) || engine == Engine::corrected) {
       content.pixels.engine = engine;
@@ -213,19 +278,8 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
     return;
   }
   fill_table(c);
-  const Transfer& largest = c.transfers.largest;
-  QString text =
-      tr("Along this direction %1 of what %2 exchanges is between other patches with %3.")
-          .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
-               engine_label(c.other.engine));
-  if (largest.receiver != no_patch) {
-    text +=
-        tr(" Most: patches %1 and %2, %3 m² %4.")
-            .arg(largest.receiver)
-            .arg(largest.source)
-            .arg(number_text(std::abs(largest.area)), largest.area > 0 ? tr("less") : tr("more"));
-  }
-  words_->setText(text);
+  words_->setText(c.eye == no_patch ? words_of_direction(c)
+                                    : words_of_row(c, asked_.directions->size()));
 }
 
 void CompareView::fill_table(const EngineComparison& comparison) {

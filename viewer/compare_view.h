@@ -12,6 +12,7 @@
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QStackedWidget;
 class QSpinBox;
 class QTableWidget;
 class QTimer;
@@ -19,6 +20,7 @@ class QTimer;
 namespace transillum::viewer {
 
 class DifferencePicture;
+class HemicubeView;
 class MapCanvas;
 
 /// Two engines on the direction in focus, side by side: what each shows of the plane, takes and
@@ -43,11 +45,17 @@ class CompareView : public QWidget {
     QComboBox* engine;
     QSpinBox* resolution;
     MapCanvas* map;
+    HemicubeView* hemicube;
+    QStackedWidget* picture;  ///< one of both
+
+    bool is_hemicube() const;
+    bool up_to_date() const;
+    /// As EngineComparer::Request has it.
+    int resolution_asked() const;
   };
   Choice make_choice(const char* name, Engine engine);
   QBoxLayout* column_of(const Choice& choice) const;
   void link(const std::vector<MapCanvas*>& maps);
-  int resolution_of(const Choice& choice) const;
   void ask();
   void show_maps();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);

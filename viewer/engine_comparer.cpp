@@ -2,11 +2,14 @@
 #include "engine_comparer.h"
 
 #include <QMetaObject>
+#include <algorithm>
 #include <ctime>
+#include <stdexcept>
 #include <utility>
 
 #include "transillum/engine.h"
 #include "transillum/errors.h"
+#include "transillum/hemicube_image.h"
 
 namespace transillum::viewer {
 
@@ -19,21 +22,85 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// One direction, twice where that is short: the first run of an engine finds its memory.
+Transfers run_direction(const EngineComparer::Request& request, EngineComparison::Side& side,
+                        const TransferEngine& engine, const Cancellation& cancellation) {
+  Transfers transfers;
+  for (int run = 0; run < 2 && (run == 0 || side.seconds < 0.1); ++run) {
+    const double start = thread_seconds();
+    transfers = engine(request.direction, cancellation);
+    side.seconds = thread_seconds() - start;
+  }
+  return transfers;
+}
+
+/// A_i F_ij of the eye by all directions of the run.
+std::vector<double> row_by_directions(const EngineComparer::Request& request,
+                                      const TransferEngine& engine,
+                                      const Cancellation& cancellation) {
+  std::vector<double> row(static_cast<std::size_t>(request.loaded->scene->patch_count()));
+  const double ways = request.two_way ? 2 : 1;
+  const double weight = 4 / (ways * static_cast<double>(request.directions->size()));
+  for (const Vec3& omega : *request.directions) {
+    for (const Transfer& t : engine(omega, cancellation).exchanges) {
+      if (t.receiver == request.eye) row[static_cast<std::size_t>(t.source)] += weight * t.area;
+      if (t.source == request.eye && request.two_way)
+        row[static_cast<std::size_t>(t.receiver)] += weight * t.area;
+    }
+  }
+  return row;
+}
+
+std::vector<double> row_by_hemicube(const EngineComparer::Request& request, int resolution,
+                                    const Cancellation& cancellation) {
+  HemicubeOptions options;
+  options.resolution = resolution;
+  std::vector<double> row = hemicube_image(request.loaded->scene, request.loaded->tree, request.eye,
+                                           options, cancellation)
+                                .form_factors;
+  for (double& factor : row) factor *= request.loaded->scene->patch(request.eye).area;
+  return row;
+}
+
+/// What the eye exchanges with all others, as if along one direction that sees all of it.
+Transfers as_transfers(const EngineComparer::Request& request, const std::vector<double>& row) {
+  Transfers transfers;
+  transfers.forward.resize(row.size());
+  transfers.backward.resize(row.size());
+  Coverage& own = transfers.forward[static_cast<std::size_t>(request.eye)];
+  own.projected = request.loaded->scene->patch(request.eye).area;
+  for (std::size_t j = 0; j < row.size(); ++j) {
+    if (!(row[j] > 0)) continue;
+    own.covered += row[j];
+    transfers.exchanges.push_back({request.eye, static_cast<PatchId>(j), row[j]});
+  }
+  return transfers;
+}
+
+Transfers find_transfers(const EngineComparer::Request& request, EngineComparison::Side& side,
+                         const Cancellation& cancellation) {
+  EngineOptions options = request.options;
+  options.resolution = side.resolution;
+  const auto engine = [&] {
+    return make_engine(side.engine, request.loaded->scene, request.loaded->tree, options);
+  };
+  if (!request.compares_rows()) return run_direction(request, side, engine(), cancellation);
+  if (request.eye == no_patch)
+    throw std::runtime_error("select a patch: what it sees will be compared");
+  const double start = thread_seconds();
+  const std::vector<double> row = side.engine == Engine::hemicube
+                                      ? row_by_hemicube(request, side.resolution, cancellation)
+                                      : row_by_directions(request, engine(), cancellation);
+  side.seconds = thread_seconds() - start;
+  return as_transfers(request, row);
+}
+
 /// Fills in what is known of one engine; throws Cancelled only.
 Transfers run_engine(const EngineComparer::Request& request, EngineComparison::Side& side,
                      const Cancellation& cancellation) {
   Transfers transfers;
   try {
-    EngineOptions options = request.options;
-    options.resolution = side.resolution;
-    const TransferEngine engine =
-        make_engine(side.engine, request.loaded->scene, request.loaded->tree, options);
-    // The first run of an engine finds its memory; where it is short a second one is timed.
-    for (int run = 0; run < 2 && (run == 0 || side.seconds < 0.1); ++run) {
-      const double start = thread_seconds();
-      transfers = engine(request.direction, cancellation);
-      side.seconds = thread_seconds() - start;
-    }
+    transfers = find_transfers(request, side, cancellation);
   } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
@@ -51,6 +118,21 @@ Transfers run_engine(const EngineComparer::Request& request, EngineComparison::S
   return transfers;
 }
 
+/// Of each patch that the eye sees by one engine at least, half of what it sees by the one that
+/// sees more: a patch seen by one alone is wholly seen otherwise.
+std::vector<double> seen_areas(const Transfers& first, const Transfers& other, PatchId eye) {
+  std::vector<double> seen(first.forward.size());
+  for (const Transfers* transfers : {&first, &other}) {
+    for (const Transfer& t : transfers->exchanges) {
+      double& area = seen[static_cast<std::size_t>(t.source)];
+      area = std::max(area, t.area / 2);
+    }
+  }
+  const auto k = static_cast<std::size_t>(eye);
+  seen[k] = first.forward[k].projected;
+  return seen;
+}
+
 EngineComparison compare_engines(const EngineComparer::Request& request,
                                  const Cancellation& cancellation) {
   EngineComparison comparison;
@@ -64,6 +146,11 @@ EngineComparison compare_engines(const EngineComparer::Request& request,
   const Transfers other = run_engine(request, comparison.other, cancellation);
   if (!comparison.ok()) return comparison;
   comparison.transfers = compare(first, other);
+  if (request.compares_rows()) {
+    comparison.eye = request.eye;
+    comparison.projected = seen_areas(first, other, request.eye);
+    return comparison;
+  }
   for (std::size_t i = 0; i < first.forward.size(); ++i) {
     comparison.projected.push_back(first.forward[i].projected + first.backward[i].projected);
   }

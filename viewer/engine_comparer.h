@@ -12,21 +12,23 @@
 
 namespace transillum::viewer {
 
-/// Two engines on the same direction.
+/// Two engines on the same direction; or, where one of them is a hemicube and knows none, what one
+/// patch sees by both, over all directions of the run.
 struct EngineComparison {
   struct Side {
     Engine engine = Engine::fast;
     int resolution = 0;        ///< EngineOptions::resolution
-    double seconds = 0;        ///< processor time of one direction, on one thread
+    double seconds = 0;        ///< processor time of the direction, or row; one thread
     std::size_t pairs = 0;     ///< that exchange light
     double covered_share = 0;  ///< of all that receives, what has a surface above it
     std::string failure;       ///< why there is nothing of it
   };
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 direction;
+  PatchId eye = no_patch;  ///< whose row was compared, if one was
   Side first, other;
-  TransferComparison transfers;   ///< where neither failed
-  std::vector<double> projected;  ///< a patch: its area on the plane, m²
+  TransferComparison transfers;   ///< where neither failed; of a row A_i F_ij, m²
+  std::vector<double> projected;  ///< a patch: its area on the plane, m²; or half of A_i F_ij
 
   bool ok() const { return first.failure.empty() && other.failure.empty(); }
 };
@@ -44,7 +46,12 @@ class EngineComparer : public QObject {
     EngineOptions options;  ///< but for the resolution
     Engine first = Engine::fast, other = Engine::corrected;
     int first_resolution = 0, other_resolution = 0;
+    // Where one is a hemicube:
+    PatchId eye = no_patch;
+    std::shared_ptr<const std::vector<Vec3>> directions;
+    bool two_way = true;
 
+    bool compares_rows() const { return first == Engine::hemicube || other == Engine::hemicube; }
     friend bool operator==(const Request&, const Request&) = default;
   };
 

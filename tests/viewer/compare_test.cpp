@@ -8,6 +8,7 @@
 #include "compare_view.h"
 #include "difference_picture.h"
 #include "engine_text.h"
+#include "hemicube_view.h"
 #include "pixel_view.h"
 #include "solved_window.h"
 
@@ -97,6 +98,35 @@ class CompareTest : public QObject {
     QVERIFY(std::abs(shown.window->focus().probe()->x - at.x) < 0.02);
     QCOMPARE(shown.window->selection().patch(), moved->patch_at(middle(moved)));
     save_picture(*shown.window, "compare-near");
+  }
+
+  void compares_what_a_patch_sees_with_a_hemicube() {
+    SolvedWindow shown(QStringLiteral("cornell-box"));
+    QVERIFY(shown.ready);
+    auto* view = shown.window->findChild<CompareView*>();
+    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
+    dock->show();
+    dock->raise();
+    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Hemicube"));
+    QVERIFY(wait_for([&] { return shown.text("compare_words").contains("select a patch"); }));
+    shown.window->selection().select(14);
+    QVERIFY(wait_for([&] { return shown.text("compare_words").contains("patch 14 sees"); }));
+    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    const auto* hemicube = view->findChildren<HemicubeView*>().last();
+    QVERIFY(hemicube->isVisible() && hemicube->sight());
+    QCOMPARE(hemicube->sight()->request.eye, 14);
+    const auto* picture =
+        static_cast<const DifferencePicture*>(view->findChild<QWidget*>("difference_picture"));
+    const double wrong = picture->share(14);
+    QVERIFY(wrong > 0.01 && wrong < 0.4);
+    for (PatchId j = 0; j < 27; ++j)
+      QVERIFY(picture->share(j) >= 0 && picture->share(j) <= 1 + 1e-9);
+    save_picture(*shown.window, "compare-hemicube");
+    // The same by the same, whatever the direction.
+    view->findChild<QSpinBox*>("first_resolution")->setValue(128);
+    view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
+    QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
   }
 
   void tells_why_there_is_nothing() {
