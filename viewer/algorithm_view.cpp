@@ -102,6 +102,7 @@ QWidget* AlgorithmView::make_local_values() {
   gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
                                tr("What the step adds to B_i(n+1), before any normalisation"));
   gathered_->setObjectName("value_gathered");
+  for (QLabel* three : {radiosity_, gathered_}) three->setWordWrap(true);
   return values_;
 }
 

@@ -55,7 +55,7 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   run_back_ =
       make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
                   tr("Back to the last step where a breakpoint holds"));
-  run_on_ = make_action(this, "run_on", tr("Run to the next"), Qt::Key_F9,
+  run_on_ = make_action(this, "run_on", tr("Run on"), Qt::Key_F9,
                         tr("On to the next step where a breakpoint holds"));
   connect(run_on_, &QAction::triggered, this, [this] { run(Way::forward); });
   connect(run_back_, &QAction::triggered, this, [this] { run(Way::backward); });
@@ -64,6 +64,10 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   list_->setObjectName("breakpoint_list");
   list_->setFrameShape(QFrame::NoFrame);
   list_->setMinimumHeight(48);
+  hint_ = new QLabel(tr("None yet; F9 runs on to where one holds."));
+  hint_->setWordWrap(true);
+  hint_->setContentsMargins(10, 4, 10, 4);
+  hint_->setForegroundRole(QPalette::PlaceholderText);
   remove_ = new QToolButton;
   remove_->setText(tr("Remove"));
   remove_->setObjectName("remove_breakpoint");
@@ -80,6 +84,7 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
   layout->addLayout(buttons);
+  layout->addWidget(hint_, 1, Qt::AlignTop);
   layout->addWidget(list_, 1);
   layout->addWidget(make_new_row());
 
@@ -104,6 +109,8 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
 QWidget* BreakpointPanel::make_new_row() {
   kind_ = new QComboBox;
   kind_->setObjectName("breakpoint_kind");
+  kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  kind_->setMinimumContentsLength(12);
   for (const Choice& choice : choices) kind_->addItem(tr(choice.text));
   const auto patch_box = [](const char* name) {
     auto* box = new QSpinBox;
@@ -186,6 +193,8 @@ void BreakpointPanel::show_list() {
     }
     list_->setCurrentRow(std::min(row, list_->count() - 1));
   }
+  hint_->setVisible(list_->count() == 0);
+  list_->setVisible(list_->count() > 0);
   show_state();
 }
 

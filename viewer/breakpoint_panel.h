@@ -46,6 +46,7 @@ class BreakpointPanel : public QWidget {
   QSpinBox *patch_, *other_;
   QLineEdit* value_;
   QLabel* unit_;
+  QLabel* hint_;
   QToolButton *add_, *remove_;
   QAction *run_on_, *run_back_;
 };

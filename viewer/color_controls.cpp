@@ -26,7 +26,7 @@ namespace {
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
 constexpr int spacing = 8;
-constexpr int narrowest_quantity = 110;
+constexpr int narrowest_quantity = 110, widest_quantity = 240, narrowest_mode = 90;
 
 QLabel* label_for(QWidget* control, const QString& text) {
   auto* label = new QLabel(text);
@@ -41,7 +41,9 @@ void offer(QComboBox& list, int item, bool offered) {
 }
 
 int room_for(const QWidget& widget) {
-  return std::max(widget.minimumSizeHint().width(), widget.minimumWidth()) + spacing;
+  // A minimum that was set counts, as in a layout.
+  const int set = widget.minimumWidth();
+  return (set > 0 ? set : widget.minimumSizeHint().width()) + spacing;
 }
 
 QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
@@ -53,9 +55,13 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   quantity_ = new QComboBox;
   quantity_->setObjectName("quantity");
   quantity_->setMinimumWidth(narrowest_quantity);
+  quantity_->setMaximumWidth(widest_quantity);
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  quantity_->setMinimumContentsLength(9);
   fill_quantities();
   mode_ = new QComboBox;
   mode_->setObjectName("color_mode");
+  mode_->setMinimumWidth(narrowest_mode);
   mode_->addItems({tr("True colour"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
                    tr("Blue channel")});
   pages_ = new QStackedWidget;
@@ -67,8 +73,8 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 5, 10, 5);
   layout->setSpacing(spacing);
-  layout->addWidget(spare_.emplace_back(label_for(quantity_, tr("Colour"))));
-  layout->addWidget(quantity_);
+  layout->addWidget(*spare_.insert(spare_.begin(), label_for(quantity_, tr("Colour"))));
+  layout->addWidget(quantity_, 4);
   layout->addWidget(mode_);
   layout->addSpacing(8);
   layout->addWidget(pages_);
@@ -94,13 +100,25 @@ void ColorControls::add_tool(QWidget* tool) {
 }
 
 void ColorControls::measure() {
-  for (QWidget* widget : spare_) widget->setVisible(true);
-  for (int page = 0; page < pages_->count(); ++page) pages_->widget(page)->layout()->invalidate();
-  layout()->invalidate();
-  int narrowest = layout()->minimumSize().width();
-  for (const QWidget* widget : spare_) narrowest -= room_for(*widget);
-  setMinimumWidth(narrowest);
+  int page = 0;
+  for (int k = 0; k < pages_->count(); ++k)
+    page = std::max(page, least_width(*pages_->widget(k)->layout()));
+  setMinimumWidth(least_width(*layout()) + page);
   leave_out();
+}
+
+int ColorControls::least_width(const QLayout& row) const {
+  int sum = row.contentsMargins().left() + row.contentsMargins().right();
+  for (int k = 0; k < row.count(); ++k) {
+    QLayoutItem* item = row.itemAt(k);
+    const QWidget* widget = item->widget();
+    const bool spare = std::find(spare_.begin(), spare_.end(), widget) != spare_.end();
+    if (!widget)
+      sum += item->minimumSize().width() + spacing;
+    else if (!spare && widget != pages_)
+      sum += room_for(*widget);
+  }
+  return sum;
 }
 
 void ColorControls::fill_quantities() {
@@ -120,11 +138,18 @@ void ColorControls::resizeEvent(QResizeEvent* event) {
   leave_out();
 }
 
+void ColorControls::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  measure();  // a change of type while it was hidden has not reached it
+}
+
 void ColorControls::leave_out() {
   int left = width() - minimumWidth();
-  // The last ones added are missed most.
+  // The last ones are missed most.
   for (auto widget = spare_.rbegin(); widget != spare_.rend(); ++widget) {
-    const int needed = room_for(**widget);
+    const QWidget* page = (*widget)->parentWidget();
+    const bool behind = page->parentWidget() == pages_ && page != pages_->currentWidget();
+    const int needed = behind ? 0 : room_for(**widget);
     (*widget)->setVisible(needed <= left);
     if (needed <= left) left -= needed;
   }
@@ -149,6 +174,7 @@ QWidget* ColorControls::make_true_color_page() {
   gamma_->setRange(1.0, 3.0);
   gamma_->setSingleStep(0.1);
   gamma_->setDecimals(1);
+  gamma_->setPrefix(tr("γ "));
   gamma_->setToolTip(tr("Gamma of the screen"));
 
   auto* page = new QWidget;
@@ -160,8 +186,8 @@ QWidget* ColorControls::make_true_color_page() {
   layout->addWidget(exposure_);
   layout->addWidget(automatic_);
   layout->addSpacing(8);
-  layout->addWidget(spare_.emplace_back(label_for(gamma_, tr("Gamma"))));
-  layout->addWidget(spare_.emplace_back(gamma_));
+  layout->addWidget(gamma_);
+  spare_.insert(spare_.end(), {gamma_, automatic_, exposure_});
 
   connect(exposure_slider_, &QSlider::valueChanged, this, [this](int value) {
     colors_.set_exposure(static_cast<double>(value) / slider_steps_per_ev);
@@ -182,8 +208,8 @@ QWidget* ColorControls::make_map_page() {
   auto* layout = new QHBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(spacing);
-  layout->addWidget(logarithmic_);
-  layout->addWidget(new ScaleMenu(colors_));
+  layout->addWidget(spare_.emplace_back(logarithmic_));
+  layout->addWidget(spare_.emplace_back(new ScaleMenu(colors_)));
   layout->addStretch(1);
 
   connect(logarithmic_, &QCheckBox::toggled, &colors_, &ColorChoice::set_logarithmic);
@@ -215,7 +241,11 @@ void ColorControls::show_choice() {
   mode_->setCurrentIndex(static_cast<int>(scale.mode));
   mode_->setVisible(traits.has_channels);
   offer(*mode_, 0, traits.is_light);
-  pages_->setCurrentIndex(scale.mode == ColorMode::true_color ? 0 : 1);
+  const int page = scale.mode == ColorMode::true_color ? 0 : 1;
+  if (page != pages_->currentIndex()) {
+    pages_->setCurrentIndex(page);
+    leave_out();
+  }
   exposure_slider_->setValue(static_cast<int>(std::lround(scale.exposure * slider_steps_per_ev)));
   exposure_->setValue(scale.exposure);
   automatic_->setChecked(colors_.exposure_is_automatic());

@@ -41,11 +41,14 @@ class ColorControls : public QWidget {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
+  /// Of a row without what can be left out, and without the pages.
+  int least_width(const QLayout& row) const;
   void leave_out();
   void show_choice();
 

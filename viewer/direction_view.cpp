@@ -17,8 +17,6 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double legend_height = 44;
-constexpr double title_height = 44;
 constexpr double reach = 6;  ///< of a click, pixels
 
 /// Along the colour bar: few directions hold a lamp, and most of the light comes from elsewhere.
@@ -110,14 +108,34 @@ std::vector<double> DirectionView::received() const {
   return received;
 }
 
-double DirectionView::radius() const {
-  return std::max(
-      20.0, 0.5 * std::min<double>(width() - 24, height() - title_height - legend_height - 12));
+QString DirectionView::caption() const {
+  if (selection_.patch() == no_patch) return tr("Select a patch to see which of them light it");
+  const QString patch = count_text(selection_.patch());
+  if (sights_.complete())
+    return tr("Colour: what each adds to the irradiance of patch %1").arg(patch);
+  return tr("Looking along them from patch %1: %2 of %3")
+      .arg(patch, count_text(static_cast<int>(sights_.found().size())), count_text(taken()));
 }
 
-QPointF DirectionView::center() const {
-  return {0.5 * width(), title_height + 0.5 * (height() - title_height - legend_height)};
+QRectF DirectionView::caption_rect() const {
+  const int line = fontMetrics().height();
+  const QRect room(12, 8 + line, width() - 24, 3 * line);
+  return fontMetrics().boundingRect(room, Qt::AlignLeft | Qt::TextWordWrap, caption());
 }
+
+QRectF DirectionView::sphere_room() const {
+  const double top = caption_rect().bottom() + 4;
+  return {12, top, width() - 24.0, height() - legend_height() - top};
+}
+
+double DirectionView::legend_height() const { return fontMetrics().height() + 28; }
+
+double DirectionView::radius() const {
+  const QRectF room = sphere_room();
+  return std::max(20.0, 0.5 * std::min(room.width(), room.height() - 12));
+}
+
+QPointF DirectionView::center() const { return sphere_room().center(); }
 
 /// x to the right, y up, z toward the viewer.
 Vec3 DirectionView::turned(const Vec3& direction) const {
@@ -246,19 +264,12 @@ void DirectionView::draw_legend(QPainter& painter) const {
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
   const std::vector<double> power = received();
-  const QString what =
-      selection_.patch() == no_patch ? tr("Select a patch to see which of them light it")
-      : sights_.complete()
-          ? tr("Colour: what each adds to the irradiance of patch %1")
-                .arg(count_text(selection_.patch()))
-          : tr("Looking along them from patch %1: %2 of %3")
-                .arg(count_text(selection_.patch()),
-                     count_text(static_cast<int>(sights_.found().size())), count_text(taken()));
-  painter.drawText(QRect(12, 8 + line, width() - 24, line), Qt::AlignLeft, what);
+  painter.drawText(caption_rect().adjusted(0, 0, 2, 0), Qt::AlignLeft | Qt::TextWordWrap,
+                   caption());
   if (power.empty()) return;
 
   const double most = *std::max_element(power.begin(), power.end());
-  const QRectF bar(12, height() - legend_height + 6, width() - 24, 10);
+  const QRectF bar(12, height() - legend_height() + 6, width() - 24, 10);
   for (int x = 0; x < static_cast<int>(bar.width()); ++x) {
     const Color8 c = color_of(colors_.map(), x / bar.width());
     painter.fillRect(QRectF(bar.left() + x, bar.top(), 1.5, bar.height()),

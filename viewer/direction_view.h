@@ -57,6 +57,10 @@ class DirectionView : public QWidget {
   void ask();
   Vec3 turned(const Vec3& direction) const;
   QPointF place(const Vec3& turned) const;
+  QString caption() const;
+  QRectF caption_rect() const;
+  QRectF sphere_room() const;
+  double legend_height() const;
   double radius() const;
   QPointF center() const;
   void draw_sphere(QPainter& painter) const;

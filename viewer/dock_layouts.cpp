@@ -2,11 +2,15 @@
 #include "dock_layouts.h"
 
 #include <QAction>
+#include <QChildEvent>
 #include <QDockWidget>
 #include <QMenu>
 #include <QTabBar>
 #include <QTimer>
+#include <algorithm>
 #include <utility>
+
+#include "theme.h"
 
 namespace transillum::viewer {
 
@@ -15,7 +19,7 @@ namespace {
 struct Widths {
   int left, right;
 };
-Widths widths_of(DockLayouts::Layout layout) {
+Widths usual_widths_of(DockLayouts::Layout layout) {
   switch (layout) {
     case DockLayouts::Layout::teach:
       return {400, 480};
@@ -26,6 +30,15 @@ Widths widths_of(DockLayouts::Layout layout) {
   }
 }
 
+// Larger type wants wider sides, but the scene is to keep its place.
+Widths widths_of(DockLayouts::Layout layout, int window_width) {
+  constexpr double most_share = 0.64;
+  const Widths usual = usual_widths_of(layout);
+  const double sum = usual.left + usual.right;
+  const double factor = std::clamp(most_share * window_width / sum, 1.0, theme::scale());
+  return {static_cast<int>(factor * usual.left), static_cast<int>(factor * usual.right)};
+}
+
 }  // namespace
 
 DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window) {
@@ -33,6 +46,7 @@ DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window
                          QMainWindow::AllowTabbedDocks);
   window_.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window_.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
+  window_.installEventFilter(this);
 }
 
 QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* content,
@@ -40,6 +54,10 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
   dock->setWidget(content);
+  // Qt moves a tab behind others out of sight and lets it count as visible: its content would work
+  // on for nobody, and never hear that it is in front again.
+  connect(dock, &QDockWidget::visibilityChanged, content,
+          [dock, content](bool visible) { content->setVisible(visible || dock->isHidden()); });
   docks_.push_back({dock, std::move(places)});
   return dock;
 }
@@ -50,7 +68,7 @@ void DockLayouts::arrange(Layout layout) {
     window_.removeDockWidget(dock.widget);
     dock.widget->setFloating(false);
   }
-  QList<QDockWidget*> left, right, shown;
+  QList<QDockWidget*> shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
     // One without a place here comes where it is in another layout, should it be asked for.
@@ -67,19 +85,45 @@ void DockLayouts::arrange(Layout layout) {
       }
       shown << dock.widget;
       heights << place.height;
-      if (place.area == Qt::LeftDockWidgetArea) left << dock.widget;
-      if (place.area == Qt::RightDockWidgetArea) right << dock.widget;
     }
   }
-  const Widths widths = widths_of(layout);
-  if (!left.isEmpty() && !right.isEmpty())
-    window_.resizeDocks({left.front(), right.front()}, {widths.left, widths.right}, Qt::Horizontal);
   window_.resizeDocks(shown, heights, Qt::Vertical);
+  follow_type();
   // Qt may leave the bar of tabs that are no more.
   QTimer::singleShot(0, this, [this] {
     for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
       if (bar->count() == 0) bar->hide();
   });
+}
+
+void DockLayouts::follow_type() {
+  const Widths widths = widths_of(current_, window_.width());
+  for (const Dock& dock : docks_) {
+    for (const Place& place : dock.places) {
+      if (place.layout != current_ || place.behind || dock.widget->isHidden()) continue;
+      if (place.area == Qt::LeftDockWidgetArea)
+        window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
+      else if (place.area == Qt::RightDockWidgetArea)
+        window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
+      else
+        window_.resizeDocks(
+            {dock.widget},
+            {static_cast<int>(std::min(theme::scale() * place.height, 0.18 * window_.height()))},
+            Qt::Vertical);
+    }
+  }
+}
+
+bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ChildPolished) {
+    // The window makes the tabs of its docks: their names are to be read, if need be by scrolling.
+    auto* bar = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child());
+    if (bar) {
+      bar->setElideMode(Qt::ElideNone);
+      bar->setUsesScrollButtons(true);
+    }
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 bool DockLayouts::restore(int layout, const QByteArray& state, int version) {

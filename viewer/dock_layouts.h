@@ -31,6 +31,8 @@ class DockLayouts : public QObject {
   QDockWidget* add(const QString& title, const char* name, QWidget* content,
                    std::vector<Place> places);
   void arrange(Layout layout);
+  /// Gives the sides the widths that the layout wants with the type there is now.
+  void follow_type();
   /// Takes back a state of the window's that was saved in a layout, by its number. False where it
   /// does not fit.
   bool restore(int layout, const QByteArray& state, int version);
@@ -43,6 +45,9 @@ class DockLayouts : public QObject {
   std::vector<std::string> panels() const;
   /// Docks to show and hide, and the layouts.
   void add_to(QMenu& menu);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   struct Dock {

@@ -56,6 +56,7 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
     : QWidget(parent), lessons_(std::move(lessons)) {
   list_ = new QComboBox;
   list_->setObjectName("lesson_list");
+  list_->setPlaceholderText(tr("Lessons"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   title_ = new QLabel;
   title_->setObjectName("lesson_title");

@@ -50,6 +50,7 @@ struct LogChart::Frame {
   QRectF plot;
   Decades decades;
   int x_max = 1;
+  bool titled = true;  ///< the axes
 
   double x(double count) const {
     return plot.left() + (x_max > 1 ? (count - 1) / (x_max - 1) : 0.5) * plot.width();
@@ -106,7 +107,11 @@ LogChart::Frame LogChart::frame() const {
   const int line = fontMetrics().height();
   const int left = line + 10 + fontMetrics().horizontalAdvance(QStringLiteral("10⁻¹²")) + 6;
   Frame result;
-  result.plot = QRectF(rect()).adjusted(left, 2 * line + 16, -16, -(2 * line + 12));
+  // A low chart needs its height for the lines; the title tells what it shows.
+  result.titled = height() > 9 * line;
+  const int below = (result.titled ? 2 * line : line) + 12;
+  result.plot =
+      QRectF(rect()).adjusted(result.titled ? left : left - line, 2 * line + 16, -16, -below);
   result.decades = decades_of(lines_, levels_);
   result.x_max = x_max_;
   return result;
@@ -123,8 +128,11 @@ void LogChart::paintEvent(QPaintEvent*) {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(theme::ink);
-  painter.drawText(QRectF(12, 6, width() - 24, line), Qt::AlignLeft | Qt::AlignVCenter, title_);
+  const QRectF title_row(12, 6, width() - 24, line);
+  painter.drawText(title_row, Qt::AlignLeft | Qt::AlignVCenter, title_);
   painter.setFont(font());
+  painter.setPen(theme::ink_dim);
+  if (!f.titled) painter.drawText(title_row, Qt::AlignRight | Qt::AlignVCenter, x_title_);
   if (f.plot.width() < 40 || f.plot.height() < 20) return;
 
   draw_axes(painter, f);
@@ -180,6 +188,7 @@ void LogChart::draw_axes(QPainter& painter, const Frame& f) const {
   painter.drawRect(f.plot);
 
   painter.setPen(theme::ink_dim);
+  if (!f.titled) return;
   painter.drawText(QRectF(f.plot.left(), f.plot.bottom() + line + 5, f.plot.width(), line),
                    Qt::AlignCenter, x_title_);
   painter.save();

@@ -46,7 +46,7 @@ class LogChart : public QWidget {
   QPointF place_of(int x) const;
 
   QSize sizeHint() const override { return {420, 210}; }
-  QSize minimumSizeHint() const override { return {240, 112}; }
+  QSize minimumSizeHint() const override { return {240, 3 * fontMetrics().height() + 66}; }
 
  signals:
   void clicked(int x);

@@ -99,6 +99,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
     lesson_panel_->refresh();
     // Once the layouts have heard of the fonts.
     QTimer::singleShot(0, page_->color_controls(), &ColorControls::measure);
+    QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
   restore_layout();
 }
@@ -154,7 +155,7 @@ void MainWindow::make_docks() {
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
              {{teach, right, 420}, {debug, left, 560}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
-  docks_.add(tr("Convergence"), "convergence_dock", convergence_view_,
+  docks_.add(tr("Charts"), "convergence_dock", scrollable(convergence_view_),
              {{teach, right, 420, true}, {inspect, right, 400}});
   docks_.add(tr("Directions"), "direction_dock", direction_view_,
              {{teach, right, 420, true}, {inspect, right, 400, true}});

@@ -63,7 +63,9 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
     bottom = std::min(bottom, q.y);
     top = std::max(top, q.y);
   }
-  constexpr double margin = 14, scale_bar_room = 34;  // logical pixels
+  // Logical pixels; a low picture lies beside the scale bar, not above it.
+  const double margin = std::min(14.0, 0.06 * size.height());
+  const double scale_bar_room = size.height() > 160 ? 34 : 0;
   const double width = std::max(size.width() - 2 * margin, 10.0);
   const double height = std::max(size.height() - 2 * margin - scale_bar_room, 10.0);
   MapTransform transform;

@@ -43,14 +43,18 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   sliders_ = new QWidget;
   auto* column = new QVBoxLayout(sliders_);
   column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(10);
+  column->setSpacing(8);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
+  auto* hint = new QLabel(tr("B follows from the kept form factors, without a new pass."));
+  hint->setWordWrap(true);
+  hint->setForegroundRole(QPalette::PlaceholderText);
+  column->addWidget(hint);
   column->addWidget(restore_);
 
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 8, 12, 10);
-  layout->setSpacing(10);
+  layout->setContentsMargins(12, 6, 12, 6);
+  layout->setSpacing(6);
   layout->addWidget(material_);
   layout->addWidget(words_);
   layout->addWidget(sliders_);
@@ -90,10 +94,8 @@ void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
 void MaterialPanel::show_state() {
   const QString obstacle = relighting_.obstacle();
   sliders_->setEnabled(obstacle.isEmpty() && material() >= 0);
-  words_->setText(!obstacle.isEmpty() ? obstacle
-                  : relighting_.edits().any()
-                      ? tr("Changed: B is found from the kept form factors, without a new pass.")
-                      : tr("Draw a slider: B follows from the kept form factors."));
+  words_->setText(obstacle);
+  words_->setHidden(obstacle.isEmpty());
 }
 
 void MaterialPanel::show_material() {

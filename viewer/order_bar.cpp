@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "theme.h"
-#include "tree_path_table.h"
+#include "tree_words.h"
 
 namespace transillum::viewer {
 
@@ -41,10 +41,10 @@ std::int32_t OrderBar::step_at(const TreeVisit& visit, const QRectF& bar, double
 void OrderBar::paint(QPainter* painter, const QStyleOptionViewItem& option,
                      const QModelIndex& index) const {
   QStyledItemDelegate::paint(painter, option, index);
-  const auto* table = qobject_cast<const TreePathTable*>(index.model());
   const auto map = focus_.map();
-  if (table == nullptr || !map) return;
-  const TreeVisit& visit = table->visit(index.row());
+  const QVariant data = index.data(tree_visit_role);
+  if (!data.canConvert<TreeVisit>() || !map) return;
+  const auto visit = data.value<TreeVisit>();
   const QRectF bar = bar_in(option.rect);
   const auto part = [&](std::int32_t begin, std::int32_t end, double least_width) {
     const double left = left_of(visit, bar, begin);
@@ -84,11 +84,11 @@ bool OrderBar::editorEvent(QEvent* event, QAbstractItemModel* model,
                            const QStyleOptionViewItem& option, const QModelIndex& index) {
   const bool pressed = event->type() == QEvent::MouseButtonPress;
   if (!pressed && event->type() != QEvent::MouseButtonDblClick) return false;
-  const auto* table = qobject_cast<const TreePathTable*>(model);
+  const QVariant data = model->data(index, tree_visit_role);
   const auto* mouse = static_cast<QMouseEvent*>(event);
-  if (table == nullptr || mouse->button() != Qt::LeftButton) return false;
+  if (!data.canConvert<TreeVisit>() || mouse->button() != Qt::LeftButton) return false;
   const StepWish& wish = pressed ? clicked_ : double_clicked_;
-  if (wish) wish(step_at(table->visit(index.row()), bar_in(option.rect), mouse->pos().x()));
+  if (wish) wish(step_at(data.value<TreeVisit>(), bar_in(option.rect), mouse->pos().x()));
   return true;
 }
 

@@ -11,7 +11,7 @@
 
 namespace transillum::viewer {
 
-/// Draws the polygons below a plane of a TreePathTable as a bar in their order: those done dark,
+/// Draws the polygons below a plane (tree_visit_role) as a bar in their order: those done dark,
 /// those to come pale, the plane's own yellow, the selected patch's marked below.
 class OrderBar : public QStyledItemDelegate {
  public:

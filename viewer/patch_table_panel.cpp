@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "figure_table.h"
 #include "form_factor_views.h"
 #include "number_text.h"
 #include "patch_columns.h"
@@ -82,16 +83,9 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   page.view->setModel(page.table);
   page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
   page.view->setSelectionMode(QAbstractItemView::SingleSelection);
-  page.view->setFrameShape(QFrame::NoFrame);
-  page.view->setShowGrid(false);
-  page.view->setAlternatingRowColors(true);
-  page.view->setMinimumHeight(60);
-  page.view->verticalHeader()->hide();
-  page.view->verticalHeader()->setDefaultSectionSize(22);
-  page.view->horizontalHeader()->setHighlightSections(false);
-  page.view->horizontalHeader()->setDefaultSectionSize(84);
   page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
   page.view->setSortingEnabled(true);
+  set_up_figure_table(*page.view, {});
 
   auto* widget = new QWidget;
   auto* layout = new QVBoxLayout(widget);

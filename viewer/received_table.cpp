@@ -67,7 +67,8 @@ double ReceivedTable::value(const ReceivedLight& light, int column) const {
 
 QString ReceivedTable::text(const ReceivedLight& light, int column) const {
   const auto percent = [](double share) {
-    return QStringLiteral("%1 %").arg(100 * share, 0, 'f', share < 0.0995 ? 2 : 1);
+    const int decimals = share < 0.0995 ? 2 : share < 0.9995 ? 1 : 0;
+    return QStringLiteral("%1 %").arg(100 * share, 0, 'f', share == 0 ? 0 : decimals);
   };
   switch (column) {
     case of_direction:

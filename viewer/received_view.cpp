@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "figure_table.h"
 #include "number_text.h"
 #include "received_table.h"
 
@@ -33,20 +34,10 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, DirectionSights& 
   view_->setObjectName("received_light");
   view_->setModel(table_);
   view_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  view_->setFrameShape(QFrame::NoFrame);
-  view_->setShowGrid(false);
-  view_->setAlternatingRowColors(true);
-  view_->verticalHeader()->hide();
-  view_->verticalHeader()->setDefaultSectionSize(22);
-  view_->setMinimumHeight(60);
-  QHeaderView* header = view_->horizontalHeader();
-  header->setHighlightSections(false);
-  header->setStretchLastSection(true);
-  const int widths[] = {72, 76, 58, 92, 60, 0};
-  for (int column = 0; column < ReceivedTable::column_count; ++column)
-    if (widths[column] > 0) view_->setColumnWidth(column, widths[column]);
-  header->setSortIndicator(ReceivedTable::of_irradiance, Qt::DescendingOrder);
+  view_->horizontalHeader()->setStretchLastSection(true);
+  view_->horizontalHeader()->setSortIndicator(ReceivedTable::of_irradiance, Qt::DescendingOrder);
   view_->setSortingEnabled(true);
+  set_up_figure_table(*view_, {"8888, −ω", "0.08888", "88.8 %", "0.008888", "88.8 %", ""});
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -77,7 +77,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
 void SolveSummary::show_needs(const SolverSnapshot& snapshot) {
   const SceneMeasures& m = snapshot.loaded->measures;
   bound_->setText(
-      tr("M = %1 (eq. 37), %2 (eq. 43)")
+      tr("M = %1 (eq. 37)\n%2 (eq. 43)")
           .arg(number_text(directions_if_homogeneous(m.rho_max, accuracy)),
                number_text(directions_if_heterogeneous(m.rho_max, accuracy, m.size_ratio))));
   const SolveStatistics& s = snapshot.statistics;

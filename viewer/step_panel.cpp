@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "event_table.h"
+#include "figure_table.h"
 #include "number_text.h"
 
 namespace transillum::viewer {
@@ -43,19 +44,10 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   tab.view->setObjectName(QString::fromLatin1(name));
   tab.view->setModel(tab.table);
   tab.view->setSelectionBehavior(QAbstractItemView::SelectRows);
-  tab.view->setFrameShape(QFrame::NoFrame);
-  tab.view->setShowGrid(false);
-  tab.view->setAlternatingRowColors(true);
-  tab.view->verticalHeader()->hide();
-  tab.view->verticalHeader()->setDefaultSectionSize(22);
-  tab.view->setMinimumHeight(60);
   QHeaderView* header = tab.view->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
-  header->setHighlightSections(false);
-  const int widths[] = {62, 54, 0, 54, 84, 40, 84};
-  for (int column = 0; column < EventTable::column_count; ++column)
-    if (widths[column] > 0) tab.view->setColumnWidth(column, widths[column]);
+  set_up_figure_table(*tab.view, {"88888", "88888", "", "88888", "0.008888", "8", "0.008888"});
 
   auto* page = new QWidget;
   auto* layout = new QVBoxLayout(page);

@@ -18,7 +18,7 @@ namespace {
 // Left and right of a lane.
 double name_room() { return 78 * theme::scale(); }
 double value_room() { return 128 * theme::scale(); }
-constexpr double line = 18;  // height of the upper lanes
+double line() { return 18 * theme::scale(); }  // height of the upper lanes
 
 }  // namespace
 
@@ -50,9 +50,9 @@ void TimelineLanes::set_progress(int iteration, int directions) {
 QRectF TimelineLanes::rect_of(Lane lane) const {
   const double width_left = std::max(width() - name_room() - value_room(), 20.0);
   const double top = lane == Lane::iterations   ? 3
-                     : lane == Lane::directions ? 3 + line
-                                                : 7 + 2 * line;
-  const double bottom = lane == Lane::steps ? height() - 5 : top + line - 4;
+                     : lane == Lane::directions ? 3 + line()
+                                                : 7 + 2 * line();
+  const double bottom = lane == Lane::steps ? height() - 5 : top + line() - 4;
   return {name_room(), top, width_left, bottom - top};
 }
 

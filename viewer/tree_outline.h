@@ -38,13 +38,25 @@ class TreeOutline {
   }
   /// Fragments in and below a node; 0 of no_node.
   std::int32_t size(std::int32_t node) const;
+  /// no_node of the root.
+  std::int32_t parent(std::int32_t node) const { return parents_[static_cast<std::size_t>(node)]; }
+  /// How a direction passes each of the nodes. In time linear in the nodes.
+  std::vector<TreeVisit> visits(const Vec3& omega) const;
+  /// The sides of a node in the order they come along a direction, without the empty ones.
+  std::vector<std::int32_t> children(const TreeVisit& visit) const;
   /// The way from the root to the node whose plane holds the fragment of step `step` in
   /// tree.order(omega); empty where there is no such step. In time linear in its length.
   std::vector<TreeVisit> path_to(std::int32_t step, const Vec3& omega) const;
 
  private:
+  struct Sides {
+    std::int32_t near, far;
+  };
+  TreeVisit visit(std::int32_t node, std::int32_t begin, const Vec3& omega) const;
+  Sides sides(const TreeVisit& visit) const;
+
   std::shared_ptr<const BspTree> tree_;
-  std::vector<std::int32_t> sizes_;  ///< a node
+  std::vector<std::int32_t> sizes_, parents_;  ///< a node
 };
 
 }  // namespace transillum::viewer

@@ -5,18 +5,9 @@
 #include <utility>
 
 #include "number_text.h"
-#include "theme.h"
+#include "tree_words.h"
 
 namespace transillum::viewer {
-
-namespace {
-
-QString cosine_text(double cosine) {
-  const QString digits = QString::number(std::abs(cosine), 'f', 3);
-  return (cosine < 0 ? QStringLiteral("−") : QStringLiteral("+")) + digits;
-}
-
-}  // namespace
 
 void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
                               std::vector<TreeVisit> path, std::int32_t step) {
@@ -27,16 +18,6 @@ void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
   path_ = std::move(path);
   step_ = step;
   endResetModel();
-}
-
-PatchId TreePathTable::patch_of(int row) const {
-  const BspTree::Node& node = outline_->node(visit(row).node);
-  return node.begin == node.end ? no_patch : outline_->tree().fragment(node.begin).patch;
-}
-
-QString TreePathTable::plane_words(int row) const {
-  const PatchId patch = patch_of(row);
-  return patch == no_patch ? tr("a free plane") : tr("the plane of patch %1").arg(patch);
 }
 
 int TreePathTable::rowCount(const QModelIndex& parent) const {
@@ -50,12 +31,8 @@ int TreePathTable::columnCount(const QModelIndex& parent) const {
 QString TreePathTable::text(int row, int column) const {
   const TreeVisit& v = visit(row);
   switch (column) {
-    case of_plane: {
-      const PatchId patch = patch_of(row);
-      const std::int32_t others = v.plane_end - v.plane_begin - 1;
-      if (patch == no_patch) return tr("free plane");
-      return others > 0 ? tr("patch %1 + %2").arg(patch).arg(others) : tr("patch %1").arg(patch);
-    }
+    case of_plane:
+      return plane_name(*outline_, v);
     case of_cosine:
       return cosine_text(v.cosine);
     case of_part: {
@@ -77,26 +54,15 @@ QString TreePathTable::text(int row, int column) const {
   }
 }
 
-QString TreePathTable::explanation(int row) const {
-  const TreeVisit& v = visit(row);
-  const bool front_first = v.cosine >= 0;
-  const BspTree::Plane& plane = outline_->node(v.node).plane;
-  return tr("%1: n·p = %2 m with n = %3.\n"
-            "n·ω = %4, so ω points to the plane's %5: the %6 polygons there come first,\n"
-            "then the %7 in the plane, then the %8 on the other side.")
-      .arg(plane_words(row), number_text(plane.offset), vector_text(plane.normal),
-           cosine_text(v.cosine), front_first ? tr("front") : tr("back"),
-           count_text(v.plane_begin - v.begin), count_text(v.plane_end - v.plane_begin),
-           count_text(v.end - v.plane_end));
-}
-
 QVariant TreePathTable::data(const QModelIndex& index, int role) const {
   const bool last = index.row() == rowCount() - 1;
   switch (role) {
     case Qt::DisplayRole:
       return text(index.row(), index.column());
     case Qt::ToolTipRole:
-      return explanation(index.row());
+      return explanation(*outline_, visit(index.row()));
+    case tree_visit_role:
+      return QVariant::fromValue(visit(index.row()));
     case Qt::TextAlignmentRole:
       return QVariant(index.column() == of_cosine || index.column() == of_count
                           ? Qt::AlignRight | Qt::AlignVCenter

@@ -21,10 +21,7 @@ class TreePathTable : public QAbstractTableModel {
                  std::int32_t step);
   const TreeVisit& visit(int row) const { return path_[static_cast<std::size_t>(row)]; }
   std::int32_t step() const { return step_; }
-  /// A patch that lies in the plane; no_patch for a free one.
-  PatchId patch_of(int row) const;
-  /// "the plane of patch 12", "a free plane".
-  QString plane_words(int row) const;
+  const TreeOutline& outline() const { return *outline_; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -33,7 +30,6 @@ class TreePathTable : public QAbstractTableModel {
 
  private:
   QString text(int row, int column) const;
-  QString explanation(int row) const;
 
   std::shared_ptr<const TreeOutline> outline_;
   std::vector<TreeVisit> path_;

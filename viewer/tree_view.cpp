@@ -3,14 +3,18 @@
 
 #include <QHeaderView>
 #include <QLabel>
+#include <QTabWidget>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
+#include "figure_table.h"
 #include "number_text.h"
 #include "order_bar.h"
+#include "tree_browser.h"
 #include "tree_path_table.h"
+#include "tree_words.h"
 
 namespace transillum::viewer {
 
@@ -27,19 +31,8 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
   table_->setModel(path_);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
-  table_->setFrameShape(QFrame::NoFrame);
-  table_->setShowGrid(false);
-  table_->setAlternatingRowColors(true);
-  table_->setWordWrap(false);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(22);
-  table_->setMinimumHeight(60);
-  QHeaderView* header = table_->horizontalHeader();
-  header->setHighlightSections(false);
-  header->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
-  const int widths[] = {104, 58, 98, 0, 66};
-  for (int column = 0; column < TreePathTable::column_count; ++column)
-    if (widths[column] > 0) table_->setColumnWidth(column, widths[column]);
+  table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
+  set_up_figure_table(*table_, {"patch 8888 + 8", "−0.888", "before: front", "", "88 888"});
   auto* bars = new OrderBar(focus_, selection_, this);
   bars->set_wishes([this](std::int32_t step) { select_step(step); },
                    [this](std::int32_t step) { go_to_step(step); });
@@ -49,12 +42,21 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(words_);
-  layout->addWidget(table_, 1);
-  const auto in_plane = [this](const QModelIndex& index) {
-    return index.column() != TreePathTable::of_order && path_->patch_of(index.row()) != no_patch;
+  browser_ = new TreeBrowser(focus_, selection_);
+  tabs_ = new QTabWidget;
+  tabs_->setObjectName("tree_tabs");
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(table_, tr("Way to the polygon"));
+  tabs_->addTab(browser_, tr("Whole tree"));
+  layout->addWidget(tabs_, 1);
+  const auto patch_at = [this](const QModelIndex& index) {
+    return patch_of(path_->outline(), path_->visit(index.row()));
   };
-  connect(table_, &QTableView::clicked, this, [this, in_plane](const QModelIndex& index) {
-    if (in_plane(index)) selection_.select(path_->patch_of(index.row()));
+  const auto in_plane = [patch_at](const QModelIndex& index) {
+    return index.column() != TreePathTable::of_order && patch_at(index) != no_patch;
+  };
+  connect(table_, &QTableView::clicked, this, [this, in_plane, patch_at](const QModelIndex& index) {
+    if (in_plane(index)) selection_.select(patch_at(index));
   });
   connect(table_, &QTableView::doubleClicked, this, [this, in_plane](const QModelIndex& index) {
     if (in_plane(index)) go_to_step(path_->visit(index.row()).plane_begin);
@@ -87,6 +89,7 @@ void TreeView::show_moment() {
     table_->scrollToBottom();
     table_->viewport()->update();
   }
+  browser_->show_moment(outline_);
   show_words();
 }
 
@@ -118,7 +121,9 @@ QString TreeView::words_of_selection() const {
   int row = path_->rowCount() - 1;
   while (row > 0 && !path_->visit(row).holds(*own)) --row;
   const QString when = *own < path_->step() ? tr("before") : tr("after");
-  return tr("Patch %1 comes %2 it, parted by %3.").arg(patch).arg(when, path_->plane_words(row));
+  return tr("Patch %1 comes %2 it, parted by %3.")
+      .arg(patch)
+      .arg(when, plane_words(*outline_, path_->visit(row)));
 }
 
 void TreeView::select_step(std::int32_t step) {

@@ -9,14 +9,16 @@
 
 class QLabel;
 class QTableView;
+class QTabWidget;
 
 namespace transillum::viewer {
 
 class TreeOutline;
+class TreeBrowser;
 class TreePathTable;
 
 /// Why the polygon in focus comes when it does: the planes of the BSP tree from the root to it,
-/// each with what it puts before and after.
+/// each with what it puts before and after; and the tree as a whole.
 class TreeView : public QWidget {
   Q_OBJECT
 
@@ -39,6 +41,8 @@ class TreeView : public QWidget {
   QLabel* words_;
   QTableView* table_;
   TreePathTable* path_;
+  TreeBrowser* browser_;
+  QTabWidget* tabs_;
 };
 
 }  // namespace transillum::viewer

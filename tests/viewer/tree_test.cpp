@@ -1,14 +1,21 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The BSP tree as a direction walks through it, and the panel that shows it.
+#include <QAbstractItemModelTester>
 #include <QDockWidget>
+#include <QElapsedTimer>
+#include <QTabWidget>
 #include <QTableView>
+#include <QTreeView>
 #include <algorithm>
+#include <set>
 
 #include "order_bar.h"
 #include "solved_window.h"
 #include "transillum/directions.h"
+#include "tree_model.h"
 #include "tree_outline.h"
 #include "tree_path_table.h"
+#include "tree_words.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -101,6 +108,54 @@ class TreeTest : public QObject {
     QVERIFY(fronts_first > 0 && backs_first > 0);
   }
 
+  void all_nodes_are_visited_as_on_their_paths() {
+    const auto scene = load_scene("boards");
+    const TreeOutline outline(std::make_shared<const BspTree>(*scene));
+    for (const auto& sample : make_directions(Sampling::random, 6, 3)) {
+      const auto visits = outline.visits(sample.direction);
+      std::set<std::int32_t> met;
+      for (std::int32_t step = 0; step < outline.size(0); ++step) {
+        for (const TreeVisit& visit : outline.path_to(step, sample.direction)) {
+          QCOMPARE(visits[static_cast<std::size_t>(visit.node)], visit);
+          met.insert(visit.node);
+        }
+      }
+      // Every node holds some polygon below it.
+      QCOMPARE(met.size(), visits.size());
+    }
+  }
+
+  void the_model_holds_and_keeps_its_places() {
+    const auto scene = load_scene("boards");
+    const auto outline =
+        std::make_shared<const TreeOutline>(std::make_shared<const BspTree>(*scene));
+    TreeModel model;
+    QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    int turned = 0;
+    QPersistentModelIndex deep;
+    for (const auto& sample : make_directions(Sampling::random, 8, 3)) {
+      model.show_moment(outline, sample.direction, 5);
+      const std::int32_t node = model.path().back();
+      QVERIFY(model.visit(model.index_of(node)).holds(5));
+      if (deep.isValid()) {
+        QCOMPARE(QModelIndex(deep), model.index_of(static_cast<std::int32_t>(deep.internalId())));
+        ++turned;
+      }
+      deep = model.index_of(node);
+      // The sides of a node lie one after the other round its own plane.
+      for (std::int32_t n = 0; n < static_cast<std::int32_t>(outline->tree().nodes().size()); ++n) {
+        const QModelIndex index = model.index_of(n);
+        std::int32_t at = model.visit(index).begin;
+        for (int row = 0; row < model.rowCount(index); ++row) {
+          const TreeVisit& side = model.visit(model.index(row, 0, index));
+          QVERIFY(side.begin == at || side.begin == model.visit(index).plane_end);
+          at = side.end;
+        }
+      }
+    }
+    QVERIFY(turned > 0);
+  }
+
   void a_bar_knows_its_places() {
     const QRectF bar(40, 0, 200, 10);
     const TreeVisit visit{0, 1, 100, 120, 121, 137};
@@ -126,11 +181,11 @@ class TreeTest : public QObject {
     QVERIFY(last > 1);
 
     // The plane's patch is selected by a click, and gone to by another.
-    const int row = path->patch_of(0) == no_patch ? last : 0;
+    const int row = patch_of(path->outline(), path->visit(0)) == no_patch ? last : 0;
     view->scrollTo(path->index(row, 0));
     const QPoint name = view->visualRect(path->index(row, TreePathTable::of_plane)).center();
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
-    QCOMPARE(s.window->selection().patch(), path->patch_of(row));
+    QCOMPARE(s.window->selection().patch(), patch_of(path->outline(), path->visit(row)));
     const std::int32_t step = path->visit(row).plane_begin;
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
@@ -140,7 +195,10 @@ class TreeTest : public QObject {
     // A place of the root's bar is a step.
     const QRect cell = view->visualRect(path->index(0, TreePathTable::of_order));
     const QRectF bar = OrderBar::bar_in(cell);
-    const auto place = QPointF(OrderBar::left_of(path->visit(0), bar, 20) + 3, bar.center().y());
+    const auto place = QPointF(
+        (OrderBar::left_of(path->visit(0), bar, 20) + OrderBar::left_of(path->visit(0), bar, 21)) /
+            2,
+        bar.center().y());
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
     QCOMPARE(s.window->selection().patch(), focus.map()->history.step(20).patch);
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
@@ -155,6 +213,65 @@ class TreeTest : public QObject {
     QTest::qWait(50);
     QVERIFY(share_of(view->grab().toImage(), theme::selection) > 0);
     save_picture(*s.window, "tree");
+  }
+
+  void the_whole_tree_is_opened_where_one_is() {
+    const SolvedWindow s("cornell-box");
+    QVERIFY(s.ready);
+    Focus& focus = s.window->focus();
+    s.trigger("layout_debug");
+    s.window->docks().bring_to_front("tree");
+    s.window->findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
+    auto* view = s.window->findChild<QTreeView*>("tree_browser");
+    const auto* model = qobject_cast<const TreeModel*>(view->model());
+    const auto shows_path = [&] {
+      if (!focus.arrived() || !focus.map() || model->path().empty()) return false;
+      const QModelIndex last = model->index_of(model->path().back());
+      return model->visit(last).holds(focus.moment().step) &&
+             view->visualRect(last).intersects(view->viewport()->rect());
+    };
+    for (const Moment& moment : {Moment{0, 3, 11}, Moment{0, 3, 25}, Moment{0, 7, 2}}) {
+      focus.go_to(moment);
+      QVERIFY(wait_for([&] { return focus.moment() == moment && shows_path(); }));
+      // What lies off the path is closed.
+      const auto& path = model->path();
+      for (std::int32_t n = 0;
+           n < static_cast<std::int32_t>(model->outline().tree().nodes().size()); ++n)
+        if (view->isExpanded(model->index_of(n)))
+          QVERIFY(std::find(path.begin(), path.end(), n) != path.end());
+    }
+    const QModelIndex root = model->index_of(0);
+    view->scrollTo(root);
+    const QPoint name = view->visualRect(root).center();
+    const std::int32_t own = model->visit(root).plane_begin;
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
+    QCOMPARE(s.window->selection().patch(), patch_of(model->outline(), model->visit(root)));
+    QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
+    QVERIFY(wait_for([&] { return focus.arrived() && focus.moment().step == own; }));
+    save_picture(*s.window, "whole-tree");
+  }
+
+  void a_large_tree_is_no_burden() {
+    const auto scene = load_scene("sphere-flake");
+    const auto outline =
+        std::make_shared<const TreeOutline>(std::make_shared<const BspTree>(*scene));
+    TreeModel model;
+    QTreeView view;
+    view.setModel(&model);
+    view.setUniformRowHeights(true);
+    view.show();
+    QElapsedTimer timer;
+    timer.start();
+    const auto directions = make_directions(Sampling::random, 10, 3);
+    for (const auto& sample : directions) {
+      model.show_moment(outline, sample.direction, outline->size(0) / 2);
+      for (const std::int32_t node : model.path()) view.expand(model.index_of(node));
+      QCoreApplication::processEvents();
+    }
+    const double each =
+        static_cast<double>(timer.elapsed()) / static_cast<double>(directions.size());
+    qInfo("%.1f ms a direction for %zu nodes", each, outline->tree().nodes().size());
+    QVERIFY(each < 500);
   }
 };
 

@@ -2,8 +2,10 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
+#include <QHeaderView>
 #include <QMimeData>
 #include <QPushButton>
+#include <QTableView>
 #include <QTemporaryDir>
 #include <QToolBar>
 #include <QUrl>
@@ -204,9 +206,55 @@ class WindowTest : public QObject {
   }
 
   void fits_a_projector() {
+    const SolvedWindow solved("boards");
+    const auto& window = solved.window;
+    const auto fits = [&](std::initializer_list<const char*> layouts) {
+      for (const char* layout : layouts) {
+        window->findChild<QAction*>(layout)->trigger();
+        window->resize(1280, 720);
+        QTest::qWait(20);
+        if (window->size() != QSize(1280, 720)) return qInfo() << layout << window->size(), false;
+      }
+      return true;
+    };
+    QVERIFY(fits({"layout_teach", "layout_inspect", "layout_debug"}));
+    window->findChild<QAction*>("projector")->trigger();
+    QTest::qWait(50);
+    const bool fits_large = fits({"layout_teach", "layout_inspect"});
+    window->findChild<QAction*>("projector")->trigger();
+    QVERIFY(fits_large);
+  }
+
+  void a_panel_behind_others_rests() {
     const auto window = make_window();
-    window->resize(1280, 720);
-    QVERIFY(wait_for([&] { return window->size() == QSize(1280, 720); }, 5000));
+    auto* dock = window->findChild<QDockWidget*>("received_dock");
+    QVERIFY(!dock->isHidden());
+    QVERIFY(!dock->widget()->isVisible());
+    window->docks().bring_to_front("received");
+    QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }, 5000));
+    window->docks().bring_to_front("convergence");
+    QVERIFY(wait_for([&] { return !dock->widget()->isVisible(); }, 5000));
+  }
+
+  void tables_grow_with_the_type() {
+    const auto window = make_window();
+    auto* table = window->findChild<QTableView*>("received_light");
+    const auto header_fits = [&] {
+      const QFontMetrics type(table->horizontalHeader()->font());
+      for (int k = 0; k + 1 < table->model()->columnCount(); ++k) {
+        const QString name = table->model()->headerData(k, Qt::Horizontal).toString();
+        if (table->columnWidth(k) < type.horizontalAdvance(name)) return false;
+      }
+      return table->verticalHeader()->defaultSectionSize() >= table->fontMetrics().height();
+    };
+    QVERIFY(header_fits());
+    const int width = table->columnWidth(0);
+    window->findChild<QAction*>("projector")->trigger();
+    const bool wider = wait_for([&] { return table->columnWidth(0) > width; }, 5000);
+    const bool fits = header_fits();
+    window->findChild<QAction*>("projector")->trigger();
+    QVERIFY(wider);
+    QVERIFY(fits);
   }
 
   void panels_can_be_closed_and_come_back() {
