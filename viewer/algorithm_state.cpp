@@ -125,7 +125,8 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   state.inside = step.cut;
   state.outside = static_cast<std::int32_t>(history.outside_at(k).size());
   state.weight = 4 * std::numbers::pi;
-  state.directions = snapshot.progress.passes * (snapshot.options.two_way ? 2 : 1);
+  state.directions =
+      snapshot.passes_of(focus.moment().iteration) * (snapshot.options.two_way ? 2 : 1);
 
   std::map<PatchId, double> areas;  // A(j) of what lights i
   for (const std::int32_t r : history.inside_at(k))

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "transillum/engine.h"
+#include "transillum/patch_engine.h"
 
 namespace transillum::viewer {
 
@@ -51,13 +51,19 @@ void DirectionSights::clear() {
 void DirectionSights::look(const Task& task, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
   const Request& request = task.request;
-  const TransferEngine engine = make_engine(request.engine, request.loaded->scene,
-                                            request.loaded->tree, request.engine_options);
+  const bool same = engine_ && engine_of_.patch == request.patch &&
+                    engine_of_.loaded == request.loaded && engine_of_.engine == request.engine &&
+                    engine_of_.engine_options == request.engine_options;
+  if (!same) {
+    engine_ = make_patch_engine(request.engine, request.loaded->scene, request.loaded->tree,
+                                request.patch, request.engine_options);
+    engine_of_ = request;
+  }
   std::vector<Sights> more;
   auto delivered = Clock::now();
   for (int k = task.first; k < request.count; ++k) {
     const Vec3& omega = (*request.directions)[static_cast<std::size_t>(k)];
-    more.push_back(sights_of(request.patch, engine(omega, cancellation), request.two_way));
+    more.push_back(sights_of(request.patch, engine_(omega, cancellation), request.two_way));
     const bool last = k + 1 == request.count;
     if (!last && Clock::now() - delivered < std::chrono::milliseconds(200)) continue;
     delivered = Clock::now();

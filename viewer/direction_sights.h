@@ -7,6 +7,7 @@
 
 #include "request_worker.h"
 #include "snapshot.h"
+#include "transillum/engine.h"
 
 namespace transillum::viewer {
 
@@ -63,6 +64,10 @@ class DirectionSights : public QObject {
   Request wanted_;
   std::vector<Sights> found_;
   quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
+
+  // The worker's own: what it looked with last.
+  TransferEngine engine_;
+  Request engine_of_;
 
   RequestWorker<Task> worker_;
 };

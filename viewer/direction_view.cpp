@@ -72,7 +72,7 @@ int DirectionView::iteration() const {
 int DirectionView::taken() const {
   if (!snapshot_) return 0;
   const SolveProgress& progress = snapshot_->progress;
-  if (iteration() < progress.iteration) return progress.passes;
+  if (iteration() < progress.iteration) return snapshot_->passes_of(iteration());
   return progress.direction > 0 || progress.iteration == 0 ? progress.direction : progress.passes;
 }
 

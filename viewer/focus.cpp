@@ -19,6 +19,7 @@ void Focus::begin_run(int passes, bool renews) {
   passes_ = passes;
   renews_ = renews;
   iterations_ = 1;
+  step_passes_.clear();
   moment_ = wanted_ = newest_ = {};
   map_ = nullptr;
   set_probe(std::nullopt);
@@ -33,6 +34,12 @@ void Focus::set_iterations(int count) {
   count = std::max(count, 1);
   if (count == iterations_) return;
   iterations_ = count;
+  emit wished();
+}
+
+void Focus::set_passes_of_steps(std::vector<int> passes) {
+  if (passes == step_passes_) return;
+  step_passes_ = std::move(passes);
   emit wished();
 }
 
@@ -54,10 +61,16 @@ void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
 }
 
 Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
-  const std::int64_t last = std::int64_t{iterations_} * passes_ - 1;
-  const std::int64_t pass = std::int64_t{from.iteration} * passes_ + from.direction + directions;
-  if (pass < 0 || pass > last) return from;
-  return {static_cast<int>(pass / passes_), static_cast<int>(pass % passes_), step};
+  Moment to{from.iteration, from.direction + directions, step};
+  while (to.direction < 0) {
+    if (to.iteration == 0) return from;
+    to.direction += passes_of(--to.iteration);
+  }
+  while (to.direction >= passes_of(to.iteration)) {
+    to.direction -= passes_of(to.iteration);
+    if (++to.iteration == iterations_) return from;
+  }
+  return to;
 }
 
 bool Focus::step_by(std::int32_t steps) {
@@ -113,7 +126,8 @@ void Focus::seek(StepFinder finder, Way way) {
   finder_ = std::move(finder);
   way_ = way;
   // Every direction once; the last one is the first again, for what lies on its other side.
-  seek_left_ = (renews_ ? std::int64_t{iterations_} : 1) * passes_ + 1;
+  const bool all_alike = !renews_ && passes_of(0) == passes_;
+  seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
   wanted_ = moment_;
   const std::int32_t from = moment_.step;
   const std::int32_t step = finder_(map_->history, from, way_);
@@ -127,11 +141,8 @@ void Focus::seek(StepFinder finder, Way way) {
 
 void Focus::seek_on() {
   const int by = way_ == Way::forward ? 1 : -1;
-  const Moment last{iterations_ - 1, passes_ - 1, 0};
-  Moment next{wanted_.iteration, wanted_.direction + by, -1};
-  if (next.direction == passes_) next = {next.iteration + 1, 0, -1};
-  if (next.direction < 0) next = {next.iteration - 1, passes_ - 1, -1};
-  if (--seek_left_ <= 0 || next.iteration < 0 || next.iteration > last.iteration) {
+  const Moment next = moved_by(wanted_, by, -1);
+  if (--seek_left_ <= 0 || next == wanted_) {
     wanted_ = moment_;
     end_seek(false);
     return;
@@ -194,8 +205,8 @@ void Focus::go_to_newest() {
 }
 
 void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
-  wanted_ = {std::clamp(iteration, 0, iterations_ - 1), std::clamp(direction, 0, passes_ - 1),
-             step};
+  const int n = std::clamp(iteration, 0, iterations_ - 1);
+  wanted_ = {n, std::clamp(direction, 0, passes_of(n) - 1), step};
   arrival_ = std::move(arrival);
   under_way_ = true;
   emit wished();

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "recorded_map.h"
 #include "step_finder.h"
@@ -45,8 +46,15 @@ class Focus : public QObject {
   void begin_run(int passes, bool renews = false);
   /// How many iteration steps have begun; no others can be focused.
   void set_iterations(int count);
+  /// Of each step that has begun, where they have not all `passes`.
+  void set_passes_of_steps(std::vector<int> passes);
   int iterations() const { return iterations_; }
   int passes() const { return passes_; }
+  /// Directions that can be focused in a step.
+  int passes_of(int iteration) const {
+    const auto n = static_cast<std::size_t>(iteration);
+    return n < step_passes_.size() ? step_passes_[n] : passes_;
+  }
 
   /// What is shown; its direction is map()'s. Without a map there is no moment to show.
   const Moment& moment() const { return moment_; }
@@ -110,6 +118,7 @@ class Focus : public QObject {
   void leave_newest();
 
   int passes_ = 0, iterations_ = 1;
+  std::vector<int> step_passes_;
   bool renews_ = false;
   Moment moment_, wanted_, newest_;
   std::shared_ptr<const RecordedMap> map_;

@@ -32,6 +32,7 @@ void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
     focus_.begin_run(static_cast<int>(snapshot_->directions->size()),
                      snapshot_->options.scheme == Scheme::semi_iterative);
   }
+  focus_.set_passes_of_steps(snapshot_->kept_passes);
   focus_.set_iterations(begun);
   follow();
 }

@@ -201,7 +201,8 @@ void MapView::show_title() {
     return;
   }
   title_->setText(tr("Direction %1 of %2, seen along ω")
-                      .arg(count_text(map->direction + 1), count_text(map->passes)));
+                      .arg(count_text(map->direction + 1),
+                           count_text(focus_.passes_of(focus_.moment().iteration))));
   title_->setToolTip(tr("ω = %1 points to where the light comes from")
                          .arg(vector_text(map->record().frame.omega)));
   if (shows_hemicube()) {

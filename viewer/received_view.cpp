@@ -90,11 +90,7 @@ void ReceivedView::showEvent(QShowEvent* event) {
 int ReceivedView::taken() const {
   const SolveProgress& progress = snapshot_->progress;
   const bool whole = focus_.moment().iteration < progress.iteration;
-  // A growing step had fewer passes than there are directions: how many is told of the newest.
-  if (!whole) return progress.direction;
-  return snapshot_->options.scheme == Scheme::growing
-             ? progress.passes
-             : static_cast<int>(snapshot_->directions->size());  // as many in every step
+  return whole ? snapshot_->passes_of(focus_.moment().iteration) : progress.direction;
 }
 
 void ReceivedView::ask() {
@@ -130,7 +126,8 @@ void ReceivedView::show_lights() {
   const int count = std::min(taken(), static_cast<int>(found.size()));
   table_->show_lights(
       received_light(sights_.asked(), {found.data(), static_cast<std::size_t>(count)},
-                     known ? *kept[n] : snapshot_->radiosity, snapshot_->progress.passes),
+                     known ? *kept[n] : snapshot_->radiosity,
+                     snapshot_->passes_of(focus_.moment().iteration)),
       snapshot_->loaded->scene->patch(patch).area);
   table_->set_current_pass(focus_.map() ? focus_.moment().direction : -1);
   const QString what =

@@ -31,6 +31,8 @@ struct SolverSnapshot {
   /// The same for each step from 0 that has begun, the first always: one list for all, but of their
   /// own in the semi-iterative scheme; null where memory would not do.
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions;
+  /// M of each step from 0 that has begun: fewer at first in the growing scheme.
+  std::vector<int> kept_passes;
   SolveStatistics statistics;
   std::vector<Rgb> radiosity;   ///< running estimate, W/m², one a patch
   std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
@@ -51,6 +53,11 @@ struct SolverSnapshot {
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
     const auto n = static_cast<std::size_t>(iteration);
     return n < kept_directions.size() && kept_directions[n] ? kept_directions[n] : directions;
+  }
+  /// How many of them the step took, or takes.
+  int passes_of(int iteration) const {
+    const auto n = static_cast<std::size_t>(iteration);
+    return n < kept_passes.size() ? kept_passes[n] : progress.passes;
   }
 };
 

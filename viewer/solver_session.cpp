@@ -239,6 +239,7 @@ void SolverSession::begin_solve(const SolveOptions& options) {
 void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
   kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
+  kept_passes_ = {solver_->progress().passes};
   kept_radiosity_.clear();
   form_factors_ = nullptr;
   form_factors_passes_ = 0;
@@ -267,6 +268,7 @@ void SolverSession::keep_directions() {
       kept_directions_.push_back(std::make_shared<const std::vector<Vec3>>(directions));
     else
       kept_directions_.push_back(nullptr);
+    kept_passes_.push_back(progress.passes);
   }
 }
 
@@ -379,6 +381,7 @@ void SolverSession::post_snapshot() {
   snapshot->progress = solver_->progress();
   keep_directions();
   snapshot->kept_directions = kept_directions_;
+  snapshot->kept_passes = kept_passes_;
   snapshot->directions = kept_directions_.back()
                              ? kept_directions_.back()
                              : std::make_shared<const std::vector<Vec3>>(solver_->directions());

@@ -118,6 +118,7 @@ class SolverSession : public QObject {
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
+  std::vector<int> kept_passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
   std::shared_ptr<const FormFactors> form_factors_;
   std::int64_t form_factors_passes_ = 0;  // that form_factors_ were made of

@@ -68,7 +68,7 @@ void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {
   const SolveProgress& progress = snapshot.progress;
   const bool between = progress.direction == 0 && progress.iteration > 0;
   lanes_->set_progress(between ? progress.iteration - 1 : progress.iteration,
-                       between ? progress.passes : progress.direction);
+                       between ? snapshot.passes_of(progress.iteration - 1) : progress.direction);
 }
 
 void TimelineBar::show_moment() {

@@ -71,7 +71,7 @@ int TimelineLanes::count_of(Lane lane) const {
     case Lane::iterations:
       return focus_.iterations();
     case Lane::directions:
-      return focus_.passes();
+      return focus_.passes_of(focus_.wanted().iteration);
     default:
       return focus_.map() ? focus_.map()->history.step_count() + 1 : 0;
   }

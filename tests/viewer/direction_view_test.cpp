@@ -130,6 +130,35 @@ class DirectionViewTest : public QObject {
     save_picture(*shown.window, "received");
   }
 
+  /// Of a growing run: each step with as many directions as it had.
+  void the_table_adds_up_in_a_growing_run() {
+    MainWindow window(false);
+    SolveOptions options;
+    options.directions = 64;
+    options.scheme = Scheme::growing;
+    window.set_options(options, {});
+    window.show();
+    window.open("cornell-box");
+    QVERIFY(wait_for([&] { return window.settled() && window.snapshot()->progress.finished; }));
+    window.docks().bring_to_front("received");
+    auto* view = window.findChild<QTableView*>("received_light");
+    auto* table = qobject_cast<ReceivedTable*>(view->model());
+    const auto snapshot = window.snapshot();
+    QCOMPARE(snapshot->passes_of(0), 16);
+    QCOMPARE(snapshot->passes_of(1), 32);
+    QCOMPARE(snapshot->passes_of(2), 64);
+    const Scene& scene = *snapshot->loaded->scene;
+    window.selection().select(3);
+    for (const int n : {2, 0, 1}) {
+      window.focus().go_to({n, 5, 10});
+      QVERIFY(wait_for([&] { return window.focus().arrived(); }));
+      QCOMPARE(window.focus().passes_of(n), 16 << n);
+      const Rgb next = (*snapshot->kept_radiosity[static_cast<std::size_t>(n) + 1])[3];
+      QTRY_VERIFY(max_abs(scene.exitance(3) + scene.reflectance(3) * table->irradiance() - next) <=
+                  1e-9 * max_abs(next));
+    }
+  }
+
   void a_click_takes_the_focus_there() {
     Shown shown("cornell-box");
     const auto directions = shown.window->snapshot()->directions;

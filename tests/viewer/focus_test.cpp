@@ -3,6 +3,7 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <algorithm>
 
 #include "transillum/directions.h"
 
@@ -79,6 +80,35 @@ class FocusTest : public QObject {
     QVERIFY(w.at(here));
     w.focus.set_following(true);
     QVERIFY(w.at({0, 3, w.maps[3]->record().fullest_step()}));
+  }
+
+  /// A growing run: the first step had one direction, the second two, the third all four.
+  void offers_the_directions_that_a_step_had() {
+    Watched w;
+    w.focus.set_passes_of_steps({1, 2, 4});
+    w.focus.set_iterations(3);
+    w.focus.go_to({0, 3, 1});
+    QVERIFY(w.at({0, 0, 1}));
+    std::vector<std::pair<int, int>> way;
+    for (int k = 0; k < 8; ++k) {
+      way.emplace_back(w.focus.moment().iteration, w.focus.moment().direction);
+      w.focus.direction_by(1);
+    }
+    const std::vector<std::pair<int, int>> expected{{0, 0}, {1, 0}, {1, 1}, {2, 0},
+                                                    {2, 1}, {2, 2}, {2, 3}, {2, 3}};
+    QCOMPARE(way, expected);
+    w.focus.direction_by(-4);
+    QCOMPARE(w.focus.moment().iteration, 1);
+    QCOMPARE(w.focus.moment().direction, 1);
+    w.focus.iteration_by(-1);
+    QCOMPARE(w.focus.moment().direction, 0);
+    // A search goes through later steps to directions that the earlier ones had not.
+    w.focus.go_to({0, 0, w.last_step(0)});
+    w.wanted.clear();
+    w.focus.seek([](const MapHistory&, std::int32_t, Way) { return MapHistory::none; },
+                 Way::forward);
+    QVERIFY(std::find(w.wanted.begin(), w.wanted.end(), 3) != w.wanted.end());
+    QCOMPARE(w.focus.moment().iteration, 0);
   }
 
   void goes_to_the_first_step_that_is_found() {

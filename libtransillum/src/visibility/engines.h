@@ -10,6 +10,9 @@ namespace transillum {
 // What make_engine() chooses from; one file each.
 
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree);
+/// Right in what it tells of exchanges with `patch`, in nothing else.
+TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
+                                 std::shared_ptr<const BspTree> tree, PatchId patch);
 TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
                                 std::shared_ptr<const BspTree> tree);
 TransferEngine global_map_engine(std::shared_ptr<const Scene> scene,

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "invariant.h"
@@ -34,7 +35,8 @@ struct FastScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   FastOutlines outlines;
-  bool in_air = false;  ///< no lit side looks at a back, whatever the direction
+  bool in_air = false;              ///< no lit side looks at a back, whatever the direction
+  std::optional<PatchShaft> shaft;  ///< all that is looked at, if not everything
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*tree) {}
@@ -51,14 +53,17 @@ class FastPass {
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
-    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
+    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation,
+                   shared_.shaft ? &*shared_.shaft : nullptr);
     const Clock::time_point ordered = Clock::now();
     bins_.fill(cancellation);
     const Clock::time_point binned = Clock::now();
     begin(omega);
     look_all<Way::up>(cancellation);
     if (!shared_.in_air) look_all<Way::down>(cancellation);
-    TRANSILLUM_INVARIANT(nothing_is_covered_twice(), "more is covered than projected");
+    // Outside the shaft things are missing that would hide others.
+    TRANSILLUM_INVARIANT(shared_.shaft || nothing_is_covered_twice(),
+                         "more is covered than projected");
     sort_exchanges(cancellation);
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
       return std::chrono::duration<double>(to - from).count();
@@ -340,10 +345,9 @@ bool lit_sides_see_no_backs(std::shared_ptr<const Scene> scene,
   return is_in_air(FastScene(std::move(scene), std::move(tree)));
 }
 
-TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
-                           std::shared_ptr<const BspTree> tree) {
-  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
-  shared->in_air = is_in_air(*shared);
+namespace {
+
+TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
   auto idle = std::make_shared<IdlePasses>();
   return [shared = std::move(shared), idle = std::move(idle)](const Vec3& omega,
                                                               const Cancellation& cancellation) {
@@ -353,6 +357,23 @@ TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
     idle->give_back(std::move(pass));
     return transfers;
   };
+}
+
+}  // namespace
+
+TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
+                           std::shared_ptr<const BspTree> tree) {
+  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
+  shared->in_air = is_in_air(*shared);
+  return engine_of(std::move(shared));
+}
+
+TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
+                                 std::shared_ptr<const BspTree> tree, PatchId patch) {
+  auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
+  shared->in_air = is_in_air(*shared);  // of the whole scene; so of what the shaft holds
+  shared->shaft.emplace(*shared->scene, *shared->tree, patch);
+  return engine_of(std::move(shared));
 }
 
 }  // namespace transillum

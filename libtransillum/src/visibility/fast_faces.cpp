@@ -106,7 +106,8 @@ void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) 
 }
 
 void FastFaces::project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-                        const Vec3& omega, const Cancellation& cancellation) {
+                        const Vec3& omega, const Cancellation& cancellation,
+                        const PatchShaft* shaft) {
   grid.project(scene, tree, omega, cancellation);
   boxes.clear();
   faces.clear();
@@ -114,7 +115,9 @@ void FastFaces::project(const Scene& scene, const BspTree& tree, const FastOutli
   boxes.reserve(outlines.outlines.size());
   faces.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
-  const std::vector<FragmentId> order = tree.order(omega, cancellation);
+  std::vector<FragmentId> order = tree.order(omega, cancellation);
+  if (shaft != nullptr)
+    std::erase_if(order, [&](FragmentId f) { return !shaft->may_hold(f, omega); });
   for (std::size_t place = 0; place < order.size(); ++place) {
     if (place % 4096 == 0) cancellation.throw_if_cancelled();
     fetch(outlines, order, place);

@@ -13,6 +13,7 @@
 
 #include "visibility/exact_side.h"
 #include "visibility/grid_projection.h"
+#include "visibility/patch_shaft.h"
 
 namespace transillum {
 
@@ -100,10 +101,11 @@ struct FastFaces {
   std::vector<Face> faces;
   std::vector<GridPoint> corners;  ///< counter-clockwise; made by a cut of the tree: a step off
 
-  /// Fills all of this anew.
+  /// Fills all of this anew; with only those fragments of the tree that `shaft` may hold, if given.
   /// @throws Cancelled
   void project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
-               const Vec3& omega, const Cancellation& cancellation);
+               const Vec3& omega, const Cancellation& cancellation,
+               const PatchShaft* shaft = nullptr);
 
   /// What corner k of a face is made of. Of one seen from behind the outline is turned round: the
   /// edge that arrived at a corner leaves it.
