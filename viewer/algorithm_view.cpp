@@ -139,6 +139,10 @@ MapKind AlgorithmView::kind() const {
   return kind_->currentIndex() == 0 ? MapKind::local : MapKind::global;
 }
 
+void AlgorithmView::set_kind(MapKind kind) {
+  kind_->setCurrentIndex(kind == MapKind::local ? 0 : 1);
+}
+
 void AlgorithmView::show_kind() {
   for (QWidget* part : local_parts_) part->setVisible(kind() == MapKind::local);
   for (QWidget* part : global_parts_) part->setVisible(kind() == MapKind::global);

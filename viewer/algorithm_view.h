@@ -23,13 +23,15 @@ class AlgorithmView : public QWidget {
  public:
   AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent = nullptr);
 
+  /// Whose pseudo-code is shown.
+  MapKind kind() const;
+  void set_kind(MapKind kind);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
   QWidget* make_code(CodeLine first, CodeLine last);
   QWidget* make_local_values();
   QWidget* make_region_values();
-  MapKind kind() const;
   void show_kind();
   void show_moment();
   void show_values(const AlgorithmState& state);

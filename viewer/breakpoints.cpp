@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "list_change.h"
 #include "number_text.h"
 
 namespace transillum::viewer {
@@ -102,20 +103,30 @@ void Breakpoints::set_list(std::vector<Breakpoint> list) {
   emit changed();
 }
 
+void Breakpoints::change(const QString& what, std::vector<Breakpoint> list) {
+  change_list(undo_, what, list_, std::move(list),
+              [this](const std::vector<Breakpoint>& other) { set_list(other); });
+}
+
 void Breakpoints::add(const Breakpoint& breakpoint) {
-  list_.push_back(breakpoint);
-  emit changed();
+  auto list = list_;
+  list.push_back(breakpoint);
+  change(tr("new breakpoint: %1").arg(words_of(breakpoint)), std::move(list));
 }
 
 void Breakpoints::remove(std::size_t k) {
-  list_.erase(list_.begin() + static_cast<std::ptrdiff_t>(k));
-  emit changed();
+  auto list = list_;
+  list.erase(list.begin() + static_cast<std::ptrdiff_t>(k));
+  change(tr("removal of breakpoint: %1").arg(words_of(list_[k])), std::move(list));
 }
 
 void Breakpoints::set_enabled(std::size_t k, bool enabled) {
   if (list_[k].enabled == enabled) return;
-  list_[k].enabled = enabled;
-  emit changed();
+  auto list = list_;
+  list[k].enabled = enabled;
+  change((enabled ? tr("switching on of breakpoint: %1") : tr("switching off of breakpoint: %1"))
+             .arg(words_of(list_[k])),
+         std::move(list));
 }
 
 bool Breakpoints::any_enabled() const {

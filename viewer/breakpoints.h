@@ -10,6 +10,7 @@
 #include "step_finder.h"
 
 class QSettings;
+class QUndoStack;
 
 namespace transillum::viewer {
 
@@ -44,6 +45,8 @@ class Breakpoints : public QObject {
  public:
   using QObject::QObject;
 
+  /// Where changes can be taken back, but for set_list() and load(); null: nowhere.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   const std::vector<Breakpoint>& list() const { return list_; }
   void set_list(std::vector<Breakpoint> list);
   void add(const Breakpoint& breakpoint);
@@ -64,7 +67,10 @@ class Breakpoints : public QObject {
   void changed();
 
  private:
+  void change(const QString& what, std::vector<Breakpoint> list);
+
   std::vector<Breakpoint> list_;
+  QUndoStack* undo_ = nullptr;
 };
 
 }  // namespace transillum::viewer

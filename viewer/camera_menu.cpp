@@ -2,6 +2,7 @@
 #include "camera_menu.h"
 
 #include <QAction>
+#include <QInputDialog>
 #include <QMenu>
 
 #include "scene_view.h"
@@ -63,7 +64,23 @@ void CameraMenu::fill_bookmarks() {
       action->setShortcut(QKeySequence(QStringLiteral("Alt+%1").arg(number)));
   }
   kept_->addSeparator();
-  kept_->addAction(tr("Forget them"), &bookmarks_, &CameraBookmarks::clear);
+  QMenu* rename = kept_->addMenu(tr("Rename"));
+  rename->setObjectName("rename_view");
+  QMenu* remove = kept_->addMenu(tr("Remove"));
+  remove->setObjectName("remove_view");
+  for (std::size_t k = 0; k < bookmarks_.all().size(); ++k) {
+    const QString& name = bookmarks_.all()[k].name;
+    rename->addAction(name, this, [this, k] { ask_for_name(k); });
+    remove->addAction(name, this, [this, k] { bookmarks_.remove(k); });
+  }
+  remove->addSeparator();
+  remove->addAction(tr("All of them"), &bookmarks_, &CameraBookmarks::clear);
+}
+
+void CameraMenu::ask_for_name(std::size_t k) {
+  const QString name = QInputDialog::getText(this, tr("Rename a kept view"), tr("Name:"),
+                                             QLineEdit::Normal, bookmarks_.all()[k].name);
+  if (k < bookmarks_.all().size()) bookmarks_.rename(k, name.trimmed());
 }
 
 }  // namespace transillum::viewer

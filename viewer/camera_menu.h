@@ -20,6 +20,7 @@ class CameraMenu : public QToolButton {
 
  private:
   void fill_bookmarks();
+  void ask_for_name(std::size_t k);
 
   SceneView& scene_view_;
   CameraBookmarks& bookmarks_;

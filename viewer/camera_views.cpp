@@ -1,9 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "camera_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "list_change.h"
 
 namespace transillum::viewer {
 
@@ -61,9 +64,41 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
   return view;
 }
 
+void CameraBookmarks::change(const QString& what, std::vector<Bookmark> bookmarks) {
+  change_list(undo_, what, bookmarks_, std::move(bookmarks),
+              [this](const std::vector<Bookmark>& other) { set(other); });
+}
+
+bool CameraBookmarks::has(const QString& name) const {
+  return std::any_of(bookmarks_.begin(), bookmarks_.end(),
+                     [&](const Bookmark& known) { return known.name == name; });
+}
+
 void CameraBookmarks::add(const ViewPoint& view, const QString& name) {
-  bookmarks_.push_back({name.isEmpty() ? tr("View %1").arg(bookmarks_.size() + 1) : name, view});
-  emit changed();
+  QString free = name;
+  for (std::size_t number = bookmarks_.size() + 1; free.isEmpty() || (name.isEmpty() && has(free));
+       ++number)
+    free = tr("View %1").arg(number);
+  auto bookmarks = bookmarks_;
+  bookmarks.push_back({free, view});
+  change(tr("keeping of view: %1").arg(free), std::move(bookmarks));
+}
+
+void CameraBookmarks::rename(std::size_t k, const QString& name) {
+  if (name.isEmpty() || name == bookmarks_[k].name) return;
+  auto bookmarks = bookmarks_;
+  bookmarks[k].name = name;
+  change(tr("renaming of view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
+}
+
+void CameraBookmarks::remove(std::size_t k) {
+  auto bookmarks = bookmarks_;
+  bookmarks.erase(bookmarks.begin() + static_cast<std::ptrdiff_t>(k));
+  change(tr("removal of view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
+}
+
+void CameraBookmarks::clear() {
+  if (!bookmarks_.empty()) change(tr("removal of all kept views"), {});
 }
 
 void CameraBookmarks::set(std::vector<Bookmark> bookmarks) {

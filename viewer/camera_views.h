@@ -7,6 +7,8 @@
 
 #include "initial_view.h"
 
+class QUndoStack;
+
 namespace transillum::viewer {
 
 /// The sides that a scene can be looked at from.
@@ -31,16 +33,24 @@ class CameraBookmarks : public QObject {
   using QObject::QObject;
 
   const std::vector<Bookmark>& all() const { return bookmarks_; }
-  /// Named by its number where there is no name.
+  /// Where changes can be taken back, but for set(); null: nowhere.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
+  /// Named by a number that is free where there is no name.
   void add(const ViewPoint& view, const QString& name = {});
+  void rename(std::size_t k, const QString& name);
+  void remove(std::size_t k);
+  void clear();
   void set(std::vector<Bookmark> bookmarks);
-  void clear() { set({}); }
 
  signals:
   void changed();
 
  private:
+  void change(const QString& what, std::vector<Bookmark> bookmarks);
+  bool has(const QString& name) const;
+
   std::vector<Bookmark> bookmarks_;
+  QUndoStack* undo_ = nullptr;
 };
 
 }  // namespace transillum::viewer

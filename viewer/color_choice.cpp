@@ -63,6 +63,14 @@ void ColorChoice::set_range_rule(RangeRule rule) {
   change();
 }
 
+void ColorChoice::widen_from(double low, double high) {
+  range_rule_ = RangeRule::widening;
+  range_is_known_ = true;
+  scale_.low = low;
+  scale_.high = high;
+  change();
+}
+
 void ColorChoice::set_range(double low, double high) {
   range_rule_ = RangeRule::fixed;
   scale_.low = low;

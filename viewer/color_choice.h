@@ -43,6 +43,8 @@ class ColorChoice : public QObject {
   void set_map(ColorMap map);
   void set_logarithmic(bool logarithmic);
   void set_range_rule(RangeRule rule);
+  /// A range that widens from here on.
+  void widen_from(double low, double high);
   /// Fixes the range. What cannot be (low >= high, or 0 where logarithmic) is mended.
   void set_range(double low, double high);
   void set_gamma(double gamma);

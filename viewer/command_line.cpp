@@ -37,15 +37,15 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
       ->capture_default_str();
   app.add_option("--resolution", solve.engine_options.resolution, sentence_of("resolution"))
       ->check(CLI::Range(1, EngineOptions::largest_resolution));
-  auto* one_way = app.add_flag("--one-way", words.one_way, "each direction alone, as the paper");
-  app.add_flag("--two-way", words.two_way, "each direction and its opposite (default)")
-      ->excludes(one_way);
+  auto* one_way =
+      app.add_flag("--one-way", words.one_way, "use each direction alone, as the paper does");
+  app.add_flag("--two-way", words.two_way, sentence_of("two-way"))->excludes(one_way);
   app.add_option("--normalize", words.normalize, described("normalize", normalization_names()))
       ->capture_default_str();
   app.add_option("--scheme", words.scheme, described("scheme", scheme_names()))
       ->capture_default_str();
   app.add_option("--first-shot", words.first_shot,
-                 described("first-shot", {"none", "auto", "R²/A"}))
+                 described("first-shot", {"none", "auto", "a number"}))
       ->capture_default_str();
   app.add_option("--burn-in", solve.burn_in, sentence_of("burn-in"))->capture_default_str();
   app.add_option("--replicas", solve.replicas, sentence_of("replicas"))->capture_default_str();
@@ -58,9 +58,9 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--max-patch-area", line.scene_options.max_patch_area,
                  sentence_of("max-patch-area"))
       ->check(CLI::PositiveNumber);
-  app.add_option("--memory", solve.memory, "what kept form factors may take, 2G or 800M")
+  app.add_option("--memory", solve.memory, sentence_of("memory"))
       ->transform(CLI::AsSizeValue(false));
-  app.add_option("--threads", solve.threads, "default: all cores")->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", solve.threads, sentence_of("threads"))->check(CLI::NonNegativeNumber);
 }
 
 void finish(CommandLine& line, const Words& words, const CLI::App& app) {
@@ -101,7 +101,8 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
   app.add_option(
       "SCENE", line.scene,
-      "an .obj file or a built-in scene, solved at once; or a session or lesson (.json)");
+      "an .obj file or a built-in scene, solved at once; or a result (.vtp), a session or a lesson "
+      "(.json)");
   add_solve_options(app, line, words);
   auto* lesson = app.add_option("--lesson", line.lesson,
                                 "a lesson's file, or the number of one that comes along");
@@ -110,8 +111,10 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
       ->check(CLI::PositiveNumber);
   auto* screenshot =
       app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
-  app.add_option("--after", line.after,
-                 "directions to take before the screenshot (default: the first full iteration)")
+  app.add_option(
+         "--after", line.after,
+         "directions to take before the screenshot (default: the first full iteration; of a result "
+         "none)")
       ->needs(screenshot)
       ->check(CLI::PositiveNumber);
   try {

@@ -16,6 +16,7 @@
 #include "main_window.h"
 #include "scene_page.h"
 #include "scene_view.h"
+#include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
 
@@ -57,9 +58,15 @@ VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
 
 }  // namespace
 
-ExportActions::ExportActions(MainWindow& window) : QObject(&window), window_(window) {
+ExportActions::ExportActions(MainWindow& window)
+    : QObject(&window),
+      window_(window),
+      writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); }) {
   using E = ExportActions;
   add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
+  add("export_result", tr("Result…"),
+      tr("B of all patches, with E, ρ and H: VTP, which can be opened again, CSV, PLY or OBJ"),
+      &E::choose_result);
   add("export_map", tr("Visibility map…"), tr("As vectors (SVG), PNG, VTP or JSON"),
       &E::choose_map);
   add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG)"), &E::choose_charts);
@@ -92,6 +99,38 @@ void ExportActions::add_to(QMenu& menu) const {
 
 void ExportActions::write_scene(const QString& path, int scale) const {
   write_png(path, window_.page()->scene_view()->picture(scale));
+}
+
+void ExportActions::write_result(const QString& path) {
+  const auto snapshot = window_.snapshot();
+  if (!snapshot) throw InputError("there is no result yet");
+  if (snapshot->materials)
+    throw InputError("a result is of the scene's own materials: take their changes back first");
+  check_result_path(path.toStdString());
+  writing_ = true;
+  const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
+                                          : window_.session().state() == SessionState::finished;
+  writer_.request({path, snapshot, complete}, UnderWay::goes_on);
+}
+
+// On the writer's thread.
+void ExportActions::write(const ResultToWrite& result) {
+  const SolverSnapshot& snapshot = *result.snapshot;
+  QString failure;
+  try {
+    transillum::write_result(result.path.toStdString(),
+                             {snapshot.loaded->scene, snapshot.radiosity, snapshot.irradiance,
+                              snapshot.error, snapshot.statistics, result.complete});
+  } catch (const std::exception& error) {
+    failure = QString::fromStdString(error.what());
+  }
+  QMetaObject::invokeMethod(
+      this,
+      [this, failure] {
+        writing_ = false;
+        if (!failure.isEmpty()) window_.show_failure(failure);
+      },
+      Qt::QueuedConnection);
 }
 
 void ExportActions::write_map_picture(const QString& path) const {
@@ -178,6 +217,11 @@ void ExportActions::choose_scene() {
   if (go_on)
     write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), ".png",
                  [&](const QString& path) { write_scene(path, scale); });
+}
+
+void ExportActions::choose_result() {
+  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), ".vtp",
+               [this](const QString& path) { write_result(path); });
 }
 
 void ExportActions::choose_map() {

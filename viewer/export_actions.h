@@ -3,6 +3,10 @@
 
 #include <QObject>
 #include <QString>
+#include <memory>
+
+#include "request_worker.h"
+#include "snapshot.h"
 
 class QAction;
 class QMenu;
@@ -24,6 +28,12 @@ class ExportActions : public QObject {
   void add_to(QMenu& menu) const;
   /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
   void write_scene(const QString& path, int scale) const;
+  /// The figures shown, as `transillum solve --out` writes them: .vtp, .csv, .ply or .obj. Written
+  /// beside the window's work; the window tells a failure later.
+  /// @throws InputError where it is known at once that it cannot be
+  void write_result(const QString& path);
+  /// Whether a result is still being written.
+  bool writing() const { return writing_; }
   /// The map of the moment in focus, as vectors (.svg) or by the other endings of write_map().
   void write_map_picture(const QString& path) const;
   /// The convergence charts as vectors.
@@ -39,6 +49,7 @@ class ExportActions : public QObject {
   void add(const char* name, const QString& text, const QString& tip,
            void (ExportActions::*what)());
   void choose_scene();
+  void choose_result();
   void choose_map();
   void choose_charts();
   void choose_figures();
@@ -53,6 +64,15 @@ class ExportActions : public QObject {
   QAction* record_;
   QString folder_;
   int frames_ = 0;
+  bool writing_ = false;
+
+  struct ResultToWrite {
+    QString path;
+    std::shared_ptr<const SolverSnapshot> snapshot;
+    bool complete;
+  };
+  void write(const ResultToWrite& result);
+  RequestWorker<ResultToWrite> writer_;
 };
 
 }  // namespace transillum::viewer

@@ -12,6 +12,7 @@
 #include "main_window.h"
 #include "stage.h"
 #include "theme.h"
+#include "transillum/files.h"
 
 namespace transillum::viewer {
 
@@ -32,8 +33,9 @@ QAction* make_action(QObject* parent, const char* name, const QString& text,
 }  // namespace
 
 FileActions::FileActions(MainWindow& window) : QObject(&window), window_(window) {
-  open_ = make_action(this, "open", tr("Open…"), QKeySequence::Open,
-                      tr("Open a scene, a session or a lesson (Ctrl+O), or drop one here"));
+  open_ =
+      make_action(this, "open", tr("Open…"), QKeySequence::Open,
+                  tr("Open a scene, a result, a session or a lesson (Ctrl+O), or drop one here"));
   open_->setIcon(theme::icon(theme::Icon::open));
   save_session_ =
       make_action(this, "save_session", tr("Save session…"), QKeySequence::Save,
@@ -77,8 +79,8 @@ void FileActions::add_to(QMenu& menu) const {
 void FileActions::choose() {
   const QString path = QFileDialog::getOpenFileName(
       &window_, tr("Open"), {},
-      tr("Scenes, sessions, lessons (*.obj *.json);;Wavefront OBJ (*.obj);;Sessions and lessons "
-         "(*.json);;All files (*)"));
+      tr("Scenes, results, sessions, lessons (*.obj *.vtp *.json);;Wavefront OBJ (*.obj);;Results "
+         "(*.vtp);;Sessions and lessons (*.json);;All files (*)"));
   if (!path.isEmpty()) try_open(path);
 }
 
@@ -90,9 +92,10 @@ void FileActions::try_open(const QString& path) {
   }
 }
 
-void FileActions::open(const QString& path, Goal goal) {
+void FileActions::open(const QString& path, std::optional<Goal> goal) {
   if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
-    window_.open(path, goal);
+    const bool result = is_result_file(path.toStdString());
+    window_.open(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
     return;
   }
   const std::string name = path.toStdString();

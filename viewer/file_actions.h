@@ -6,6 +6,7 @@
 #include <QString>
 #include <QStringList>
 #include <QTimer>
+#include <optional>
 
 #include "session_file.h"
 
@@ -27,10 +28,11 @@ class FileActions : public QObject {
   void add_to(QMenu& menu) const;
   QAction* open_action() const { return open_; }
 
-  /// A scene, a session or a lesson, by its name and content.
+  /// A scene, a result, a session or a lesson, by its name and content.
+  /// @param goal none: a scene is solved, a result just shown.
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
   /// told later, by MainWindow::failed.
-  void open(const QString& path, Goal goal = {Goal::Kind::finished});
+  void open(const QString& path, std::optional<Goal> goal = {});
   /// open() for files the user has just chosen or dropped: what is wrong goes to the banner.
   void try_open(const QString& path);
   /// @throws InputError

@@ -12,6 +12,7 @@
 #include "screenshot.h"
 #include "theme.h"
 #include "transillum/errors.h"
+#include "transillum/files.h"
 
 using namespace transillum::viewer;
 
@@ -75,9 +76,11 @@ int main(int argc, char** argv) {
         [give_up](const QString& message, bool bad_input) { give_up(message, bad_input ? 2 : 1); });
   }
   window.show();
-  Goal goal{Goal::Kind::finished};
-  if (for_screenshot)
-    goal = wish.after > 0 ? Goal{Goal::Kind::passes, wish.after} : Goal{Goal::Kind::iteration};
+  std::optional<Goal> goal;
+  if (wish.after > 0)
+    goal = Goal{Goal::Kind::passes, wish.after};
+  else if (for_screenshot && !transillum::is_result_file(wish.scene))
+    goal = Goal{Goal::Kind::iteration};
   try {
     if (!wish.scene.empty()) window.files().open(QString::fromStdString(wish.scene), goal);
     if (!wish.lesson.empty()) window.begin_lesson(wish.lesson, wish.page);

@@ -91,6 +91,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   statusBar()->addWidget(progress_, 1);
   statusBar()->setSizeGripEnabled(false);
   connect_session();
+  breakpoints_.set_undo_stack(&inspection_->edits().undo_stack());
+  page_->bookmarks().set_undo_stack(&inspection_->edits().undo_stack());
   stage_ = new Stage(*this);
   connect(lesson_panel_, &LessonPanel::page_shown, stage_, &Stage::show);
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
@@ -297,7 +299,8 @@ RunOptions MainWindow::options() const {
 }
 
 bool MainWindow::shows(const std::string& spec, const SceneOptions& options) const {
-  return loaded_ && spec == spec_ && RunOptions{{}, options} == RunOptions{{}, scene_options_};
+  return loaded_ && spec == spec_ &&
+         (loaded_->stored || RunOptions{{}, options} == RunOptions{{}, scene_options_});
 }
 
 bool MainWindow::outlined_at_first() const {
@@ -344,12 +347,14 @@ void MainWindow::show_session(const Session& session) {
   if (session.state.layout && !session.docks.isEmpty())
     docks_.restore(static_cast<int>(*session.state.layout), session.docks, layout_version);
   breakpoints_.set_list(session.breakpoints);
+  page_->bookmarks().set(session.kept_views);
+  inspection_->edits().undo_stack().clear();
   notes_->setPlainText(QString::fromStdString(session.notes));
 }
 
 Session MainWindow::current_session() const {
-  return {stage_->state(), breakpoints_.list(), notes_->toPlainText().toStdString(),
-          saveState(layout_version)};
+  return {stage_->state(), breakpoints_.list(), page_->bookmarks().all(),
+          notes_->toPlainText().toStdString(), saveState(layout_version)};
 }
 
 bool MainWindow::at_start() const {
@@ -378,7 +383,9 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   spec_ = asked_spec_;
-  scene_options_ = asked_scene_options_;
+  scene_options_ = loaded_->stored ? loaded_->scene->options() : asked_scene_options_;
+  settings_->set_scene_fixed(loaded_->stored != nullptr);
+  if (loaded_->stored) settings_->set_options(settings_->solve_options(), scene_options_);
   selection_.select(no_patch);
   focus_feed_.clear();
   inspection_->show_scene(*loaded_);
@@ -391,7 +398,8 @@ void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
   page_->color_controls()->set_outlines(outlined_at_first());
   progress_->show_scene(*loaded_);
   study_->show_scene(loaded_);
-  const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
+  const std::string& file = loaded_->stored ? loaded_->file : loaded_->scene->name();
+  const QString name = QFileInfo(QString::fromStdString(file)).fileName();
   setWindowTitle(tr("%1 – transillum").arg(name));
 
   QStringList warnings;

@@ -74,6 +74,7 @@ class MainWindow : public QMainWindow {
   /// The open scene, and how it was read.
   const std::string& spec() const { return spec_; }
   const SceneOptions& scene_options_in_effect() const { return scene_options_; }
+  /// Whether `spec` is open, read with `options`; a result's file has options of its own.
   bool shows(const std::string& spec, const SceneOptions& options) const;
   /// Whether the open scene's patches have outlines unless they are hidden.
   bool outlined_at_first() const;
@@ -91,6 +92,7 @@ class MainWindow : public QMainWindow {
   ScenePage* page() const { return page_; }
   Inspection& inspection() { return *inspection_; }
   MapView* map_view() const { return map_view_; }
+  AlgorithmView* algorithm() const { return algorithm_; }
   Stage& stage() { return *stage_; }
   QString banner_text() const;
 

@@ -47,6 +47,8 @@ QString duration_text(double seconds) {
       .arg(whole % 3600 / 60, 2, 10, QLatin1Char('0'));
 }
 
+QString capitalized(const QString& text) { return text.left(1).toUpper() + text.mid(1); }
+
 QString rgb_text(const Rgb& value) {
   return QStringList{number_text(value.r), number_text(value.g), number_text(value.b)}.join(
       QStringLiteral("   "));

@@ -16,6 +16,8 @@ QString count_text(std::int64_t value);
 QString power_of_ten_text(int exponent);
 /// 3 s, 2 min 05 s, 1 h 20 min.
 QString duration_text(double seconds);
+/// With a large first letter.
+QString capitalized(const QString& text);
 /// Three numbers apart by two spaces.
 QString rgb_text(const Rgb& value);
 QString vector_text(const Vec3& value);

@@ -18,6 +18,16 @@ QString iterations_text(int count) {
                     : ProgressLine::tr("%1 iterations").arg(count_text(count));
 }
 
+// A result's file goes by its own name, and tells whose result it is.
+QString name_of(const LoadedScene& loaded) {
+  const auto short_name = [](const std::string& path) {
+    return QFileInfo(QString::fromStdString(path)).fileName();
+  };
+  const QString scene = short_name(loaded.scene->name());
+  if (!loaded.stored || loaded.scene->name() == loaded.file) return scene;
+  return ProgressLine::tr("%1 (%2)").arg(short_name(loaded.file), scene);
+}
+
 }  // namespace
 
 ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
@@ -56,7 +66,7 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
   QFont bold = font();
   bold.setBold(true);
   scene_->setFont(bold);
-  const QString name = QFileInfo(QString::fromStdString(loaded.scene->name())).fileName();
+  const QString name = name_of(loaded);
   scene_->setText(tr("%1, %2 patches").arg(name, count_text(loaded.scene->patch_count())));
   scene_->setToolTip(
       tr("%1: %2 fragments in the BSP tree, read in %3 s, sorted in %4 s")
@@ -95,7 +105,7 @@ void ProgressLine::show_solve() {
   const SolveProgress& progress = snapshot_->progress;
   const bool running = state_ == SessionState::running;
   const bool within_step = progress.direction > 0 && progress.direction < progress.passes;
-  bar_->setVisible(true);
+  bar_->setVisible(!snapshot_->of_file);
   bar_->setRange(0, std::max(progress.passes, 1));
   bar_->setValue(state_ == SessionState::finished || (!within_step && progress.iteration > 0)
                      ? progress.passes
@@ -111,6 +121,10 @@ void ProgressLine::show_solve() {
                                                      : tr("Done after %1, %2 s"))
                         .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
+  else if (snapshot_->of_file)
+    phase_->setText(tr("From the file: %1 of %2 passes")
+                        .arg(iterations_text(snapshot_->statistics.iterations),
+                             count_text(snapshot_->statistics.passes)));
   else if (progress.iteration == 0 && progress.direction == 0)
     phase_->setText(running ? tr("Starting") : tr("Ready: run, or take one direction"));
   else

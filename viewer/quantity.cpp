@@ -133,7 +133,7 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
     case Quantity::reflectance:
       return {of_materials(snapshot, &Material::reflectance), {}};
     case Quantity::irradiance:
-      if (snapshot.progress.iteration == 0)
+      if (snapshot.progress.iteration == 0 && !snapshot.of_file)
         return {{}, tr("There is an irradiance when the first iteration is done.")};
       return {snapshot.irradiance, {}};
     case Quantity::form_factor_from:

@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "run_options.h"
 
-#include <algorithm>
-
 #include "json_object.h"
 #include "transillum/first_shot.h"
 
@@ -82,36 +80,6 @@ json to_json(const RunOptions& options) {
           {"tolerance", solve.tolerance},
           {"two-sided", options.scene.two_sided},
           {"max-patch-area", options.scene.max_patch_area}};
-}
-
-const std::vector<Setting>& settings() {
-  static const std::vector<Setting> all = {
-      {"directions", "a number", "Passes an iteration step takes, one a direction"},
-      {"sampling", "a name", "Where the directions come from (section 4 of the paper)"},
-      {"seed", "a number", "Of random and scrambled directions"},
-      {"rotate", "a number, or none", "Seed of a random rotation of all directions"},
-      {"engine", "a name", "The algorithm that finds what sees what"},
-      {"resolution", "a number", "Pixels along the longer side, of zbuffer, painter and rays"},
-      {"two-way", "yes or no", "Let a pass serve its direction and the opposite one"},
-      {"normalize", "a name",
-       "Mend the quadrature's error: by rows of form factors, or symmetrically"},
-      {"scheme", "a name", "Which directions each iteration step takes"},
-      {"first-shot", "none, auto or R²/A", "Shoot small bright sources before the passes"},
-      {"burn-in", "a number", "Semi-iterative: steps left out of the mean"},
-      {"replicas", "a number",
-       "Independently rotated sets, whose spread tells how far B may be off"},
-      {"iterations", "a number, 0: none", "Stop after so many steps"},
-      {"tolerance", "a number", "Stop at this relative change of B, the largest of all patches"},
-      {"two-sided", "yes or no", "Let every face light and receive on both sides"},
-      {"max-patch-area", "m², 0: none", "Cut faces into patches no larger than this"},
-  };
-  return all;
-}
-
-const char* sentence_of(const std::string& name) {
-  return std::find_if(settings().begin(), settings().end(),
-                      [&](const Setting& setting) { return name == setting.name; })
-      ->sentence;
 }
 
 }  // namespace transillum::viewer

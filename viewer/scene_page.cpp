@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene_page.h"
 
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QStackedWidget>
@@ -15,6 +16,21 @@
 #include "welcome_page.h"
 
 namespace transillum::viewer {
+
+namespace {
+
+QString words_on_file(const LoadedScene& loaded) {
+  const QString name = QFileInfo(QString::fromStdString(loaded.file)).fileName();
+  return loaded.stored->complete
+             ? ScenePage::tr("Figures of the file %1. Run (F5) solves its scene from zero.")
+                   .arg(name)
+             : ScenePage::tr(
+                   "Figures of the file %1, of a solve that was stopped early. Run (F5) "
+                   "solves its scene from zero.")
+                   .arg(name);
+}
+
+}  // namespace
 
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
@@ -48,8 +64,11 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   note_->setPalette(dark);
   note_->setAutoFillBackground(true);
   const auto show_note = [this, &colors] {
-    const QString note =
-        colors.shows_kept_run() ? tr("A, the kept run, while the key is down") : colors.missing();
+    const auto snapshot = colors.snapshot();
+    const QString note = colors.shows_kept_run() ? tr("A, the kept run, while the key is down")
+                         : snapshot && snapshot->of_file && colors.missing().isEmpty()
+                             ? words_on_file(*snapshot->loaded)
+                             : colors.missing();
     note_->setText(note);
     note_->setVisible(!note.isEmpty());
   };

@@ -33,6 +33,27 @@ Breakpoint breakpoint_from(const json& value, const std::string& where) {
   return breakpoint;
 }
 
+CameraBookmarks::Bookmark kept_view_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  std::string name;
+  object.read("name", name);
+  if (name.empty()) object.fail_at("name", "is missing");
+  const json* camera = object.find("camera");
+  if (!camera) object.fail_at("camera", "is missing");
+  object.done();
+  return {QString::fromStdString(name), view_point_from_json(*camera, object.where("camera"))};
+}
+
+template <class Item>
+void read_list(JsonObject& object, const char* key, const std::string& item,
+               std::vector<Item>& items, Item (*from)(const json&, const std::string&)) {
+  const json* list = object.find(key);
+  if (!list) return;
+  if (!list->is_array()) object.fail_at(key, "must be a list [ … ]");
+  for (const json& value : *list)
+    items.push_back(from(value, object.where(item + ' ' + std::to_string(items.size() + 1))));
+}
+
 json to_json(const Breakpoint& b) {
   return {{"kind", name_of(b.kind)},
           {"patch", b.patch},
@@ -60,12 +81,8 @@ Session session_from_text(const std::string& text, const std::string& name,
   const json* show = object.find("show");
   if (!show) object.fail_at("show", "is missing");
   session.state = view_state_from_json(*show, object.where("show"), folder);
-  if (const json* list = object.find("breakpoints")) {
-    if (!list->is_array()) object.fail_at("breakpoints", "must be a list [ … ]");
-    for (const json& value : *list)
-      session.breakpoints.push_back(breakpoint_from(
-          value, object.where("breakpoint " + std::to_string(session.breakpoints.size() + 1))));
-  }
+  read_list(object, "breakpoints", "breakpoint", session.breakpoints, breakpoint_from);
+  read_list(object, "kept-views", "kept view", session.kept_views, kept_view_from);
   object.read("notes", session.notes);
   std::string docks;
   object.read("docks", docks);
@@ -79,8 +96,12 @@ std::string to_text(const Session& session, const std::string& folder) {
   state.scene = relative_to(state.scene, folder);
   json breakpoints = json::array();
   for (const Breakpoint& b : session.breakpoints) breakpoints.push_back(to_json(b));
+  json views = json::array();
+  for (const auto& [name, view] : session.kept_views)
+    views.push_back({{"name", name.toStdString()}, {"camera", to_json(view)}});
   const json whole = {{"show", to_json(state)},
                       {"breakpoints", breakpoints},
+                      {"kept-views", views},
                       {"notes", session.notes},
                       {"docks", session.docks.toBase64().toStdString()}};
   return whole.dump(2, ' ', false, json::error_handler_t::replace) + '\n';

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "breakpoints.h"
+#include "camera_views.h"
 #include "view_state.h"
 
 namespace transillum::viewer {
@@ -14,6 +15,7 @@ namespace transillum::viewer {
 struct Session {
   ViewState state;
   std::vector<Breakpoint> breakpoints;
+  std::vector<CameraBookmarks::Bookmark> kept_views;
   std::string notes;  ///< the user's own words
   QByteArray docks;   ///< QMainWindow::saveState of `layout`; empty: the layout as it comes
 };

@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "engine_text.h"
+#include "number_text.h"
 #include "run_options.h"
 
 namespace transillum::viewer {
@@ -27,11 +28,10 @@ bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
 }
 
-QString tip(const char* setting) { return SettingsPanel::tr(sentence_of(setting)); }
-
-QString capitalized(const std::string& name) {
-  QString text = QString::fromStdString(name);
-  return text.isEmpty() ? text : text.left(1).toUpper() + text.mid(1);
+// As rich text, so that a long one is broken into lines.
+QString tip(const char* setting) {
+  const QString sentence = capitalized(SettingsPanel::tr(sentence_of(setting)));
+  return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   directions_->setGroupSeparatorShown(false);
   directions_->setToolTip(tip("directions"));
   sampling_ = new QComboBox;
-  for (const std::string& name : sampling_names()) sampling_->addItem(capitalized(name));
+  for (const std::string& name : sampling_names())
+    sampling_->addItem(capitalized(QString::fromStdString(name)));
   sampling_->setToolTip(tip("sampling"));
   seed_ = new QSpinBox;
   seed_->setRange(0, std::numeric_limits<int>::max());
@@ -92,7 +93,8 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
       tr("Rows: divide by the quadrature of the cosine, patch by patch\n"
          "Symmetric: scale rows and columns alike, so that reciprocity stays"));
   scheme_ = new QComboBox;
-  for (const std::string& name : scheme_names()) scheme_->addItem(capitalized(name));
+  for (const std::string& name : scheme_names())
+    scheme_->addItem(capitalized(QString::fromStdString(name)));
   scheme_->setToolTip(
       tr("Fixed: the same directions in every step\nGrowing: twice as many each step, up to M\n"
          "Semi-iterative: M others each step, and the mean over steps\n"
@@ -151,6 +153,7 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   max_patch_area_->setSuffix(tr(" m²"));
   max_patch_area_->setToolTip(tip("max-patch-area"));
   two_sided_ = new QCheckBox(tr("Two-sided faces"));
+  two_sided_->setObjectName("two_sided");
   two_sided_->setToolTip(tip("two-sided"));
   form.addRow(tr("Patch area"), max_patch_area_);
   form.addRow(QString(), two_sided_);
@@ -218,6 +221,15 @@ bool SettingsPanel::differ_from_effect() const {
 void SettingsPanel::set_restart_enabled(bool enabled) {
   enabled_ = enabled;
   show_state();
+}
+
+void SettingsPanel::set_scene_fixed(bool fixed) {
+  for (QWidget* widget :
+       {static_cast<QWidget*>(max_patch_area_), static_cast<QWidget*>(two_sided_)})
+    widget->setEnabled(!fixed);
+  const QString why = tr("The patches are those of the result's file.");
+  max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
+  two_sided_->setToolTip(fixed ? why : tip("two-sided"));
 }
 
 void SettingsPanel::show_state() {

@@ -31,6 +31,8 @@ class SettingsPanel : public QWidget {
   void set_in_effect(const SolveOptions& solve, const SceneOptions& scene);
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
+  /// Whether the open scene's patches cannot be made anew, being those of a result.
+  void set_scene_fixed(bool fixed);
 
  signals:
   void restart_clicked();

@@ -24,22 +24,29 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   direction_ = add("show_direction", tr("Direction"),
                    tr("The latest direction as an arrow with its plane (D)"));
   direction_->setChecked(true);
-  const auto add_overlay = [&](SceneOverlays::Kind kind, const char* name, const QString& text,
+  const auto add_overlay = [&](Overlay overlay, const char* name, const QString& text,
                                const QString& tip) {
-    connect(add(name, text, tip), &QAction::toggled, this,
+    return overlays_[static_cast<std::size_t>(overlay)] = add(name, text, tip);
+  };
+  const auto add_lines = [&](Overlay overlay, SceneOverlays::Kind kind, const char* name,
+                             const QString& text, const QString& tip) {
+    connect(add_overlay(overlay, name, text, tip), &QAction::toggled, this,
             [this, kind](bool shown) { emit overlay_toggled(kind, shown); });
   };
-  add_overlay(SceneOverlays::Kind::normals, "show_normals", tr("Normals"),
-              tr("A line from each patch to its lit side"));
-  add_overlay(SceneOverlays::Kind::back_faces, "show_back_faces", tr("Back sides"),
-              tr("The sides that neither emit nor receive, which are not drawn else"));
-  add_overlay(SceneOverlays::Kind::fragments, "show_fragments", tr("Cuts of the BSP tree"),
-              tr("The fragments of those patches that the order has cut"));
+  add_lines(Overlay::normals, SceneOverlays::Kind::normals, "show_normals", tr("Normals"),
+            tr("A line from each patch to its lit side"));
+  add_lines(Overlay::back_sides, SceneOverlays::Kind::back_faces, "show_back_faces",
+            tr("Back sides"),
+            tr("The sides that neither emit nor receive, which are not drawn else"));
+  add_lines(Overlay::cuts, SceneOverlays::Kind::fragments, "show_fragments",
+            tr("Cuts of the BSP tree"),
+            tr("The fragments of those patches that the order has cut"));
   menu->addSeparator();
-  connect(add("show_wireframe", tr("Wireframe"), tr("Edges in place of surfaces")),
+  connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
+                      tr("Edges in place of surfaces")),
           &QAction::toggled, this, &ShowMenu::wireframe_toggled);
-  connect(add("show_smooth", tr("Smooth shading"),
-              tr("Colours run over the patches; the solution is constant on each")),
+  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
+                      tr("Colours run over the patches; the solution is constant on each")),
           &QAction::toggled, this, &ShowMenu::smooth_toggled);
   setMenu(menu);
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <QToolButton>
+#include <array>
 
+#include "overlay.h"
 #include "scene_overlays.h"
 
 class QAction;
@@ -18,6 +20,7 @@ class ShowMenu : public QToolButton {
 
   QAction* outlines() const { return outlines_; }
   QAction* direction() const { return direction_; }
+  QAction* overlay(Overlay overlay) const { return overlays_[static_cast<std::size_t>(overlay)]; }
 
  signals:
   void overlay_toggled(transillum::viewer::SceneOverlays::Kind kind, bool shown);
@@ -26,6 +29,7 @@ class ShowMenu : public QToolButton {
 
  private:
   QAction *outlines_, *direction_;
+  std::array<QAction*, std::size(all_overlays)> overlays_{};
 };
 
 }  // namespace transillum::viewer

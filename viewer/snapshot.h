@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "transillum/bounds.h"
@@ -18,6 +19,8 @@ struct LoadedScene {
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
+  std::shared_ptr<const Solution> stored;  ///< of the result's file it comes from; else null
+  std::string file;                        ///< that file
   double seconds_load = 0;
   double seconds_bsp = 0;
 };
@@ -40,6 +43,8 @@ struct SolverSnapshot {
   std::shared_ptr<const FormFactors> form_factors;
   /// E and rho that radiosity and irradiance are of, where they are not the scene's; else null.
   std::shared_ptr<const std::vector<Material>> materials;
+  /// The figures are those of loaded->stored: nothing has been solved here yet.
+  bool of_file = false;
   bool form_factors_fit = true;  ///< false: they would take too much memory
   /// B(n), one a patch, for each n from 0 whose step has begun; null where memory would not do.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "thread_priority.h"
+#include "transillum/files.h"
 
 namespace transillum::viewer {
 
@@ -170,7 +171,13 @@ void SolverSession::load(const OpenRequest& request) {
     const auto load_begin = Clock::now();
     auto loaded = std::make_shared<LoadedScene>();
     report(tr("Loading %1").arg(name), -1);
-    loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
+    if (is_result_file(request.spec)) {
+      loaded->stored = std::make_shared<const Solution>(read_result(request.spec, cancellation));
+      loaded->scene = loaded->stored->scene;
+      loaded->file = request.spec;
+    } else {
+      loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
+    }
     loaded->picker = std::make_shared<const Picker>(loaded->scene, cancellation);
     loaded->measures = measure(*loaded->scene, cancellation);
     loaded->seconds_load = seconds_since(load_begin);
@@ -400,6 +407,7 @@ void SolverSession::post_snapshot() {
     snapshot->estimate_changes = step_changes_;
     snapshot->estimate_iteration = step_changes_iteration_;
   }
+  lay_out_stored(*snapshot);
   last_snapshot_ns_ = now_ns();
   snapshot_cost_ms_ = static_cast<double>(last_snapshot_ns_ - begin) * 1e-6;
   {
@@ -409,6 +417,17 @@ void SolverSession::post_snapshot() {
     if (message_under_way) return;
   }
   post([this] { deliver_snapshot(); });
+}
+
+// Until the first direction, what a result's file tells is more than the solver knows.
+void SolverSession::lay_out_stored(SolverSnapshot& snapshot) const {
+  const auto& stored = loaded_->stored;
+  snapshot.of_file = stored && passes_done(snapshot.progress) == 0;
+  if (!snapshot.of_file) return;
+  snapshot.radiosity = stored->radiosity;
+  snapshot.irradiance = stored->irradiance;
+  snapshot.error = stored->error;
+  snapshot.statistics = stored->statistics;
 }
 
 void SolverSession::deliver_snapshot() {

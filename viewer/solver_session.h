@@ -89,6 +89,7 @@ class SolverSession : public QObject {
   void post_state(SessionState state);
   void post_snapshot();
   void put_form_factors_together();
+  void lay_out_stored(SolverSnapshot& snapshot) const;
   void show_form_factors();
   void post_failure(const QString& message, bool bad_input);
   SessionState resting_state() const;

@@ -1,11 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "stage.h"
 
+#include <QAction>
+#include <algorithm>
+
+#include "algorithm_view.h"
 #include "color_controls.h"
 #include "main_window.h"
 #include "map_view.h"
 #include "scene_page.h"
 #include "scene_view.h"
+#include "show_menu.h"
 #include "step_finder.h"
 
 namespace transillum::viewer {
@@ -58,7 +63,16 @@ void Stage::show(const ViewState& state) {
   colors.set_mode(wish_.color_mode);
   colors.set_map(wish_.color_map);
   colors.set_logarithmic(wish_.logarithmic);
-  if (wish_.range) colors.set_range(wish_.range->first, wish_.range->second);
+  if (wish_.range_rule == RangeRule::fixed)
+    colors.set_range(wish_.range->first, wish_.range->second);
+  colors.set_gamma(wish_.gamma);
+  colors.set_automatic_exposure(!wish_.exposure);
+  if (wish_.exposure) colors.set_exposure(*wish_.exposure);
+  const ShowMenu& show = *window_.page()->color_controls()->show_menu();
+  for (const Overlay overlay : all_overlays)
+    show.overlay(overlay)->setChecked(
+        std::count(wish_.overlays.begin(), wish_.overlays.end(), overlay) > 0);
+  window_.algorithm()->set_kind(wish_.algorithm);
   window_.map_view()->set_labels_shown(wish_.labels);
   begin_run();
 }
@@ -141,6 +155,12 @@ void Stage::arrange() {
   window_.page()->color_controls()->set_direction(wish_.direction_shown);
   window_.page()->color_controls()->set_outlines(
       wish_.outlines.value_or(window_.outlined_at_first()));
+  // The scene before would widen it.
+  if (wish_.range_rule != RangeRule::widening) return;
+  if (wish_.range)
+    window_.colors().widen_from(wish_.range->first, wish_.range->second);
+  else
+    window_.colors().set_range_rule(RangeRule::widening);
 }
 
 void Stage::focus() {
@@ -187,11 +207,18 @@ ViewState Stage::state() const {
   state.camera = window_.page()->scene_view()->view_point();
   const ColorChoice& colors = window_.colors();
   if (colors.quantity() != Quantity::difference) state.quantity = colors.quantity();
-  if (colors.range_rule() == RangeRule::fixed)
+  state.range_rule = colors.range_rule();
+  if (state.range_rule != RangeRule::automatic)
     state.range = {colors.scale().low, colors.scale().high};
   state.color_mode = colors.mode();
   state.color_map = colors.map();
   state.logarithmic = colors.scale().logarithmic;
+  if (!colors.exposure_is_automatic()) state.exposure = colors.scale().exposure;
+  state.gamma = colors.scale().gamma;
+  const ShowMenu& show = *window_.page()->color_controls()->show_menu();
+  for (const Overlay overlay : all_overlays)
+    if (show.overlay(overlay)->isChecked()) state.overlays.push_back(overlay);
+  state.algorithm = window_.algorithm()->kind();
   state.outlines = window_.page()->color_controls()->outlines();
   state.direction_shown = window_.page()->color_controls()->direction();
   state.labels = window_.map_view()->labels_shown();

@@ -2,6 +2,7 @@
 #include "view_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -39,6 +40,16 @@ constexpr Word<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"last-change", Quantity::last_change}};
 constexpr Word<ColorMap> color_maps[] = {
     {"viridis", ColorMap::viridis}, {"cividis", ColorMap::cividis}, {"inferno", ColorMap::inferno}};
+constexpr Word<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
+                                           {"locked", RangeRule::widening},
+                                           {"fixed", RangeRule::fixed}};
+constexpr Word<Overlay> overlays[] = {{"normals", Overlay::normals},
+                                      {"back-sides", Overlay::back_sides},
+                                      {"cuts", Overlay::cuts},
+                                      {"wireframe", Overlay::wireframe},
+                                      {"smooth", Overlay::smooth}};
+constexpr Word<MapKind> algorithms[] = {{"local-map", MapKind::local},
+                                        {"global-map", MapKind::global}};
 constexpr Word<Phase> phases[] = {
     {"before", Phase::before}, {"split", Phase::split}, {"after", Phase::after}};
 constexpr Word<StepName> step_names[] = {{"exchange", StepName::exchange},
@@ -124,7 +135,43 @@ json to_json(const std::optional<FocusChoice>& focus) {
   return result;
 }
 
-ViewPoint camera_from(const json& value, const std::string& where) {
+void read_colors(ViewState& state, const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  read(object, "quantity", quantities, state.quantity);
+  read(object, "show", color_modes, state.color_mode);
+  read(object, "map", color_maps, state.color_map);
+  object.read("logarithmic", state.logarithmic);
+  if (const json* range = object.find("range")) {
+    const bool numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
+                         (*range)[1].is_number();
+    if (!numbers) object.fail_at("range", "must be two numbers [low, high]");
+    state.range = {(*range)[0].get<double>(), (*range)[1].get<double>()};
+    state.range_rule = RangeRule::fixed;
+  }
+  read(object, "range-rule", range_rules, state.range_rule);
+  if (state.range_rule == RangeRule::fixed && !state.range)
+    object.fail_at("range-rule", "\"fixed\" wants a \"range\"");
+  if (state.range_rule == RangeRule::automatic && state.range)
+    object.fail_at("range-rule", "\"automatic\" has no \"range\"");
+  if (object.find("exposure")) object.read("exposure", state.exposure.emplace());
+  object.read("gamma", state.gamma);
+  if (!(state.gamma >= 1 && state.gamma <= 3)) object.fail_at("gamma", "must be 1 to 3");
+  if (state.exposure && !(std::abs(*state.exposure) <= 12))
+    object.fail_at("exposure", "must be -12 to 12 EV");
+  object.done();
+}
+
+// A file beside the lesson comes before one of the working folder.
+std::string beside(const std::string& scene, const std::string& folder) {
+  if (folder.empty() || scene.empty()) return scene;
+  const auto path = std::filesystem::path(folder) / scene;
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) ? path.string() : scene;
+}
+
+}  // namespace
+
+ViewPoint view_point_from_json(const json& value, const std::string& where) {
   ViewPoint camera;
   camera.eye = {0, 0, 1};
   camera.up = {0, 1, 0};
@@ -149,31 +196,6 @@ json to_json(const ViewPoint& camera) {
           {"angle", camera.view_angle}};
 }
 
-void read_colors(ViewState& state, const json& value, const std::string& where) {
-  JsonObject object(value, where);
-  read(object, "quantity", quantities, state.quantity);
-  read(object, "show", color_modes, state.color_mode);
-  read(object, "map", color_maps, state.color_map);
-  object.read("logarithmic", state.logarithmic);
-  if (const json* range = object.find("range")) {
-    const bool numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
-                         (*range)[1].is_number();
-    if (!numbers) object.fail_at("range", "must be two numbers [low, high]");
-    state.range = {(*range)[0].get<double>(), (*range)[1].get<double>()};
-  }
-  object.done();
-}
-
-// A file beside the lesson comes before one of the working folder.
-std::string beside(const std::string& scene, const std::string& folder) {
-  if (folder.empty() || scene.empty()) return scene;
-  const auto path = std::filesystem::path(folder) / scene;
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored) ? path.string() : scene;
-}
-
-}  // namespace
-
 ViewState view_state_from_json(const json& value, const std::string& where,
                                const std::string& folder) {
   ViewState state;
@@ -188,11 +210,17 @@ ViewState view_state_from_json(const json& value, const std::string& where,
     state.focus = focus_from(*focus, object.where("focus"));
   object.read("select", state.selection, 0, most);
   if (const json* camera = object.find("camera"))
-    state.camera = camera_from(*camera, object.where("camera"));
+    state.camera = view_point_from_json(*camera, object.where("camera"));
   if (const json* colors = object.find("colors"))
     read_colors(state, *colors, object.where("colors"));
   if (object.find("outlines")) object.read("outlines", state.outlines.emplace());
   object.read("direction", state.direction_shown);
+  if (const json* list = object.find("overlays")) {
+    if (!list->is_array()) object.fail_at("overlays", "must be a list of words [\"normals\", …]");
+    for (const json& word : *list)
+      state.overlays.push_back(value_of(overlays, word, object.where("overlays")));
+  }
+  read(object, "algorithm", algorithms, state.algorithm);
   object.read("labels", state.labels);
   if (object.find("layout")) read(object, "layout", layouts, state.layout.emplace());
   if (const json* panels = object.find("panels")) {
@@ -215,11 +243,18 @@ json to_json(const ViewState& state) {
                   {{"quantity", word_of(quantities, state.quantity)},
                    {"show", word_of(color_modes, state.color_mode)},
                    {"map", word_of(color_maps, state.color_map)},
-                   {"logarithmic", state.logarithmic}}},
+                   {"logarithmic", state.logarithmic},
+                   {"range-rule", word_of(range_rules, state.range_rule)},
+                   {"gamma", state.gamma}}},
+                 {"overlays", json::array()},
+                 {"algorithm", word_of(algorithms, state.algorithm)},
                  {"direction", state.direction_shown},
                  {"labels", state.labels}};
   if (state.range)
     result["colors"]["range"] = json::array({state.range->first, state.range->second});
+  if (state.exposure) result["colors"]["exposure"] = *state.exposure;
+  for (const Overlay overlay : state.overlays)
+    result["overlays"].push_back(word_of(overlays, overlay));
   if (state.selection != no_patch) result["select"] = state.selection;
   if (state.camera) result["camera"] = to_json(*state.camera);
   if (state.outlines) result["outlines"] = *state.outlines;

@@ -8,10 +8,12 @@
 #include <variant>
 #include <vector>
 
-#include "color_scale.h"
+#include "algorithm_state.h"
+#include "color_choice.h"
 #include "dock_layouts.h"
 #include "focus.h"
 #include "initial_view.h"
+#include "overlay.h"
 #include "quantity.h"
 #include "run_options.h"
 #include "solver_session.h"
@@ -48,13 +50,22 @@ struct ViewState {
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = ColorMap::viridis;
   bool logarithmic = false;
-  std::optional<std::pair<double, double>> range;  ///< fixed ends of the colour map
-  std::optional<bool> outlines;                    ///< none: as the scene has it at first
+  RangeRule range_rule = RangeRule::automatic;
+  std::optional<std::pair<double, double>> range;  ///< ends of the colour map, unless automatic
+  std::optional<double> exposure;                  ///< of true colour; none: automatic
+  double gamma = ColorScale().gamma;
+  std::optional<bool> outlines;  ///< none: as the scene has it at first
   bool direction_shown = true;
+  std::vector<Overlay> overlays;
+  MapKind algorithm = MapKind::local;         ///< whose pseudo-code is shown
   bool labels = false;                        ///< patches named in the map
   std::optional<DockLayouts::Layout> layout;  ///< none: as it is
   std::vector<std::string> panels;            ///< brought to the front, by their short names
 };
+
+/// @throws InputError that begins with `where`.
+ViewPoint view_point_from_json(const nlohmann::json& value, const std::string& where);
+nlohmann::json to_json(const ViewPoint& camera);
 
 /// Numbers are counted from 1, as in the window. Files of scenes are relative to `folder`.
 /// @throws InputError that begins with `where`.

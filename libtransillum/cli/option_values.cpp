@@ -101,6 +101,12 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
   return static_cast<std::uint64_t>(size);
 }
 
+std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
+                        const std::string& default_name) {
+  return fmt::format("{}: {} (default {})", sentence_of(setting), fmt::join(names, " | "),
+                     default_name);
+}
+
 void add_scene_argument(CLI::App& command, std::string& scene) {
   command
       .add_option("SCENE", scene,
@@ -121,17 +127,14 @@ void add_direction_option(CLI::App& command, Vec3& direction) {
 void add_order_option(CLI::App& command, EngineOptions& options) {
   add_parsed_option(
       command, "--order", "NAME",
-      fmt::format("of the painter: {} (default {}); newell gives up where patches overlap in a "
-                  "circle",
-                  fmt::join(painters_order_names(), " | "), name_of(options.order)),
+      choice_help("order", painters_order_names(), name_of(options.order)),
       [&options](const std::string& text) { options.order = painters_order_from_name(text); });
 }
 
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options) {
-  add_parsed_option(
-      command, "--engine", "NAME",
-      fmt::format("{} (default {})", fmt::join(engine_names(), " | "), name_of(engine)),
-      [&engine](const std::string& text) { engine = engine_from_name(text); });
+  add_parsed_option(command, "--engine", "NAME",
+                    choice_help("engine", engine_names(), name_of(engine)),
+                    [&engine](const std::string& text) { engine = engine_from_name(text); });
   add_engine_details(command, options);
 }
 
@@ -140,9 +143,7 @@ int parse_resolution(const std::string& option, const std::string& text) {
 }
 
 void add_engine_details(CLI::App& command, EngineOptions& options) {
-  add_parsed_option(command, "--lines", "L",
-                    fmt::format("for the engine rays: lines a patch and direction (default {})",
-                                options.lines_per_patch),
+  add_parsed_option(command, "--lines", "L", help_of("lines", options.lines_per_patch),
                     [&options](const std::string& text) {
                       options.lines_per_patch = parse_number("--lines", text);
                       if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
@@ -151,40 +152,30 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
                     });
   add_parsed_option(
       command, "--resolution", "R",
-      fmt::format("for zbuffer and painter: pixels along the longer side of the projected scene "
-                  "(default {}); for rays: lines along it, instead of --lines; for hemicube: "
-                  "pixels along a side of the "
-                  "cube, even (default 64)",
-                  EngineOptions::default_resolution),
+      help_of("resolution", fmt::format("{}, hemicube 64", EngineOptions::default_resolution)),
       [&options](const std::string& text) {
         options.resolution = parse_resolution("--resolution", text);
       });
   add_order_option(command, options);
   command.add_flag_callback(
-      "--random-lines", [&options] { options.gridded = false; },
-      "for the engine rays: lines anywhere instead of one in each cell of a grid");
+      "--random-lines", [&options] { options.gridded = false; }, sentence_of("random-lines"));
 }
 
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {
-  add_parsed_option(command, "--memory", "SIZE",
-                    "what kept form factors may take, such as 2G or 800M; beyond it they are "
-                    "computed again each step (default: a quarter of the machine's)",
+  add_parsed_option(command, "--memory", "SIZE", help_of("memory", "a quarter of the machine's"),
                     [&memory](const std::string& text) {
                       // 0 means the default to the library; here it means that nothing is kept.
                       memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
                     });
-  add_parsed_option(command, "--threads", "N",
-                    "default: all cores; the result does not depend on it",
+  add_parsed_option(command, "--threads", "N", help_of("threads", "all cores"),
                     [&threads](const std::string& text) {
                       threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
                     });
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_flag("--two-sided", options.two_sided,
-                   "every face lights and receives on both sides: two opposite patches");
-  add_parsed_option(command, "--max-patch-area", "A",
-                    "refine faces into patches no larger than A m2 (default: leave them whole)",
+  command.add_flag("--two-sided", options.two_sided, sentence_of("two-sided"));
+  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "leave them whole"),
                     [&options](const std::string& text) {
                       options.max_patch_area = parse_number("--max-patch-area", text);
                       if (!(options.max_patch_area > 0)) {

@@ -1,12 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "transillum/engine.h"
 #include "transillum/scene.h"
+#include "transillum/settings.h"
 
 namespace transillum::cli {
 
@@ -22,6 +26,16 @@ double parse_number(const std::string& option, const std::string& text);
 int parse_resolution(const std::string& option, const std::string& text);
 /// Bytes: a number with K, M, G or T (powers of 1024) behind it or nothing.
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
+
+// What the help says of a setting: its sentence of settings.h, and its default.
+
+template <typename Default>
+std::string help_of(const std::string& setting, const Default& value) {
+  return fmt::format("{} (default {})", sentence_of(setting), value);
+}
+/// The same with the names that it takes.
+std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
+                        const std::string& default_name);
 
 // Options that several commands share.
 

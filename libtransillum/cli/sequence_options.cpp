@@ -8,27 +8,20 @@
 namespace transillum::cli {
 
 void add_sequence_options(CLI::App& command, SequenceOptions& options) {
-  add_parsed_option(command, "-m,--directions", "M",
-                    fmt::format("directions taken from the sequence, one pass each an iteration "
-                                "step (default {})",
-                                options.directions),
+  add_parsed_option(command, "-m,--directions", "M", help_of("directions", options.directions),
                     [&options](const std::string& text) {
                       options.directions =
                           static_cast<int>(parse_whole_number("--directions", text, 1, 1 << 24));
                     });
   add_parsed_option(
       command, "--sampling", "NAME",
-      fmt::format("{} (default {})", fmt::join(sampling_names(), " | "), name_of(options.sampling)),
+      choice_help("sampling", sampling_names(), name_of(options.sampling)),
       [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
   add_parsed_option(
-      command, "--seed", "S",
-      fmt::format("for random, sobol and scrambled-hammersley, and for the engine rays "
-                  "(default {})",
-                  options.seed),
+      command, "--seed", "S", help_of("seed", options.seed),
       [&options](const std::string& text) { options.seed = parse_seed("--seed", text); });
   add_parsed_option(
-      command, "--rotate", "S",
-      "turn all directions by one random rotation; S is its seed (default: leave them)",
+      command, "--rotate", "S", help_of("rotate", "none"),
       [&options](const std::string& text) { options.rotation = parse_seed("--rotate", text); });
 }
 

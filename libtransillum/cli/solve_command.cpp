@@ -186,16 +186,13 @@ int run(const SolveCall& call) {
 
 void add_stopping_rules(CLI::App& command, SolveCall& call) {
   auto* iterations = add_parsed_option(
-      command, "--iterations", "K", "stop after K iteration steps",
-      [&call](const std::string& text) {
+      command, "--iterations", "K", sentence_of("iterations"), [&call](const std::string& text) {
         call.options.iterations =
             static_cast<int>(parse_whole_number("--iterations", text, 1, 1'000'000));
         call.stop_given = true;
       });
   auto* tolerance = add_parsed_option(
-      command, "--tolerance", "T",
-      fmt::format("stop when no patch changes by more than T of the largest B (default {})",
-                  call.options.tolerance),
+      command, "--tolerance", "T", help_of("tolerance", call.options.tolerance),
       [&call](const std::string& text) {
         call.options.tolerance = parse_number("--tolerance", text);
         call.stop_given = true;
@@ -211,42 +208,29 @@ void add_estimator(CLI::App& command, SolveCall& call) {
   add_engine_options(command, options.engine, options.engine_options);
   auto* one_way =
       command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
-  auto* two_way = command.add_flag("--two-way", call.two_way,
-                                   "use each direction and its opposite in one pass (default)");
+  auto* two_way = command.add_flag("--two-way", call.two_way, help_of("two-way", "yes"));
   one_way->excludes(two_way);
   add_parsed_option(
       command, "--normalize", "NAME",
-      fmt::format("{}: the paper's estimator, or rows divided by their quadrature of the cosine, "
-                  "or rows and columns scaled alike so that rows sum to 1 (default none)",
-                  fmt::join(normalization_names(), " | ")),
+      choice_help("normalize", normalization_names(), name_of(options.normalize)),
       [&options](const std::string& text) { options.normalize = normalization_from_name(text); });
 }
 
 void add_scheme(CLI::App& command, SolveOptions& options) {
   add_parsed_option(
-      command, "--scheme", "NAME",
-      fmt::format("{}: the same directions in every step; twice as many each step up to M; others "
-                  "each step, and the mean over steps; the same, solved on the symmetric form "
-                  "(default {})",
-                  fmt::join(scheme_names(), " | "), name_of(options.scheme)),
+      command, "--scheme", "NAME", choice_help("scheme", scheme_names(), name_of(options.scheme)),
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
   add_parsed_option(
       command, "--first-shot", "RATIO",
-      fmt::format("none | auto | a number: shoot small bright sources first, from this R2/A on, R "
-                  "the scene's diagonal and A a source's area; auto: {} (default none)",
-                  small_source_ratio),
+      choice_help("first-shot", {"none", fmt::format("auto ({})", small_source_ratio), "a number"},
+                  "none"),
       [&options](const std::string& text) { options.first_shot = first_shot_from_name(text); });
-  add_parsed_option(command, "--burn-in", "N",
-                    fmt::format("semi-iterative: leave the first N steps out of the mean "
-                                "(default {})",
-                                options.burn_in),
+  add_parsed_option(command, "--burn-in", "N", help_of("burn-in", options.burn_in),
                     [&options](const std::string& text) {
                       options.burn_in =
                           static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
                     });
-  add_parsed_option(command, "--replicas", "R",
-                    "make the M directions R independently rotated sets; their spread gives "
-                    "standard errors (default 1: none)",
+  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: none"),
                     [&options](const std::string& text) {
                       options.replicas =
                           static_cast<int>(parse_whole_number("--replicas", text, 1, 64));

@@ -6,10 +6,12 @@
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QUndoStack>
 #include <cmath>
 #include <map>
 
 #include "algorithm_state.h"
+#include "camera_views.h"
 #include "step_events.h"
 #include "transillum/directions.h"
 
@@ -311,6 +313,56 @@ class BreakpointsTest : public QObject {
                      (scene.reflectance(t.receiver) * radiosity[j]);
     }
     for (std::size_t i = 0; i < sums.size(); ++i) QVERIFY(max_abs(sums[i] - expected[i]) < 1e-12);
+  }
+
+  void changes_are_undone_by_name() {
+    QUndoStack undo;
+    Breakpoints breakpoints;
+    breakpoints.set_undo_stack(&undo);
+    breakpoints.add({Kind::patch, 3});
+    breakpoints.add({Kind::large_map, 0, 0, 50});
+    breakpoints.set_enabled(1, false);
+    breakpoints.set_enabled(1, false);
+    const auto before = breakpoints.list();
+    breakpoints.remove(0);
+    QCOMPARE(undo.count(), 4);
+    QCOMPARE(undo.undoText(), QString("removal of breakpoint: Patch 3 takes part"));
+    undo.undo();
+    QVERIFY(breakpoints.list() == before);
+    QCOMPARE(undo.undoText(), QString("switching off of breakpoint: V grows beyond 50 fragments"));
+    undo.undo();
+    QVERIFY(breakpoints.list()[1].enabled);
+    undo.undo();
+    undo.undo();
+    QVERIFY(breakpoints.list().empty());
+    undo.setIndex(3);
+    QVERIFY(breakpoints.list() == before);
+  }
+
+  void changes_of_kept_views_are_undone() {
+    QUndoStack undo;
+    CameraBookmarks views;
+    views.set_undo_stack(&undo);
+    const auto names = [&] {
+      QStringList list;
+      for (const auto& view : views.all()) list << view.name;
+      return list;
+    };
+    views.add({});
+    views.add({});
+    views.remove(0);
+    views.add({});  // a name that is free
+    QCOMPARE(names(), QStringList({"View 2", "View 3"}));
+    views.rename(0, "mine");
+    QCOMPARE(undo.undoText(), QString("renaming of view: View 2"));
+    views.clear();
+    QCOMPARE(names(), QStringList());
+    undo.undo();
+    QCOMPARE(names(), QStringList({"mine", "View 3"}));
+    undo.undo();
+    undo.undo();
+    undo.undo();
+    QCOMPARE(names(), QStringList({"View 1", "View 2"}));
   }
 };
 

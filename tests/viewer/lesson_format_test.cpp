@@ -29,8 +29,10 @@ class LessonFormatTest : public QObject {
           "sampling": "random", "seed": 7, "first-shot": "auto", "max-patch-area": 0.5},
           "solve": 12, "focus": {"iteration": 2, "direction": 3, "step": 4, "phase": "split"},
           "select": 5, "camera": {"eye": [1, 2, 3], "target": [0, 0, 1], "up": [0, 0, 1],
-          "angle": 40}, "colors": {"quantity": "irradiance", "range": [0.5, 2], "show": "luminance", "map": "cividis", "logarithmic": true},
+          "angle": 40}, "colors": {"quantity": "irradiance", "range": [0.5, 2], "show": "luminance", "map": "cividis", "logarithmic": true, "gamma": 2.5,
+          "exposure": -1.5},
           "outlines": true, "direction": false, "labels": true, "layout": "debug",
+          "overlays": ["cuts", "smooth"], "algorithm": "global-map",
           "panels": ["map"])")),
         "a.json");
     QCOMPARE(l.title, std::string("T"));
@@ -55,6 +57,9 @@ class LessonFormatTest : public QObject {
     QCOMPARE(s.camera->eye.z, 3.0);
     QVERIFY(s.color_mode == ColorMode::luminance && s.color_map == ColorMap::cividis);
     QVERIFY(s.quantity == Quantity::irradiance && s.range && s.range->second == 2);
+    QVERIFY(s.range_rule == RangeRule::fixed && s.gamma == 2.5 && s.exposure == -1.5);
+    QVERIFY(s.overlays == (std::vector{Overlay::cuts, Overlay::smooth}));
+    QVERIFY(s.algorithm == MapKind::global);
     QVERIFY(s.logarithmic && s.labels && !s.direction_shown && s.outlines == true);
     QVERIFY(s.layout == DockLayouts::Layout::debug);
     QCOMPARE(s.panels, std::vector<std::string>{"map"});
@@ -129,6 +134,15 @@ class LessonFormatTest : public QObject {
     row("angle", lesson(page(R"("camera": {"angle": 0})")), "page 1, camera, angle: ");
     row("quantity", lesson(page(R"("colors": {"quantity": "light"})")), "colors, quantity: ");
     row("range", lesson(page(R"("colors": {"range": [1]})")), "colors, range: ");
+    row("rule", lesson(page(R"("colors": {"range-rule": "wide"})")), "colors, range-rule: ");
+    row("no range", lesson(page(R"("colors": {"range-rule": "fixed"})")), "colors, range-rule: ");
+    row("no rule", lesson(page(R"("colors": {"range-rule": "automatic", "range": [1, 2]})")),
+        "colors, range-rule: ");
+    row("gamma", lesson(page(R"("colors": {"gamma": 0})")), "colors, gamma: ");
+    row("exposure", lesson(page(R"("colors": {"exposure": 1e9})")), "colors, exposure: ");
+    row("overlays", lesson(page(R"("overlays": "cuts")")), "page 1, overlays: ");
+    row("overlay", lesson(page(R"("overlays": ["cut"])")), "page 1, overlays: ");
+    row("algorithm", lesson(page(R"("algorithm": "local")")), "page 1, algorithm: ");
     row("layout", lesson(page(R"("layout": "debugging")")), "page 1, layout: ");
     row("panels", lesson(page(R"("panels": "map")")), "page 1, panels: ");
   }
@@ -151,11 +165,19 @@ class LessonFormatTest : public QObject {
 
   void every_setting_is_declared_once() {
     const nlohmann::json defaults = to_json(RunOptions{});
-    QCOMPARE(settings().size(), defaults.size());
+    std::size_t in_files = 0;
     for (const Setting& setting : settings()) {
-      QVERIFY2(defaults.contains(setting.name), setting.name);
       QVERIFY(*setting.type && *setting.sentence);
+      QCOMPARE(defaults.contains(setting.name), setting.in_files);
+      if (!setting.in_files) continue;
+      ++in_files;
+      const nlohmann::json& value = defaults.at(setting.name);
+      if (value.is_string()) QCOMPARE(value.get<std::string>(), setting.default_value);
+      if (value.is_number_integer() && setting.name != std::string("resolution"))
+        QCOMPARE(value.dump(), setting.default_value);
+      if (value.is_boolean()) QCOMPARE(value.get<bool>(), setting.default_value == "yes");
     }
+    QCOMPARE(in_files, defaults.size());
     QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});
   }
 

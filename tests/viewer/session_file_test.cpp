@@ -4,9 +4,12 @@
 #include <QPlainTextEdit>
 #include <QTemporaryDir>
 
+#include "algorithm_view.h"
 #include "export_actions.h"
 #include "file_actions.h"
+#include "scene_page.h"
 #include "session_file.h"
+#include "show_menu.h"
 #include "solved_window.h"
 #include "stage.h"
 
@@ -55,7 +58,15 @@ class SessionFileTest : public QObject {
       window.focus().set_phase(Phase::split);
       window.breakpoints().set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
+      window.colors().set_range(0.25, 4);
+      window.colors().set_gamma(1.8);
+      window.colors().set_exposure(-2);
+      ShowMenu& show = *window.findChild<ShowMenu*>();
+      show.overlay(Overlay::normals)->setChecked(true);
+      show.overlay(Overlay::wireframe)->setChecked(true);
+      window.algorithm()->set_kind(MapKind::global);
       camera = solved.scene_view->view_point();
+      window.page()->bookmarks().add(camera, "the \"first\" one");
       camera.eye.x += 1;
       solved.scene_view->look_from(camera);
       window.files().save_session(path);
@@ -76,6 +87,56 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->findChild<QPlainTextEdit*>("notes")->toPlainText(),
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
+    QVERIFY(window->colors().range_rule() == RangeRule::fixed);
+    QCOMPARE(window->colors().scale().low, 0.25);
+    QCOMPARE(window->colors().scale().high, 4.0);
+    QCOMPARE(window->colors().scale().gamma, 1.8);
+    QCOMPARE(window->colors().scale().exposure, -2.0);
+    QVERIFY(!window->colors().exposure_is_automatic());
+    const ShowMenu& show = *window->findChild<ShowMenu*>();
+    for (const Overlay overlay : all_overlays)
+      QCOMPARE(show.overlay(overlay)->isChecked(),
+               overlay == Overlay::normals || overlay == Overlay::wireframe);
+    QVERIFY(window->algorithm()->kind() == MapKind::global);
+    const auto& views = window->page()->bookmarks().all();
+    QCOMPARE(views.size(), std::size_t{1});
+    QCOMPARE(views[0].name, QString("the \"first\" one"));
+    QCOMPARE(views[0].view.eye.x, camera.eye.x - 1);
+    QVERIFY(!window->findChild<QAction*>("undo")->isEnabled());
+  }
+
+  void a_locked_range_goes_on_from_its_ends() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("locked.json");
+    {
+      SolvedWindow solved("furnace");
+      QVERIFY(solved.ready);
+      solved.window->colors().set_mode(ColorMode::luminance);
+      solved.window->colors().widen_from(-3, 70);
+      solved.window->files().save_session(path);
+    }
+    const auto window = make_window(16);
+    window->open("boards");
+    QVERIFY(settles(*window));
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QVERIFY(window->colors().range_rule() == RangeRule::widening);
+    QCOMPARE(window->colors().scale().low, -3.0);
+    QCOMPARE(window->colors().scale().high, 70.0);
+  }
+
+  void a_session_of_an_older_version_opens() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("old.json");
+    write(path, R"({"show": {"scene": "furnace", "options": {"directions": 16},
+                             "colors": {"show": "luminance", "range": [1, 2]}}})");
+    const auto window = make_window(16);
+    window->page()->bookmarks().add({});
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QCOMPARE(window->colors().scale().low, 1.0);
+    QVERIFY(window->page()->bookmarks().all().empty());
+    QVERIFY(window->colors().exposure_is_automatic());
   }
 
   void a_session_and_its_scene_move_together() {
@@ -106,6 +167,8 @@ class SessionFileTest : public QObject {
                           << "breakpoint 1, kind";
     QTest::newRow("patch") << R"({"show": {}, "breakpoints": [{"kind": "cut", "patch": -1}]})"
                            << "breakpoint 1, patch";
+    QTest::newRow("view") << R"({"show": {}, "kept-views": [{"name": "x"}]})"
+                          << "kept view 1, camera";
     QTest::newRow("notes") << R"({"show": {}, "notes": []})"
                            << "bad.json, notes";
     QTest::newRow("key") << R"({"show": {}, "note": ""})"

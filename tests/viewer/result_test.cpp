@@ -1,0 +1,130 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QAction>
+#include <QCheckBox>
+#include <QLabel>
+#include <QTemporaryDir>
+
+#include "export_actions.h"
+#include "file_actions.h"
+#include "solved_window.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+bool settles(MainWindow& window) {
+  return wait_for([&] { return window.settled(); });
+}
+
+}  // namespace
+
+class ResultTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    path_ = folder_.filePath("r.vtp");
+    written_ = solve(load_scene("boards", {.two_sided = true}), {.directions = 16});
+    write_result(path_.toStdString(), written_);
+  }
+
+  void the_figures_of_a_file_are_shown_at_once_and_nothing_is_solved() {
+    const auto window = make_window();
+    window->files().open(path_);
+    QVERIFY(settles(*window));
+    const auto snapshot = window->snapshot();
+    QVERIFY(snapshot->of_file);
+    QVERIFY(snapshot->radiosity == written_.radiosity);
+    QVERIFY(snapshot->irradiance == written_.irradiance);
+    QCOMPARE(snapshot->progress.iteration, 0);
+    QCOMPARE(snapshot->progress.direction, 0);
+    QCOMPARE(snapshot->statistics.steps.size(), written_.statistics.steps.size());
+    QVERIFY(text(*window, "color_note").contains("Figures of the file r.vtp"));
+    QVERIFY(text(*window, "phase").contains("From the file"));
+    QVERIFY(window->windowTitle().startsWith("r.vtp"));
+    window->colors().set_quantity(Quantity::irradiance);
+    QVERIFY(window->colors().values() == written_.irradiance);
+    save_picture(*window, "result");
+  }
+
+  void running_solves_its_patches_from_zero_and_stopping_shows_the_file_again() {
+    const auto window = make_window(16);
+    window->files().open(path_);
+    QVERIFY(settles(*window));
+    QVERIFY(!window->findChild<QCheckBox*>("two_sided")->isEnabled());
+    QVERIFY(window->options().scene.two_sided);
+    window->findChild<QAction*>("run")->trigger();
+    QVERIFY(wait_for([&] { return window->session().state() == SessionState::finished; }));
+    QVERIFY(settles(*window));
+    QVERIFY(!window->snapshot()->of_file);
+    // The same patches, options and sums.
+    QVERIFY(window->snapshot()->radiosity == written_.radiosity);
+    QVERIFY(!window->findChild<QLabel*>("color_note")->isVisible());
+
+    window->findChild<QAction*>("stop")->trigger();
+    QVERIFY(wait_for([&] { return window->snapshot()->of_file; }));
+  }
+
+  void what_is_exported_opens_with_the_same_figures() {
+    const QString path = folder_.filePath("exported.vtp");
+    std::vector<Rgb> radiosity;
+    {
+      SolvedWindow solved("cornell-box");
+      QVERIFY(solved.ready);
+      radiosity = solved.window->snapshot()->radiosity;
+      solved.window->exports().write_result(path);
+      QVERIFY(wait_for([&] { return !solved.window->exports().writing(); }));
+      QVERIFY(solved.window->banner_text().isEmpty());
+      QVERIFY_EXCEPTION_THROWN(solved.window->exports().write_result("a.txt"), InputError);
+    }
+    QVERIFY(!read_result(path.toStdString()).complete);
+    const auto window = make_window();
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QVERIFY(window->snapshot()->radiosity == radiosity);
+    QVERIFY(text(*window, "color_note").contains("stopped early"));
+  }
+
+  void what_cannot_be_read_is_told_with_its_name() {
+    const QString bad = folder_.filePath("bad.vtp");
+    QFile file(bad);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("<VTKFile type=\"PolyData\">");
+    file.close();
+    const auto window = make_window();
+    window->files().try_open(bad);
+    QVERIFY(wait_for([&] { return !window->banner_text().isEmpty(); }));
+    QVERIFY(window->banner_text().startsWith(bad + ": "));
+  }
+
+  void a_session_comes_back_to_the_file() {
+    const QString session = folder_.filePath("s.json");
+    {
+      const auto window = make_window();
+      window->files().open(path_);
+      QVERIFY(settles(*window));
+      window->files().save_session(session);
+    }
+    const auto window = make_window();
+    window->files().open(session);
+    QVERIFY(settles(*window));
+    QVERIFY(window->snapshot()->of_file);
+    QVERIFY(window->snapshot()->radiosity == written_.radiosity);
+  }
+
+ private:
+  static QString text(MainWindow& window, const char* label) {
+    return window.findChild<QLabel*>(label)->text();
+  }
+
+  QTemporaryDir folder_;
+  QString path_;
+  Solution written_;
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(ResultTest)
+#include "result_test.moc"
