@@ -18,11 +18,11 @@ struct Words {
   bool one_way = false, two_way = false;
 };
 
-// The setting's sentence, and the names it takes.
+// The names that a setting takes, and its sentence.
 std::string described(const char* setting, const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : " | ") + name;
-  return std::string(sentence_of(setting)) + ": " + text;
+  return text + ": " + sentence_of(setting);
 }
 
 void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {

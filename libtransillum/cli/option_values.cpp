@@ -103,7 +103,7 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name) {
-  return fmt::format("{}: {} (default {})", sentence_of(setting), fmt::join(names, " | "),
+  return fmt::format("{}: {} (default {})", fmt::join(names, " | "), sentence_of(setting),
                      default_name);
 }
 

@@ -33,7 +33,7 @@ template <typename Default>
 std::string help_of(const std::string& setting, const Default& value) {
   return fmt::format("{} (default {})", sentence_of(setting), value);
 }
-/// The same with the names that it takes.
+/// The same behind the names that it takes.
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name);
 

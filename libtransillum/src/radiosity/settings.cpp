@@ -72,7 +72,7 @@ const std::vector<Setting>& settings() {
         {"two-sided", "yes or no",
          "every face lights and receives on both sides: two opposite patches",
          yes_or_no(scene.two_sided)},
-        {"max-patch-area", "m2, 0: none", "refine faces into patches no larger than this",
+        {"max-patch-area", "m2, 0: none", "refine faces into patches no larger than this, in m2",
          fmt::to_string(scene.max_patch_area)},
         {"memory", "a size as 2G or 800M",
          "what kept form factors may take; beyond it they are computed again each step",
