@@ -56,6 +56,10 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
   dock->setWidget(content);
   // Qt moves a tab behind others out of sight and lets it count as visible: its content would work
   // on for nobody, and never hear that it is in front again.
+  // Else a dock of hidden content is given no room, and those that share its place none either.
+  QSizePolicy policy = content->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  content->setSizePolicy(policy);
   connect(dock, &QDockWidget::visibilityChanged, content,
           [dock, content](bool visible) { content->setVisible(visible || dock->isHidden()); });
   docks_.push_back({dock, std::move(places)});

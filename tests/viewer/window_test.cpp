@@ -236,6 +236,17 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return !dock->widget()->isVisible(); }, 5000));
   }
 
+  void a_layout_gives_its_docks_their_sizes() {
+    const auto window = make_window();
+    window->resize(1440, 900);
+    for (const char* panel : {"tree", "algorithm", "event"}) {
+      window->findChild<QAction*>("layout_teach")->trigger();
+      window->docks().bring_to_front(panel);
+      const auto* dock = window->findChild<QDockWidget*>(QString(panel) + "_dock");
+      QVERIFY(wait_for([&] { return dock->width() >= 400 && dock->height() >= 240; }, 5000));
+    }
+  }
+
   void tables_grow_with_the_type() {
     const auto window = make_window();
     auto* table = window->findChild<QTableView*>("received_light");
