@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "help_format.h"
+#include "interruption.h"
 #include "messages.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"
@@ -164,6 +165,9 @@ int run_reporting_errors(int argc, char** argv) {
   } catch (const InputError& error) {
     print_message(error.what());
     return wrong_call;
+  } catch (const NothingToSave& interruption) {
+    print_message(std::string("interrupted; ") + interruption.what());
+    return interrupted;
   } catch (const Cancelled&) {
     print_message("interrupted; there was nothing to save yet");
     return interrupted;

@@ -59,6 +59,12 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
   return map;
 }
 
+/// Of engines that keep no shapes of the plane's.
+std::string shown_by_viewer(Engine engine) {
+  const bool shown = engine == Engine::corrected || engine == Engine::hemicube;
+  return shown ? " (the viewer shows what it sees)" : "";
+}
+
 void add_pixel_options(CLI::App& command, MapCall& call) {
   add_parsed_option(
       command, "--engine", "NAME",
@@ -67,7 +73,9 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
         call.engine = engine_from_name(text);
         if (call.engine != Engine::local && !has_pixels(call.engine)) {
           throw InputError(
-              fmt::format("--engine: {} has no map; choose local, zbuffer, painter or rays", text));
+              fmt::format("--engine: {} has no map that can be written; choose local, zbuffer, "
+                          "painter or rays{}",
+                          text, shown_by_viewer(call.engine)));
         }
       });
   add_parsed_option(command, "--resolution", "R",

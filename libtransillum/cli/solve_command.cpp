@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 
@@ -132,9 +133,18 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
 
 Solution solve_by_drawing(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                           const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
-  return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
-    if (!quiet) display.show("hemicubes", share);
-  });
+  double drawn = 0;
+  try {
+    return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
+      drawn = share;
+      if (!quiet) display.show("hemicubes", share);
+    });
+  } catch (const Cancelled&) {
+    // Where rows are missing there is no B that would be an estimate of anything.
+    throw NothingToSave(fmt::format(
+        "{:.0f} % of the hemicubes were drawn, and B takes all of them: nothing is saved",
+        std::floor(100 * drawn)));
+  }
 }
 
 /// One file that cannot be written does not cost the others.

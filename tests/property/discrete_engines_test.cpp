@@ -87,6 +87,30 @@ TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
   }
 }
 
+/// The other way round the same centres are met, mirrored. Only an edge that runs through centres
+/// gives them to another side then; where a scene's edges run along the grid, to a row of pixels.
+TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
+  constexpr int resolution = 64;
+  int equal = 0, directions = 0;
+  for (const auto& scene : {load_scene("cornell-box"), load_scene("rooms"), random_triangles(),
+                            load_scene("sphere-flake:levels=1")}) {
+    const TransferEngine engine = engine_of(GetParam(), scene, {.resolution = resolution});
+    for (const Vec3& omega : testing::test_directions(20, 8)) {
+      PairAreas there = areas_of(engine(omega, {})), back;
+      for (const Transfer& t : engine(-1 * omega, {}).exchanges)
+        back[{t.source, t.receiver}] = t.area;
+      double all = 0;
+      for (const auto& [pair, area] : there) all += area;
+      const double differ = total_difference(there, back);
+      EXPECT_LE(differ, 8.0 / resolution * all)
+          << scene->name() << " " << omega.x << " " << omega.y;
+      equal += differ <= 1e-3 * all ? 1 : 0;
+      ++directions;
+    }
+  }
+  EXPECT_GE(equal, 0.75 * directions);
+}
+
 /// Both sample the same points, one by heights and one by order.
 TEST(DiscreteEngines, ZBufferAndPainterAgree) {
   for (const auto& scene :

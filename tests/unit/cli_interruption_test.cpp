@@ -58,5 +58,20 @@ TEST(CliInterruption, BeforeTheFirstPassNothingIsWritten) {
   EXPECT_THAT(folder.names(), ::testing::IsEmpty());
 }
 
+/// An incomplete matrix has no B.
+TEST(CliInterruption, HemicubesSaveNothingAndSayWhy) {
+  const TemporaryFolder folder;
+  RunningProgram program({"solve", "sphere-flake:levels=1", "--engine", "hemicube", "--resolution",
+                          "1024", "--out", folder / "a.csv"});
+  for (int k = 0; k < 600 && program.err_so_far().find("hemicubes") == std::string::npos; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("% of the hemicubes were drawn, and B takes all of them"));
+  EXPECT_THAT(folder.names(), ::testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace transillum::testing

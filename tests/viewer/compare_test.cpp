@@ -10,6 +10,7 @@
 #include "engine_text.h"
 #include "hemicube_view.h"
 #include "pixel_view.h"
+#include "settings_panel.h"
 #include "solved_window.h"
 
 using namespace transillum;
@@ -127,6 +128,34 @@ class CompareTest : public QObject {
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
+  }
+
+  void settings_offer_what_an_engine_takes() {
+    SettingsPanel panel;
+    panel.show();
+    auto* engine = panel.findChild<QComboBox*>("engine");
+    auto* resolution = panel.findChild<QSpinBox*>("resolution");
+    auto* order = panel.findChild<QComboBox*>("painters_order");
+    const auto choose = [&](Engine wanted) {
+      choose_engine(*engine, wanted);
+      QCOMPARE(panel.solve_options().engine, wanted);
+      QVERIFY(!engine->toolTip().isEmpty());
+      QCOMPARE(resolution->isVisible(), takes_resolution(wanted));
+      QCOMPARE(order->isVisible(), wanted == Engine::painter);
+    };
+    for (const std::string& name : engine_names()) {
+      if (takes_directions(engine_from_name(name))) choose(engine_from_name(name));
+    }
+    choose(Engine::painter);
+    QVERIFY(resolution->text().contains(QStringLiteral("512 px")));  // the default
+    resolution->setValue(256);
+    order->setCurrentIndex(1);
+    const SolveOptions options = panel.solve_options();
+    QCOMPARE(options.engine_options.resolution, 256);
+    QVERIFY(options.engine_options.order == PaintersOrder::newell);
+    SettingsPanel another;
+    another.set_options(options, {});
+    QVERIFY(another.solve_options() == options);
   }
 
   void tells_why_there_is_nothing() {
