@@ -199,12 +199,8 @@ void CompareView::clear() {
 }
 
 bool CompareView::up_to_date() const {
-  if (!focus_.map() || !comparison_ || comparison_->loaded != focus_.map()->loaded) return false;
-  const Vec3& omega = focus_.map()->record().frame.omega;
-  const bool right = asked_.compares_rows()
-                         ? comparison_->eye == asked_.eye || !comparison_->ok()
-                         : comparison_->direction == asked_.direction && omega == asked_.direction;
-  return right && first_.up_to_date() && other_.up_to_date() && picture_->canvas()->up_to_date();
+  return comparison_ && !comparing_ && focus_.map() && snapshot_ && wanted() == asked_ &&
+         first_.up_to_date() && other_.up_to_date() && picture_->canvas()->up_to_date();
 }
 
 void CompareView::showEvent(QShowEvent* event) {
@@ -212,9 +208,7 @@ void CompareView::showEvent(QShowEvent* event) {
   ask();
 }
 
-void CompareView::ask() {
-  show_maps();
-  if (!isVisible() || !snapshot_ || !focus_.map()) return;
+EngineComparer::Request CompareView::wanted() const {
   EngineComparer::Request request;
   request.loaded = focus_.map()->loaded;
   request.direction = focus_.map()->record().frame.omega;
@@ -229,8 +223,16 @@ void CompareView::ask() {
     request.directions = snapshot_->directions;
     request.two_way = snapshot_->options.two_way;
   }
+  return request;
+}
+
+void CompareView::ask() {
+  show_maps();
+  if (!isVisible() || !snapshot_ || !focus_.map()) return;
+  EngineComparer::Request request = wanted();
   if (request == asked_) return;
   asked_ = request;
+  comparing_ = true;
   words_->setText(tr("Comparing…"));
   comparer_.request(std::move(request));
 }
@@ -264,6 +266,7 @@ void CompareView::show_maps() {
 
 void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {
   comparison_ = std::move(comparison);
+  comparing_ = false;
   picture_->show(focus_.map(), comparison_);
   table_->clearContents();
   if (!comparison_) {

@@ -34,7 +34,7 @@ class CompareView : public QWidget {
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
-  /// Whether the direction in focus is compared.
+  /// Whether the direction in focus is compared, as chosen.
   bool up_to_date() const;
 
  protected:
@@ -56,6 +56,7 @@ class CompareView : public QWidget {
   Choice make_choice(const char* name, Engine engine);
   QBoxLayout* column_of(const Choice& choice) const;
   void link(const std::vector<MapCanvas*>& maps);
+  EngineComparer::Request wanted() const;
   void ask();
   void show_maps();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
@@ -66,6 +67,7 @@ class CompareView : public QWidget {
   const ColorChoice& colors_;
   EngineComparer comparer_;
   EngineComparer::Request asked_;
+  bool comparing_ = false;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::shared_ptr<const EngineComparison> comparison_;
   Choice first_, other_;

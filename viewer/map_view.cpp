@@ -32,6 +32,9 @@ QToolButton* text_button(const QString& text, const QString& tip, bool checkable
   return button;
 }
 
+/// Of what is wrong by rounding only nothing is said.
+QString percent_of(double share) { return QString::number(share < 1e-9 ? 0 : 100 * share, 'g', 2); }
+
 QString color_name(const QColor& color, const QString& words) {
   return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), words);
 }
@@ -238,7 +241,7 @@ QString MapView::pixel_text() const {
       tr("V after %1 of %2 polygons")
           .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
   if (view.corrected) {
-    return after + tr(", none cut: %1 % of it taken wrongly").arg(100 * view.wrong, 0, 'g', 2);
+    return after + tr(", none cut: %1 % of it taken wrongly").arg(percent_of(view.wrong));
   }
   if (!view.choice.differences) {
     return after + tr(", pixels of %1 m").arg(number_text(view.drawn.pixels.side));

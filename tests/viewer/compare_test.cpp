@@ -45,9 +45,9 @@ class CompareTest : public QObject {
     // Finer pixels come nearer, and the same engine is the same.
     const QString before = shown.text("compare_words");
     view->findChild<QSpinBox*>("other_resolution")->setValue(1024);
-    QVERIFY(wait_for([&] {
-      return table->horizontalHeaderItem(1)->text() == QStringLiteral("Z-buffer, 1024 px");
-    }));
+    QVERIFY(!view->up_to_date());
+    QVERIFY(wait_for([&] { return view->up_to_date(); }, 120000));
+    QCOMPARE(table->horizontalHeaderItem(1)->text(), QStringLiteral("Z-buffer, 1024 px"));
     QVERIFY(shown.text("compare_words") != before);
     QVERIFY(total() < coarse);
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Fast"));

@@ -3,8 +3,13 @@
 // The pictures of the manual and of the welcome page. Where TRANSILLUM_PICTURES names a folder they
 // are written there (viewer/pictures/make); otherwise a few are taken, and looked at only by
 // machine: none may be blank.
+#include <QComboBox>
 #include <QDir>
+#include <QDockWidget>
+#include <QPainter>
+#include <QSpinBox>
 
+#include "compare_view.h"
 #include "lesson_panel.h"
 #include "solved_window.h"
 #include "stage.h"
@@ -64,6 +69,56 @@ class PicturesTest : public QObject {
       QVERIFY(settles(window));
       keep(whole(window), QStringLiteral("layout-%1.png").arg(layout), {960, 600});
     }
+  }
+
+  void engines() {
+    MainWindow window(false);
+    window.resize(window_size);
+    window.show();
+    SolveOptions options;
+    options.directions = 64;
+    window.set_options(options, {});
+    window.open("cornell-box");
+    QVERIFY(settles(window));
+    window.selection().select(14);
+    window.focus().go_to({0, 3, 20});
+    QVERIFY(settles(window));
+    // The map as each engine sees it, side by side.
+    auto* map_dock = window.findChild<QDockWidget*>("map_dock");
+    map_dock->setFloating(true);
+    map_dock->resize(460, 400);
+    constexpr int columns = 3;
+    const QSize each(320, 270);
+    QImage all(columns * each.width(), 2 * each.height(), QImage::Format_RGB888);
+    all.fill(Qt::white);
+    QPainter painter(&all);
+    int place = 0;
+    auto* map = window.findChild<MapView*>();
+    for (const char* action :
+         {"map_exact", "map_zbuffer", "map_painter", "map_rays", "map_corrected", "map_hemicube"}) {
+      window.findChild<QAction*>(action)->trigger();
+      QVERIFY(settles(window));
+      const QImage shown = map->grab().toImage();
+      QVERIFY2(color_count(shown) > 16, action);
+      painter.drawImage(QPoint(place % columns * each.width(), place / columns * each.height()),
+                        shown.scaled(each, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+      ++place;
+    }
+    painter.end();
+    keep(all, "map-engines.png", all.size());
+    window.findChild<QAction*>("map_exact")->trigger();
+    auto* compare = window.findChild<CompareView*>();
+    auto* dock = window.findChild<QDockWidget*>("compare_dock");
+    dock->raise();
+    QVERIFY(wait_for([&] { return compare->isVisible(); }));
+    dock->setFloating(true);
+    dock->resize(560, 760);
+    compare->findChild<QComboBox*>("other_engine")->setCurrentText("Painter's algorithm");
+    compare->findChild<QSpinBox*>("other_resolution")->setValue(64);
+    QVERIFY(wait_for([&] { return compare->up_to_date(); }));
+    QTest::qWait(600);
+    QVERIFY(wait_for([&] { return compare->up_to_date(); }));
+    keep(compare->grab().toImage(), "compare.png", {480, 640});
   }
 
   void first_pages_of_lessons() {
