@@ -7,12 +7,15 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QPainter>
+#include <QPushButton>
 #include <QSpinBox>
+#include <QTabWidget>
 
 #include "compare_view.h"
 #include "lesson_panel.h"
 #include "solved_window.h"
 #include "stage.h"
+#include "study_dialog.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -152,6 +155,43 @@ class PicturesTest : public QObject {
     QVERIFY(settles(window));
     keep(whole(window), "dark.png", {960, 600});
     window.findChild<QAction*>("dark")->trigger();
+  }
+
+  void panels_and_the_study() {
+    MainWindow window(false);
+    window.resize(window_size);
+    window.show();
+    SolveOptions options;
+    options.directions = 64;
+    window.set_options(options, {});
+    window.open("cornell-box");
+    QVERIFY(settles(window));
+    window.selection().select(16);
+    const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
+      window.findChild<QAction*>(layout)->trigger();
+      window.docks().bring_to_front(panel);
+      auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
+      QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
+      QTest::qWait(500);  // what it asks for beside the solver
+      QVERIFY(settles(window));
+      const QImage picture = dock->grab().toImage();
+      keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());
+    };
+    window.focus().go_to({0, 9, 11});
+    keep_panel("layout_teach", "tree", "tree");
+    if (folder().isEmpty()) return;
+    window.findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
+    keep_panel("layout_teach", "tree", "whole-tree");
+    keep_panel("layout_debug", "received", "received");
+    keep_panel("layout_inspect", "material", "materials");
+    keep_panel("layout_inspect", "table", "patches");
+    keep_panel("layout_inspect", "compare", "compare");
+    window.findChild<QAction*>("study")->trigger();
+    auto* study = window.findChild<StudyDialog*>();
+    study->findChild<QPushButton*>("study_run")->click();
+    QVERIFY(wait_for([&] { return study->findChild<QLabel*>("study_phase")->text() == "Done"; },
+                     100000));
+    keep(study->grab().toImage(), "study.png", {860, 600});
   }
 
   void built_in_scenes_alone() {
