@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "inspection.h"
 #include "window_support.h"
 
 using namespace transillum;
@@ -86,50 +85,6 @@ class ResponsivenessTest : public QObject {
     // The goals are 50 and 500 on an idle machine; the bounds are for busy ones.
     QVERIFY(same < 1000);
     QVERIFY(other < 5000);
-  }
-
-  // TRANSILLUM_SLIDER_DIRECTIONS: for how many the form factors are kept.
-  void a_slider_shows_soon() {
-    const int wanted = qEnvironmentVariableIntValue("TRANSILLUM_SLIDER_DIRECTIONS");
-    const auto window = make_window(wanted > 0 ? wanted : 16);
-    window->open("sphere-flake", {Goal::Kind::iteration});
-    window->session().want_form_factors();
-    QVERIFY(
-        wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; }, 600000));
-    QVERIFY(wait_for([&] { return window->settled(); }));
-    MaterialEdits& edits = window->inspection().edits();
-    bool changed = true;
-    std::vector<Rgb> shown = window->snapshot()->radiosity;
-    const auto median_of = [&](int count, const std::function<void(int)>& change) {
-      std::vector<double> times;  // ms
-      for (int k = 0; k < count; ++k) {
-        QElapsedTimer timer;
-        timer.start();
-        change(k);
-        while (!window->settled()) QCoreApplication::processEvents(QEventLoop::AllEvents, 1);
-        window->repaint();
-        times.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
-        changed = changed && window->snapshot()->radiosity != shown;
-        shown = window->snapshot()->radiosity;
-      }
-      std::sort(times.begin(), times.end());
-      return times[times.size() / 2];
-    };
-    const Material first = edits.originals().front();
-    const double slider = median_of(9, [&](int k) {
-      edits.begin_drag();
-      edits.set(0, first.exitance, (0.95 - 0.05 * k) * first.reflectance);
-    });
-    const double undo = median_of(8, [&](int) { edits.undo_stack().undo(); });
-    const double redo = median_of(8, [&](int) { edits.undo_stack().redo(); });
-    qInfo(
-        "slider to picture, ms in the median, %d directions, %lld form factors: %.0f; undo %.0f, "
-        "redo %.0f",
-        window->snapshot()->options.directions,
-        static_cast<long long>(window->snapshot()->form_factors->value.size()), slider, undo, redo);
-    QVERIFY(changed);
-    // The goal is 300 with 1,024 directions on an idle machine.
-    QVERIFY(slider < 3000 && undo < 3000 && redo < 3000);
   }
 };
 
