@@ -232,11 +232,18 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     entries.emplace_back(theme::difference, tr("differs"));
   }
   constexpr double box_width = 16, gap = 8, axes = 64;
+  const auto width_of = [&](const QString& words) {
+    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+  };
   double total = 0;
-  for (const auto& [brush, words] : entries)
-    total += box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
-  // Right of the scale bar, with its words, and left of the axes.
-  double x = std::min(std::max(width() / 2.0 - 8, width() / 4.0 + 80), width() - axes - total);
+  for (const auto& [brush, words] : entries) total += width_of(words);
+  // Right of the scale bar, with its words, and left of the axes; back sides explain themselves.
+  const double left = width() / 4.0 + 80, right = width() - axes;
+  if (entries.size() > 1 && left + total > right) {
+    total -= width_of(entries.front().second);
+    entries.erase(entries.begin());
+  }
+  double x = std::min(std::max(width() / 2.0 - 8, left), right - total);
   for (const auto& [brush, words] : entries) {
     const QRectF box(x, height() - 23, box_width, 12);
     painter.setPen(QPen(theme::on_dark_dim, 1));
@@ -244,7 +251,7 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
     painter.drawText(box.bottomRight() + QPointF(gap, -1), words);
-    x += box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+    x += width_of(words);
   }
 }
 
