@@ -185,7 +185,6 @@ class PicturesTest : public QObject {
     keep_panel("layout_debug", "received", "received");
     keep_panel("layout_inspect", "material", "materials");
     keep_panel("layout_inspect", "table", "patches");
-    keep_panel("layout_inspect", "compare", "compare");
     window.findChild<QAction*>("study")->trigger();
     auto* study = window.findChild<StudyDialog*>();
     study->findChild<QPushButton*>("study_run")->click();
