@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "inspection.h"
 #include "window_support.h"
 
 using namespace transillum;
@@ -85,6 +86,43 @@ class ResponsivenessTest : public QObject {
     // The goals are 50 and 500 on an idle machine; the bounds are for busy ones.
     QVERIFY(same < 1000);
     QVERIFY(other < 5000);
+  }
+
+  // With the form factors of few directions, for a test's time: what else there is to a picture.
+  void a_slider_shows_soon() {
+    constexpr int directions = 32;
+    const auto window = make_window(directions);
+    window->open("sphere-flake", {Goal::Kind::iteration});
+    window->session().want_form_factors();
+    QVERIFY(
+        wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; }, 60000));
+    MaterialEdits& edits = window->inspection().edits();
+    const std::vector<Material>& own = edits.originals();
+    const auto brightest =
+        std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
+          return max_abs(a.reflectance) < max_abs(b.reflectance);
+        });
+    const int material = static_cast<int>(brightest - own.begin());
+    const Material first = *brightest;
+    std::vector<double> times;  // ms
+    for (int k = 1; k <= 9; ++k) {
+      const auto before = window->snapshot()->radiosity;
+      QElapsedTimer timer;
+      timer.start();
+      edits.set(material, first.exitance, (1 - 0.05 * k) * first.reflectance);
+      QVERIFY(wait_for([&] {
+        return window->inspection().up_to_date() && window->snapshot()->radiosity != before;
+      }));
+      window->repaint();
+      times.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+    }
+    std::sort(times.begin(), times.end());
+    qInfo(
+        "slider to picture, ms in the median: %.0f, longest %.0f; %d directions, %lld form factors",
+        times[times.size() / 2], times.back(), directions,
+        static_cast<long long>(window->snapshot()->form_factors->value.size()));
+    // The goal is 300 with 1,024 directions on an idle machine.
+    QVERIFY(times[times.size() / 2] < 3000);
   }
 };
 
