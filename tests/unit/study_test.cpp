@@ -190,6 +190,22 @@ TEST(Study, TooFewDirectionsAreAResult) {
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
+/// Pixels so coarse that rows of form factors sum to far more than 1: B outgrows all numbers.
+TEST(Study, InfiniteLightIsNoFigure) {
+  const auto scene = load_scene("sphere-flake:levels=1");
+  StudyOptions options;
+  options.series = {{Sampling::fibonacci}};
+  options.series[0].engine = Engine::zbuffer;
+  options.series[0].resolution = 8;
+  options.directions = {8};
+  const std::vector<Rgb> reference(static_cast<std::size_t>(scene->patch_count()), {1, 1, 1});
+  const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
+  ASSERT_THAT(study.points, SizeIs(1));
+  EXPECT_NE(study.points[0].failure, "");
+  EXPECT_TRUE(std::isnan(study.points[0].rms_error));
+  EXPECT_TRUE(std::isnan(study.points[0].max_error));
+}
+
 TEST(Study, TooLittleMemoryIsAResultOfWhatWantsIt) {
   StudyOptions options;
   options.series = {{Sampling::fibonacci},

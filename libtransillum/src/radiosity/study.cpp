@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "bit_mixing.h"
@@ -106,6 +107,7 @@ class StudyRun {
         add_solve(point, m, rotation);
       }
       point.rms_error = std::sqrt(point.rms_error);
+      if (!std::isfinite(point.rms_error)) throw std::runtime_error("B outgrows all numbers");
     } catch (const InputError&) {
       throw;
     } catch (const std::runtime_error& error) {
