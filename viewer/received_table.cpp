@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "received_table.h"
 
-#include <QFont>
 #include <algorithm>
 #include <utility>
 
 #include "number_text.h"
+#include "table_cells.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -101,11 +101,8 @@ QVariant ReceivedTable::data(const QModelIndex& index, int role) const {
       return index.column() == of_irradiance
                  ? QVariant(tr("Red, green, blue: %1 W/m²").arg(rgb_text(light.irradiance)))
                  : QVariant();
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(light.pass == current_pass_);
-      return font;
-    }
+    case Qt::FontRole:
+      return font_cell(light.pass == current_pass_);
     default:
       return {};
   }
@@ -113,10 +110,8 @@ QVariant ReceivedTable::data(const QModelIndex& index, int role) const {
 
 QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  const auto pick = [role](const QString& name, const QString& tip) -> QVariant {
-    if (role == Qt::DisplayRole) return name;
-    if (role == Qt::ToolTipRole) return tip;
-    return {};
+  const auto pick = [role](const QString& name, const QString& tip) {
+    return head_cell(role, name, tip);
   };
   switch (section) {
     case of_direction:

@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "tree_model.h"
 
-#include <QFont>
 #include <algorithm>
 #include <utility>
 
 #include "number_text.h"
+#include "table_cells.h"
 #include "theme.h"
 #include "tree_words.h"
 
@@ -121,11 +121,8 @@ QVariant TreeModel::data(const QModelIndex& index, int role) const {
       return on_path(visit.node) ? QVariant(theme::accent)
              : to_come           ? QVariant(theme::ink_dim)
                                  : QVariant();
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(!path_.empty() && visit.node == path_.back());
-      return font;
-    }
+    case Qt::FontRole:
+      return font_cell(!path_.empty() && visit.node == path_.back());
     default:
       return {};
   }
@@ -133,10 +130,8 @@ QVariant TreeModel::data(const QModelIndex& index, int role) const {
 
 QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  const auto pick = [role](const QString& name, const QString& tip) -> QVariant {
-    if (role == Qt::DisplayRole) return name;
-    if (role == Qt::ToolTipRole) return tip;
-    return {};
+  const auto pick = [role](const QString& name, const QString& tip) {
+    return head_cell(role, name, tip);
   };
   switch (section) {
     case of_plane:

@@ -1,10 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "tree_path_table.h"
 
-#include <QFont>
 #include <utility>
 
 #include "number_text.h"
+#include "table_cells.h"
 #include "tree_words.h"
 
 namespace transillum::viewer {
@@ -67,11 +67,8 @@ QVariant TreePathTable::data(const QModelIndex& index, int role) const {
       return QVariant(index.column() == of_cosine || index.column() == of_count
                           ? Qt::AlignRight | Qt::AlignVCenter
                           : Qt::AlignLeft | Qt::AlignVCenter);
-    case Qt::FontRole: {
-      QFont font;
-      font.setBold(last);
-      return font;
-    }
+    case Qt::FontRole:
+      return font_cell(last);
     default:
       return {};
   }
@@ -79,10 +76,8 @@ QVariant TreePathTable::data(const QModelIndex& index, int role) const {
 
 QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  const auto pick = [role](const QString& name, const QString& tip) -> QVariant {
-    if (role == Qt::DisplayRole) return name;
-    if (role == Qt::ToolTipRole) return tip;
-    return {};
+  const auto pick = [role](const QString& name, const QString& tip) {
+    return head_cell(role, name, tip);
   };
   switch (section) {
     case of_plane:
