@@ -142,7 +142,6 @@ class PicturesTest : public QObject {
   }
 
   void projector_and_dark() {
-    if (folder().isEmpty()) QSKIP("only for the manual");
     MainWindow window(false);
     window.resize(window_size);
     window.show();
