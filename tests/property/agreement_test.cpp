@@ -190,6 +190,13 @@ TEST_P(AgreementRandom, OnScenesMadeToBeNasty) {
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementRandom, ::testing::Range(0, 20));
 
+/// Scenes on which engines have not agreed.
+class AgreementFound : public ::testing::TestWithParam<int> {};
+TEST_P(AgreementFound, OnScenesMadeToBeNasty) {
+  expect_agreement_on(static_cast<std::uint64_t>(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, AgreementFound, ::testing::Values(1164, 2314));
+
 class NightlyAgreementRandom : public ::testing::TestWithParam<int> {};
 TEST_P(NightlyAgreementRandom, OnScenesMadeToBeNasty) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 500, 500);

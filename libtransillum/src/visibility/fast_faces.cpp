@@ -9,7 +9,7 @@
 namespace transillum {
 namespace {
 
-constexpr double thinnest = 32;                               ///< steps
+constexpr double thinnest = 4;                                ///< steps
 constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
 
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
