@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "transillum/engine.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -13,15 +16,20 @@ constexpr double tight = 1e-12;
 struct Solved {
   std::shared_ptr<const Scene> scene;
   FormFactors form_factors;
+  std::shared_ptr<const DirectLight> shot;
   std::vector<Rgb> radiosity, irradiance;
 };
 
-Solved solved(const SceneDescription& description, const SolveOptions& options) {
+Solved solved(const SceneDescription& description, const SolveOptions& options,
+              const std::vector<PatchId>* sources = nullptr) {
   Solved result;
   result.scene = std::make_shared<const Scene>(description);
-  RadiositySolver solver(result.scene, options);
+  if (sources) result.shot = std::make_shared<const DirectLight>(shoot(*result.scene, *sources));
+  RadiositySolver solver(result.scene, options, nullptr, {}, result.shot);
+  solver.keep_form_factors();
   solver.advance(RadiositySolver::Until::finished);
   result.form_factors = solver.form_factors();
+  result.shot = solver.direct_light();
   result.radiosity = solver.radiosity();
   result.irradiance = solver.irradiance();
   return result;
@@ -58,6 +66,143 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGives) {
     expect_same(relit.irradiance, after.irradiance, 1e-10);
     EXPECT_GT(max_abs(after.radiosity[0] - before.radiosity[0]), 1e-3);
   }
+}
+
+TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
+  for (const auto& [spec, ratio] : {std::pair("stars", small_source_ratio),
+                                    std::pair("cornell-box", 0.0), std::pair("rooms", 0.0)}) {
+    SCOPED_TRACE(spec);
+    const SceneDescription description = describe_scene(spec);
+    SceneDescription changed = description;
+    changed.materials = other(description.materials);
+    for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
+      SolveOptions options{.directions = 100, .normalize = normalize, .tolerance = tight};
+      options.first_shot = ratio;
+      const Solved before = solved(description, options), after = solved(changed, options);
+      ASSERT_FALSE(before.shot->sources.empty());
+      ASSERT_EQ(before.shot->sources, after.shot->sources);
+      const Relit relit = relight(*before.scene, before.form_factors, changed.materials,
+                                  {.tolerance = tight, .shot = before.shot.get()});
+      expect_same(relit.radiosity, after.radiosity, 1e-10);
+      expect_same(relit.irradiance, after.irradiance, 1e-10);
+    }
+  }
+}
+
+TEST(Relight, KeepsTheSourcesThatWereShot) {
+  const SceneDescription description = describe_scene("cornell-box");
+  SceneDescription changed = description;
+  for (Material& material : changed.materials) {
+    const bool emits = max_abs(material.exitance) > 0;
+    material.exitance = emits ? Rgb{} : Rgb{1, 2, 0.5};
+  }
+  SolveOptions options{.directions = 100, .tolerance = tight};
+  options.first_shot = 0;
+  const Solved before = solved(description, options);
+  const Solved after = solved(changed, options, &before.shot->sources);
+  EXPECT_EQ(after.shot->power_share, 0);
+  const Relit relit = relight(*before.scene, before.form_factors, changed.materials,
+                              {.tolerance = tight, .shot = before.shot.get()});
+  expect_same(relit.radiosity, after.radiosity, 1e-10);
+}
+
+TEST(Relight, RefusesAShotThatIsNotKeptByMaterialsOrOfAnotherScene) {
+  SolveOptions options{.directions = 16};
+  options.first_shot = 0;
+  const Solved s = solved(describe_scene("cornell-box"), options);
+  DirectLight light = *s.shot;
+  light.parts.clear();
+  EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {.shot = &light}),
+               InputError);
+  light = *s.shot;
+  light.irradiance.pop_back();
+  EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {.shot = &light}),
+               InputError);
+}
+
+/// F of all directions of all steps, put together by hand.
+std::vector<std::vector<double>> dense_form_factors(const RadiositySolver& solver, int steps) {
+  const Scene& scene = solver.scene();
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const bool by_rows = solver.options().normalize == Normalization::rows;
+  std::vector<std::vector<double>> f(patches, std::vector<double>(patches));
+  std::vector<double> projected(patches);
+  const TransferEngine engine =
+      make_engine(solver.options().engine, solver.shared_scene(), solver.shared_tree());
+  for (int n = 0; n < steps; ++n) {
+    for (int k = 0; k < solver.options().directions; ++k) {
+      const Transfers transfers = engine(solver.direction(n, k), {});
+      for (const Transfer& t : transfers.exchanges) {
+        f[static_cast<std::size_t>(t.receiver)][static_cast<std::size_t>(t.source)] += t.area;
+        f[static_cast<std::size_t>(t.source)][static_cast<std::size_t>(t.receiver)] += t.area;
+      }
+      for (std::size_t i = 0; i < patches; ++i)
+        projected[i] += transfers.forward[i].projected + transfers.backward[i].projected;
+    }
+  }
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double plain = steps * solver.options().directions * 2 * scene.patches()[i].area / 4;
+    for (double& value : f[i]) value /= by_rows ? projected[i] : plain;
+  }
+  return f;
+}
+
+TEST(Relight, HasTheFormFactorsOfAllStepsOfTheSemiIterativeScheme) {
+  const auto scene = std::make_shared<const Scene>(describe_scene("cornell-box"));
+  for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
+    for (const int replicas : {1, 3}) {
+      SolveOptions options{.directions = 24, .normalize = normalize};
+      options.scheme = Scheme::semi_iterative;
+      options.burn_in = 2;
+      options.iterations = 5;
+      options.replicas = replicas;
+      RadiositySolver solver(scene, options);
+      solver.keep_form_factors();
+      EXPECT_THROW(solver.form_factors(), std::runtime_error);
+      solver.advance(RadiositySolver::Until::finished);
+      const FormFactors kept = solver.form_factors();
+      const auto expected = dense_form_factors(solver, 5);
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        std::vector<double> row(expected.size());
+        for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k)
+          row[static_cast<std::size_t>(kept.source[k])] = kept.value[k];
+        for (std::size_t j = 0; j < row.size(); ++j)
+          EXPECT_NEAR(row[j], expected[i][j], 1e-14) << i << ' ' << j;
+      }
+    }
+  }
+}
+
+TEST(Relight, ComesNearTheMeanOfTheSemiIterativeScheme) {
+  SolveOptions options{.directions = 128};
+  options.scheme = Scheme::semi_iterative;
+  options.iterations = 40;
+  SceneDescription changed = describe_scene("cornell-box");
+  const Solved before = solved(changed, options);
+  changed.materials = other(changed.materials);
+  const Solved after = solved(changed, options);
+  const Relit relit = relight(*before.scene, before.form_factors, changed.materials);
+  double difference = 0, norm = 0;
+  for (std::size_t i = 0; i < relit.radiosity.size(); ++i) {
+    difference += std::pow(relit.radiosity[i].b - after.radiosity[i].b, 2);
+    norm += std::pow(after.radiosity[i].b, 2);
+  }
+  EXPECT_LT(std::sqrt(difference / norm), 2e-3);
+}
+
+TEST(Relight, WhatIsKeptLeavesTheSemiIterativeSchemeAsItIs) {
+  const auto scene = std::make_shared<const Scene>(describe_scene("cornell-box"));
+  SolveOptions options{.directions = 32};
+  options.scheme = Scheme::semi_iterative;
+  options.iterations = 12;
+  RadiositySolver keeps(scene, options), plain(scene, options);
+  keeps.keep_form_factors();
+  keeps.advance(RadiositySolver::Until::finished);
+  plain.advance(RadiositySolver::Until::finished);
+  EXPECT_TRUE(keeps.radiosity() == plain.radiosity());
+  EXPECT_TRUE(keeps.statistics().kept_form_factors);
+  EXPECT_FALSE(plain.statistics().kept_form_factors);
+  EXPECT_THROW(plain.form_factors(), std::runtime_error);
 }
 
 TEST(Relight, ComesBackToTheSolveWithTheScenesOwnMaterials) {

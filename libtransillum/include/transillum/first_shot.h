@@ -27,10 +27,17 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio = small
 
 /// The light that some sources send directly to all patches.
 struct DirectLight {
+  /// What the sources of one material bring.
+  struct Part {
+    int material = 0;
+    std::vector<double> irradiance;  ///< H for an exitance of 1, one a patch
+  };
+
   std::vector<Rgb> irradiance;   ///< H, W/m², one a patch
   std::vector<Rgb> exitance;     ///< E of the sources, 0 for other patches: what has been shot
   std::vector<PatchId> sources;  ///< rising
   double power_share = 0;        ///< of the sources in all power emitted
+  std::vector<Part> parts;       ///< by rising material; none where they would take over 256 MiB
 };
 
 /// Shoots the emission of `sources` onto all patches by exact form factors, of whole polygons where
@@ -42,5 +49,11 @@ struct DirectLight {
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
+
+/// The light of the same sources where the scene's materials are others, from the parts of `light`;
+/// it has no parts itself.
+/// @throws InputError where `light` is of another scene, or its parts have been left out.
+DirectLight with_materials(const DirectLight& light, const Scene& scene,
+                           const std::vector<Material>& materials);
 
 }  // namespace transillum

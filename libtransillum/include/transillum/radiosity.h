@@ -166,6 +166,8 @@ class RadiositySolver {
   const BspTree& tree() const;
   std::shared_ptr<const BspTree> shared_tree() const;
   const SolveOptions& options() const;
+  /// Of the first shot; zeros where there is none.
+  std::shared_ptr<const DirectLight> direct_light() const;
   SolveProgress progress() const;
   /// omega of each pass of a step, in the order of the passes.
   const std::vector<Vec3>& directions() const;
@@ -178,8 +180,13 @@ class RadiositySolver {
   std::vector<Rgb> running_estimate() const;
   /// H of the last finished step, W/m², one a patch.
   const std::vector<Rgb>& irradiance() const;
-  /// F_ij of all pairs, from the kept sums of the first step.
-  /// @throws std::runtime_error where that is not finished, or the memory did not take them.
+  /// The semi-iterative scheme needs no form factors and keeps none, unless it is told to: from the
+  /// next pass on. The other schemes always do.
+  void keep_form_factors();
+  /// F_ij of all pairs, from the kept sums of all passes; in the semi-iterative scheme those of all
+  /// its steps.
+  /// @throws std::runtime_error where no step is finished or one is under way, where they were not
+  /// to be kept, or the memory did not take them.
   FormFactors form_factors() const;
   /// sum_j F_ij, one a patch, from the passes done so far; 1 within eps(M)/pi where i is enclosed.
   std::vector<double> form_factor_sums() const;

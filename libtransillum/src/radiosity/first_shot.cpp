@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "transillum/errors.h"
 #include "visibility/patch_exchange.h"
@@ -51,15 +52,55 @@ class SourceNumbers {
   std::vector<PointId> parents_;
 };
 
-/// A_i H_i of the sources' light.
-Rgb received(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
-             const std::vector<PatchId>& sources, const Cancellation& cancellation) {
+/// One part a material of the sources, zeros yet; none where they would take too much memory.
+std::vector<DirectLight::Part> empty_parts(const Scene& scene,
+                                           const std::vector<PatchId>& sources) {
+  constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  std::set<int> materials;
+  for (const PatchId j : sources) materials.insert(scene.patch(j).material);
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  std::vector<DirectLight::Part> parts;
+  if (materials.size() * patches * sizeof(double) > most_bytes) return parts;
+  for (const int m : materials) parts.push_back({m, std::vector<double>(patches)});
+  return parts;
+}
+
+auto part_of(std::vector<DirectLight::Part>& parts, int material) {
+  return std::lower_bound(parts.begin(), parts.end(), material,
+                          [](const DirectLight::Part& part, int m) { return part.material < m; });
+}
+
+/// Fills in what patch i receives of the sources' light.
+void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
+             const Cancellation& cancellation, DirectLight& light) {
+  const auto row = static_cast<std::size_t>(i);
+  const double unit = 1 / scene.patch(i).area;
   Rgb power;
-  for (const PatchId j : sources) {
+  for (const PatchId j : light.sources) {
     cancellation.throw_if_cancelled();
-    if (j != i) power += exchange(i, j).area * scene.exitance(j);
+    if (j == i) continue;
+    const double area = exchange(i, j).area;
+    power += area * scene.exitance(j);
+    const auto part = part_of(light.parts, scene.patch(j).material);
+    if (part != light.parts.end()) part->irradiance[row] += unit * area;
   }
-  return power;
+  light.irradiance[row] = unit * power;
+}
+
+/// What the sources emit, and their share of all power.
+void count_power(const Scene& scene, const std::vector<Material>& materials, DirectLight& light) {
+  const auto exitance = [&](PatchId i) {
+    return materials[static_cast<std::size_t>(scene.patch(i).material)].exitance;
+  };
+  double shot = 0, total = 0;
+  for (const PatchId j : light.sources) {
+    light.exitance[static_cast<std::size_t>(j)] = exitance(j);
+    shot += scene.patch(j).area * sum(exitance(j));
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    total += scene.patch(i).area * sum(exitance(i));
+  }
+  light.power_share = total > 0 ? shot / total : 0;
 }
 
 }  // namespace
@@ -106,7 +147,8 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
                   const Cancellation& cancellation, const std::function<void(double)>& progress) {
   const auto patches = static_cast<std::size_t>(scene.patch_count());
-  DirectLight light{std::vector<Rgb>(patches), std::vector<Rgb>(patches), sources, 0};
+  DirectLight light{std::vector<Rgb>(patches), std::vector<Rgb>(patches), sources, 0,
+                    empty_parts(scene, sources)};
   if (sources.empty()) return light;
   const ExchangeFinder exchange(scene, cancellation);
   if (threads == 0) threads = tbb::info::default_concurrency();
@@ -116,22 +158,36 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
   for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
     const PatchId end = std::min(first + batch * threads, scene.patch_count());
     arena.execute([&] {
-      tbb::parallel_for(first, end, [&](PatchId i) {
-        light.irradiance[static_cast<std::size_t>(i)] =
-            (1 / scene.patch(i).area) * received(scene, exchange, i, sources, cancellation);
-      });
+      tbb::parallel_for(first, end,
+                        [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
     });
     if (progress) progress(static_cast<double>(end) / scene.patch_count());
   }
-
-  double shot = 0, total = 0;
-  for (const PatchId j : sources) {
-    light.exitance[static_cast<std::size_t>(j)] = scene.exitance(j);
-    shot += power(scene, j);
-  }
-  for (PatchId i = 0; i < scene.patch_count(); ++i) total += power(scene, i);
-  light.power_share = shot / total;
+  count_power(scene, scene.materials(), light);
   return light;
+}
+
+DirectLight with_materials(const DirectLight& light, const Scene& scene,
+                           const std::vector<Material>& materials) {
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  if (light.irradiance.size() != patches || light.exitance.size() != patches) {
+    throw InputError("the light shot is of another scene: it has other patches");
+  }
+  if (materials.size() != scene.materials().size()) {
+    throw InputError("the materials are of another scene: there are more or fewer");
+  }
+  if (light.parts.empty() && !light.sources.empty()) {
+    throw InputError("the light shot is not kept by materials: it would take too much memory");
+  }
+  DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
+  for (const DirectLight::Part& part : light.parts) {
+    const Rgb exitance = materials.at(static_cast<std::size_t>(part.material)).exitance;
+    for (std::size_t i = 0; i < patches; ++i) {
+      other.irradiance[i] += part.irradiance[i] * exitance;
+    }
+  }
+  count_power(scene, materials, other);
+  return other;
 }
 
 }  // namespace transillum

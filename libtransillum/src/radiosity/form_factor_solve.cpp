@@ -41,23 +41,37 @@ JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_fac
   h.resize(b.size());
 }
 
-void JacobiIteration::run(int most, double tolerance, const Cancellation& cancellation) {
-  using Clock = std::chrono::steady_clock;
+template <class Visit>
+void JacobiIteration::for_each_row(const Cancellation& cancellation, Visit visit) const {
   const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
                                                static_cast<std::size_t>(threads_));
   oneapi::tbb::task_arena arena(threads_);
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, b.size(), [&](std::size_t i) {
+      cancellation.throw_if_cancelled();
+      visit(i);
+    });
+  });
+}
+
+void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& cancellation) {
+  correction_.resize(b.size());
+  for_each_row(cancellation, [&](std::size_t i) {
+    correction_[i] = shot.irradiance[i] - gather(form_factors_, i, shot.exitance);
+  });
+}
+
+void JacobiIteration::run(int most, double tolerance, const Cancellation& cancellation) {
+  using Clock = std::chrono::steady_clock;
   std::vector<Rgb> next(b.size());
   double last_change = 0;
   while (!converged && static_cast<int>(steps.size()) < most) {
     const auto start = Clock::now();
-    arena.execute([&] {
-      oneapi::tbb::parallel_for(std::size_t{0}, b.size(), [&](std::size_t i) {
-        cancellation.throw_if_cancelled();
-        const Material& material =
-            materials_[static_cast<std::size_t>(scene_.patches()[i].material)];
-        h[i] = gather(form_factors_, i, b);
-        next[i] = material.exitance + material.reflectance * h[i];
-      });
+    for_each_row(cancellation, [&](std::size_t i) {
+      const Material& material = materials_[static_cast<std::size_t>(scene_.patches()[i].material)];
+      h[i] = gather(form_factors_, i, b);
+      if (!correction_.empty()) h[i] += correction_[i];
+      next[i] = material.exitance + material.reflectance * h[i];
     });
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {

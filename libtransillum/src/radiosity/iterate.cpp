@@ -140,9 +140,10 @@ void Iterate::set_radiosity(PatchId i, const Rgb& b) {
   unshot_[row] = b - shot_.exitance[row];
 }
 
-double Iterate::form_factor_scale(PatchId i, PatchId j) const {
+double Iterate::form_factor_scale(PatchId i, PatchId j, double projected, int passes) const {
   const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
-  return row_scale(row) * (scales_.empty() ? 1.0 : scales_[row] * scales_[column]);
+  return row_scale(row, projected, passes) *
+         (scales_.empty() ? 1.0 : scales_[row] * scales_[column]);
 }
 
 double Iterate::form_factor_sum(PatchId i, double row_areas, double projected, int passes) const {

@@ -39,9 +39,10 @@ class Iterate {
 
   /// B of the step under way, from the passes so far.
   Rgb estimate(PatchId i) const;
-  /// What turns an entry (i, j) of the kept sums into F_ij.
-  double form_factor_scale(PatchId i, PatchId j) const;
-  /// sum_j F_ij, given what some passes have seen of i: unscaled.
+  /// What turns an entry (i, j) of kept sums into F_ij, given how many passes they are of and what
+  /// those have seen of i.
+  double form_factor_scale(PatchId i, PatchId j, double projected, int passes) const;
+  /// sum_j F_ij, given the same, and the sum of the row's entries unscaled.
   double form_factor_sum(PatchId i, double row_areas, double projected, int passes) const;
   /// Power sent by what is gathered of B, in the units of gathered(), given the unscaled sums of
   /// columns' areas.

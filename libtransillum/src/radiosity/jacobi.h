@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
 
@@ -26,6 +27,10 @@ struct JacobiIteration {
   std::vector<IterationRecord> steps;
   bool converged = false;
 
+  /// From now on this light goes on top, and what it has shot need not be gathered:
+  ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
+  /// @throws Cancelled
+  void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
   /// Goes on for `most` steps, or until no patch changes by more than `tolerance` of the largest B.
   /// @throws Cancelled, std::runtime_error where B outgrows all numbers.
   void run(int most, double tolerance, const Cancellation& cancellation);
@@ -34,9 +39,14 @@ struct JacobiIteration {
   void run_to(double tolerance, const Cancellation& cancellation);
 
  private:
+  /// Calls visit(i) for every patch, on all threads.
+  template <class Visit>
+  void for_each_row(const Cancellation& cancellation, Visit visit) const;
+
   const Scene& scene_;
   const FormFactors& form_factors_;
   std::span<const Material> materials_;
+  std::vector<Rgb> correction_;  ///< to sum_j F_ij B_j, by a first shot; empty: there was none
   int threads_;
 };
 

@@ -37,6 +37,9 @@ std::shared_ptr<const Scene> RadiositySolver::shared_scene() const { return impl
 const BspTree& RadiositySolver::tree() const { return *impl_->tree; }
 std::shared_ptr<const BspTree> RadiositySolver::shared_tree() const { return impl_->tree; }
 const SolveOptions& RadiositySolver::options() const { return impl_->options; }
+std::shared_ptr<const DirectLight> RadiositySolver::direct_light() const { return impl_->shot; }
+
+void RadiositySolver::keep_form_factors() { impl_->keeps_renewed = true; }
 
 const std::vector<Vec3>& RadiositySolver::directions() const { return impl_->directions; }
 

@@ -31,6 +31,9 @@ Relit relight(const Scene& scene, const FormFactors& form_factors,
               const Cancellation& cancellation) {
   check(scene, form_factors, materials, options.start);
   JacobiIteration iteration(scene, form_factors, materials, options.threads);
+  if (options.shot) {
+    iteration.shoot_first(with_materials(*options.shot, scene, materials), cancellation);
+  }
   if (!options.start.empty()) iteration.b.assign(options.start.begin(), options.start.end());
   iteration.run_to(options.tolerance, cancellation);
   return {std::move(iteration.b), std::move(iteration.h), static_cast<int>(iteration.steps.size())};

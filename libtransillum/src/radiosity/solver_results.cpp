@@ -82,10 +82,12 @@ SolveStatistics RadiositySolver::statistics() const {
 
 FormFactors RadiositySolver::form_factors() const {
   const Impl& s = *impl_;
-  if (s.plan.renews()) {
-    throw std::runtime_error("the semi-iterative scheme keeps no form factors");
+  if (!s.wants_sums()) {
+    throw std::runtime_error("the semi-iterative scheme was not to keep its form factors");
   }
-  if (s.steps.empty() || s.begun) throw std::runtime_error("there are no form factors yet");
+  const SeenAreas& areas = s.kept_areas();
+  if (s.steps.empty() || s.begun || areas.passes == 0)
+    throw std::runtime_error("there are no form factors yet");
   if (!s.keeps_sums()) {
     throw std::runtime_error("the form factors take more than --memory allows");
   }
@@ -117,7 +119,8 @@ FormFactors RadiositySolver::form_factors() const {
   const auto put = [&](PatchId i, PatchId j, double area) {
     const std::size_t k = next[static_cast<std::size_t>(i)]++;
     result.source[k] = j;
-    result.value[k] = s.whole.form_factor_scale(i, j) * area;
+    result.value[k] = area * s.whole.form_factor_scale(
+                                 i, j, areas.projected[static_cast<std::size_t>(i)], areas.passes);
   };
   if (two_way) sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
   sums.for_each(put);

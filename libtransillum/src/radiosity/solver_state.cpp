@@ -48,7 +48,8 @@ RadiositySolver::Impl::Impl(std::shared_ptr<const Scene> solved, const SolveOpti
       directions(plan.directions(0)),
       shot(std::move(ready_shot)),
       whole(*scene, how, *light_of_shot()),
-      areas(static_cast<std::size_t>(scene->patch_count())) {
+      areas(static_cast<std::size_t>(scene->patch_count())),
+      renewed_areas(areas) {
   threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   if (!tree) {
     const auto start = Clock::now();
@@ -85,7 +86,7 @@ const std::shared_ptr<const DirectLight>& RadiositySolver::Impl::light_of_shot()
 }
 
 bool RadiositySolver::Impl::keeps_sums() const {
-  return !plan.renews() &&
+  return wants_sums() &&
          std::none_of(sums.begin(), sums.end(), [](const auto& s) { return s.overrun(); });
 }
 
@@ -102,7 +103,7 @@ void RadiositySolver::Impl::begin_step() {
     areas = SeenAreas(b.size());
     quadrature_errors.clear();
   }
-  const bool from_sums = keeps_sums() && areas.passes > 0;
+  const bool from_sums = !plan.renews() && keeps_sums() && areas.passes > 0;
   if (from_sums && options.scheme == Scheme::conjugate_gradients && steps.size() == 1) {
     for_each_iterate([&](Iterate& iterate, const KeptSums& kept) {
       iterate.leap(kept, 0.1 * options.tolerance, cancellation);
@@ -128,7 +129,7 @@ Pass RadiositySolver::Impl::make_pass(int k, int known) const {
   Pass pass;
   pass.transfers = engine(directions[static_cast<std::size_t>(k)], cancellation);
   if (is_new(k, known)) {
-    if (!plan.renews()) pass.run = sums.front().make_run(pass.transfers.exchanges);
+    if (wants_sums()) pass.run = sums.front().make_run(pass.transfers.exchanges);
     pass.closure = closure_defect(pass.transfers, *scene);
   }
   return pass;
@@ -149,6 +150,7 @@ void RadiositySolver::Impl::absorb(int k, Pass pass) {
 void RadiositySolver::Impl::learn(const Pass& pass) {
   const Transfers& transfers = pass.transfers;
   areas.add(transfers, options.two_way);
+  if (plan.renews() && keeps_renewed) renewed_areas.add(transfers, options.two_way);
   double worst = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const double exact = areas.passes * ways() * scene->patches()[i].area / 4;
@@ -201,7 +203,9 @@ void RadiositySolver::Impl::finish_step() {
   const auto start = Clock::now();
   if (whole.passes() > taken_over && keeps_sums()) {
     for (ExchangeSums& part : sums) part.finish();
-    for_each_iterate([](Iterate& iterate, const KeptSums& kept) { iterate.keep(kept); });
+    if (!plan.renews()) {
+      for_each_iterate([](Iterate& iterate, const KeptSums& kept) { iterate.keep(kept); });
+    }
   }
   check_memory();
   measure_energy();

@@ -53,6 +53,8 @@ struct RadiositySolver::Impl {
   // Learnt from each direction once.
   SeenAreas areas;
   std::vector<ExchangeSums> sums;  ///< a replica each, or one
+  bool keeps_renewed = false;      ///< also where each step has directions of its own
+  SeenAreas renewed_areas;         ///< of the passes of all steps in `sums` then
   std::vector<double> facing_area, back_seen;
   std::vector<double> quadrature_errors;  ///< after each of the passes in `areas`
   double closure_relative = 0, closure_grazing = 0, covered = 0, seen = 0;
@@ -75,7 +77,11 @@ struct RadiositySolver::Impl {
   /// Passes that the step under way takes, and that it has.
   int wanted() const { return plan.passes(step()); }
   int done() const { return begun ? whole.passes() : 0; }
+  /// Whether passes are to be kept, were there the memory.
+  bool wants_sums() const { return !plan.renews() || keeps_renewed; }
   bool keeps_sums() const;
+  /// What the passes in `sums` have seen.
+  const SeenAreas& kept_areas() const { return plan.renews() ? renewed_areas : areas; }
   KeptSums all_sums() const;
   std::size_t replica_of(int k) const { return static_cast<std::size_t>(k) % sums.size(); }
 
