@@ -79,13 +79,16 @@ DirectionGlyph::DirectionGlyph(vtkRenderer& renderer) {
   frame_->SetPoints(points);
   frame_->SetLines(line);
 
-  fill_ = flat_actor(quad_, renderer);
-  // One translucent polygon alone needs no depth peeling.
-  fill_->GetProperty()->SetOpacity(0.20);
-  border_ = flat_actor(frame_, renderer);
-  border_->GetProperty()->SetOpacity(0.85);
   forward_ = arrow_actor(renderer);
   backward_ = arrow_actor(renderer);
+  // Blended with what is drawn by then. As translucent actors they would cost another pass over all
+  // pixels, a fifth of a frame where there is no graphics card.
+  fill_ = flat_actor(quad_, renderer);
+  fill_->GetProperty()->SetOpacity(0.20);
+  fill_->ForceOpaqueOn();
+  border_ = flat_actor(frame_, renderer);
+  border_->GetProperty()->SetOpacity(0.85);
+  border_->ForceOpaqueOn();
 }
 
 void DirectionGlyph::show(const Vec3& omega, bool two_way, const Vec3& center, double radius,

@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <QWheelEvent>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr double smallest_zoom = 0.5, largest_zoom = 500;
+constexpr std::chrono::milliseconds longest_wait{20};
 
 }  // namespace
 
@@ -26,9 +28,13 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
       selection_(selection),
       painter_([this](const Order& order, const Cancellation& cancellation) {
         auto picture = std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
-        QMetaObject::invokeMethod(
-            this, [this, picture, number = order.number] { take(picture, number); },
-            Qt::QueuedConnection);
+        {
+          const std::lock_guard lock(arrived_.mutex);
+          arrived_.picture = std::move(picture);
+          arrived_.number = order.number;
+        }
+        arrived_.changed.notify_one();
+        QMetaObject::invokeMethod(this, &MapCanvas::take_arrived, Qt::QueuedConnection);
       }) {
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -40,6 +46,9 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
 void MapCanvas::show_map(Content content) {
   content_ = std::move(content);
   repaint_map();
+  // Queued: before the window is next brought to the screen, after all others know the step.
+  if (content_.step_shown)
+    QMetaObject::invokeMethod(this, &MapCanvas::wait_for_picture, Qt::QueuedConnection);
 }
 
 void MapCanvas::clear() {
@@ -105,12 +114,27 @@ void MapCanvas::repaint_map() {
   painter_.request(asked_, wanted ? UnderWay::given_up : UnderWay::goes_on);
 }
 
-void MapCanvas::take(std::shared_ptr<const MapPicture> picture, quint64 number) {
-  if (!content_.map || number <= painted_) return;
-  painted_ = number;
-  picture_ = std::move(picture);
+void MapCanvas::take_arrived() {
+  {
+    const std::lock_guard lock(arrived_.mutex);
+    if (!content_.map || arrived_.number <= painted_) return;
+    painted_ = arrived_.number;
+    picture_ = arrived_.picture;
+  }
   update();
   emit painted();
+}
+
+/// A step's map comes to the screen with all else that the step changes: bringing a window to the
+/// screen twice takes longer than painting a map, where there is no graphics card.
+void MapCanvas::wait_for_picture() {
+  if (up_to_date()) return;
+  {
+    std::unique_lock lock(arrived_.mutex);
+    arrived_.changed.wait_for(lock, longest_wait,
+                              [this] { return arrived_.number >= asked_.number; });
+  }
+  take_arrived();
 }
 
 PatchId MapCanvas::patch_at(const QPointF& position) const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <QWidget>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -78,7 +80,8 @@ class MapCanvas : public QWidget {
  private:
   MapTransform transform() const;
   void repaint_map();
-  void take(std::shared_ptr<const MapPicture> picture, quint64 number);
+  void take_arrived();
+  void wait_for_picture();
   void draw_failure(QPainter& painter) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
@@ -101,6 +104,14 @@ class MapCanvas : public QWidget {
   };
   Order asked_;          // the newest
   quint64 painted_ = 0;  // number of the order that picture_ answers
+  /// The painter's newest picture.
+  struct Arrived {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::shared_ptr<const MapPicture> picture;
+    quint64 number = 0;
+  };
+  Arrived arrived_;
   RequestWorker<Order> painter_;
 };
 

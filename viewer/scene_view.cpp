@@ -86,9 +86,10 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   renderer_->AddActor(surface_);
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
+  overlays_ = std::make_unique<SceneOverlays>(*renderer_);
+  // Drawn in this order: what can be seen through comes last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
-  overlays_ = std::make_unique<SceneOverlays>(*renderer_);
 
   canvas_->installEventFilter(this);
   connect(&selection_, &Selection::changed, this, [this] {

@@ -36,6 +36,7 @@ StepGlyph::StepGlyph(vtkRenderer& renderer)
   // Offsets of the depth that bring all of it before all of the scene.
   fill_ = actor_on_top(polygon_, theme::processed, -1e5, renderer);
   fill_->GetProperty()->SetOpacity(0.55);
+  fill_->ForceOpaqueOn();  // as in DirectionGlyph
   halo_ = actor_on_top(loop_, Qt::black, -1.1e5, renderer);
   border_ = actor_on_top(loop_, theme::processed, -1.2e5, renderer);
 }
