@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "elided.h"
 #include "number_text.h"
 #include "scrolling.h"
 #include "theme.h"
@@ -40,10 +41,11 @@ QString i_text(PatchId i, double area, const QString& faces) {
 
 AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
-  kind_ = new QComboBox;
+  kind_ = new ElidedComboBox;
   kind_->setObjectName("map_kind");
   kind_->addItem(tr("by a local visibility map (section 3.2)"));
   kind_->addItem(tr("by a global visibility map (section 3.1)"));
+  kind_->setMinimumContentsLength(20);
   kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   auto* chooser = new QHBoxLayout;
   chooser->setContentsMargins(12, 8, 12, 4);
@@ -61,9 +63,6 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
   for (const auto& parts : {local_parts_, global_parts_})
     for (QWidget* part : parts) layout->addWidget(part);
   layout->addStretch(1);
-  // Room for the longest of the values, which come later.
-  setMinimumWidth(110 +
-                  fontMetrics().horizontalAdvance(i_text(1000000, 0.01234, tr("faces the light"))));
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
   connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
   connect(&focus_, &Focus::probed, this, &AlgorithmView::show_moment);
@@ -102,7 +101,7 @@ QWidget* AlgorithmView::make_local_values() {
   gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
                                tr("What the step adds to B_i(n+1), before any normalisation"));
   gathered_->setObjectName("value_gathered");
-  for (QLabel* three : {radiosity_, gathered_}) three->setWordWrap(true);
+  for (QLabel* long_one : {i_, radiosity_, gathered_}) long_one->setWordWrap(true);
   return values_;
 }
 

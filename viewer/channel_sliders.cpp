@@ -28,7 +28,7 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(3);
+  grid->setVerticalSpacing(1);
   auto* heading = new QLabel(title);
   QFont bold = heading->font();
   bold.setBold(true);

@@ -6,6 +6,8 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDoubleSpinBox>
+#include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elided.h"
 #include "scale_menu.h"
 #include "show_menu.h"
 
@@ -26,12 +29,14 @@ namespace {
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
 constexpr int spacing = 8;
-constexpr int narrowest_quantity = 110, widest_quantity = 240, narrowest_mode = 90;
+constexpr int letters_of_quantity = 7;  // wide ones: "Radiosity B"
+constexpr int widest_quantity = 260;
 
-QLabel* label_for(QWidget* control, const QString& text) {
-  auto* label = new QLabel(text);
-  label->setBuddy(control);
-  return label;
+QHBoxLayout* row_in(QWidget* part) {
+  auto* row = new QHBoxLayout(part);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(spacing);
+  return row;
 }
 
 /// Whether an item of the list can be chosen.
@@ -40,46 +45,48 @@ void offer(QComboBox& list, int item, bool offered) {
   model->item(item)->setEnabled(offered);
 }
 
-int room_for(const QWidget& widget) {
-  // A minimum that was set counts, as in a layout.
-  const int set = widget.minimumWidth();
-  return (set > 0 ? set : widget.minimumSizeHint().width()) + spacing;
-}
-
 QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
 
 }  // namespace
 
 ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
     : QWidget(parent), colors_(colors) {
-  quantity_ = new QComboBox;
+  quantity_ = new ElidedComboBox;
   quantity_->setObjectName("quantity");
-  quantity_->setMinimumWidth(narrowest_quantity);
-  quantity_->setMaximumWidth(widest_quantity);
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  quantity_->setMinimumContentsLength(9);
+  quantity_->setMinimumContentsLength(letters_of_quantity);
+  quantity_->setMaximumWidth(widest_quantity);
+  quantity_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   fill_quantities();
   mode_ = new QComboBox;
   mode_->setObjectName("color_mode");
-  mode_->setMinimumWidth(narrowest_mode);
   mode_->addItems({tr("True colour"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
                    tr("Blue channel")});
+  QSizePolicy kept(QSizePolicy::Fixed, QSizePolicy::Fixed);
+  kept.setRetainSizeWhenHidden(true);  // nothing moves from one quantity to another
+  mode_->setSizePolicy(kept);
+  what_ = new QWidget;
+  what_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  auto* what = row_in(what_);
+  what->setSizeConstraint(QLayout::SetMinAndMaxSize);
+  what->addWidget(quantity_, 1);
+  what->addWidget(mode_);
   pages_ = new QStackedWidget;
   pages_->addWidget(make_true_color_page());
   pages_->addWidget(make_map_page());
-  pages_->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+  pages_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  tools_ = new QWidget;
+  tools_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   show_ = new ShowMenu;
+  row_in(tools_)->addWidget(show_);
 
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(10, 5, 10, 5);
-  layout->setSpacing(spacing);
-  layout->addWidget(*spare_.insert(spare_.begin(), label_for(quantity_, tr("Colour"))));
-  layout->addWidget(quantity_, 4);
-  layout->addWidget(mode_);
-  layout->addSpacing(8);
-  layout->addWidget(pages_);
-  layout->addStretch(1);
-  layout->addWidget(show_);
+  grid_ = new QGridLayout(this);
+  grid_->setContentsMargins(10, 5, 10, 5);
+  grid_->setHorizontalSpacing(spacing);
+  grid_->setVerticalSpacing(4);
+  grid_->addWidget(what_, 0, 0);
+  grid_->addWidget(tools_, 0, 2);
+  arrange();
 
   connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
     colors_.set_quantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
@@ -91,35 +98,9 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
   show_choice();
-  measure();
 }
 
-void ColorControls::add_tool(QWidget* tool) {
-  layout()->addWidget(spare_.emplace_back(tool));
-  measure();
-}
-
-void ColorControls::measure() {
-  int page = 0;
-  for (int k = 0; k < pages_->count(); ++k)
-    page = std::max(page, least_width(*pages_->widget(k)->layout()));
-  setMinimumWidth(least_width(*layout()) + page);
-  leave_out();
-}
-
-int ColorControls::least_width(const QLayout& row) const {
-  int sum = row.contentsMargins().left() + row.contentsMargins().right();
-  for (int k = 0; k < row.count(); ++k) {
-    QLayoutItem* item = row.itemAt(k);
-    const QWidget* widget = item->widget();
-    const bool spare = std::find(spare_.begin(), spare_.end(), widget) != spare_.end();
-    if (!widget)
-      sum += item->minimumSize().width() + spacing;
-    else if (!spare && widget != pages_)
-      sum += room_for(*widget);
-  }
-  return sum;
-}
+void ColorControls::add_tool(QWidget* tool) { tools_->layout()->addWidget(tool); }
 
 void ColorControls::fill_quantities() {
   // What belongs together is set apart from the rest.
@@ -133,26 +114,34 @@ void ColorControls::fill_quantities() {
   }
 }
 
-void ColorControls::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  leave_out();
+bool ColorControls::event(QEvent* event) {
+  if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) arrange();
+  return QWidget::event(event);
 }
 
-void ColorControls::showEvent(QShowEvent* event) {
-  QWidget::showEvent(event);
-  measure();  // a change of type while it was hidden has not reached it
-}
+void ColorControls::arrange() {
+  const QMargins margins = grid_->contentsMargins();
+  const int room = width() - margins.left() - margins.right();
+  const int tools = tools_->sizeHint().width();
+  // The slider tells no more than the box beside it.
+  const int spare =
+      exposure_label_->sizeHint().width() + exposure_slider_->sizeHint().width() + 2 * spacing;
+  const int page = pages_->sizeHint().width() - (exposure_slider_->isHidden() ? 0 : spare);
+  setMinimumWidth(std::max(what_->minimumSizeHint().width() + spacing + tools, page) +
+                  margins.left() + margins.right());
 
-void ColorControls::leave_out() {
-  int left = width() - minimumWidth();
-  // The last ones are missed most.
-  for (auto widget = spare_.rbegin(); widget != spare_.rend(); ++widget) {
-    const QWidget* page = (*widget)->parentWidget();
-    const bool behind = page->parentWidget() == pages_ && page != pages_->currentWidget();
-    const int needed = behind ? 0 : room_for(**widget);
-    (*widget)->setVisible(needed <= left);
-    if (needed <= left) left -= needed;
-  }
+  const int others = what_->sizeHint().width() + tools + 2 * spacing;
+  const bool one_row = others + page <= room;
+  const bool whole = page + spare + (one_row ? others : 0) <= room;
+  exposure_label_->setVisible(whole);
+  exposure_slider_->setVisible(whole);
+  const int rows = one_row ? 1 : 2;
+  if (rows == rows_) return;
+  rows_ = rows;
+  if (one_row)
+    grid_->addWidget(pages_, 0, 1, Qt::AlignLeft);
+  else
+    grid_->addWidget(pages_, 1, 0, 1, 3, Qt::AlignLeft);
 }
 
 QWidget* ColorControls::make_true_color_page() {
@@ -177,17 +166,15 @@ QWidget* ColorControls::make_true_color_page() {
   gamma_->setPrefix(tr("γ "));
   gamma_->setToolTip(tr("Gamma of the screen"));
 
+  exposure_label_ = new QLabel(tr("Exposure"));
+  exposure_label_->setBuddy(exposure_);
   auto* page = new QWidget;
-  auto* layout = new QHBoxLayout(page);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(spacing);
-  layout->addWidget(spare_.emplace_back(label_for(exposure_, tr("Exposure"))));
-  layout->addWidget(spare_.emplace_back(exposure_slider_));
+  QHBoxLayout* layout = row_in(page);
+  layout->addWidget(exposure_label_);
+  layout->addWidget(exposure_slider_);
   layout->addWidget(exposure_);
   layout->addWidget(automatic_);
-  layout->addSpacing(8);
   layout->addWidget(gamma_);
-  spare_.insert(spare_.end(), {gamma_, automatic_, exposure_});
 
   connect(exposure_slider_, &QSlider::valueChanged, this, [this](int value) {
     colors_.set_exposure(static_cast<double>(value) / slider_steps_per_ev);
@@ -205,11 +192,9 @@ QWidget* ColorControls::make_map_page() {
   logarithmic_->setObjectName("logarithmic");
 
   auto* page = new QWidget;
-  auto* layout = new QHBoxLayout(page);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(spacing);
-  layout->addWidget(spare_.emplace_back(logarithmic_));
-  layout->addWidget(spare_.emplace_back(new ScaleMenu(colors_)));
+  QHBoxLayout* layout = row_in(page);
+  layout->addWidget(logarithmic_);
+  layout->addWidget(new ScaleMenu(colors_));
   layout->addStretch(1);
 
   connect(logarithmic_, &QCheckBox::toggled, &colors_, &ColorChoice::set_logarithmic);
@@ -242,10 +227,7 @@ void ColorControls::show_choice() {
   mode_->setVisible(traits.has_channels);
   offer(*mode_, 0, traits.is_light);
   const int page = scale.mode == ColorMode::true_color ? 0 : 1;
-  if (page != pages_->currentIndex()) {
-    pages_->setCurrentIndex(page);
-    leave_out();
-  }
+  pages_->setCurrentIndex(page);
   exposure_slider_->setValue(static_cast<int>(std::lround(scale.exposure * slider_steps_per_ev)));
   exposure_->setValue(scale.exposure);
   automatic_->setChecked(colors_.exposure_is_automatic());

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <QWidget>
-#include <vector>
 
 #include "color_choice.h"
 
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QGridLayout;
+class QLabel;
 class QSlider;
 class QStackedWidget;
 
@@ -17,7 +18,7 @@ namespace transillum::viewer {
 class ShowMenu;
 
 /// The strip above the 3-D view: what of the patches becomes colour, and how, and what else is
-/// drawn.
+/// drawn. Where one row has no room, as on a projector, it is two.
 class ColorControls : public QWidget {
   Q_OBJECT
 
@@ -30,39 +31,39 @@ class ColorControls : public QWidget {
   void set_outlines(bool shown);
   bool outlines() const;
   ShowMenu* show_menu() const { return show_; }
-  /// Puts a tool at the right end, where there is room for it.
+  /// Puts a tool at the right end.
   void add_tool(QWidget* tool);
-  /// Asks anew how much room all needs, as after a change of fonts.
-  void measure();
 
  signals:
   void direction_toggled(bool shown);
   void outlines_toggled(bool shown);
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
-  void showEvent(QShowEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
-  /// Of a row without what can be left out, and without the pages.
-  int least_width(const QLayout& row) const;
-  void leave_out();
+  /// Lays all out in the room there is.
+  void arrange();
   void show_choice();
 
   ColorChoice& colors_;
   QComboBox* quantity_;
   QComboBox* mode_;
+  QGridLayout* grid_;
+  int rows_ = 0;
+  QWidget* what_;
   QStackedWidget* pages_;
+  QWidget* tools_;
+  QLabel* exposure_label_;
   QSlider* exposure_slider_;
   QDoubleSpinBox* exposure_;
   QCheckBox* automatic_;
   QDoubleSpinBox* gamma_;
   QCheckBox* logarithmic_;
   ShowMenu* show_;
-  std::vector<QWidget*> spare_;  ///< left out where the strip is narrow, as on a projector
 };
 
 }  // namespace transillum::viewer

@@ -2,17 +2,17 @@
 #include "compare_view.h"
 
 #include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QSpinBox>
 #include <QStackedWidget>
-#include <QTableWidget>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "difference_picture.h"
+#include "elided.h"
 #include "engine_text.h"
 #include "hemicube_view.h"
 #include "map_canvas.h"
@@ -25,9 +25,15 @@ namespace {
 
 /// While the newest direction is followed, so often at most.
 constexpr int refresh_interval_ms = 400;
-constexpr int map_height = 165;  ///< pixels, at least
+constexpr int map_height = 110;  ///< pixels, where there is no more room
 
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+
+QString words_of_figures(const EngineComparison::Side& side, double exchanged) {
+  return CompareView::tr("%1 ms, %2 pairs\n%3 m² exchanged\n%4 covered")
+      .arg(number_text(1000 * side.seconds), count_text(static_cast<std::int64_t>(side.pairs)),
+           number_text(exchanged), percent_text(side.covered_share));
+}
 
 QString words_of_direction(const EngineComparison& c) {
   QString text = CompareView::tr(
@@ -68,39 +74,26 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
     : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
   first_ = make_choice("first", Engine::fast);
   other_ = make_choice("other", Engine::zbuffer);
-  auto* sides = new QHBoxLayout;
-  sides->setSpacing(2);
-  sides->addLayout(column_of(first_), 1);
-  sides->addLayout(column_of(other_), 1);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(2);
+  grid->setVerticalSpacing(0);
+  grid->addLayout(column_of(first_), 0, 0);
+  grid->addLayout(column_of(other_), 0, 1);
   words_ = new QLabel;
   words_->setObjectName(QStringLiteral("compare_words"));
   words_->setWordWrap(true);
+  words_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   words_->setContentsMargins(10, 6, 10, 6);
   picture_ = new DifferencePicture(selection_);
   picture_->canvas()->set_height_hint(map_height);
   link({first_.map, other_.map, picture_->canvas()});
-  table_ = new QTableWidget(4, 2);
-  table_->setObjectName(QStringLiteral("compare_table"));
-  table_->setVerticalHeaderLabels(
-      {tr("Processor time"), tr("Pairs"), tr("Area exchanged"), tr("Covered")});
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setSelectionMode(QAbstractItemView::NoSelection);
-  table_->setFocusPolicy(Qt::NoFocus);
-  table_->setFrameShape(QFrame::NoFrame);
-  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
-  table_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addLayout(sides, 1);
-  layout->addWidget(words_);
-  layout->addWidget(picture_, 1);
-  layout->addWidget(table_);
+  grid->addWidget(words_, 1, 0);
+  grid->addWidget(picture_, 1, 1);
+  for (const int part : {0, 1}) {
+    grid->setRowStretch(part, 1);
+    grid->setColumnStretch(part, 1);
+  }
 
   later_ = new QTimer(this);
   later_->setSingleShot(true);
@@ -119,13 +112,22 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
 }
 
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
-  Choice choice{new QComboBox, new QSpinBox, new MapCanvas(selection_),
-                new HemicubeView(selection_), new QStackedWidget};
+  Choice choice{new ElidedComboBox,           new QSpinBox,       new MapCanvas(selection_),
+                new HemicubeView(selection_), new QStackedWidget, new QLabel};
+  choice.figures->setObjectName(QString::fromLatin1(name) + QStringLiteral("_figures"));
+  choice.figures->setWordWrap(true);
+  choice.figures->setContentsMargins(10, 4, 10, 4);
+  choice.figures->setToolTip(
+      tr("Its processor time for this direction; the pairs of patches that exchange light; the "
+         "area, seen along the direction, over which they do; the share of what receivers show to "
+         "it that was found to see another patch"));
   choice.picture->addWidget(choice.map);
   choice.picture->addWidget(choice.hemicube);
   choice.map->set_height_hint(map_height);
   choice.map->setObjectName(QString::fromLatin1(name) + QStringLiteral("_map"));
   choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
+  choice.engine->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  choice.engine->setMinimumContentsLength(6);
   add_engines(*choice.engine, true);
   choose_engine(*choice.engine, engine);
   choice.engine->setToolTip(engine_sentence(engine));
@@ -157,6 +159,7 @@ QBoxLayout* CompareView::column_of(const Choice& choice) const {
   column->setSpacing(0);
   column->addLayout(row);
   column->addWidget(choice.picture, 1);
+  column->addWidget(choice.figures);
   return column;
 }
 
@@ -268,10 +271,9 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
   comparison_ = std::move(comparison);
   comparing_ = false;
   picture_->show(focus_.map(), comparison_);
-  table_->clearContents();
+  for (const Choice* choice : {&first_, &other_}) choice->figures->clear();
   if (!comparison_) {
     words_->setText(tr("Solve a scene to compare two engines on one of its directions."));
-    table_->setHorizontalHeaderLabels({QStringLiteral("–"), QStringLiteral("–")});
     return;
   }
   const EngineComparison& c = *comparison_;
@@ -281,27 +283,10 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
                                                  QString::fromStdString(side->failure)));
     return;
   }
-  fill_table(c);
+  first_.figures->setText(words_of_figures(c.first, c.transfers.exchanged));
+  other_.figures->setText(words_of_figures(c.other, c.transfers.other_exchanged));
   words_->setText(c.eye == no_patch ? words_of_direction(c)
                                     : words_of_row(c, asked_.directions->size()));
-}
-
-void CompareView::fill_table(const EngineComparison& comparison) {
-  const auto fill = [&](int column, const EngineComparison::Side& side, double exchanged) {
-    QString name = engine_label(side.engine);
-    if (side.resolution > 0) name += QStringLiteral(", %1 px").arg(side.resolution);
-    table_->setHorizontalHeaderItem(column, new QTableWidgetItem(name));
-    const QString texts[] = {number_text(1000 * side.seconds) + tr(" ms"),
-                             count_text(static_cast<std::int64_t>(side.pairs)),
-                             number_text(exchanged) + tr(" m²"), percent_text(side.covered_share)};
-    for (int row = 0; row < 4; ++row) {
-      auto* item = new QTableWidgetItem(texts[row]);
-      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      table_->setItem(row, column, item);
-    }
-  };
-  fill(0, comparison.first, comparison.transfers.exchanged);
-  fill(1, comparison.other, comparison.transfers.other_exchanged);
 }
 
 }  // namespace transillum::viewer

@@ -14,7 +14,6 @@ class QComboBox;
 class QLabel;
 class QStackedWidget;
 class QSpinBox;
-class QTableWidget;
 class QTimer;
 
 namespace transillum::viewer {
@@ -47,6 +46,7 @@ class CompareView : public QWidget {
     MapCanvas* map;
     HemicubeView* hemicube;
     QStackedWidget* picture;  ///< one of both
+    QLabel* figures;
 
     bool is_hemicube() const;
     bool up_to_date() const;
@@ -60,7 +60,6 @@ class CompareView : public QWidget {
   void ask();
   void show_maps();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
-  void fill_table(const EngineComparison& comparison);
 
   Focus& focus_;
   Selection& selection_;
@@ -73,7 +72,6 @@ class CompareView : public QWidget {
   Choice first_, other_;
   QLabel* words_;
   DifferencePicture* picture_;
-  QTableWidget* table_;
   QTimer* later_;
 };
 

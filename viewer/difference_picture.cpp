@@ -36,7 +36,7 @@ class Legend : public QWidget {
     painter.drawRect(bar);
     painter.setPen(theme::on_dark);
     painter.drawText(rect().adjusted(bar.right() + 8, 0, -4, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("0 … %1 % seen otherwise").arg(100 * DifferencePicture::full_color_at));
+                     tr("0 … %1 % otherwise").arg(100 * DifferencePicture::full_color_at));
   }
 };
 

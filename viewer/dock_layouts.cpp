@@ -26,7 +26,7 @@ Widths usual_widths_of(DockLayouts::Layout layout) {
     case DockLayouts::Layout::debug:
       return {330, 470};
     default:
-      return {290, 410};
+      return {290, 450};
   }
 }
 

@@ -36,7 +36,7 @@ class HemicubeView : public QWidget {
   /// What there is to say of it.
   QString words() const;
 
-  QSize sizeHint() const override { return {200, 165}; }
+  QSize sizeHint() const override { return {200, 110}; }
 
  signals:
   void shown();  ///< or words() have changed

@@ -11,6 +11,7 @@
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextList>
+#include <QTextTable>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
@@ -43,7 +44,17 @@ void spread_paragraphs(QTextDocument& document) {
   const double room = 0.6 * QFontInfo(document.defaultFont()).pixelSize();
   for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
     QTextCursor cursor(block);
-    if (cursor.currentTable()) continue;
+    if (QTextTable* table = cursor.currentTable()) {
+      QTextTableFormat rules = table->format();
+      rules.setBorderCollapse(true);
+      rules.setBorder(1);
+      rules.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+      rules.setBorderBrush(theme::rule);
+      rules.setCellPadding(room / 2);
+      rules.setBottomMargin(room);
+      table->setFormat(rules);
+      continue;
+    }
     QTextBlockFormat format = block.blockFormat();
     format.setBottomMargin(block.textList() ? room / 2 : room);
     cursor.setBlockFormat(format);

@@ -100,7 +100,6 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
     map_view_->update();
     lesson_panel_->refresh();
     // Once the layouts have heard of the fonts.
-    QTimer::singleShot(0, page_->color_controls(), &ColorControls::measure);
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
   restore_layout();
@@ -227,7 +226,6 @@ void MainWindow::make_menus() {
   auto* bar = new QToolBar(tr("Tools"));
   bar->setObjectName("tool_bar");
   bar->setMovable(false);
-  bar->setIconSize(QSize(20, 20));
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->addAction(files_->open_action());
   bar->addSeparator();

@@ -214,6 +214,19 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
   }
 }
 
+namespace {
+
+// Where the picture is low they lie on it.
+void draw_words(QPainter& painter, const QPointF& baseline, const QString& words) {
+  QColor plate = theme::scene_background;
+  plate.setAlphaF(0.7);
+  const QRectF box = painter.fontMetrics().boundingRect(words).adjusted(-3, -1, 3, 1);
+  painter.fillRect(box.translated(baseline), plate);
+  painter.drawText(baseline, words);
+}
+
+}  // namespace
+
 void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
   // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
   const double most = width() / 4.0 / scale;
@@ -226,7 +239,7 @@ void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
   painter.drawLine(left, left + QPointF(length, 0));
   painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
   painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  painter.drawText(left + QPointF(length + 8, 4), number_text(metres) + tr(" m"));
+  draw_words(painter, left + QPointF(length + 8, 4), number_text(metres) + tr(" m"));
 }
 
 void MapCanvas::draw_axes(QPainter& painter) const {
@@ -274,7 +287,7 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     painter.setBrush(brush);
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
-    painter.drawText(box.bottomRight() + QPointF(gap, -1), words);
+    draw_words(painter, box.bottomRight() + QPointF(gap, -1), words);
     x += width_of(words);
   }
 }

@@ -2,6 +2,7 @@
 #include "material_panel.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -30,7 +31,7 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   material_ = new QComboBox;
   material_->setObjectName("material");
   material_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  material_->setMinimumContentsLength(8);
+  material_->setMinimumContentsLength(6);
   words_ = new QLabel;
   words_->setObjectName("material_words");
   words_->setWordWrap(true);
@@ -41,21 +42,21 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   restore_->setObjectName("restore_materials");
   restore_->setToolTip(tr("Take back all changes of materials"));
   sliders_ = new QWidget;
+  sliders_->setToolTip(tr("B follows from the kept form factors, without a new pass"));
   auto* column = new QVBoxLayout(sliders_);
   column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(8);
+  column->setSpacing(4);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
-  auto* hint = new QLabel(tr("B follows from the kept form factors, without a new pass."));
-  hint->setWordWrap(true);
-  hint->setForegroundRole(QPalette::PlaceholderText);
-  column->addWidget(hint);
-  column->addWidget(restore_);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 6, 12, 6);
   layout->setSpacing(6);
-  layout->addWidget(material_);
+  auto* choice = new QHBoxLayout;
+  choice->setSpacing(6);
+  choice->addWidget(material_, 1);
+  choice->addWidget(restore_);
+  layout->addLayout(choice);
   layout->addWidget(words_);
   layout->addWidget(sliders_);
   layout->addStretch(1);

@@ -127,7 +127,7 @@ QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int
     case of_share:
       return pick(tr("Share"), tr("Of what all directions listed add"));
     default:
-      return pick(tr("Most from"), tr("The patch that adds most of it"));
+      return pick(tr("From"), tr("The patch that adds most of it"));
   }
 }
 

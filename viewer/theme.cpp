@@ -7,7 +7,9 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <QPalette>
-#include <QStyleFactory>
+#include <QProxyStyle>
+#include <QScreen>
+#include <QWidget>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -16,8 +18,40 @@ namespace transillum::viewer::theme {
 
 namespace {
 
-constexpr double projector_scale = 1.4;
 constexpr int type_size = 13;  // pixels
+constexpr int tool_size = 20;  // of an icon
+
+// How large type is on the wall depends on its share of the screen.
+double projector_scale() {
+  constexpr double of_full_hd = 1.4, least = 1.2, most = 2;
+  const QWidget* window = QApplication::activeWindow();
+  const QScreen* screen = window ? window->screen() : QGuiApplication::primaryScreen();
+  const double share = std::min(screen->size().width() / 1920.0, screen->size().height() / 1080.0);
+  return std::clamp(of_full_hd * share, least, most);
+}
+
+/// What is drawn beside type grows with it.
+class ScaledStyle : public QProxyStyle {
+ public:
+  ScaledStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
+
+  int pixelMetric(PixelMetric metric, const QStyleOption* option,
+                  const QWidget* widget) const override {
+    switch (metric) {
+      case PM_ToolBarIconSize:
+        return scaled(tool_size);
+      case PM_ButtonIconSize:
+        return scaled(18);
+      case PM_IndicatorWidth:
+      case PM_IndicatorHeight:
+      case PM_ExclusiveIndicatorWidth:
+      case PM_ExclusiveIndicatorHeight:
+        return scaled(QProxyStyle::pixelMetric(metric, option, widget));
+      default:
+        return QProxyStyle::pixelMetric(metric, option, widget);
+    }
+  }
+};
 
 Appearance current;
 std::atomic<double> line_scale = 1;
@@ -286,18 +320,20 @@ QIcon icon(Icon which) { return QIcon(new DrawnIcon(which)); }
 
 double scale() { return line_scale.load(std::memory_order_relaxed); }
 
+int scaled(int pixels) { return static_cast<int>(std::lround(pixels * scale())); }
+
 const Appearance& appearance() { return current; }
 
 void apply(QApplication& application, const Appearance& wished) {
   current = wished;
-  line_scale = wished.projector ? projector_scale : 1;
+  line_scale = wished.projector ? projector_scale() : 1;
   set_colors(wished);
-  application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  application.setStyle(new ScaledStyle);
   application.setPalette(make_palette());
   QFont font = application.font();
   const QFont wished_font(QStringLiteral("DejaVu Sans"));
   if (QFontInfo(wished_font).family() == wished_font.family()) font.setFamily(wished_font.family());
-  font.setPixelSize(static_cast<int>(std::lround(type_size * scale())));
+  font.setPixelSize(scaled(type_size));
   application.setFont(font);
   application.setStyleSheet(style_sheet());
 }

@@ -12,7 +12,7 @@ namespace transillum::viewer::theme {
 /// How the window may look.
 struct Appearance {
   bool dark = false;
-  bool projector = false;  ///< larger type, thicker lines, more contrast
+  bool projector = false;  ///< larger type, by the screen's size, thicker lines, more contrast
 
   friend bool operator==(const Appearance&, const Appearance&) = default;
 };
@@ -67,6 +67,8 @@ QIcon icon(Icon which);
 
 /// What lines are thicker and type is larger by; any thread.
 double scale();
+/// So many pixels, larger by that.
+int scaled(int pixels);
 
 /// Style, palette and fonts of the whole application, at its start or later.
 void apply(QApplication& application, const Appearance& appearance = {});

@@ -3,10 +3,10 @@
 
 #include <QAction>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "elided.h"
 #include "number_text.h"
 #include "step_actions.h"
 #include "theme.h"
@@ -20,7 +20,6 @@ QToolButton* button_of(QAction* action) {
   auto* button = new QToolButton;
   button->setDefaultAction(action);
   button->setAutoRaise(true);
-  button->setIconSize(QSize(18, 18));
   button->setFocusPolicy(Qt::NoFocus);
   return button;
 }
@@ -34,10 +33,8 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   row->setContentsMargins(8, 4, 8, 0);
   row->setSpacing(2);
   for (QAction* action : actions.buttons()) row->addWidget(button_of(action));
-  text_ = new QLabel;
+  text_ = new ClauseLabel;
   text_->setObjectName("timeline_text");
-  text_->setTextFormat(Qt::RichText);
-  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   stop_ = new QToolButton;
   stop_->setText(tr("Stop searching"));
   stop_->setObjectName("stop_seeking");
@@ -59,7 +56,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   connect(&focus_, &Focus::moved, this, &TimelineBar::show_moment);
   connect(&focus_, &Focus::wished, this, &TimelineBar::show_moment);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
-    if (!found) text_->setText(tr("Nothing found in all directions of the run"));
+    if (!found) text_->set_clauses({tr("Nothing found in all directions of the run")});
   });
   show_moment();
 }
@@ -74,28 +71,31 @@ void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {
 void TimelineBar::show_moment() {
   stop_->setVisible(focus_.seeking());
   if (focus_.seeking()) {
-    text_->setText(tr("Searching direction %1 …").arg(count_text(focus_.wanted().direction + 1)));
+    text_->set_clauses(
+        {tr("Searching direction %1 …").arg(count_text(focus_.wanted().direction + 1))});
     return;
   }
   const auto map = focus_.map();
   if (!map) {
-    text_->setText({});
+    text_->set_clauses({});
     return;
   }
   const std::int32_t k = focus_.moment().step;
   if (k < 0) {
-    text_->setText(tr("Before the first polygon: V is empty"));
+    text_->set_clauses({tr("Before the first polygon: V is empty")});
     return;
   }
   const MapHistory::Step& step = map->history.step(k);
   const QString patch = tr("polygon of patch <b>%1</b>").arg(step.patch);
   if (step.row == MapRecord::no_row)
-    text_->setText(tr("%1 is seen edge-on and takes no part").arg(patch));
+    text_->set_clauses({tr("%1 is seen edge-on and takes no part").arg(patch)});
   else
-    text_->setText(
-        tr("%1 %2 · cuts %3, exchanges light with %4 · V has %5 fragments")
-            .arg(patch, step.front_facing ? tr("faces the light and receives") : tr("shines down"),
-                 count_text(step.cut), count_text(step.exchanges), count_text(step.map_size)));
+    text_->set_clauses(
+        {patch + QLatin1Char(' ') +
+             (step.front_facing ? tr("faces the light and receives") : tr("shines down")),
+         tr("cuts %1, exchanges light with %2")
+             .arg(count_text(step.cut), count_text(step.exchanges)),
+         tr("V has %1 fragments").arg(count_text(step.map_size))});
 }
 
 }  // namespace transillum::viewer

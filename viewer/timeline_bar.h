@@ -8,11 +8,11 @@
 #include "selection.h"
 #include "snapshot.h"
 
-class QLabel;
 class QToolButton;
 
 namespace transillum::viewer {
 
+class ClauseLabel;
 class StepActions;
 class TimelineLanes;
 
@@ -31,7 +31,7 @@ class TimelineBar : public QWidget {
   void show_moment();
 
   Focus& focus_;
-  QLabel* text_;
+  ClauseLabel* text_;
   QToolButton* stop_;
   TimelineLanes* lanes_;
 };

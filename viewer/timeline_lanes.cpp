@@ -140,7 +140,7 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
   painter.setPen(Qt::NoPen);
   painter.setBrush(theme::hover);
   painter.drawRoundedRect(rect, 2, 2);
-  if (count == 0) return;
+  if (count == 0 || focus_.passes() == 0) return;
   // What has been computed so far.
   QRectF done = rect;
   const bool newest = focus_.wanted().iteration >= done_iteration_;

@@ -88,7 +88,7 @@ QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int
     case of_part:
       return pick(tr("Polygon is"), tr("Where the polygon in focus lies, and so when it comes"));
     case of_order:
-      return pick(tr("Below it, in order"),
+      return pick(tr("In order"),
                   tr("The polygons below this plane in the order they come: the side that ω points "
                      "to, those in the plane (yellow), the other side"));
     default:

@@ -1,11 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "welcome_page.h"
 
+#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPixmap>
 #include <QPushButton>
+#include <QScrollBar>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -20,51 +23,55 @@ namespace transillum::viewer {
 namespace {
 
 constexpr QSize picture_size{240, 150};
-constexpr int margin = 28, gap = 14, padding = 8, most_columns = 3;
-
-// A scene's picture, name and sentence; the whole of it is the button.
-QPushButton* make_card(const BuiltInScene& scene) {
-  const QString name = QString::fromStdString(scene.name);
-  auto* card = new QPushButton;
-  card->setObjectName(QStringLiteral("built_in_") + name);
-  card->setAccessibleName(name);
-  card->setToolTip(QString::fromStdString(scene.summary));
-  auto* picture = new QLabel;
-  picture->setFixedSize(picture_size);
-  picture->setScaledContents(true);
-  picture->setPixmap(QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name)));
-  auto* title = new QLabel(name);
-  QFont bold = title->font();
-  bold.setBold(true);
-  title->setFont(bold);
-  auto* summary = new QLabel(QString::fromStdString(scene.summary));
-  summary->setWordWrap(true);
-  summary->setForegroundRole(QPalette::PlaceholderText);
-  summary->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  auto* layout = new QVBoxLayout(card);
-  layout->setContentsMargins(padding, padding, padding, padding);
-  layout->setSpacing(4);
-  for (QLabel* label : {picture, title, summary}) {
-    label->setAttribute(Qt::WA_TransparentForMouseEvents);
-    layout->addWidget(label);
-  }
-  layout->setStretch(2, 1);
-  const int words = std::max(summary->heightForWidth(picture_size.width()),
-                             4 * summary->fontMetrics().lineSpacing());
-  card->setFixedSize(picture_size.width() + 2 * padding,
-                     picture_size.height() + 3 * padding + title->sizeHint().height() + words);
-  return card;
-}
+constexpr int margin = 28, gap = 14, padding = 8, most_columns = 3, least_lines = 4;
 
 }  // namespace
 
+/// A scene's picture, name and sentence; the whole of it is the button.
+class WelcomePage::Card : public QPushButton {
+ public:
+  explicit Card(const BuiltInScene& scene) {
+    const QString name = QString::fromStdString(scene.name);
+    setObjectName(QStringLiteral("built_in_") + name);
+    setAccessibleName(name);
+    setToolTip(QString::fromStdString(scene.summary));
+    picture_ = new QLabel;
+    picture_->setScaledContents(true);
+    picture_->setPixmap(QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name)));
+    title_ = new QLabel(QStringLiteral("<b>%1</b>").arg(name));
+    summary_ = new QLabel(QString::fromStdString(scene.summary));
+    summary_->setWordWrap(true);
+    summary_->setForegroundRole(QPalette::PlaceholderText);
+    summary_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(padding, padding, padding, padding);
+    layout->setSpacing(4);
+    for (QLabel* label : {picture_, title_, summary_}) {
+      label->setAttribute(Qt::WA_TransparentForMouseEvents);
+      layout->addWidget(label);
+    }
+    layout->setStretch(2, 1);
+  }
+
+  /// Takes the size that its type wants, with room for so many lines of words at least.
+  void measure(int lines) {
+    const QSize size(theme::scaled(picture_size.width()), theme::scaled(picture_size.height()));
+    picture_->setFixedSize(size);
+    const int words = std::max(summary_->heightForWidth(size.width()),
+                               lines * summary_->fontMetrics().lineSpacing());
+    setFixedSize(size.width() + 2 * padding,
+                 size.height() + 3 * padding + title_->sizeHint().height() + words);
+  }
+
+ private:
+  QLabel* picture_;
+  QLabel* title_;
+  QLabel* summary_;
+};
+
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   find_resources();
-  auto* title = new QLabel(tr("See light settle"));
-  QFont large = font();
-  large.setPixelSize(24);
-  large.setBold(true);
-  title->setFont(large);
+  title_ = new QLabel(tr("See light settle"));
   auto* words = new QLabel(
       tr("Choose a scene: it is solved at once, direction by direction. Or open one of your own, "
          "or drop its file here."));
@@ -74,7 +81,6 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   lesson->setObjectName("begin_lesson");
   auto* buttons = new QHBoxLayout;
   for (QPushButton* button : {lesson, open}) {
-    button->setIconSize(QSize(20, 20));
     buttons->addWidget(button);
   }
   buttons->addStretch(1);
@@ -82,7 +88,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   grid_ = new QGridLayout;
   grid_->setSpacing(gap);
   for (const BuiltInScene& scene : built_in_scenes()) {
-    cards_ << make_card(scene);
+    cards_ << new Card(scene);
     const QString name = QString::fromStdString(scene.name);
     connect(cards_.back(), &QPushButton::clicked, this,
             [this, name] { emit built_in_clicked(name); });
@@ -91,7 +97,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   auto* column = new QVBoxLayout(page);
   column->setContentsMargins(margin, margin, margin, margin);
   column->setSpacing(gap);
-  column->addWidget(title);
+  column->addWidget(title_);
   column->addWidget(words);
   column->addLayout(buttons);
   column->addLayout(grid_);
@@ -99,10 +105,25 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   setWidget(page);
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
-  setMinimumWidth(2 * margin + cards_.front()->width() + 20);
-  place_cards();
+  measure();
   connect(open, &QPushButton::clicked, this, &WelcomePage::open_clicked);
   connect(lesson, &QPushButton::clicked, this, &WelcomePage::lesson_clicked);
+}
+
+void WelcomePage::changeEvent(QEvent* event) {
+  QScrollArea::changeEvent(event);
+  // Once the cards have heard of the font.
+  if (event->type() == QEvent::FontChange) QTimer::singleShot(0, this, &WelcomePage::measure);
+}
+
+void WelcomePage::measure() {
+  QFont large = font();
+  large.setPixelSize(theme::scaled(24));
+  large.setBold(true);
+  title_->setFont(large);
+  for (Card* card : cards_) card->measure(least_lines);
+  setMinimumWidth(2 * margin + cards_.front()->width() + verticalScrollBar()->sizeHint().width());
+  place_cards();
 }
 
 void WelcomePage::resizeEvent(QResizeEvent* event) {

@@ -6,7 +6,7 @@
 #include <QVector>
 
 class QGridLayout;
-class QPushButton;
+class QLabel;
 
 namespace transillum::viewer {
 
@@ -24,12 +24,17 @@ class WelcomePage : public QScrollArea {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
+  class Card;
+  /// Gives all the size that the type wants.
+  void measure();
   void place_cards();
 
+  QLabel* title_;
   QGridLayout* grid_;
-  QVector<QPushButton*> cards_;
+  QVector<Card*> cards_;
   int columns_ = 0;
 };
 

@@ -38,8 +38,8 @@ class AppearanceTest : public QObject {
     QVERIFY(solved.ready);
     const int size = QFontInfo(solved.window->font()).pixelSize();
     solved.trigger("projector");
-    QVERIFY(QFontInfo(solved.window->font()).pixelSize() >= 1.3 * size);
-    QVERIFY(theme::scale() > 1.3);
+    QVERIFY(QFontInfo(solved.window->font()).pixelSize() >= 1.2 * size - 1);
+    QVERIFY(theme::scale() >= 1.2);
     solved.trigger("projector");
     QCOMPARE(QFontInfo(solved.window->font()).pixelSize(), size);
   }
@@ -51,7 +51,7 @@ class AppearanceTest : public QObject {
     const auto* text = solved.window->findChild<QTextBrowser*>("lesson_text");
     const int size = text->document()->defaultFont().pixelSize();
     solved.trigger("projector");
-    QVERIFY(text->document()->defaultFont().pixelSize() >= 1.3 * size);
+    QVERIFY(text->document()->defaultFont().pixelSize() >= 1.2 * size - 1);
     solved.trigger("projector");
     QCOMPARE(text->document()->defaultFont().pixelSize(), size);
   }

@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QComboBox>
+#include <QLabel>
+#include <QStringList>
+
+namespace transillum::viewer {
+
+/// A list whose chosen name ends in "…" where it has no room, in place of being cut.
+class ElidedComboBox : public QComboBox {
+ public:
+  using QComboBox::QComboBox;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+};
+
+/// A line of clauses, the most important first: as many as there is room for, the rest by "…". The
+/// pointer tells them all.
+class ClauseLabel : public QLabel {
+ public:
+  explicit ClauseLabel(QWidget* parent = nullptr);
+
+  /// May be rich text.
+  void set_clauses(const QStringList& clauses);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void fit();
+
+  QStringList clauses_;
+};
+
+}  // namespace transillum::viewer
