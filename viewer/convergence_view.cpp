@@ -54,6 +54,10 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
   connect(&focus_, &Focus::moved, this, &ConvergenceView::show_moment);
 }
 
+std::vector<LineChart> ConvergenceView::charts() const {
+  return {steps_->chart(), passes_->chart()};
+}
+
 void ConvergenceView::show_moment() {
   const bool any = focus_.map() != nullptr;
   const Moment& moment = focus_.moment();
@@ -70,9 +74,10 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   if (snapshot.options.iterations == 0)
     levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
                       snapshot.options.tolerance});
-  steps_->show_lines({{tr("change"), theme::accent, std::move(changes), true},
-                      {tr("eq. 25"), theme::good, predicted_changes(snapshot), false}},
-                     std::move(levels), std::max(snapshot.options.iterations, 8));
+  steps_->show_lines(
+      {{tr("change"), theme::accent, std::move(changes), true},
+       {tr("eq. 25"), theme::good, predicted_changes(snapshot), false, ChartDashes::dash_dot}},
+      std::move(levels), std::max(snapshot.options.iterations, 8));
 
   passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
   const int passes = snapshot.progress.passes;
@@ -83,10 +88,11 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
     errors.push_back(snapshot.quadrature_errors[d] / std::numbers::pi);
     bounds.push_back(quadrature_error_bound(static_cast<double>(d + 1) * ways) / std::numbers::pi);
   }
-  passes_->show_lines({{tr("change of B"), theme::accent, snapshot.estimate_changes, false},
-                       {tr("ε/π"), theme::good, std::move(errors), false},
-                       {tr("eq. 21"), theme::warm, std::move(bounds), false}},
-                      {}, passes);
+  passes_->show_lines(
+      {{tr("change of B"), theme::accent, snapshot.estimate_changes, false, ChartDashes::solid, 2},
+       {tr("ε/π"), theme::good, std::move(errors), false, ChartDashes::solid, 0.9},
+       {tr("eq. 21"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},
+      {}, passes);
   shown_iteration_ = snapshot.estimate_iteration;
   show_moment();
 }

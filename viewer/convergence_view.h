@@ -6,6 +6,7 @@
 
 #include "focus.h"
 #include "snapshot.h"
+#include "transillum/line_chart.h"
 
 namespace transillum::viewer {
 
@@ -20,6 +21,8 @@ class ConvergenceView : public QWidget {
   explicit ConvergenceView(Focus& focus, QWidget* parent = nullptr);
 
   void show_snapshot(const SolverSnapshot& snapshot);
+  /// As they are shown, from above.
+  std::vector<LineChart> charts() const;
 
  private:
   void show_moment();

@@ -8,7 +8,6 @@
 #include <QInputDialog>
 #include <QMenu>
 #include <QSaveFile>
-#include <QSvgGenerator>
 #include <ostream>
 #include <stdexcept>
 
@@ -69,7 +68,7 @@ ExportActions::ExportActions(MainWindow& window)
       &E::choose_result);
   add("export_map", tr("Visibility map…"), tr("As vectors (SVG), PNG, VTP or JSON"),
       &E::choose_map);
-  add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG)"), &E::choose_charts);
+  add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
   add("export_figures", tr("Convergence figures…"), tr("What the charts draw, as CSV"),
       &E::choose_figures);
   add("export_frames", tr("Record frames…"),
@@ -142,16 +141,10 @@ void ExportActions::write_map_picture(const QString& path) const {
 }
 
 void ExportActions::write_charts(const QString& path) const {
-  QWidget* charts = window_.findChild<ConvergenceView*>();
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  QSvgGenerator svg;
-  svg.setOutputDevice(&buffer);
-  svg.setSize(charts->size());
-  svg.setViewBox(charts->rect());
-  svg.setTitle(tr("Convergence"));
-  charts->render(&svg);
-  write_whole(path, bytes);
+  const auto* view = window_.findChild<ConvergenceView*>();
+  check_chart_path(path.toStdString());
+  transillum::write_charts(path.toStdString(), view->charts(),
+                           {1.0 * view->width(), 1.0 * view->height()});
 }
 
 void ExportActions::write_chart_figures(const QString& path) const {
@@ -230,7 +223,7 @@ void ExportActions::choose_map() {
 }
 
 void ExportActions::choose_charts() {
-  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg)"), ".svg",
+  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg);;Pictures (*.png)"), ".svg",
                [this](const QString& path) { write_charts(path); });
 }
 

@@ -2,17 +2,18 @@
 #pragma once
 
 #include <QColor>
+#include <QImage>
 #include <QString>
 #include <QWidget>
 #include <optional>
 #include <vector>
 
+#include "transillum/line_chart.h"
+
 namespace transillum::viewer {
 
 /// A line chart with counts from 1 along x and a logarithmic y axis. Values that are not positive
-/// have no place on it: they leave a gap in the line, and the axis says how many there are.
-///
-/// Painted by Qt: sharp on every screen, and a dock may float without taking a GL context along.
+/// have no place on it: they leave a gap in the line, and the legend says how many there are.
 class LogChart : public QWidget {
   Q_OBJECT
 
@@ -22,6 +23,8 @@ class LogChart : public QWidget {
     QColor color;
     std::vector<double> values;  ///< values[k] stands at x = k + 1
     bool dots = false;           ///< mark each value
+    ChartDashes dashes = ChartDashes::solid;
+    double width = 1.4;  ///< pixels
   };
   /// A level drawn across, such as a tolerance.
   struct Level {
@@ -37,13 +40,15 @@ class LogChart : public QWidget {
   /// @param x_max right end of the axis at least
   void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
   /// What to say where there is nothing to draw.
-  void set_hint(const QString& hint) { hint_ = hint; }
+  void set_hint(const QString& hint);
   /// The count that is looked at, if any.
   void set_mark(std::optional<int> x);
   std::optional<int> mark() const { return mark_; }
   /// The count at a place of the widget, within the axis; and the place of a count.
   int count_at(const QPointF& place) const;
   QPointF place_of(int x) const;
+  /// As it is shown.
+  LineChart chart() const;
 
   QSize sizeHint() const override { return {420, 210}; }
   QSize minimumSizeHint() const override { return {240, 3 * fontMetrics().height() + 66}; }
@@ -54,19 +59,24 @@ class LogChart : public QWidget {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
-  struct Frame;
-  Frame frame() const;
-  void draw_axes(QPainter& painter, const Frame& frame) const;
-  void draw_line(QPainter& painter, const Frame& frame, const Line& line) const;
-  void draw_legend(QPainter& painter, const Frame& frame) const;
+  struct Scale;
+  Scale scale() const;
+  void change();
+  void add_levels(LineChart& chart) const;
+  void add_mark(LineChart& chart) const;
+  void add_lines(LineChart& chart) const;
+  void draw() const;
 
   QString title_, x_title_, y_title_, hint_;
   std::vector<Line> lines_;
   std::vector<Level> levels_;
   int x_max_ = 1;
   std::optional<int> mark_;
+  mutable QImage picture_;  ///< of the device's pixels; null: to be drawn
+  mutable ChartArea area_;  ///< in the picture
 };
 
 /// Decades [first, last] that hold all positive values, at least one decade apart; [-1, 0] for

@@ -2,9 +2,10 @@
 #include "study_chart.h"
 
 #include <QPainter>
-#include <cstring>
+#include <algorithm>
 #include <utility>
 
+#include "chart_picture.h"
 #include "theme.h"
 #include "transillum/study_files.h"
 
@@ -49,15 +50,17 @@ void StudyChart::paintEvent(QPaintEvent*) {
   }
   const QSize pixels = size() * devicePixelRatioF();
   if (picture_.size() != pixels) {
-    const PlotPicture plot =
-        draw_study_plot(snapshot_->loaded->scene->name(), snapshot_->series, snapshot_->study,
-                        measure_, pixels.width(), pixels.height());
-    picture_ = QImage(pixels, QImage::Format_RGB32);
-    for (int y = 0; y < plot.height; ++y) {
-      const auto width = static_cast<std::size_t>(plot.width);
-      std::memcpy(picture_.scanLine(y), &plot.pixels[static_cast<std::size_t>(y) * width],
-                  width * sizeof(std::uint32_t));
-    }
+    ChartStyle style;  // the type of the files, the colours of the window
+    const ChartStyle window = chart_style(*this);
+    style.paper = window.paper;
+    style.ink = window.ink;
+    style.dim = window.dim;
+    style.grid = window.grid;
+    style.font = window.font;
+    const double scale = std::min(width() / 800.0, height() / 480.0);
+    paint_chart(study_chart(snapshot_->loaded->scene->name(), snapshot_->series, snapshot_->study,
+                            measure_, StudyAxis::passes, style),
+                picture_, pixels, scale * devicePixelRatioF());
   }
   painter.drawImage(rect(), picture_);
 }

@@ -274,9 +274,9 @@ void StudyDialog::save(const QString& path) {
     if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) {
       write_study_csv(file, snapshot_->series, snapshot_->study);
     } else {
-      check_plot_path(file);
-      write_study_plot(file, snapshot_->loaded->scene->name(), snapshot_->series, snapshot_->study,
-                       measure());
+      check_chart_path(file);
+      write_charts(file, {study_chart(snapshot_->loaded->scene->name(), snapshot_->series,
+                                      snapshot_->study, measure())});
     }
   } catch (const std::exception& error) {
     banner_->say(Banner::Kind::error, QString::fromUtf8(error.what()));

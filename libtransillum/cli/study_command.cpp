@@ -149,7 +149,7 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
 
 int run(const StudyCall& call) {
   const StudyOptions options = study_options(call);
-  for (const std::string& file : call.plots) check_plot_path(file);
+  for (const std::string& file : call.plots) check_chart_path(file);
   std::vector<std::string> files = call.plots;
   if (!call.out.empty()) files.push_back(call.out);
   check_output_files(files, call.scene);
@@ -178,7 +178,7 @@ int run(const StudyCall& call) {
   report_failures(study, names);
   if (!call.out.empty()) write_study_csv(call.out, options.series, study);
   for (const std::string& file : call.plots) {
-    write_study_plot(file, call.scene, options.series, study, call.error, call.against);
+    write_charts(file, {study_chart(call.scene, options.series, study, call.error, call.against)});
   }
   const std::string summary = study_summary(*work.scene, options, study, call.error);
   if (call.out.empty()) {

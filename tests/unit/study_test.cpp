@@ -333,17 +333,17 @@ Study two_ways(double factor) {
 TEST(StudyPlot, SvgHasALineWithDashesOfItsOwnForEverySeries) {
   const TemporaryFolder folder;
   const auto plot = [&](const std::vector<StudySeries>& series) {
-    write_study_plot(folder / "p.svg", "box", series, two_ways(1));
+    write_charts(folder / "p.svg", {study_chart("box", series, two_ways(1))});
     return read_file(folder / "p.svg");
   };
   const std::string both = plot({{Sampling::random}, {Sampling::random, false}});
   EXPECT_THAT(both, StartsWith("<?xml"));
   EXPECT_THAT(both, HasSubstr("stroke-dasharray"));
-  EXPECT_THAT(both, HasSubstr("rgb(0%,45%,70%)"));
-  EXPECT_THAT(both, HasSubstr("rgb(84%,37%,0%)"));
+  EXPECT_THAT(both, HasSubstr("rgb(0%,45.098039%,70.196078%)"));
+  EXPECT_THAT(both, HasSubstr("rgb(83.921569%,36.862745%,0%)"));
   const std::string samplings = plot({{Sampling::random}, {Sampling::halton}});
   EXPECT_THAT(samplings, Not(HasSubstr("stroke-dasharray")));
-  EXPECT_THAT(samplings, HasSubstr("rgb(84%,37%,0%)"));
+  EXPECT_THAT(samplings, HasSubstr("rgb(83.921569%,36.862745%,0%)"));
 }
 
 /// Rows of red, green and blue, from the bottom.
@@ -356,8 +356,9 @@ vtkSmartPointer<vtkImageData> read_png(const std::string& file) {
 
 TEST(StudyPlot, PngShowsTheSeriesInTheirColours) {
   const TemporaryFolder folder;
-  write_study_plot(folder / "p.png", "a name \xff that is no UTF-8",
-                   {{Sampling::random}, {Sampling::halton}}, two_ways(1));
+  write_charts(folder / "p.png",
+               {study_chart("a name \xff that is no UTF-8",
+                            {{Sampling::random}, {Sampling::halton}}, two_ways(1))});
   const auto image = read_png(folder / "p.png");
   const int* size = image->GetDimensions();
   EXPECT_EQ(size[0], 1600);
@@ -377,35 +378,40 @@ TEST(StudyPlot, PngShowsTheSeriesInTheirColours) {
   EXPECT_LT(blue, orange);
 }
 
-TEST(StudyPlot, InMemoryItIsAsLargeAsFits) {
+TEST(StudyPlot, LegendTellsSlopesWorstFirst) {
   const std::vector<StudySeries> series{{Sampling::random}, {Sampling::halton}};
-  const auto dark = [&](int width, int height) {
-    const PlotPicture picture =
-        draw_study_plot("box", series, two_ways(1), ErrorMeasure::rms, width, height);
-    EXPECT_EQ(picture.pixels.size(), static_cast<std::size_t>(width) * height);
-    return static_cast<double>(std::count_if(picture.pixels.begin(), picture.pixels.end(),
-                                             [](auto pixel) { return (pixel & 0xff) < 128; }));
-  };
-  const double small = dark(800, 480);
-  EXPECT_NEAR(dark(1600, 960), 4 * small, 0.8 * small);
-  EXPECT_NEAR(dark(800, 960), small, 0.1 * small);  // in the middle of a taller place
+  Study study = two_ways(1);
+  for (StudyPoint& point : study.points) {
+    if (point.series == 1) point.rms_error *= 2;
+  }
+  const LineChart chart = study_chart("box", series, study);
+  ASSERT_EQ(chart.legend.size(), 3U);
+  EXPECT_EQ(chart.series[chart.legend[0]].name, "bound (eq. 37)");
+  EXPECT_EQ(chart.series[chart.legend[1]].name, "halton");
+  EXPECT_EQ(chart.series[chart.legend[2]].name, "random");
+  EXPECT_EQ(chart.series[chart.legend[2]].note, "\u22121.00");
+  EXPECT_NE(chart.series[chart.legend[1]].marker, chart.series[chart.legend[2]].marker);
+  const LineChart by_seconds =
+      study_chart("box", series, study, ErrorMeasure::rms, StudyAxis::seconds);
+  EXPECT_EQ(by_seconds.series.size(), 2U);
+  EXPECT_EQ(by_seconds.series[0].note, "");
 }
 
 TEST(StudyPlot, AnythingCanBeDrawn) {
   const TemporaryFolder folder;
   std::vector<StudySeries> series{{Sampling::random}};
   Study study;
-  write_study_plot(folder / "none.svg", "", series, study);
+  write_charts(folder / "none.svg", {study_chart("", series, study)});
   study.points = {point(16, 0.1)};
-  write_study_plot(folder / "one.svg", std::string(500, 'x'), series, study);
+  write_charts(folder / "one.svg", {study_chart(std::string(500, 'x'), series, study)});
   study.points = {point(1, 1e-300), point(1 << 24, 1e300), point(5, std::nan("")), point(6, 0)};
-  write_study_plot(folder / "far.png", "far", series, study);
+  write_charts(folder / "far.png", {study_chart("far", series, study)});
   for (const std::string& name : folder.names()) {
     EXPECT_GT(read_file(folder / name).size(), 1000U) << name;
   }
-  EXPECT_THROW(check_plot_path(folder / "p.jpg"), InputError);
-  EXPECT_THROW(check_plot_path(folder / "no/p.png"), InputError);
-  EXPECT_NO_THROW(check_plot_path(folder / "p.PNG"));
+  EXPECT_THROW(check_chart_path(folder / "p.jpg"), InputError);
+  EXPECT_THROW(check_chart_path(folder / "no/p.png"), InputError);
+  EXPECT_NO_THROW(check_chart_path(folder / "p.PNG"));
 }
 
 }  // namespace

@@ -15,4 +15,22 @@ std::string clean_text(const std::string& text) {
   return clean;
 }
 
+std::string xml_text(const std::string& text) {
+  std::string result;
+  for (const char c : clean_text(text)) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else if (c == '"') {
+      result += "&quot;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
 }  // namespace transillum

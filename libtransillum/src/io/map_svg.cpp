@@ -28,24 +28,6 @@ constexpr const char* style = R"(  <style>
 
 std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : clean_text(text)) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (c == '"') {
-      result += "&quot;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 /// The end of a name that is too long for its place, after an ellipsis: of a path that is what
 /// tells it apart.
 std::string shortened(const std::string& text, std::size_t most) {
@@ -95,7 +77,7 @@ class SvgFigure {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{0:.0f}\" "
         "height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
         width_, height_);
-    text_.add("  <title>{}</title>\n", escaped(heading(scene_.name())));
+    text_.add("  <title>{}</title>\n", xml_text(heading(scene_.name())));
     const Vec3& omega = map_.frame.omega;
     text_.add("  <desc>transillum " TRANSILLUM_VERSION
               "; direction omega = {}, {}, {}; seen along omega; {} pixels a metre</desc>\n",
@@ -109,7 +91,7 @@ class SvgFigure {
     const std::size_t words = heading({}).size();
     const std::string name = shortened(scene_.name(), room > words + 8 ? room - words : 8);
     text_.add("  <text class=\"title\" x=\"{}\" y=\"42\">{}</text>\n", padding,
-              escaped(heading(name)));
+              xml_text(heading(name)));
     const Vec3& omega = map_.frame.omega;
     text_.add(
         "  <text x=\"{}\" y=\"66\">Seen along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the "
@@ -154,7 +136,7 @@ class SvgFigure {
     const std::string reason = why_empty(scene_, map_);
     if (reason.empty()) return;
     text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", width_ / 2,
-              header + plate_.height / 2, escaped(reason));
+              header + plate_.height / 2, xml_text(reason));
   }
 
   void add_outlines(std::span<const VisibilityMap::Polygon> polygons) {
@@ -210,7 +192,7 @@ class SvgFigure {
               hex(color_of(scene_, any)));
     add_outlines(polygons);
     text_.add("\"><title>patch {} ({}), {}, area {:.4g} m\u00b2</title></path>\n", any.patch,
-              escaped(scene_.material(any.patch).name), description(any), area);
+              xml_text(scene_.material(any.patch).name), description(any), area);
   }
 
   std::string description(const VisibilityMap::Polygon& polygon) const {

@@ -1,0 +1,14 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cairo.h>
+
+#include "transillum/line_chart.h"
+
+namespace transillum {
+
+/// Paints `chart` as VTK's chart on a part of a surface: `width` and `height` in units of `cairo`.
+/// @returns the plot's area in the same units
+ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);
+
+}  // namespace transillum
