@@ -14,7 +14,7 @@ constexpr std::size_t short_list = 12;
 constexpr double faces_across = 1.5;
 /// From so many cells on a face is tested against each cell and not by its box alone.
 constexpr int many_cells = 12;
-constexpr int top_shift = 61;
+constexpr int top_shift = 62;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr FaceBox nowhere{
     {infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity}};

@@ -76,8 +76,8 @@ class FastPass {
 
  private:
   bool nothing_is_covered_twice() const {
-    // Corners lie a step or so off their lines: a few hundred steps by the 2^59 of the scene.
-    const double rounding = 0x1p9 * 0x1p59 * area_unit_;
+    // Corners lie a step or so off their lines: a thousand steps by the 2^60 of the scene.
+    const double rounding = 0x1p10 * 0x1p60 * area_unit_;
     const auto holds = [rounding](const Coverage& side) {
       return side.covered <= side.projected * (1 + 1e-9) + rounding;
     };

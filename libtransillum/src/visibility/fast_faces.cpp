@@ -9,12 +9,12 @@
 namespace transillum {
 namespace {
 
-constexpr double thinnest = 4;                                ///< steps
+constexpr double thinnest = 2, thinnest_cut = 8;              ///< steps
 constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
 
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
-/// edge-on may not, and takes no part.
-bool is_convex(const GridPoint* outline, std::size_t count) {
+/// edge-on may not, and takes no part (as SeenFragment has it).
+bool is_convex(const GridPoint* outline, std::size_t count, double area) {
   for (std::size_t k = 0; k < count; ++k) {
     const GridPoint& a = outline[k];
     const GridPoint& b = outline[(k + 1) % count];
@@ -26,7 +26,10 @@ bool is_convex(const GridPoint* outline, std::size_t count) {
     };
     const long double size =
         square(b.x - a.x) + square(b.y - a.y) + square(c.x - b.x) + square(c.y - b.y);
-    if (static_cast<long double>(turn) < -1e-14L * size) return false;
+    if (static_cast<long double>(turn) < -1e-14L * size &&
+        -64 * static_cast<long double>(turn) > static_cast<long double>(area)) {
+      return false;
+    }
   }
   return true;
 }
@@ -160,10 +163,11 @@ bool FastFaces::add(const FastOutlines& outlines, std::uint32_t which) {
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
-  // What is thinner than the steps that corners are rounded to is seen edge-on.
-  if (area < thinnest * std::sqrt(size)) return false;
+  // What is thinner than the steps that corners are rounded to is seen edge-on. Where cuts of the
+  // tree have made corners, lines that nearly coincide put them anywhere.
+  if (area < (outline.plain ? thinnest : thinnest_cut) * std::sqrt(size)) return false;
   const bool needle = area < 0x1p-11 * size;
-  if (needle && !is_convex(first, count)) return false;
+  if (needle && !is_convex(first, count, area)) return false;
   boxes.push_back(box);
   faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front,
                    needle && !outline.plain, area});

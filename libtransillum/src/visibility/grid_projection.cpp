@@ -14,7 +14,7 @@ void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3
   const double radius = 0.5 * scene.bounds().diagonal();
   int exponent = 0;
   std::frexp(radius, &exponent);  // radius < 2^exponent, and no point lies farther out
-  step = std::ldexp(1.0, exponent - 59);
+  step = std::ldexp(1.0, exponent - 60);
   const Wide steps = 1 / static_cast<Wide>(step);
   const auto scaled = [steps](const Vec3& axis) {
     return std::array<Wide, 3>{steps * axis.x, steps * axis.y, steps * axis.z};

@@ -15,7 +15,7 @@ struct GridPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// All points of a tree, projected along one direction and rounded to a grid 2^-59 as wide as the
+/// All points of a tree, projected along one direction and rounded to a grid 2^-60 as wide as the
 /// scene (decisions/0013-predicates.md).
 struct GridProjection {
   PlaneFrame frame;

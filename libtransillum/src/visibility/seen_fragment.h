@@ -47,7 +47,8 @@ class SeenFragment {
   }
 
   /// Whether the outline turns left everywhere. Pieces are planar to rounding only, so one seen
-  /// within rounding of edge-on may not, and takes no part.
+  /// within rounding of edge-on may not, and takes no part. A right turn that is little of the area
+  /// says nothing: collinear corners turn either way.
   bool is_convex() const {
     const std::size_t count = outline_.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -56,10 +57,9 @@ class SeenFragment {
       const BasicPlanePoint<Number>& c = outline_[(k + 2) % count].at;
       const Number turn = cross(b - a, c - b);
       if (turn >= 0) continue;
-      // Collinear corners may turn either way by rounding.
       const Number size = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) +
                           (c.x - b.x) * (c.x - b.x) + (c.y - b.y) * (c.y - b.y);
-      if (turn < static_cast<Number>(-1e-14) * size) return false;
+      if (turn < static_cast<Number>(-1e-14) * size && -64 * turn > area_) return false;
     }
     return true;
   }
