@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "step_events.h"
+#include "transillum/map_region.h"
 
 namespace transillum::viewer {
 
@@ -71,6 +72,13 @@ std::vector<CodeLine> lines_of_global_map(const Focus& focus, const MapHistory& 
   return {CodeLine::if_back, CodeLine::gather_region};
 }
 
+constexpr double weight = 4 * std::numbers::pi;  // J_d
+
+/// M of the step in focus; a pass both ways counts as two.
+int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
+  return snapshot.passes_of(focus.moment().iteration) * (snapshot.options.two_way ? 2 : 1);
+}
+
 /// B_j(n), where it has been kept.
 std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
   const auto n = static_cast<std::size_t>(iteration);
@@ -95,6 +103,7 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   state.point = *focus.probe();
   const std::vector<StepEvent> line = events_at_point(history, state.point);
   for (const StepEvent& event : line) state.list.push_back(event.below);
+  if (const auto region = region_at(history, state.point)) state.area = region->area;
   const StepEvent* event = event_reached(line, focus.moment().step);
   if (event == nullptr) return state;
   state.i = event->below;
@@ -102,8 +111,12 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   state.j = event->above;
   state.exchanges = event->kind == StepEvent::Kind::exchange;
   state.pair_area = event->pair_area;
-  if (state.j != no_patch)
-    state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  if (state.j == no_patch) return state;
+  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  if (!state.exchanges || !state.radiosity_j || !state.area) return state;
+  const double share = weight / (std::numbers::pi * directions_of(snapshot, focus)) * *state.area /
+                       snapshot.loaded->scene->patch(state.i).area;
+  state.gathered = share * (snapshot.loaded->scene->reflectance(state.i) * *state.radiosity_j);
   return state;
 }
 
@@ -124,9 +137,8 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   state.map_after = step.map_size;
   state.inside = step.cut;
   state.outside = static_cast<std::int32_t>(history.outside_at(k).size());
-  state.weight = 4 * std::numbers::pi;
-  state.directions =
-      snapshot.passes_of(focus.moment().iteration) * (snapshot.options.two_way ? 2 : 1);
+  state.weight = weight;
+  state.directions = directions_of(snapshot, focus);
 
   std::map<PatchId, double> areas;  // A(j) of what lights i
   for (const std::int32_t r : history.inside_at(k))

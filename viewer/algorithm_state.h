@@ -65,16 +65,19 @@ struct AlgorithmState {
 std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSnapshot& snapshot,
                                               PatchId selected);
 
-/// What they hold at the region R of a global map that the probed point lies in.
+/// What they hold at the region R of a global map that the probed point lies in. With the BSP
+/// tree's cuts among its edges, as the engine `global` has them.
 struct RegionState {
   Vec2 point;
-  std::vector<PatchId> list;  ///< L, from the light down
-  PatchId i = no_patch;       ///< of L, the newest that the focus has processed
+  std::optional<double> area;  ///< A(R), m²; nothing on an edge
+  std::vector<PatchId> list;   ///< L, from the light down
+  PatchId i = no_patch;        ///< of L, the newest that the focus has processed
   bool front_facing = false;
   PatchId j = no_patch;            ///< next of L above i
   bool exchanges = false;          ///< i receives from j there
   double pair_area = 0;            ///< A(i, j) over all regions, m²
   std::optional<Rgb> radiosity_j;  ///< B_j(n), W/m²
+  std::optional<Rgb> gathered;     ///< what line `gather_region` adds to B_i(n+1), W/m²
 };
 /// Nothing without a probed point.
 std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot);

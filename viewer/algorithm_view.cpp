@@ -113,6 +113,10 @@ QWidget* AlgorithmView::make_region_values() {
   region_values_ = new ValueGrid;
   region_values_->layout()->setContentsMargins(12, 10, 12, 4);
   region_ = region_values_->add_row(tr("R"), tr("m"), tr("The point clicked: along u and v"));
+  region_area_ = region_values_->add_row(
+      tr("A(R)"), tr("m²"),
+      tr("Area of the region round the point, up to the next edges of polygons, seen or hidden"));
+  region_area_->setObjectName("value_region_area");
   region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches over R, the highest first"));
   region_list_->setWordWrap(true);
   region_list_->setObjectName("value_region_list");
@@ -123,6 +127,10 @@ QWidget* AlgorithmView::make_region_values() {
   region_j_->setObjectName("value_region_j");
   region_radiosity_ =
       region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  region_gathered_ = region_values_->add_row(
+      tr("+="), tr("W/m²"), tr("What R adds to B_i(n+1), before any normalisation"));
+  region_gathered_->setObjectName("value_region_gathered");
+  for (QLabel* three : {region_radiosity_, region_gathered_}) three->setWordWrap(true);
   auto* box = new QWidget;
   auto* layout = new QVBoxLayout(box);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -197,7 +205,9 @@ void AlgorithmView::show_region(const RegionState& state) {
                      : state.exchanges
                          ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))
                          : tr("%1, no light").arg(state.j));
+  region_area_->setText(state.area ? number_text(*state.area) : none);
   region_radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
+  region_gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
 }
 
 void AlgorithmView::show_values(const AlgorithmState& state) {

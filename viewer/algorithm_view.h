@@ -45,7 +45,8 @@ class AlgorithmView : public QWidget {
   std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the one or the other map
   ValueGrid *values_, *region_values_;
   QLabel *moment_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
-  QLabel *region_, *region_list_, *region_i_, *region_j_, *region_radiosity_, *region_hint_;
+  QLabel *region_, *region_area_, *region_list_, *region_i_, *region_j_, *region_radiosity_,
+      *region_gathered_, *region_hint_;
 };
 
 }  // namespace transillum::viewer

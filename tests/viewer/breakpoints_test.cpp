@@ -14,6 +14,7 @@
 #include "camera_views.h"
 #include "step_events.h"
 #include "transillum/directions.h"
+#include "transillum/map_region.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -237,8 +238,13 @@ class BreakpointsTest : public QObject {
 
   void a_global_map_is_walked_down_at_the_probed_point() {
     const Direction d("furnace", {0, 0.2, 1});
+    const Scene& scene = *d.scene->scene;
     SolverSnapshot snapshot;
     snapshot.loaded = d.scene;
+    snapshot.progress.passes = 10;
+    snapshot.options.two_way = true;
+    const std::vector<Rgb> radiosity(static_cast<std::size_t>(scene.patch_count()), {1, 2, 3});
+    snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
     Focus focus;
     focus.begin_run(1);
     focus.go_to({0, 0, -1});
@@ -250,12 +256,14 @@ class BreakpointsTest : public QObject {
     focus.set_probe(point);
     QVERIFY(current_lines(focus, MapKind::global) == std::vector<CodeLine>{CodeLine::region_list});
     const auto line = events_at_point(d.history(), point);
+    const double area = region_at(d.history(), point)->area;
     int exchanges = 0;
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
       focus.go_to({0, 0, k});
       const auto state = region_state(focus, snapshot);
       QVERIFY(state.has_value());
       QCOMPARE(state->list.size(), line.size());
+      QCOMPARE(state->area.value(), area);
       const auto lines = current_lines(focus, MapKind::global);
       const auto here = std::find_if(line.begin(), line.end(),
                                      [&](const StepEvent& event) { return event.step == k; });
@@ -268,6 +276,14 @@ class BreakpointsTest : public QObject {
       const bool gathers = lines.back() == CodeLine::gather_region;
       QCOMPARE(gathers, here->kind == StepEvent::Kind::exchange);
       exchanges += gathers;
+      // As the line says: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
+      QCOMPARE(state->gathered.has_value(), gathers);
+      if (!gathers) continue;
+      const Rgb expected =
+          (area * 4 / (scene.patch(state->i).area * 20)) *
+          (scene.reflectance(state->i) * radiosity[static_cast<std::size_t>(state->j)]);
+      QVERIFY(max_abs(*state->gathered - expected) < 1e-12);
+      QVERIFY(max_abs(expected) > 0);
     }
     QVERIFY(exchanges > 0);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -47,6 +48,7 @@ class PlaneRegion {
   void subtract(std::span<const Side> sides, const Box& box);
 
   bool empty() const { return parts_.empty(); }
+  std::size_t size() const { return parts_.size(); }  ///< convex parts
   /// visit(corners) for the convex parts that are left; they do not overlap.
   template <class Visit>
   void for_each(Visit&& visit) const {
