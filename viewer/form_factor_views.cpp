@@ -34,8 +34,6 @@ std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) 
 }
 
 QString why_no_form_factors(const SolverSnapshot& snapshot) {
-  if (snapshot.options.scheme == Scheme::semi_iterative)
-    return tr("The semi-iterative scheme keeps no form factors.");
   if (snapshot.progress.iteration == 0)
     return tr("There are form factors when the first iteration is done.");
   if (!snapshot.form_factors_fit) return tr("The form factors take more memory than they may.");

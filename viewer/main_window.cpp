@@ -172,6 +172,7 @@ void MainWindow::make_docks() {
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(lesson_panel_, &LessonPanel::open_clicked, this, &MainWindow::choose_lesson);
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
+  connect(page_, &ScenePage::replicas_wanted, this, &MainWindow::solve_with_replicas);
   connect(map_dock_, &QDockWidget::visibilityChanged, this,
           [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
   connect(&breakpoints_, &Breakpoints::changed, timeline_->lanes(), &TimelineLanes::count_columns);
@@ -375,6 +376,15 @@ void MainWindow::solve_anew() {
     session_.restart(settings_->solve_options(), {Goal::Kind::finished});
   else
     open(QString::fromStdString(spec_));
+}
+
+void MainWindow::solve_with_replicas() {
+  constexpr int enough = 8;
+  SolveOptions solve = settings_->solve_options();
+  solve.directions = std::max(solve.directions, enough);
+  solve.replicas = enough;
+  set_options(solve, settings_->scene_options());
+  solve_anew();
 }
 
 void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {

@@ -116,6 +116,7 @@ class MainWindow : public QMainWindow {
   void choose_lesson();
   void run();
   void solve_anew();
+  void solve_with_replicas();
   void show_loaded(std::shared_ptr<const LoadedScene> loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void show_state(SessionState state);

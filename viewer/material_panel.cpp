@@ -48,6 +48,11 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   column->setSpacing(4);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
+  account_ = new QLabel;
+  account_->setObjectName("material_account");
+  account_->setWordWrap(true);
+  account_->setForegroundRole(QPalette::PlaceholderText);
+  column->addWidget(account_);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 6, 12, 6);
@@ -97,6 +102,8 @@ void MaterialPanel::show_state() {
   sliders_->setEnabled(obstacle.isEmpty() && material() >= 0);
   words_->setText(obstacle);
   words_->setHidden(obstacle.isEmpty());
+  account_->setText(relighting_.account());
+  account_->setHidden(account_->text().isEmpty());
 }
 
 void MaterialPanel::show_material() {

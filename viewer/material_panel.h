@@ -35,6 +35,7 @@ class MaterialPanel : public QWidget {
   std::shared_ptr<const Scene> scene_;
   QComboBox* material_;
   QLabel* words_;
+  QLabel* account_;  ///< what the light is found from
   QWidget* sliders_;
   ChannelSliders *reflectance_, *exitance_;
   QPushButton* restore_;

@@ -147,7 +147,11 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
     }
     case Quantity::error:
       if (snapshot.error.replicas == 0)
-        return {{}, tr("An error estimate wants replicas: set 2 or more and solve anew.")};
+        return {{},
+                snapshot.options.replicas > 1
+                    ? tr("The error estimate is there when every replica has had a direction.")
+                    : tr("The error of B is estimated from the spread of replicas, and this solve "
+                         "has none.")};
       return {snapshot.error.standard_error, {}};
     case Quantity::last_change: {
       PatchValues result{last_change(snapshot), {}};

@@ -31,6 +31,7 @@ void Relighter::work(const Task& task, const Cancellation& cancellation) {
     RelightOptions options;
     options.tolerance = request.tolerance;
     options.start = request.start;
+    options.shot = request.shot.get();
     light = std::make_shared<const Relit>(
         relight(*request.scene, *request.form_factors, request.materials, options, cancellation));
   } catch (const Cancelled&) {

@@ -23,6 +23,7 @@ class Relighter : public QObject {
   struct Request {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const FormFactors> form_factors;
+    std::shared_ptr<const DirectLight> shot;  ///< may be null
     std::vector<Material> materials;
     std::vector<Rgb> start;  ///< B to start from
     double tolerance = 1e-6;

@@ -30,9 +30,24 @@ void Relighting::show_scene(const Scene& scene) {
 
 QString Relighting::obstacle() const {
   if (!snapshot_) return tr("Open a scene to change its light.");
-  if (snapshot_->options.first_shot)
-    return tr("What a first shot has brought is not kept: solve without it to change the light.");
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty())
+    return tr(
+        "The first shot's light takes more memory than it may, kept for each material: solve "
+        "without it to change the light.");
   return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
+}
+
+QString Relighting::account() const {
+  if (!snapshot_) return {};
+  if (snapshot_->options.scheme == Scheme::semi_iterative)
+    return tr(
+        "B follows from the form factors of all steps so far, without a new pass; the "
+        "scheme's own B is a mean over its steps, and comes near it.");
+  if (snapshot_->shot && !snapshot_->shot->sources.empty())
+    return tr(
+        "B follows from the kept first shot and form factors, without a new pass; what was "
+        "dark and emits now is left to the form factors.");
+  return {};
 }
 
 void Relighting::ask() {
@@ -49,7 +64,7 @@ void Relighting::ask() {
     return;
   }
   used_ = snapshot_->form_factors;
-  relighter_.request({snapshot_->loaded->scene, used_, edits_.materials(),
+  relighter_.request({snapshot_->loaded->scene, used_, snapshot_->shot, edits_.materials(),
                       light_ ? light_->radiosity : snapshot_->radiosity,
                       snapshot_->options.tolerance});
 }

@@ -25,6 +25,9 @@ class Relighting : public QObject {
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);
   /// Why materials cannot be changed now; empty where they can.
   QString obstacle() const;
+  /// What the light of changed materials is found from, a sentence for the user; empty where it is
+  /// the solve's form factors and nothing else.
+  QString account() const;
   /// Whether a light that was asked for is still being found.
   bool busy() const { return relighter_.busy(); }
 

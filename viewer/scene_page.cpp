@@ -1,36 +1,19 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene_page.h"
 
-#include <QFileInfo>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 
 #include "banner.h"
 #include "color_bar.h"
 #include "color_controls.h"
+#include "color_note.h"
 #include "scene_view.h"
 #include "show_menu.h"
-#include "theme.h"
 #include "welcome_page.h"
 
 namespace transillum::viewer {
-
-namespace {
-
-QString words_on_file(const LoadedScene& loaded) {
-  const QString name = QFileInfo(QString::fromStdString(loaded.file)).fileName();
-  return loaded.stored->complete
-             ? ScenePage::tr("Figures of the file %1. Run (F5) solves its scene from zero.")
-                   .arg(name)
-             : ScenePage::tr(
-                   "Figures of the file %1, of a solve that was stopped early. Run (F5) "
-                   "solves its scene from zero.")
-                   .arg(name);
-}
-
-}  // namespace
 
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
@@ -53,28 +36,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   camera_ = new CameraMenu(*scene_view_, bookmarks_);
   color_controls_->add_tool(camera_);
 
-  note_ = new QLabel;
-  note_->setObjectName("color_note");
-  note_->setAlignment(Qt::AlignCenter);
-  note_->setWordWrap(true);
-  note_->setContentsMargins(10, 5, 10, 5);
-  QPalette dark = note_->palette();
-  dark.setColor(QPalette::Window, theme::scene_background.lighter(140));
-  dark.setColor(QPalette::WindowText, theme::on_dark);
-  note_->setPalette(dark);
-  note_->setAutoFillBackground(true);
-  const auto show_note = [this, &colors] {
-    const auto snapshot = colors.snapshot();
-    const QString note = colors.shows_kept_run() ? tr("A, the kept run, while the key is down")
-                         : snapshot && snapshot->of_file && colors.missing().isEmpty()
-                             ? words_on_file(*snapshot->loaded)
-                             : colors.missing();
-    note_->setText(note);
-    note_->setVisible(!note.isEmpty());
-  };
-  connect(&colors, &ColorChoice::changed, note_, show_note);
-  connect(&colors, &ColorChoice::fitted, note_, show_note);
-  note_->hide();
+  auto* note = new ColorNote(colors);
+  connect(note, &ColorNote::replicas_wanted, this, &ScenePage::replicas_wanted);
 
   auto* scene = new QWidget;
   auto* with_bar = new QHBoxLayout;
@@ -85,7 +48,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   scene_layout->setContentsMargins(0, 0, 0, 0);
   scene_layout->setSpacing(0);
   scene_layout->addWidget(color_controls_);
-  scene_layout->addWidget(note_);
+  scene_layout->addWidget(note);
   scene_layout->addLayout(with_bar, 1);
   pages_ = new QStackedWidget;
   pages_->addWidget(welcome);

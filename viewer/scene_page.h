@@ -8,7 +8,6 @@
 #include "focus.h"
 #include "selection.h"
 
-class QLabel;
 class QStackedWidget;
 
 namespace transillum::viewer {
@@ -37,12 +36,12 @@ class ScenePage : public QWidget {
   void open_clicked();
   void lesson_clicked();
   void built_in_clicked(const QString& name);
+  void replicas_wanted();
 
  private:
   CameraBookmarks bookmarks_;
   CameraMenu* camera_;
   Banner* banner_;
-  QLabel* note_;  ///< why there are no colours
   QStackedWidget* pages_;
   ColorControls* color_controls_;
   SceneView* scene_view_;

@@ -1,7 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,18 @@ struct LoadedScene {
   double seconds_bsp = 0;
 };
 
+/// Passes that the steps so far rest on; one that a step takes over from those before (in the
+/// growing scheme, or from kept sums) counts in each.
+/// @param kept_passes of each step from 0 that has begun, as in SolverSnapshot
+inline std::int64_t passes_done(const SolveProgress& progress,
+                                const std::vector<int>& kept_passes) {
+  const auto finished =
+      std::min<std::size_t>(static_cast<std::size_t>(progress.iteration), kept_passes.size());
+  return std::accumulate(kept_passes.begin(),
+                         kept_passes.begin() + static_cast<std::ptrdiff_t>(finished),
+                         std::int64_t{progress.direction});
+}
+
 /// Where a solve stands at one moment. Immutable: the worker makes it, the window shows it.
 struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
@@ -41,6 +56,7 @@ struct SolverSnapshot {
   std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
   /// Of all passes so far; null until the session was asked for them and has them.
   std::shared_ptr<const FormFactors> form_factors;
+  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros where there is none
   /// E and rho that radiosity and irradiance are of, where they are not the scene's; else null.
   std::shared_ptr<const std::vector<Material>> materials;
   /// The figures are those of loaded->stored: nothing has been solved here yet.

@@ -30,10 +30,6 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-int passes_done(const SolveProgress& progress) {
-  return progress.iteration * progress.passes + progress.direction;
-}
-
 }  // namespace
 
 SolverSession::SolverSession(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
@@ -245,6 +241,7 @@ void SolverSession::begin_solve(const SolveOptions& options) {
 
 void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
+  solver_->keep_form_factors();
   kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
   kept_passes_ = {solver_->progress().passes};
   kept_radiosity_.clear();
@@ -279,9 +276,13 @@ void SolverSession::keep_directions() {
   }
 }
 
+std::int64_t SolverSession::passes_so_far() const {
+  return passes_done(solver_->progress(), kept_passes_);
+}
+
 void SolverSession::advance(const Goal& goal) {
   if (!solver_ || !more_to_do_) return;
-  if (goal.kind == Goal::Kind::passes && passes_done(solver_->progress()) >= goal.passes) return;
+  if (goal.kind == Goal::Kind::passes && passes_so_far() >= goal.passes) return;
   post_state(SessionState::running);
   using Until = RadiositySolver::Until;
   try {
@@ -309,20 +310,18 @@ void SolverSession::advance(const Goal& goal) {
   }
 }
 
-void SolverSession::advance_exactly(int passes) {
+void SolverSession::advance_exactly(std::int64_t passes) {
   // Passes under way on other threads are finished after a pause: leave room for them, then take
   // the last ones one by one.
   const int room = 2 * std::max(solver_->statistics().threads, 1);
-  const auto go_on = [this](int wanted) {
-    return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) &&
-           passes_done(solver_->progress()) < wanted;
+  const auto go_on = [this](std::int64_t wanted) {
+    return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < wanted;
   };
   if (go_on(passes - room))
     more_to_do_ =
         solver_->advance(RadiositySolver::Until::finished, [&](const RadiositySolver& solver) {
           on_pass(solver);
-          return !interrupted_.load(std::memory_order_relaxed) &&
-                 passes_done(solver.progress()) < passes - room;
+          return !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < passes - room;
         });
   while (go_on(passes))
     more_to_do_ =
@@ -344,7 +343,16 @@ void SolverSession::on_pass(const RadiositySolver& solver) {
   // Making a snapshot may take a fifth of the solver's time at most.
   const double interval_ms =
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
-  if (static_cast<double>(now_ns() - last_snapshot_ns_) > 1e6 * interval_ms) post_snapshot();
+  const bool due = static_cast<double>(now_ns() - last_snapshot_ns_) > 1e6 * interval_ms;
+  if (due || form_factors_are_due(progress)) post_snapshot();
+}
+
+// They are whole between steps only, where few snapshots are taken. After that, the semi-iterative
+// scheme's are worth it again when they are of twice as many passes.
+bool SolverSession::form_factors_are_due(const SolveProgress& progress) const {
+  const bool between_steps = progress.direction == 0 && progress.iteration > 0;
+  return form_factors_wanted_ && between_steps && form_factors_fit_ &&
+         solver_->statistics().passes_made >= 2 * form_factors_passes_;
 }
 
 void SolverSession::put_form_factors_together() {
@@ -396,6 +404,7 @@ void SolverSession::post_snapshot() {
   snapshot->radiosity = solver_->running_estimate();
   snapshot->irradiance = solver_->irradiance();
   snapshot->form_factors = form_factors_;
+  snapshot->shot = solver_->direct_light();
   snapshot->form_factors_fit = form_factors_fit_;
   snapshot->kept_radiosity = kept_radiosity_;
   snapshot->form_factor_sums = solver_->form_factor_sums();
@@ -422,7 +431,7 @@ void SolverSession::post_snapshot() {
 // Until the first direction, what a result's file tells is more than the solver knows.
 void SolverSession::lay_out_stored(SolverSnapshot& snapshot) const {
   const auto& stored = loaded_->stored;
-  snapshot.of_file = stored && passes_done(snapshot.progress) == 0;
+  snapshot.of_file = stored && passes_done(snapshot.progress, snapshot.kept_passes) == 0;
   if (!snapshot.of_file) return;
   snapshot.radiosity = stored->radiosity;
   snapshot.irradiance = stored->irradiance;

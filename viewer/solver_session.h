@@ -21,7 +21,7 @@ namespace transillum::viewer {
 struct Goal {
   enum class Kind { rest, direction, iteration, passes, finished };
   Kind kind = Kind::rest;
-  int passes = 0;  ///< for Kind::passes: all passes since the solve began
+  std::int64_t passes = 0;  ///< for Kind::passes: passes_done() of the solve
 };
 
 /// Loads and solves on a thread of its own; the window commands it and hears of it.
@@ -81,7 +81,8 @@ class SolverSession : public QObject {
   void begin_solve(const SolveOptions& options);
   void take_solver(std::unique_ptr<RadiositySolver> solver);
   void advance(const Goal& goal);
-  void advance_exactly(int passes);
+  void advance_exactly(std::int64_t passes);
+  std::int64_t passes_so_far() const;
   void on_pass(const RadiositySolver& solver);
   void keep_radiosity();
   void keep_directions();
@@ -89,6 +90,7 @@ class SolverSession : public QObject {
   void post_state(SessionState state);
   void post_snapshot();
   void put_form_factors_together();
+  bool form_factors_are_due(const SolveProgress& progress) const;
   void lay_out_stored(SolverSnapshot& snapshot) const;
   void show_form_factors();
   void post_failure(const QString& message, bool bad_input);

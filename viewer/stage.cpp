@@ -17,10 +17,6 @@ namespace transillum::viewer {
 
 namespace {
 
-int passes_done(const SolveProgress& progress) {
-  return progress.iteration * progress.passes + progress.direction;
-}
-
 StepFinder find_named(StepName name, PatchId selection) {
   switch (name) {
     case StepName::exchange:
@@ -107,7 +103,7 @@ void Stage::begin_run() {
   }
   act_ = Act::awaits_run;
   const bool beyond = wish_.solve.kind != Goal::Kind::finished &&
-                      passes_done(snapshot->progress) > wish_.solve.passes;
+                      passes_done(snapshot->progress, snapshot->kept_passes) > wish_.solve.passes;
   if (beyond || !(snapshot->options == wish_.options.solve))
     window_.session().restart(wish_.options.solve, wish_.solve);
   else
@@ -129,7 +125,7 @@ bool Stage::run_has_begun() const {
   if (wish_.scene.empty()) return true;
   return snapshot->options == wish_.options.solve &&
          (wish_.solve.kind == Goal::Kind::finished ||
-          passes_done(snapshot->progress) <= wish_.solve.passes);
+          passes_done(snapshot->progress, snapshot->kept_passes) <= wish_.solve.passes);
 }
 
 bool Stage::moment_is_there() const {
@@ -195,7 +191,7 @@ ViewState Stage::state() const {
   const bool finished = window_.session().state() == SessionState::finished ||
                         window_.session().state() == SessionState::running;
   if (!finished) {
-    const int passes = passes_done(snapshot->progress);
+    const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }
   const Focus& focus = window_.focus();

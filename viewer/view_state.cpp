@@ -86,10 +86,11 @@ const char* word_of(const Word<Value> (&words)[n], Value value) {
 Goal goal_from(const json& value, const std::string& where) {
   if (value == "finished") return {Goal::Kind::finished};
   const double passes = value.is_number() ? value.get<double>() : -1;
-  if (!(passes >= 0 && passes <= most) || passes != static_cast<int>(passes))
+  constexpr double most_passes = 1e15;
+  if (!(passes >= 0 && passes <= most_passes) || passes != std::floor(passes))
     throw InputError(where + ": must be \"finished\", or how many directions to take");
   if (passes == 0) return {};
-  return {Goal::Kind::passes, static_cast<int>(passes)};
+  return {Goal::Kind::passes, static_cast<std::int64_t>(passes)};
 }
 
 json to_json(const Goal& goal) {

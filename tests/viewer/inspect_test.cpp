@@ -5,6 +5,7 @@
 #include <QElapsedTimer>
 #include <QFile>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTabWidget>
@@ -115,12 +116,24 @@ class InspectTest : public QObject {
                              std::runtime_error);
   }
 
+  void a_slider_changes_the_light_and_undo_brings_it_back_data() {
+    QTest::addColumn<QString>("how");
+    for (const char* how : {"fixed", "first shot", "semi-iterative"})
+      QTest::newRow(how) << QString::fromLatin1(how);
+  }
+
   void a_slider_changes_the_light_and_undo_brings_it_back() {
-    const Inspected shown("cornell-box");
+    QFETCH(const QString, how);
+    SolveOptions options{.directions = 32};
+    if (how == "first shot") options.first_shot = 0;
+    if (how == "semi-iterative") options.scheme = Scheme::semi_iterative;
+    const Inspected shown("cornell-box", options);
     QVERIFY(shown.ready);
     shown.raise("material_dock");
     auto* slider = shown.part<QSlider>("exitance_red");
     QVERIFY(wait_for([&] { return slider->isEnabled(); }));
+    QCOMPARE(shown.text("material_account").contains(how == "first shot" ? "first shot" : "steps"),
+             how != "fixed");
     const auto before = shown.window->snapshot();
     const Scene& scene = *before->loaded->scene;
     PatchId light = 0;
@@ -135,7 +148,9 @@ class InspectTest : public QObject {
     QCOMPARE(after->progress.passes, before->progress.passes);
     QVERIFY(std::abs(material_of(*after, light).exitance.r / scene.exitance(light).r - 2) < 1e-9);
     // The relation of the channels is kept, so all light doubles; but it is that of all iterations.
-    const Rgb dark = relight(scene, *before->form_factors, scene.materials()).radiosity[0];
+    const Rgb dark =
+        relight(scene, *before->form_factors, scene.materials(), {.shot = before->shot.get()})
+            .radiosity[0];
     QVERIFY(max_abs(after->radiosity[0] - 2 * dark) < 1e-4 * max_abs(dark));
 
     shown.trigger("undo");
@@ -143,6 +158,25 @@ class InspectTest : public QObject {
     QVERIFY(shown.window->snapshot()->radiosity == before->radiosity);
     shown.trigger("redo");
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+  }
+
+  void an_error_without_replicas_offers_to_solve_with_them() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    const auto* button = shown.part<QPushButton>("solve_with_replicas");
+    QVERIFY(!button->isVisible());
+    shown.window->colors().set_quantity(Quantity::error);
+    QVERIFY(button->isVisible());
+    QVERIFY(shown.text("color_note").contains("replicas"));
+    shown.part<QPushButton>("solve_with_replicas")->click();
+    QVERIFY(wait_for([&] {
+      return shown.window->snapshot()->error.replicas == 8 &&
+             shown.window->session().state() == SessionState::finished;
+    }));
+    QCOMPARE(shown.window->snapshot()->options.directions, 32);
+    QVERIFY(!button->isVisible());
+    QVERIFY(shown.window->colors().missing().isEmpty());
+    QVERIFY(!shown.window->colors().values().empty());
   }
 
   void a_drag_is_undone_as_one() {

@@ -164,6 +164,40 @@ class SessionTest : public QObject {
     QCOMPARE(w.snapshot->progress.passes, 24);
   }
 
+  void passes_are_counted_in_every_scheme_data() {
+    QTest::addColumn<int>("scheme");
+    QTest::addColumn<int>("passes");
+    QTest::addColumn<int>("iteration");
+    QTest::addColumn<int>("direction");
+    // Growing takes 16, 32 and then 64 passes a step, half of them from the step before.
+    QTest::newRow("growing, step 1") << static_cast<int>(Scheme::growing) << 7 << 0 << 7;
+    QTest::newRow("growing, step 2") << static_cast<int>(Scheme::growing) << 40 << 1 << 24;
+    QTest::newRow("growing, step 3") << static_cast<int>(Scheme::growing) << 100 << 2 << 52;
+    QTest::newRow("semi-iterative") << static_cast<int>(Scheme::semi_iterative) << 150 << 2 << 22;
+    QTest::newRow("fixed") << static_cast<int>(Scheme::fixed) << 5 * 64 << 5 << 0;
+  }
+
+  void passes_are_counted_in_every_scheme() {
+    QFETCH(const int, scheme);
+    QFETCH(const int, passes);
+    QFETCH(const int, iteration);
+    QFETCH(const int, direction);
+    Watched w;
+    SolveOptions options;
+    options.directions = 64;
+    options.scheme = static_cast<Scheme>(scheme);
+    w.session.open({"cornell-box", {}, options, {Goal::Kind::passes, passes}});
+    QVERIFY(w.advances([&](const SolveProgress& p) {
+      return p.iteration == iteration && p.direction == direction;
+    }));
+    QCOMPARE(passes_done(w.snapshot->progress, w.snapshot->kept_passes), std::int64_t{passes});
+    // It rests there: what is asked for has been done.
+    w.session.pursue({Goal::Kind::passes, passes});
+    QTest::qWait(50);
+    QCOMPARE(w.snapshot->progress.direction, direction);
+    QCOMPARE(w.snapshot->progress.iteration, iteration);
+  }
+
   void a_bad_scene_keeps_the_old_one_solving() {
     Watched w;
     w.open("cornell-box", 100000, {Goal::Kind::finished});

@@ -15,8 +15,8 @@ struct SolvedWindow {
   MapView* map_view = nullptr;
   bool ready = false;
 
-  explicit SolvedWindow(const QString& scene) {
-    window = make_window();
+  explicit SolvedWindow(const QString& scene, const SolveOptions& options = {.directions = 32}) {
+    window = make_window(options);
     scene_view = window->findChild<SceneView*>();
     map_view = window->findChild<MapView*>();
     window->open(scene, {Goal::Kind::iteration});

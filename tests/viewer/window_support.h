@@ -45,15 +45,16 @@ inline double share_of(const QImage& image, const QColor& color) {
   return static_cast<double>(close) / (image.width() * image.height());
 }
 
-/// A window with small settings, so that a test takes no time.
-inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
+inline std::unique_ptr<MainWindow> make_window(const SolveOptions& options) {
   auto window = std::make_unique<MainWindow>(false);
-  SolveOptions options;
-  options.directions = directions;
   window->set_options(options, {});
   window->show();
   (void)QTest::qWaitForWindowExposed(window.get());
   return window;
+}
+/// A window with small settings, so that a test takes no time.
+inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
+  return make_window(SolveOptions{.directions = directions});
 }
 
 /// To be looked at: TRANSILLUM_PICTURES names the folder.
