@@ -16,18 +16,31 @@ using namespace transillum;
 using namespace transillum::viewer;
 using namespace transillum::viewer::test;
 
+namespace {
+
+/// The cornell box, solved, with two engines compared.
+struct ComparedWindow : SolvedWindow {
+  CompareView* view;
+
+  ComparedWindow() : SolvedWindow(QStringLiteral("cornell-box")) {
+    view = window->findChild<CompareView*>();
+    auto* dock = window->findChild<QDockWidget*>("compare_dock");
+    dock->show();
+    dock->raise();
+    ready = ready && wait_for([this] { return view->up_to_date(); });
+  }
+};
+
+}  // namespace
+
 class CompareTest : public QObject {
   Q_OBJECT
 
  private slots:
   void tells_how_two_engines_differ() {
-    SolvedWindow shown(QStringLiteral("cornell-box"));
+    const ComparedWindow shown;
     QVERIFY(shown.ready);
-    auto* view = shown.window->findChild<CompareView*>();
-    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
-    dock->show();
-    dock->raise();
-    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    CompareView* view = shown.view;
     const auto figures = [&] {
       return QStringList{shown.text("first_figures"), shown.text("other_figures")};
     };
@@ -60,13 +73,9 @@ class CompareTest : public QObject {
   }
 
   void shows_both_side_by_side() {
-    SolvedWindow shown(QStringLiteral("cornell-box"));
+    const ComparedWindow shown;
     QVERIFY(shown.ready);
-    auto* view = shown.window->findChild<CompareView*>();
-    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
-    dock->show();
-    dock->raise();
-    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    CompareView* view = shown.view;
     const auto* first = view->findChild<MapCanvas*>("first_map");
     const auto* other = view->findChild<MapCanvas*>("other_map");
     const auto* difference = view->findChild<MapCanvas*>("difference_canvas");
@@ -105,13 +114,9 @@ class CompareTest : public QObject {
   }
 
   void compares_what_a_patch_sees_with_a_hemicube() {
-    SolvedWindow shown(QStringLiteral("cornell-box"));
+    const ComparedWindow shown;
     QVERIFY(shown.ready);
-    auto* view = shown.window->findChild<CompareView*>();
-    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
-    dock->show();
-    dock->raise();
-    QVERIFY(wait_for([&] { return view->up_to_date(); }));
+    CompareView* view = shown.view;
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return shown.text("compare_words").contains("select a patch"); }));
     shown.window->selection().select(14);

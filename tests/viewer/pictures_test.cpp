@@ -43,6 +43,19 @@ bool settles(MainWindow& window) {
   return wait_for(still, 120000);
 }
 
+struct PictureWindow : MainWindow {
+  PictureWindow() : MainWindow(false) {
+    resize(window_size);
+    show();
+  }
+  /// Opens the cornell box, and solves it.
+  bool shows_the_box() {
+    set_options({.directions = 64}, {});
+    open("cornell-box");
+    return settles(*this);
+  }
+};
+
 QImage whole(MainWindow& window) { return window.grab().toImage(); }
 
 }  // namespace
@@ -52,14 +65,8 @@ class PicturesTest : public QObject {
 
  private slots:
   void layouts() {
-    MainWindow window(false);
-    window.resize(window_size);
-    window.show();
-    SolveOptions options;
-    options.directions = 64;
-    window.set_options(options, {});
-    window.open("cornell-box");
-    QVERIFY(settles(window));
+    PictureWindow window;
+    QVERIFY(window.shows_the_box());
     window.selection().select(16);
     for (const char* layout : {"inspect", "debug"}) {
       window.findChild<QAction*>(QStringLiteral("layout_%1").arg(layout))->trigger();
@@ -75,14 +82,8 @@ class PicturesTest : public QObject {
   }
 
   void engines() {
-    MainWindow window(false);
-    window.resize(window_size);
-    window.show();
-    SolveOptions options;
-    options.directions = 64;
-    window.set_options(options, {});
-    window.open("cornell-box");
-    QVERIFY(settles(window));
+    PictureWindow window;
+    QVERIFY(window.shows_the_box());
     window.selection().select(14);
     window.focus().go_to({0, 3, 20});
     QVERIFY(settles(window));
@@ -125,9 +126,7 @@ class PicturesTest : public QObject {
   }
 
   void first_pages_of_lessons() {
-    MainWindow window(false);
-    window.resize(window_size);
-    window.show();
+    PictureWindow window;
     auto* panel = window.findChild<LessonPanel*>();
     const int lessons = static_cast<int>(panel->lessons().size());
     for (int lesson = 0; lesson < (folder().isEmpty() ? 1 : lessons); ++lesson) {
@@ -142,9 +141,7 @@ class PicturesTest : public QObject {
   }
 
   void projector_and_dark() {
-    MainWindow window(false);
-    window.resize(window_size);
-    window.show();
+    PictureWindow window;
     window.findChild<LessonPanel*>()->show_page(3, 3);
     window.findChild<QAction*>("projector")->trigger();
     QVERIFY(settles(window));
@@ -157,14 +154,8 @@ class PicturesTest : public QObject {
   }
 
   void panels_and_the_study() {
-    MainWindow window(false);
-    window.resize(window_size);
-    window.show();
-    SolveOptions options;
-    options.directions = 64;
-    window.set_options(options, {});
-    window.open("cornell-box");
-    QVERIFY(settles(window));
+    PictureWindow window;
+    QVERIFY(window.shows_the_box());
     window.selection().select(16);
     const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
       window.findChild<QAction*>(layout)->trigger();
@@ -196,9 +187,7 @@ class PicturesTest : public QObject {
     for (const BuiltInScene& scene : built_in_scenes()) {
       const QString name = QString::fromStdString(scene.name);
       if (folder().isEmpty() && name != "boards") continue;
-      MainWindow window(false);
-      window.resize(window_size);
-      window.show();
+      PictureWindow window;
       SolveOptions options;
       options.directions = name == "sphere-flake" ? 16 : 128;
       options.first_shot = name == "stars" ? std::optional<double>(1000) : std::nullopt;

@@ -2,6 +2,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <vector>
 
@@ -11,6 +12,18 @@
 using namespace transillum;
 using namespace transillum::viewer;
 using namespace transillum::viewer::test;
+
+namespace {
+
+/// How long this thread could have run and was given no processor, ms; 0 where the kernel does not
+/// count it.
+double waited_for_processor() {
+  std::ifstream file("/proc/thread-self/schedstat");
+  double ran = 0, waited = 0;
+  return file >> ran >> waited ? waited * 1e-6 : 0;
+}
+
+}  // namespace
 
 // Measures how long the window is deaf while the solver has all cores.
 class ResponsivenessTest : public QObject {
@@ -24,26 +37,35 @@ class ResponsivenessTest : public QObject {
         [&] { return window->snapshot() && window->snapshot()->progress.direction > 2; }, 60000));
 
     std::vector<double> gaps;  // ms
-    QElapsedTimer since_last;
+    double longest_of_its_own = 0, waited = waited_for_processor();
+    QElapsedTimer since_last, since_start;
     QTimer tick;
     connect(&tick, &QTimer::timeout, this, [&] {
       gaps.push_back(static_cast<double>(since_last.nsecsElapsed()) * 1e-6);
       since_last.start();
+      const double waited_now = waited_for_processor();
+      longest_of_its_own = std::max(longest_of_its_own, gaps.back() - (waited_now - waited));
+      waited = waited_now;
     });
     const int passes_before = window->snapshot()->progress.direction;
+    const auto passes = [&] { return window->snapshot()->progress.direction - passes_before; };
     since_last.start();
+    since_start.start();
     tick.start(1);
-    QTest::qWait(6000);
+    // A machine with other work may take longer to come to as many.
+    QVERIFY(wait_for(
+        [&] { return since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100; }, 60000));
     tick.stop();
-    const int passes = window->snapshot()->progress.direction - passes_before;
-    QVERIFY(passes > 0);
-    QVERIFY(gaps.size() > 10);
     std::sort(gaps.begin(), gaps.end());
-    const double longest = gaps.back();
-    qInfo("event loop, ms between turns: median %.1f, 99 %% %.1f, longest %.1f; %d passes",
-          gaps[gaps.size() / 2], gaps[gaps.size() * 99 / 100], longest, passes);
-    // On an idle machine it is a few dozen; the bound is for busy ones that draw without a GPU.
-    QVERIFY(longest < 1000);
+    qInfo(
+        "event loop, ms between turns: median %.1f, 99 %% %.1f, longest %.1f, without waiting for "
+        "a "
+        "processor %.1f; %d passes",
+        gaps[gaps.size() / 2], gaps[gaps.size() * 99 / 100], gaps.back(), longest_of_its_own,
+        passes());
+    // On an idle machine it is a few dozen. The bound is for slow ones that draw without a GPU, and
+    // holds whatever else they have to do.
+    QVERIFY(longest_of_its_own < 1000);
 
     QElapsedTimer closing;
     closing.start();
