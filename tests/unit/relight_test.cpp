@@ -69,10 +69,13 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGives) {
 }
 
 TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
+  int several = 0;
   for (const auto& [spec, ratio] : {std::pair("stars", small_source_ratio),
                                     std::pair("cornell-box", 0.0), std::pair("rooms", 0.0)}) {
     SCOPED_TRACE(spec);
-    const SceneDescription description = describe_scene(spec);
+    SceneDescription description = describe_scene(spec);
+    // Sources of more than one material.
+    if (ratio == 0) description.materials.front().exitance = {0.5, 0.25, 0};
     SceneDescription changed = description;
     changed.materials = other(description.materials);
     for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
@@ -80,6 +83,7 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
       options.first_shot = ratio;
       const Solved before = solved(description, options), after = solved(changed, options);
       ASSERT_FALSE(before.shot->sources.empty());
+      several += before.shot->parts.size() > 1;
       ASSERT_EQ(before.shot->sources, after.shot->sources);
       const Relit relit = relight(*before.scene, before.form_factors, changed.materials,
                                   {.tolerance = tight, .shot = before.shot.get()});
@@ -87,6 +91,18 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
       expect_same(relit.irradiance, after.irradiance, 1e-10);
     }
   }
+  EXPECT_GT(several, 0);
+}
+
+TEST(Relight, ShootsNothingWhereNothingEmits) {
+  const Scene scene(describe_scene("cornell-box"));
+  const DirectLight light = shoot(scene, find_small_sources(scene, 0));
+  std::vector<Material> dark = scene.materials();
+  for (Material& material : dark) material.exitance = {};
+  const DirectLight none = with_materials(light, scene, dark);
+  EXPECT_EQ(none.power_share, 0);
+  for (const Rgb& h : none.irradiance) EXPECT_EQ(max_abs(h), 0);
+  for (const Rgb& e : none.exitance) EXPECT_EQ(max_abs(e), 0);
 }
 
 TEST(Relight, KeepsTheSourcesThatWereShot) {

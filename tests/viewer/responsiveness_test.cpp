@@ -2,6 +2,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <vector>
@@ -23,6 +24,29 @@ double waited_for_processor() {
   return file >> ran >> waited ? waited * 1e-6 : 0;
 }
 
+/// For what needs solving first: the solver gives way to all other work of the machine.
+constexpr int long_enough = 300'000;  // ms
+
+double median(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+/// What some equal acts take, ms each: by the clock, for people; and of processors, for bounds that
+/// hold whatever else the machine has to do.
+struct Timings {
+  std::vector<double> clock, processor;
+
+  void measure(const std::function<void()>& act) {
+    QElapsedTimer timer;
+    timer.start();
+    const std::clock_t before = std::clock();
+    act();
+    processor.push_back(1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    clock.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+  }
+};
+
 }  // namespace
 
 // Measures how long the window is deaf while the solver has all cores.
@@ -33,8 +57,9 @@ class ResponsivenessTest : public QObject {
   void the_window_answers_while_the_solver_runs() {
     const auto window = make_window(100000);
     window->open("sphere-flake", {Goal::Kind::finished});
-    QVERIFY(wait_for(
-        [&] { return window->snapshot() && window->snapshot()->progress.direction > 2; }, 60000));
+    QVERIFY(
+        wait_for([&] { return window->snapshot() && window->snapshot()->progress.direction > 2; },
+                 long_enough));
 
     std::vector<double> gaps;  // ms
     double longest_of_its_own = 0, waited = waited_for_processor();
@@ -53,8 +78,9 @@ class ResponsivenessTest : public QObject {
     since_start.start();
     tick.start(1);
     // A machine with other work may take longer to come to as many.
-    QVERIFY(wait_for(
-        [&] { return since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100; }, 60000));
+    QVERIFY(
+        wait_for([&] { return since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100; },
+                 long_enough));
     tick.stop();
     std::sort(gaps.begin(), gaps.end());
     qInfo(
@@ -81,33 +107,33 @@ class ResponsivenessTest : public QObject {
           return window->snapshot() && window->snapshot()->progress.direction >= 2 &&
                  window->settled();
         },
-        60000));
+        long_enough));
     Focus& focus = window->focus();
     focus.go_to({0, 1, 100});
     QVERIFY(wait_for([&] { return window->settled(); }));
-    const auto median_of_seeks = [&](int count, const std::function<Moment(int)>& to) {
-      std::vector<double> times;  // ms
+    QTimer heartbeat;
+    heartbeat.start(5);
+    const auto time_seeks = [&](int count, const std::function<Moment(int)>& to) {
+      Timings timings;
       for (int k = 0; k < count; ++k) {
-        QElapsedTimer timer;
-        timer.start();
-        focus.go_to(to(k));
-        while (!window->settled()) QCoreApplication::processEvents(QEventLoop::AllEvents, 1);
-        window->repaint();
-        times.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+        timings.measure([&] {
+          focus.go_to(to(k));
+          while (!window->settled()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+          window->repaint();
+        });
       }
-      std::sort(times.begin(), times.end());
-      return times[times.size() / 2];
+      return timings;
     };
     const std::int32_t steps = focus.map()->history.step_count();
-    const double same = median_of_seeks(15, [&](int k) {
+    const Timings same = time_seeks(15, [&](int k) {
       return Moment{0, 1, steps * ((7 * k) % 15) / 15};
     });
-    const double other = median_of_seeks(5, [&](int k) { return Moment{0, 3 + k, steps / 2}; });
-    qInfo("seek on the sphere-flake, ms in the median: same direction %.0f, another %.0f", same,
-          other);
-    // The goals are 50 and 500 on an idle machine; the bounds are for busy ones.
-    QVERIFY(same < 1000);
-    QVERIFY(other < 5000);
+    const Timings other = time_seeks(5, [&](int k) { return Moment{0, 3 + k, steps / 2}; });
+    qInfo("seek on the sphere-flake, ms in the median: same direction %.0f, another %.0f",
+          median(same.clock), median(other.clock));
+    // The goals are 50 and 500 on an idle machine.
+    QVERIFY(median(same.processor) < 500);
+    QVERIFY(median(other.processor) < 2500);
   }
 
   // With the form factors of few directions, for a test's time: what else there is to a picture.
@@ -116,8 +142,8 @@ class ResponsivenessTest : public QObject {
     const auto window = make_window(directions);
     window->open("sphere-flake", {Goal::Kind::iteration});
     window->session().want_form_factors();
-    QVERIFY(
-        wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; }, 60000));
+    QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; },
+                     long_enough));
     MaterialEdits& edits = window->inspection().edits();
     const std::vector<Material>& own = edits.originals();
     const auto brightest =
@@ -126,25 +152,25 @@ class ResponsivenessTest : public QObject {
         });
     const int material = static_cast<int>(brightest - own.begin());
     const Material first = *brightest;
-    std::vector<double> times;  // ms
+    Timings timings;
     for (int k = 1; k <= 9; ++k) {
       const auto before = window->snapshot()->radiosity;
-      QElapsedTimer timer;
-      timer.start();
-      edits.set(material, first.exitance, (1 - 0.05 * k) * first.reflectance);
-      QVERIFY(wait_for([&] {
-        return window->inspection().up_to_date() && window->snapshot()->radiosity != before;
-      }));
-      window->repaint();
-      times.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+      timings.measure([&] {
+        edits.set(material, first.exitance, (1 - 0.05 * k) * first.reflectance);
+        QVERIFY(wait_for(
+            [&] {
+              return window->inspection().up_to_date() && window->snapshot()->radiosity != before;
+            },
+            long_enough));
+        window->repaint();
+      });
     }
-    std::sort(times.begin(), times.end());
     qInfo(
         "slider to picture, ms in the median: %.0f, longest %.0f; %d directions, %lld form factors",
-        times[times.size() / 2], times.back(), directions,
-        static_cast<long long>(window->snapshot()->form_factors->value.size()));
+        median(timings.clock), *std::max_element(timings.clock.begin(), timings.clock.end()),
+        directions, static_cast<long long>(window->snapshot()->form_factors->value.size()));
     // The goal is 300 with 1,024 directions on an idle machine.
-    QVERIFY(times[times.size() / 2] < 3000);
+    QVERIFY(median(timings.processor) < 1500);
   }
 };
 
