@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "elided.h"
 #include "theme.h"
 
 namespace transillum::viewer {
@@ -50,7 +51,7 @@ void spread_paragraphs(QTextDocument& document) {
       rules.setBorder(1);
       rules.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
       rules.setBorderBrush(theme::rule);
-      rules.setCellPadding(room / 2);
+      rules.setCellPadding(room / 3);
       rules.setBottomMargin(room);
       table->setFormat(rules);
       continue;
@@ -65,7 +66,7 @@ void spread_paragraphs(QTextDocument& document) {
 
 LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
     : QWidget(parent), lessons_(std::move(lessons)) {
-  list_ = new QComboBox;
+  list_ = new ElidedComboBox;
   list_->setObjectName("lesson_list");
   list_->setPlaceholderText(tr("Lessons"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

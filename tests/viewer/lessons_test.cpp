@@ -152,7 +152,7 @@ class LessonsTest : public QObject {
       // What a page shows does not hang on how finely it is solved, but how long it takes does.
       ViewState state = pages[static_cast<std::size_t>(k)].state;
       state.options.solve.directions = state.focus ? state.focus->direction + 1 : 4;
-      state.options.solve.iterations = 1;
+      state.options.solve.iterations = state.focus ? state.focus->iteration + 1 : 1;
       taught.window->stage().show(state);
       QVERIFY2(taught.settles(), qPrintable(QString("page %1").arg(k + 1)));
       QCOMPARE(taught.window->banner_text(), QString());
