@@ -92,7 +92,7 @@ QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int
                   tr("The polygons below this plane in the order they come: the side that ω points "
                      "to, those in the plane (yellow), the other side"));
     default:
-      return pick(tr("Polygons"), tr("How many polygons lie in and below the plane"));
+      return pick(tr("Count"), tr("How many polygons lie in and below the plane"));
   }
 }
 

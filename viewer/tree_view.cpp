@@ -32,7 +32,7 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
   table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
-  set_up_figure_table(*table_, {"patch 8888 + 8", "−0.888", "before: front", "", "88 888"});
+  set_up_figure_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
   auto* bars = new OrderBar(focus_, selection_, this);
   bars->set_wishes([this](std::int32_t step) { select_step(step); },
                    [this](std::int32_t step) { go_to_step(step); });
