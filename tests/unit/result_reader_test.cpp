@@ -7,6 +7,7 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <functional>
@@ -55,7 +56,10 @@ void expect_same(const Solution& read, const Solution& written) {
   EXPECT_EQ(s.kept_form_factors, t.kept_form_factors);
   EXPECT_EQ(s.energy_defect, t.energy_defect);
   ASSERT_EQ(s.steps.size(), t.steps.size());
-  for (std::size_t k = 0; k < s.steps.size(); ++k) EXPECT_EQ(s.steps[k].change, t.steps[k].change);
+  for (std::size_t k = 0; k < s.steps.size(); ++k) {
+    EXPECT_EQ(s.steps[k].change, t.steps[k].change);
+    EXPECT_EQ(s.steps[k].contraction, t.steps[k].contraction);
+  }
 }
 
 class ResultReader : public ::testing::Test {
@@ -127,6 +131,58 @@ TEST_F(ResultReader, NeedsNoMaterialsNorFigures) {
   EXPECT_EQ(read.scene->material(1).exitance, solution_.scene->material(1).exitance);
 }
 
+TEST_F(ResultReader, TellsMaterialsApartByNumberAndValues) {
+  // Patches 0 and 2 are of one material.
+  change([](vtkPolyData& mesh) {
+    for (int c = 0; c < 3; ++c) mesh.GetCellData()->GetArray("rho")->SetComponent(2, c, 0.25);
+  });
+  Solution read = read_result(path_);
+  EXPECT_EQ(read.scene->reflectance(0), (Rgb{1.0 / 3, 1.0 / 3, 1.0 / 3}));
+  EXPECT_EQ(read.scene->reflectance(2), (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_EQ(read.scene->material(0).name, read.scene->material(2).name);
+  write_result(path_, solution_);
+  change([](vtkPolyData& mesh) { mesh.GetCellData()->GetArray("material")->SetTuple1(2, 1); });
+  read = read_result(path_);
+  EXPECT_EQ(read.scene->material(2).name, read.scene->material(1).name);
+  EXPECT_NE(read.scene->material(2).name, read.scene->material(0).name);
+  EXPECT_EQ(read.scene->reflectance(2), read.scene->reflectance(0));
+}
+
+TEST_F(ResultReader, TakesNoControlCharactersForNames) {
+  change([](vtkPolyData& mesh) {
+    vtkNew<vtkStringArray> names;
+    names->SetName("materials");
+    names->InsertNextValue("red\n\x1b[31m");
+    names->InsertNextValue("plain");
+    mesh.GetFieldData()->AddArray(names);
+  });
+  const Solution read = read_result(path_);
+  EXPECT_EQ(read.scene->material(0).name.find_first_of("\n\x1b"), std::string::npos);
+  EXPECT_THAT(read.scene->material(0).name, StartsWith("red"));
+  EXPECT_EQ(read.scene->material(1).name, "plain");
+}
+
+TEST_F(ResultReader, RefusesTwoSidesThatAreNotOfOneFace) {
+  solution_ = solve(load_scene("boards", {.two_sided = true}), {.directions = 16});
+  for (const bool materials : {true, false}) {
+    SCOPED_TRACE(materials);
+    write_result(path_, solution_);
+    change([&](vtkPolyData& mesh) {
+      if (materials) {
+        auto& array = *mesh.GetCellData()->GetArray("material");
+        array.SetTuple1(1, array.GetTuple1(1) + 1);
+      } else {
+        auto& corners = *mesh.GetPolys()->GetConnectivityArray();
+        const auto first = static_cast<vtkIdType>(solution_.scene->outline(0).size());
+        const double moved = corners.GetTuple1(first);
+        corners.SetTuple1(first, corners.GetTuple1(first + 1));
+        corners.SetTuple1(first + 1, moved);
+      }
+    });
+    expect_refused("patch 0 has no other side");
+  }
+}
+
 TEST_F(ResultReader, RefusesOtherFiles) {
   EXPECT_THAT(refusal([&] { read_result(folder_ / "none.vtp"); }), HasSubstr("no such file"));
   EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("not a plain file"));
@@ -166,6 +222,8 @@ TEST_F(ResultReader, RefusesValuesThatCannotBe) {
       {"two_sided is 7", figure("two_sided", 7)},
       {"a polygon's corner is point 99",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 99); }},
+      {"a polygon's corner is point 10, but there are 10",
+       [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 10); }},
       {"a polygon's corner is point -1",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, -1); }},
       {"face 1: it has no area",
