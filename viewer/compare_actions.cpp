@@ -7,7 +7,9 @@
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
+#include <QStatusBar>
 
 namespace transillum::viewer {
 
@@ -36,7 +38,12 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   difference_->setObjectName("show_difference");
   difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
   difference_->setCheckable(true);
-  connect(keep_, &QAction::triggered, &colors_, &ColorChoice::keep_run);
+  connect(keep_, &QAction::triggered, this, [this] {
+    colors_.keep_run();
+    if (const auto* main = qobject_cast<const QMainWindow*>(window_))
+      main->statusBar()->showMessage(
+          tr("Kept as A: hold the key A to see it; Shift+K colours by the difference"), 6000);
+  });
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
   connect(difference_, &QAction::triggered, this, [this](bool wanted) {
     colors_.set_quantity(wanted ? Quantity::difference : Quantity::radiosity);

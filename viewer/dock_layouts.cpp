@@ -24,9 +24,9 @@ Widths usual_widths_of(DockLayouts::Layout layout) {
     case DockLayouts::Layout::teach:
       return {400, 480};
     case DockLayouts::Layout::debug:
-      return {330, 470};
+      return {350, 470};
     default:
-      return {290, 450};
+      return {290, 464};
   }
 }
 

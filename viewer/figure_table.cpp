@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int row_margin = 6, column_margin = 14;
+constexpr int row_margin = 6, column_margin = 10;
 
 /// Measures a table anew whenever its type changes.
 class TypeFollower : public QObject {

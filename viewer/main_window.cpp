@@ -219,8 +219,8 @@ void MainWindow::make_menus() {
       QKeySequence(Qt::Key_Escape));
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
-  help->addAction(
-      tr("Keys and mouse"), this, [this] { show_keys(*this); }, QKeySequence(Qt::Key_Question));
+  QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
+  keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
   help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
   help->addAction(tr("About transillum"), this, [this] { show_about(this); });
 

@@ -62,7 +62,9 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     count_rows();
   });
   connect(search_, &QLineEdit::returnPressed, this, [this] {
-    if (current().table->rowCount() > 0) selection_.select(current().table->patch(0));
+    if (current().table->rowCount() == 0) return;
+    selection_.select(current().table->patch(0));
+    search_->clear();  // else it would hide that patch's partners
   });
   connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
   connect(tabs_, &QTabWidget::currentChanged, this, &PatchTablePanel::refresh);

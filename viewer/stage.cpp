@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "algorithm_view.h"
+#include "banner.h"
 #include "color_controls.h"
 #include "main_window.h"
 #include "map_view.h"
@@ -50,6 +51,7 @@ Stage::Stage(MainWindow& window) : QObject(&window), window_(window) {
 
 void Stage::show(const ViewState& state) {
   wish_ = state;
+  window_.page()->banner()->dismiss();
   if (wish_.layout && *wish_.layout != window_.docks().current())
     window_.docks().arrange(*wish_.layout);
   for (const std::string& panel : wish_.panels) window_.docks().bring_to_front(panel);
@@ -148,6 +150,10 @@ void Stage::arrange() {
     scene->reset_view();
   const PatchId patches = window_.snapshot()->loaded->scene->patch_count();
   window_.selection().select(wish_.selection < patches ? wish_.selection : no_patch);
+  if (wish_.selection >= patches)
+    window_.show_failure(tr("select: there is no patch %1; the scene has 0 to %2")
+                             .arg(wish_.selection)
+                             .arg(patches - 1));
   window_.page()->color_controls()->set_direction(wish_.direction_shown);
   window_.page()->color_controls()->set_outlines(
       wish_.outlines.value_or(window_.outlined_at_first()));
@@ -167,6 +173,11 @@ void Stage::focus() {
     return;
   }
   act_ = Act::awaits_direction;
+  const int passes = focus.passes_of(wish_.focus->iteration);
+  if (wish_.focus->direction >= passes)
+    window_.show_failure(tr("focus: there is no direction %1; the run has 1 to %2")
+                             .arg(wish_.focus->direction + 1)
+                             .arg(passes));
   const auto* step = std::get_if<std::int32_t>(&wish_.focus->step);
   focus.go_to({wish_.focus->iteration, wish_.focus->direction, step ? *step : -1});
 }

@@ -71,7 +71,7 @@ class WelcomePage::Card : public QPushButton {
 
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   find_resources();
-  title_ = new QLabel(tr("See light settle"));
+  title_ = new QLabel;
   auto* words = new QLabel(
       tr("Choose a scene: it is solved at once, direction by direction. Or open one of your own, "
          "or drop its file here."));
@@ -117,10 +117,10 @@ void WelcomePage::changeEvent(QEvent* event) {
 }
 
 void WelcomePage::measure() {
-  QFont large = font();
-  large.setPixelSize(theme::scaled(24));
-  large.setBold(true);
-  title_->setFont(large);
+  // A font of its own would not outlive a change of the style sheet.
+  title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
+                      .arg(theme::scaled(24))
+                      .arg(tr("See light settle")));
   for (Card* card : cards_) card->measure(least_lines);
   setMinimumWidth(2 * margin + cards_.front()->width() + verticalScrollBar()->sizeHint().width());
   place_cards();

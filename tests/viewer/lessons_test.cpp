@@ -125,6 +125,20 @@ class LessonsTest : public QObject {
     QCOMPARE(QString::fromStdString(taught.window->spec()), QString("furnace"));
   }
 
+  void a_page_that_asks_for_what_is_not_there_says_so() {
+    Taught taught;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("beyond.json");
+    write(path, R"({"title": "T", "pages": [
+      {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}, "select": 99}},
+      {"text": "", "show": {"select": 1, "focus": {"direction": 5}}}]})");
+    taught.window->open_lesson(path);
+    QVERIFY(taught.settles());
+    QVERIFY(taught.window->banner_text().contains("no patch 99"));
+    taught.trigger("lesson_next");
+    QVERIFY(wait_for([&] { return taught.window->banner_text().contains("no direction 5"); }));
+  }
+
   void pages_that_come_quickly_end_with_the_last() {
     Taught taught;
     QVERIFY(!taught.panel->lessons().empty());
