@@ -94,8 +94,7 @@ void LogChart::change() {
 }
 
 void LogChart::changeEvent(QEvent* event) {
-  // Of fonts and colours.
-  change();
+  change();  // of fonts and colours
   QWidget::changeEvent(event);
 }
 

@@ -35,6 +35,11 @@ void StudyChart::forget_picture() {
   update();
 }
 
+void StudyChart::changeEvent(QEvent* event) {
+  forget_picture();  // of other colours and fonts
+  QWidget::changeEvent(event);
+}
+
 void StudyChart::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::paper);

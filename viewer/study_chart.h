@@ -24,6 +24,7 @@ class StudyChart : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void forget_picture();

@@ -45,7 +45,6 @@ CairoContextDevice::CairoContextDevice() : matrices_(1) {
 void CairoContextDevice::draw_on(cairo_t* cairo, double height) {
   cairo_ = cairo;
   height_ = height;
-  cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
 }
 
 CairoContextDevice::Place CairoContextDevice::place(const float* point) const {
@@ -78,7 +77,7 @@ void CairoContextDevice::DrawPoly(float* points, int n, unsigned char*, int) {
     // Straight lines are sharp when they fill whole pixels.
     double width = Pen->GetWidth(), none = 0;
     cairo_user_to_device_distance(cairo_, &width, &none);
-    const double middle = std::lround(width) % 2 == 1 ? 0.5 : 0;
+    const double middle = std::max(1L, std::lround(width)) % 2 == 1 ? 0.5 : 0;
     const auto snap = [&](Place& p) {
       cairo_user_to_device(cairo_, &p.x, &p.y);
       p = {std::round(p.x - middle) + middle, std::round(p.y - middle) + middle};
@@ -93,6 +92,8 @@ void CairoContextDevice::DrawPoly(float* points, int n, unsigned char*, int) {
     cairo_line_to(cairo_, p.x, p.y);
   }
   cairo_line_to(cairo_, end.x, end.y);
+  // Round joins of a dense line cost most of its time, and are not seen.
+  cairo_set_line_join(cairo_, n > 100 ? CAIRO_LINE_JOIN_BEVEL : CAIRO_LINE_JOIN_ROUND);
   stroke();
 }
 
@@ -107,6 +108,7 @@ void CairoContextDevice::DrawPoints(float* points, int n, unsigned char* colors,
 void CairoContextDevice::DrawMarkers(int shape, bool, float* points, int n, unsigned char*, int) {
   const double half = 0.69 * Pen->GetWidth();  // by VTK's least width of 8 pixels 11 pixels wide
   cairo_set_line_width(cairo_, 0.36 * half);
+  cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
   cairo_reset_clip(cairo_);
   for (int k = 0; k < n; ++k) {
     const Place center = place(points + 2 * k);
