@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/relight.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -10,6 +10,9 @@
 
 namespace transillum {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr double tight = 1e-12;
 
@@ -218,7 +221,27 @@ TEST(Relight, WhatIsKeptLeavesTheSemiIterativeSchemeAsItIs) {
   EXPECT_TRUE(keeps.radiosity() == plain.radiosity());
   EXPECT_TRUE(keeps.statistics().kept_form_factors);
   EXPECT_FALSE(plain.statistics().kept_form_factors);
-  EXPECT_THROW(plain.form_factors(), std::runtime_error);
+  const auto ask = [&] { plain.form_factors(); };
+  EXPECT_THAT(ask, ThrowsMessage<std::runtime_error>(HasSubstr("was not to keep")));
+}
+
+TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
+  const auto scene = std::make_shared<const Scene>(describe_scene("cornell-box"));
+  SolveOptions options{.directions = 16};
+  options.scheme = Scheme::semi_iterative;
+  RadiositySolver solver(scene, options);
+  solver.advance(RadiositySolver::Until::iteration);
+  solver.keep_form_factors();
+  const auto ask = [&] { solver.form_factors(); };
+  EXPECT_THAT(ask, ThrowsMessage<std::runtime_error>(HasSubstr("no form factors yet")));
+  solver.advance(RadiositySolver::Until::iteration);
+  const FormFactors kept = solver.form_factors();
+  const std::vector<double> sums = solver.form_factor_sums();  // of the newest step
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) sum += kept.value[k];
+    EXPECT_NEAR(sum, sums[i], 1e-12) << i;
+  }
 }
 
 TEST(Relight, ComesBackToTheSolveWithTheScenesOwnMaterials) {

@@ -31,7 +31,7 @@ Relit relight(const Scene& scene, const FormFactors& form_factors,
               const Cancellation& cancellation) {
   check(scene, form_factors, materials, options.start);
   JacobiIteration iteration(scene, form_factors, materials, options.threads);
-  if (options.shot) {
+  if (options.shot && !options.shot->sources.empty()) {
     iteration.shoot_first(with_materials(*options.shot, scene, materials), cancellation);
   }
   if (!options.start.empty()) iteration.b.assign(options.start.begin(), options.start.end());

@@ -103,7 +103,7 @@ void RadiositySolver::Impl::begin_step() {
     areas = SeenAreas(b.size());
     quadrature_errors.clear();
   }
-  const bool from_sums = !plan.renews() && keeps_sums() && areas.passes > 0;
+  const bool from_sums = keeps_sums() && areas.passes > 0;
   if (from_sums && options.scheme == Scheme::conjugate_gradients && steps.size() == 1) {
     for_each_iterate([&](Iterate& iterate, const KeptSums& kept) {
       iterate.leap(kept, 0.1 * options.tolerance, cancellation);
