@@ -81,6 +81,7 @@ void ExactView::start(std::int32_t face, const GridPoint& origin) {
   reach_ = reach_of(piece);
   load_edges(own, piece);
   kept_edges_ = edge_count_;
+  most_ = own.cut_needle ? static_cast<Real>(own.area) : std::numeric_limits<Real>::infinity();
   left_area_ = area_ = static_cast<Real>(own.area);
   find_window(piece);
   window_ = piece.window;
@@ -105,7 +106,7 @@ void ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   }
   kept_edges_ = edge_count_;
   reach_ = reach_of(piece);
-  left_area_ = area_ = area_of(piece);
+  left_area_ = area_ = std::min(area_of(piece), most_);
   find_window(piece);
   window_ = piece.window;
 }
@@ -314,6 +315,9 @@ double ExactView::show(std::int32_t face) {
     left_area_ -= area;
     find_whole_window();
   }
+  // A needle's lines may meet anywhere, and what is cut by them reach there.
+  area = std::min(area, most_);
+  most_ -= area;
   return static_cast<double>(area);
 }
 

@@ -123,6 +123,7 @@ class ExactView {
   std::size_t kept_edges_ = 0;        ///< of them, those that pieces refer to
   Real reach_ = 0, shown_reach_ = 0;  ///< largest |x| + |y| of what looks and what is shown
   Real area_ = 0, left_area_ = 0;
+  Real most_ = 0;  ///< that may still be seen: a needle's area, which cuts may exceed
   FaceWindow window_;
   std::vector<Piece> pieces_;         ///< places for them
   std::vector<std::uint32_t> left_;   ///< the places of what is left

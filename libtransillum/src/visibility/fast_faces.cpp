@@ -9,7 +9,7 @@
 namespace transillum {
 namespace {
 
-constexpr double thinnest = 2, thinnest_cut = 8;              ///< steps
+constexpr double thinnest = 2;                                ///< steps
 constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
 
 /// Whether the outline turns left everywhere but for rounding: one seen within rounding of
@@ -163,9 +163,8 @@ bool FastFaces::add(const FastOutlines& outlines, std::uint32_t which) {
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
-  // What is thinner than the steps that corners are rounded to is seen edge-on. Where cuts of the
-  // tree have made corners, lines that nearly coincide put them anywhere.
-  if (area < (outline.plain ? thinnest : thinnest_cut) * std::sqrt(size)) return false;
+  // What is thinner than the steps that corners are rounded to is seen edge-on.
+  if (area < thinnest * std::sqrt(size)) return false;
   const bool needle = area < 0x1p-11 * size;
   if (needle && !is_convex(first, count, area)) return false;
   boxes.push_back(box);
