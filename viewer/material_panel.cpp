@@ -46,13 +46,13 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   auto* column = new QVBoxLayout(sliders_);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
-  column->addWidget(reflectance_);
-  column->addWidget(exitance_);
   account_ = new QLabel;
   account_->setObjectName("material_account");
   account_->setWordWrap(true);
   account_->setForegroundRole(QPalette::PlaceholderText);
   column->addWidget(account_);
+  column->addWidget(reflectance_);
+  column->addWidget(exitance_);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 6, 12, 6);

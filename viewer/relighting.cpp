@@ -40,13 +40,9 @@ QString Relighting::obstacle() const {
 QString Relighting::account() const {
   if (!snapshot_) return {};
   if (snapshot_->options.scheme == Scheme::semi_iterative)
-    return tr(
-        "B follows from the form factors of all steps so far, without a new pass; the "
-        "scheme's own B is a mean over its steps, and comes near it.");
+    return tr("A change takes all steps' form factors; the scheme's own B is a mean over steps.");
   if (snapshot_->shot && !snapshot_->shot->sources.empty())
-    return tr(
-        "B follows from the kept first shot and form factors, without a new pass; what was "
-        "dark and emits now is left to the form factors.");
+    return tr("The first shot follows; what was dark and emits now is not shot.");
   return {};
 }
 
