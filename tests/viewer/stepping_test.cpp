@@ -12,7 +12,6 @@
 #include "log_chart.h"
 #include "pixel_view.h"
 #include "solved_window.h"
-#include "theme.h"
 #include "timeline_lanes.h"
 #include "transillum/errors.h"
 
@@ -384,10 +383,6 @@ class SteppingTest : public QObject {
     QVERIFY((s.focus.moment() == Moment{0, 20, 2}));
     QCOMPARE(directions->mark(), std::optional(21));
     QVERIFY(directions->grab().toImage() != before);
-    for (int dark = 0; dark < 2; ++dark) {
-      s.trigger("dark");
-      QCOMPARE(directions->grab().toImage().pixelColor(1, 1), theme::paper);
-    }
 
     s.trigger("one_iteration");
     QVERIFY(wait_for([&] { return s.focus.iterations() == 2 && s.window->settled(); }));
