@@ -196,7 +196,7 @@ TEST_P(AgreementFound, OnScenesMadeToBeNasty) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()));
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, AgreementFound,
-                         ::testing::Values(1164, 2314, 5846, 6224, 6369, 8796, 9809, 10317));
+                         ::testing::Values(1164, 2314, 5846, 6224, 6369, 8796, 8994, 9809, 10317));
 
 class NightlyAgreementRandom : public ::testing::TestWithParam<int> {};
 TEST_P(NightlyAgreementRandom, OnScenesMadeToBeNasty) {

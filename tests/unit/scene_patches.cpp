@@ -92,6 +92,17 @@ TEST(ScenePatches, KeepThinFacesThatHaveArea) {
 
 std::vector<Vec3> bent_square(double off) { return {{0, 0, 0}, {1, 0, 0}, {1, 1, off}, {0, 1, 0}}; }
 
+// They were taken for crossing themselves: their area is little of the products it comes from.
+TEST(ScenePatches, KeepQuadrilateralsOfATenMillionthsWidth) {
+  const Scene scene(polygon({{-0.93879856506340864, 0.27196618361825475, 0.041234870875667406},
+                             {0.78580605615928334, -0.088742516725631299, -0.90514144642816285},
+                             {0.78580602476888761, -0.088742447006912112, -0.90514153020474153},
+                             {-0.93879859645380437, 0.27196625333697394, 0.041234787099088704}}));
+  double area = 0;
+  for (const Patch& patch : scene.patches()) area += patch.area;
+  EXPECT_NEAR(area, 2.26844e-7, 1e-11);
+}
+
 TEST(ScenePatches, BentQuadrilateralsStayWholeByDegrees) {
   const Scene flat(polygon(bent_square(1e-16)));
   EXPECT_EQ(flat.patch_count(), 1);

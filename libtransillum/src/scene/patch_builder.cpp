@@ -36,9 +36,14 @@ double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::ui
 bool same_area(const std::vector<PlanePoint>& plane, const std::vector<CornerList>& parts) {
   CornerList whole(plane.size());
   for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(i);
-  double sum = 0;
+  double sum = 0, reach = 0;
   for (const CornerList& part : parts) sum += signed_area(plane, part);
-  return std::abs(signed_area(plane, whole) - sum) <= 1e-9 * sum;
+  for (const PlanePoint& p : plane) {
+    reach = std::max({reach, std::abs(p[0] - plane[0][0]), std::abs(p[1] - plane[0][1])});
+  }
+  // A sliver's area is little of the products that it is the difference of.
+  const double rounding = 0x1p-50 * static_cast<double>(plane.size()) * reach * reach;
+  return std::abs(signed_area(plane, whole) - sum) <= 1e-9 * sum + rounding;
 }
 
 std::vector<PointId> pick(const std::vector<PointId>& outline, const CornerList& corners) {
