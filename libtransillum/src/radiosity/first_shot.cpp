@@ -3,7 +3,6 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include <numeric>
 #include <set>
 
+#include "radiosity/for_each_index.h"
 #include "transillum/errors.h"
 #include "visibility/patch_exchange.h"
 
@@ -157,10 +157,8 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
   tbb::task_arena arena(threads);
   for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
     const PatchId end = std::min(first + batch * threads, scene.patch_count());
-    arena.execute([&] {
-      tbb::parallel_for(first, end,
-                        [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
-    });
+    for_each_index(arena, first, end,
+                   [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
     if (progress) progress(static_cast<double>(end) / scene.patch_count());
   }
   count_power(scene, scene.materials(), light);

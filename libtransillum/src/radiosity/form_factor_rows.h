@@ -4,7 +4,6 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "radiosity/for_each_index.h"
 #include "transillum/form_factors.h"
 
 namespace transillum {
@@ -39,11 +39,9 @@ FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64
   std::vector<FormFactorRow> rows(static_cast<std::size_t>(batch * threads));
   for (PatchId first = 0; first < patches; first += batch * threads) {
     const PatchId end = std::min(first + batch * threads, patches);
-    arena.execute([&] {
-      oneapi::tbb::parallel_for(first, end, [&](PatchId i) {
-        cancellation.throw_if_cancelled();
-        rows[static_cast<std::size_t>(i - first)] = workers.local().gather(i);
-      });
+    for_each_index(arena, first, end, [&](PatchId i) {
+      cancellation.throw_if_cancelled();
+      rows[static_cast<std::size_t>(i - first)] = workers.local().gather(i);
     });
     for (PatchId i = first; i < end; ++i) {
       for (const auto& [source, value] : rows[static_cast<std::size_t>(i - first)]) {

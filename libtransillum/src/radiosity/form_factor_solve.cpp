@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "radiosity/for_each_index.h"
 #include "radiosity/jacobi.h"
 
 namespace transillum {
@@ -46,11 +46,9 @@ void JacobiIteration::for_each_row(const Cancellation& cancellation, Visit visit
   const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
                                                static_cast<std::size_t>(threads_));
   oneapi::tbb::task_arena arena(threads_);
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, b.size(), [&](std::size_t i) {
-      cancellation.throw_if_cancelled();
-      visit(i);
-    });
+  for_each_index(arena, std::size_t{0}, b.size(), [&](std::size_t i) {
+    cancellation.throw_if_cancelled();
+    visit(i);
   });
 }
 
