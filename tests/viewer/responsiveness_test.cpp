@@ -61,15 +61,18 @@ class ResponsivenessTest : public QObject {
         wait_for([&] { return window->snapshot() && window->snapshot()->progress.direction > 2; },
                  long_enough));
 
-    std::vector<double> gaps;  // ms
+    // ms; the first pictures apart, for which a machine without a GPU compiles its shaders.
+    std::vector<double> gaps, first_gaps;
+    constexpr int first_ms = 1000;
     double longest_of_its_own = 0, waited = waited_for_processor();
     QElapsedTimer since_last, since_start;
     QTimer tick;
     connect(&tick, &QTimer::timeout, this, [&] {
-      gaps.push_back(static_cast<double>(since_last.nsecsElapsed()) * 1e-6);
+      const double gap = static_cast<double>(since_last.nsecsElapsed()) * 1e-6;
+      (since_start.elapsed() < first_ms || first_gaps.empty() ? first_gaps : gaps).push_back(gap);
       since_last.start();
       const double waited_now = waited_for_processor();
-      longest_of_its_own = std::max(longest_of_its_own, gaps.back() - (waited_now - waited));
+      longest_of_its_own = std::max(longest_of_its_own, gap - (waited_now - waited));
       waited = waited_now;
     });
     const int passes_before = window->snapshot()->progress.direction;
@@ -77,18 +80,24 @@ class ResponsivenessTest : public QObject {
     since_last.start();
     since_start.start();
     tick.start(1);
-    // A machine with other work may take longer to come to as many.
-    QVERIFY(
-        wait_for([&] { return since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100; },
-                 long_enough));
+    // A machine with other work may take longer to come to as many. Not by wait_for(), which sleeps
+    // between its turns.
+    QEventLoop loop;
+    QTimer limit;
+    limit.start(long_enough);
+    connect(&limit, &QTimer::timeout, &loop, &QEventLoop::quit);
+    connect(&tick, &QTimer::timeout, &loop, [&] {
+      if (since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100) loop.quit();
+    });
+    loop.exec();
+    QVERIFY(limit.isActive() && passes() > 0);
     tick.stop();
     std::sort(gaps.begin(), gaps.end());
     qInfo(
-        "event loop, ms between turns: median %.1f, 99 %% %.1f, longest %.1f, without waiting for "
-        "a "
-        "processor %.1f; %d passes",
-        gaps[gaps.size() / 2], gaps[gaps.size() * 99 / 100], gaps.back(), longest_of_its_own,
-        passes());
+        "event loop, ms between turns: 99 %% %.1f, longest %.1f; in the first second %.1f; of all "
+        "without waiting for a processor %.1f; %d passes",
+        gaps[gaps.size() * 99 / 100], gaps.back(),
+        *std::max_element(first_gaps.begin(), first_gaps.end()), longest_of_its_own, passes());
     // On an idle machine it is a few dozen. The bound is for slow ones that draw without a GPU, and
     // holds whatever else they have to do.
     QVERIFY(longest_of_its_own < 1000);
