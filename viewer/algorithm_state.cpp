@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "step_events.h"
-#include "transillum/map_region.h"
 
 namespace transillum::viewer {
 
@@ -103,7 +102,7 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   state.point = *focus.probe();
   const std::vector<StepEvent> line = events_at_point(history, state.point);
   for (const StepEvent& event : line) state.list.push_back(event.below);
-  if (const auto region = region_at(history, state.point)) state.area = region->area;
+  state.region = region_at(history, state.point);
   const StepEvent* event = event_reached(line, focus.moment().step);
   if (event == nullptr) return state;
   state.i = event->below;
@@ -113,9 +112,9 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   state.pair_area = event->pair_area;
   if (state.j == no_patch) return state;
   state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
-  if (!state.exchanges || !state.radiosity_j || !state.area) return state;
-  const double share = weight / (std::numbers::pi * directions_of(snapshot, focus)) * *state.area /
-                       snapshot.loaded->scene->patch(state.i).area;
+  if (!state.exchanges || !state.radiosity_j || !state.region) return state;
+  const double share = weight / (std::numbers::pi * directions_of(snapshot, focus)) *
+                       state.region->area / snapshot.loaded->scene->patch(state.i).area;
   state.gathered = share * (snapshot.loaded->scene->reflectance(state.i) * *state.radiosity_j);
   return state;
 }

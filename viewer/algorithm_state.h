@@ -7,6 +7,7 @@
 
 #include "focus.h"
 #include "snapshot.h"
+#include "transillum/map_region.h"
 
 namespace transillum::viewer {
 
@@ -69,9 +70,9 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
 /// tree's cuts among its edges, as the engine `global` has them.
 struct RegionState {
   Vec2 point;
-  std::optional<double> area;  ///< A(R), m²; nothing on an edge
-  std::vector<PatchId> list;   ///< L, from the light down
-  PatchId i = no_patch;        ///< of L, the newest that the focus has processed
+  std::optional<MapRegion> region;  ///< R; nothing on an edge
+  std::vector<PatchId> list;        ///< L, from the light down
+  PatchId i = no_patch;             ///< of L, the newest that the focus has processed
   bool front_facing = false;
   PatchId j = no_patch;            ///< next of L above i
   bool exchanges = false;          ///< i receives from j there

@@ -86,7 +86,9 @@ QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
 QWidget* AlgorithmView::make_local_values() {
   values_ = new ValueGrid;
   values_->layout()->setContentsMargins(12, 10, 12, 4);
-  moment_ = values_->add_row(tr("n, d"), {}, tr("Iteration and direction"));
+  moment_ = values_->add_row(tr("n, d"), {},
+                             tr("Iteration and direction; n counts from 0, as in the paper: it is "
+                                "what iteration n + 1 starts from"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose polygon is processed"));
   i_->setObjectName("value_i");
   map_ = values_->add_row(tr("V"), {}, tr("Fragments of the map, before and after the step"));
@@ -106,13 +108,15 @@ QWidget* AlgorithmView::make_local_values() {
 }
 
 QWidget* AlgorithmView::make_region_values() {
-  region_hint_ = new QLabel(
-      tr("Click the map: the region under the point stands for all. Stepping goes down its list."));
+  region_hint_ =
+      new QLabel(tr("Click the map: the region under the point, marked there, stands for all. "
+                    "Stepping goes down its list."));
   region_hint_->setWordWrap(true);
   region_hint_->setForegroundRole(QPalette::PlaceholderText);
   region_values_ = new ValueGrid;
   region_values_->layout()->setContentsMargins(12, 10, 12, 4);
-  region_ = region_values_->add_row(tr("R"), tr("m"), tr("The point clicked: along u and v"));
+  region_ = region_values_->add_row(
+      tr("R"), tr("m"), tr("The point clicked, along u and v; the map marks the region round it"));
   region_area_ = region_values_->add_row(
       tr("A(R)"), tr("m²"),
       tr("Area of the region round the point, up to the next edges of polygons, seen or hidden"));
@@ -177,11 +181,13 @@ void AlgorithmView::show_moment() {
         snapshot_ ? algorithm_state(focus_, *snapshot_, selection_.patch()) : std::nullopt;
     values_->setEnabled(state.has_value());
     show_values(state.value_or(AlgorithmState()));
+    emit region_shown({});
   } else {
     const auto state = snapshot_ ? region_state(focus_, *snapshot_) : std::nullopt;
     region_values_->setEnabled(state.has_value());
     region_hint_->setVisible(!state.has_value());
     show_region(state.value_or(RegionState()));
+    emit region_shown(state ? state->region : std::nullopt);
   }
 }
 
@@ -205,7 +211,7 @@ void AlgorithmView::show_region(const RegionState& state) {
                      : state.exchanges
                          ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))
                          : tr("%1, no light").arg(state.j));
-  region_area_->setText(state.area ? number_text(*state.area) : none);
+  region_area_->setText(state.region ? number_text(state.region->area) : none);
   region_radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
   region_gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
 }

@@ -28,6 +28,10 @@ class AlgorithmView : public QWidget {
   void set_kind(MapKind kind);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
+ signals:
+  /// R of the global map, where it is the one shown and a point has been chosen.
+  void region_shown(const std::optional<transillum::MapRegion>& region);
+
  private:
   QWidget* make_code(CodeLine first, CodeLine last);
   QWidget* make_local_values();

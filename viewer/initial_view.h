@@ -10,6 +10,8 @@ struct ViewPoint {
   Vec3 eye, target, up;
   double view_angle = 30;  ///< vertical, degrees
   double radius = 1;       ///< of what is worth looking at, round `target`, metres
+
+  friend bool operator==(const ViewPoint&, const ViewPoint&) = default;
 };
 
 /// A first look at `scene`, `aspect` = width / height of the picture. Surfaces seen from behind are

@@ -32,6 +32,7 @@
 #include "inspection.h"
 #include "key_list.h"
 #include "lesson_panel.h"
+#include "map_canvas.h"
 #include "map_view.h"
 #include "number_text.h"
 #include "patch_inspector.h"
@@ -132,6 +133,7 @@ void MainWindow::make_docks() {
   received_view_ = new ReceivedView(focus_, selection_, sights_);
   compare_view_ = new CompareView(focus_, selection_, colors_);
   algorithm_ = new AlgorithmView(focus_, selection_);
+  connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
   lesson_panel_ = new LessonPanel(built_in_lessons());
   notes_ = new QPlainTextEdit;

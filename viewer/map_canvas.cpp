@@ -53,11 +53,18 @@ void MapCanvas::show_map(Content content) {
 
 void MapCanvas::clear() {
   content_ = {};
+  region_ = {};
   picture_ = nullptr;
   painter_.clear();
   painted_ = ++asked_.number;  // what is still on its way is late
   zoom_ = 1;
   pan_ = {};
+  update();
+}
+
+void MapCanvas::mark_region(const std::optional<MapRegion>& region) {
+  if (!region && !region_) return;
+  region_ = region;
   update();
 }
 
@@ -172,6 +179,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
     return;
   }
   draw_selection(painter, now);
+  draw_region(painter, now);
   draw_probe(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
@@ -200,6 +208,22 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
     painter.setPen(pen);
     for (const QPolygonF& fragment : fragments) painter.drawPolygon(fragment);
   }
+}
+
+// Its parts share edges: no seams without antialiasing.
+void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
+  if (!region_) return;
+  QColor color = theme::region;
+  color.setAlpha(230);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  for (const std::vector<Vec2>& part : region_->parts) {
+    QPolygonF polygon;
+    for (const Vec2& p : part) polygon.append(shown.to_pixels(p));
+    painter.drawPolygon(polygon);
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
 }
 
 void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {

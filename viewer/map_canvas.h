@@ -11,6 +11,7 @@
 #include "map_painter.h"
 #include "request_worker.h"
 #include "selection.h"
+#include "transillum/map_region.h"
 
 namespace transillum::viewer {
 
@@ -37,6 +38,8 @@ class MapCanvas : public QWidget {
   };
   void show_map(Content content);
   void clear();
+  /// Marks a region of the map that is shown; nothing takes the mark away.
+  void mark_region(const std::optional<MapRegion>& region);
   void fit();
   /// How the map is moved and enlarged, whatever the canvas' size; canvases can share it.
   struct View {
@@ -84,6 +87,7 @@ class MapCanvas : public QWidget {
   void wait_for_picture();
   void draw_failure(QPainter& painter) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
+  void draw_region(QPainter& painter, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
@@ -91,6 +95,7 @@ class MapCanvas : public QWidget {
 
   Selection& selection_;
   Content content_;
+  std::optional<MapRegion> region_;
   double zoom_ = 1;  // times the scale that fits
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;

@@ -189,6 +189,7 @@ void SceneView::reset_view() {
   focus_point_ = view.target;
   radius_ = view.radius;
   place_camera(view);
+  first_look_ = view_point();
 }
 
 double SceneView::aspect() const {
@@ -354,6 +355,8 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       const int way = (position - press_position_).manhattanLength();
       if (way < QApplication::startDragDistance()) selection_.select(patch_at(position));
       render();
+    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == first_look_) {
+      reset_view();  // nobody has chosen another: it is to fit the new shape
     }
   }
   return QWidget::eventFilter(watched, event);

@@ -89,6 +89,7 @@ class SceneView : public QWidget {
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;
   double radius_ = 1;
+  ViewPoint first_look_;  ///< of reset_view()
   bool direction_shown_ = true;
   bool smooth_ = true;
   bool stepped_ = false;  ///< a step is drawn

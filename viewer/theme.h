@@ -33,6 +33,8 @@ inline const QColor inside{0xe6, 0x7e, 0x22};      ///< what it cut out of V
 inline const QColor difference{0x19, 0xe3, 0xff};  ///< where pixels show not what is there
 inline const QColor outside{0x4f, 0xb3, 0xe8};     ///< what it left of the same
 
+inline const QColor region{0xb9, 0x8a, 0xff};  ///< R of a global map
+
 /// Light is looked at before a dark, neutral ground.
 inline const QColor scene_background{0x1d, 0x21, 0x27};
 inline const QColor on_dark{0xec, 0xef, 0xf3};

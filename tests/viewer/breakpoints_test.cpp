@@ -263,7 +263,7 @@ class BreakpointsTest : public QObject {
       const auto state = region_state(focus, snapshot);
       QVERIFY(state.has_value());
       QCOMPARE(state->list.size(), line.size());
-      QCOMPARE(state->area.value(), area);
+      QCOMPARE(state->region.value().area, area);
       const auto lines = current_lines(focus, MapKind::global);
       const auto here = std::find_if(line.begin(), line.end(),
                                      [&](const StepEvent& event) { return event.step == k; });

@@ -322,6 +322,10 @@ class SteppingTest : public QObject {
     QVERIFY(s.text("value_region_i").startsWith(line->model()->index(0, 1).data().toString()));
     QTest::qWait(100);
     save_picture(*s.window, "global");
+    // R is marked on the map, and only then.
+    QVERIFY(share_of(canvas->grab().toImage(), theme::region) > 0.002);
+    s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(0);
+    QVERIFY(share_of(canvas->grab().toImage(), theme::region) < 1e-4);
   }
 
   void breakpoints_stop_a_run() {
