@@ -2,6 +2,7 @@
 #include "scrolling.h"
 
 #include <QEvent>
+#include <QPointer>
 #include <QScrollArea>
 #include <QStyle>
 #include <algorithm>
@@ -21,9 +22,26 @@ class VerticalScrollArea : public QScrollArea {
     widen();
   }
 
+  void keep_in_sight(QWidget* part) {
+    kept_ = part;
+    ensureWidgetVisible(part, 0, part->height());
+  }
+
   bool eventFilter(QObject* watched, QEvent* event) override {
     if (event->type() == QEvent::LayoutRequest) widen();
     return QScrollArea::eventFilter(watched, event);
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QScrollArea::resizeEvent(event);
+    if (!kept_) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+          if (kept_) ensureWidgetVisible(kept_, 0, kept_->height());
+        },
+        Qt::QueuedConnection);
   }
 
  private:
@@ -31,6 +49,8 @@ class VerticalScrollArea : public QScrollArea {
     setMinimumWidth(std::max(widget()->minimumSizeHint().width(), widget()->minimumWidth()) +
                     style()->pixelMetric(QStyle::PM_ScrollBarExtent));
   }
+
+  QPointer<QWidget> kept_;  ///< what was last scrolled to
 };
 
 }  // namespace
@@ -39,8 +59,8 @@ QWidget* scrollable(QWidget* content) { return new VerticalScrollArea(content); 
 
 void scroll_to(QWidget* part) {
   for (QWidget* about = part->parentWidget(); about; about = about->parentWidget()) {
-    if (auto* area = qobject_cast<QScrollArea*>(about)) {
-      area->ensureWidgetVisible(part, 0, part->height());
+    if (auto* area = dynamic_cast<VerticalScrollArea*>(about)) {
+      area->keep_in_sight(part);
       return;
     }
   }
