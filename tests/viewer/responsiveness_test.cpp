@@ -98,6 +98,7 @@ class ResponsivenessTest : public QObject {
         "without waiting for a processor %.1f; %d passes",
         gaps[gaps.size() * 99 / 100], gaps.back(),
         *std::max_element(first_gaps.begin(), first_gaps.end()), longest_of_its_own, passes());
+    QTest::setBenchmarkResult(gaps.back(), QTest::WalltimeMilliseconds);
     // On an idle machine it is a few dozen. The bound is for slow ones that draw without a GPU, and
     // holds whatever else they have to do.
     QVERIFY(longest_of_its_own < 1000);
