@@ -76,13 +76,15 @@ int main(int argc, char** argv) {
         [give_up](const QString& message, bool bad_input) { give_up(message, bad_input ? 2 : 1); });
   }
   window.show();
+  // Who asks for nothing finds something that runs.
+  const std::string scene = wish.scene.empty() && wish.lesson.empty() ? "sphere-flake" : wish.scene;
   std::optional<Goal> goal;
   if (wish.after > 0)
     goal = Goal{Goal::Kind::passes, wish.after};
-  else if (for_screenshot && !transillum::is_result_file(wish.scene))
+  else if (for_screenshot && !transillum::is_result_file(scene))
     goal = Goal{Goal::Kind::iteration};
   try {
-    if (!wish.scene.empty()) window.files().open(QString::fromStdString(wish.scene), goal);
+    if (!scene.empty()) window.files().open(QString::fromStdString(scene), goal);
     if (!wish.lesson.empty()) window.begin_lesson(wish.lesson, wish.page);
   } catch (const transillum::InputError& error) {
     say(QString::fromStdString(error.what()));

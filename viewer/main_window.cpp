@@ -183,6 +183,7 @@ void MainWindow::make_docks() {
 void MainWindow::make_menus() {
   QMenu* file = menuBar()->addMenu(tr("&File"));
   fill_open_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
+  file->addAction(page_->scenes_action());
   files_->add_to(*file);
   exports_->add_to(*file->addMenu(tr("Export")));
   file->addSeparator();
@@ -230,6 +231,7 @@ void MainWindow::make_menus() {
   bar->setObjectName("tool_bar");
   bar->setMovable(false);
   bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar->addAction(page_->scenes_action());
   bar->addAction(files_->open_action());
   bar->addSeparator();
   actions_->add_to(*bar);

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene_page.h"
 
+#include <QAction>
 #include <QHBoxLayout>
 #include <QStackedWidget>
 #include <QVBoxLayout>
@@ -11,6 +12,7 @@
 #include "color_note.h"
 #include "scene_view.h"
 #include "show_menu.h"
+#include "theme.h"
 #include "welcome_page.h"
 
 namespace transillum::viewer {
@@ -21,10 +23,10 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   color_controls_ = new ColorControls(colors);
   scene_view_ = new SceneView(focus, selection, colors);
   scene_view_->setObjectName("scene_view");
-  auto* welcome = new WelcomePage;
-  connect(welcome, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
-  connect(welcome, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
-  connect(welcome, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
+  welcome_ = new WelcomePage;
+  connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
+  connect(welcome_, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
+  connect(welcome_, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
   connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
           &SceneView::set_direction_shown);
   connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
@@ -51,8 +53,18 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   scene_layout->addWidget(note);
   scene_layout->addLayout(with_bar, 1);
   pages_ = new QStackedWidget;
-  pages_->addWidget(welcome);
+  pages_->addWidget(welcome_);
   pages_->addWidget(scene);
+  scenes_ = new QAction(theme::icon(theme::Icon::scene), tr("Scenes"), this);
+  scenes_->setObjectName("scenes");
+  scenes_->setCheckable(true);
+  scenes_->setChecked(true);
+  scenes_->setEnabled(false);  // there is no other page yet
+  scenes_->setShortcut(QKeySequence(Qt::Key_W));
+  scenes_->setToolTip(tr("The scenes that come along, as pictures, and the lessons (W)"));
+  connect(scenes_, &QAction::toggled, this,
+          [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
+  connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -61,6 +73,10 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   layout->addWidget(pages_, 1);
 }
 
-void ScenePage::show_scene() { pages_->setCurrentIndex(1); }
+void ScenePage::show_scene() {
+  scenes_->setEnabled(true);
+  welcome_->offer_way_back();
+  scenes_->setChecked(false);
+}
 
 }  // namespace transillum::viewer

@@ -8,6 +8,7 @@
 #include "focus.h"
 #include "selection.h"
 
+class QAction;
 class QStackedWidget;
 
 namespace transillum::viewer {
@@ -15,6 +16,7 @@ namespace transillum::viewer {
 class Banner;
 class ColorControls;
 class SceneView;
+class WelcomePage;
 
 /// The middle of the window: what there is to open, then the scene with its colours.
 class ScenePage : public QWidget {
@@ -31,6 +33,8 @@ class ScenePage : public QWidget {
   CameraBookmarks& bookmarks() { return bookmarks_; }
   /// Puts the scene where there were scenes to choose from.
   void show_scene();
+  /// Shows the scenes to choose from, or the open one again.
+  QAction* scenes_action() const { return scenes_; }
 
  signals:
   void open_clicked();
@@ -43,6 +47,8 @@ class ScenePage : public QWidget {
   CameraMenu* camera_;
   Banner* banner_;
   QStackedWidget* pages_;
+  WelcomePage* welcome_;
+  QAction* scenes_;
   ColorControls* color_controls_;
   SceneView* scene_view_;
 };

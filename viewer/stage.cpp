@@ -143,6 +143,7 @@ void Stage::on_snapshot() {
 }
 
 void Stage::arrange() {
+  window_.page()->show_scene();
   SceneView* scene = window_.page()->scene_view();
   if (wish_.camera)
     scene->look_from(*wish_.camera);

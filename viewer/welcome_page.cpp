@@ -80,7 +80,10 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Begin with a lesson"));
   lesson->setObjectName("begin_lesson");
   auto* buttons = new QHBoxLayout;
-  for (QPushButton* button : {lesson, open}) {
+  back_ = new QPushButton(tr("Back to the open scene"));
+  back_->setObjectName("back_to_scene");
+  back_->hide();
+  for (QPushButton* button : {lesson, open, back_}) {
     buttons->addWidget(button);
   }
   buttons->addStretch(1);
@@ -106,9 +109,12 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
   measure();
+  connect(back_, &QPushButton::clicked, this, &WelcomePage::back_clicked);
   connect(open, &QPushButton::clicked, this, &WelcomePage::open_clicked);
   connect(lesson, &QPushButton::clicked, this, &WelcomePage::lesson_clicked);
 }
+
+void WelcomePage::offer_way_back() { back_->show(); }
 
 void WelcomePage::changeEvent(QEvent* event) {
   QScrollArea::changeEvent(event);

@@ -7,17 +7,22 @@
 
 class QGridLayout;
 class QLabel;
+class QPushButton;
 
 namespace transillum::viewer {
 
-/// What the window shows before there is a scene: those that come along, as pictures.
+/// The scenes that come along, as pictures.
 class WelcomePage : public QScrollArea {
   Q_OBJECT
 
  public:
   explicit WelcomePage(QWidget* parent = nullptr);
 
+  /// From now on there is an open scene to go back to.
+  void offer_way_back();
+
  signals:
+  void back_clicked();
   void open_clicked();
   void lesson_clicked();
   void built_in_clicked(const QString& name);
@@ -33,6 +38,7 @@ class WelcomePage : public QScrollArea {
   void place_cards();
 
   QLabel* title_;
+  QPushButton* back_;
   QGridLayout* grid_;
   QVector<Card*> cards_;
   int columns_ = 0;

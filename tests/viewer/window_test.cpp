@@ -13,6 +13,7 @@
 #include <set>
 
 #include "solved_window.h"
+#include "stage.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -56,7 +57,24 @@ class WindowTest : public QObject {
     QVERIFY(color_count(picture_of(window.get())) > 8);
     QTest::mouseClick(button, Qt::LeftButton);
     QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
-    QVERIFY(window->findChild<SceneView*>()->isVisible());
+    auto* scene_view = window->findChild<SceneView*>();
+    QVERIFY(scene_view->isVisible());
+    // And back, while the scene stays what it is.
+    auto* scenes = window->findChild<QAction*>("scenes");
+    scenes->trigger();
+    QVERIFY(button->isVisible() && !scene_view->isVisible());
+    QVERIFY(window->settled() || wait_for([&] { return window->settled(); }));
+    QCOMPARE(window->spec(), std::string("furnace"));
+    QVERIFY(color_count(scene_view->picture(1)) > 2);
+    window->findChild<QPushButton*>("back_to_scene")->click();
+    QVERIFY(scene_view->isVisible());
+    // A lesson whose scene is open wants it to be seen.
+    window->begin_lesson("1", 1);
+    QVERIFY(wait_for([&] { return window->stage().arrived(); }));
+    scenes->trigger();
+    QVERIFY(!scene_view->isVisible());
+    window->findChild<QPushButton*>("begin_lesson")->click();
+    QVERIFY(wait_for([&] { return window->stage().arrived() && scene_view->isVisible(); }));
   }
 
   void pictures_are_neither_blank_nor_of_one_color() {
