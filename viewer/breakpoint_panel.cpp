@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QShortcut>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QToolButton>
@@ -94,6 +95,9 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   });
   connect(list_, &QListWidget::currentRowChanged, this, &BreakpointPanel::show_state);
   connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
+  auto* delete_key = new QShortcut(QKeySequence::Delete, list_);
+  delete_key->setContext(Qt::WidgetShortcut);
+  connect(delete_key, &QShortcut::activated, this, &BreakpointPanel::remove_current);
   list_->setContextMenuPolicy(Qt::CustomContextMenu);
   list_->setToolTip(tr("Right button: run to where this one holds, switched on or not"));
   connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::offer_runs);
@@ -145,6 +149,9 @@ QWidget* BreakpointPanel::make_new_row() {
           &BreakpointPanel::show_inputs);
   connect(value_, &QLineEdit::textChanged, this, &BreakpointPanel::show_state);
   connect(value_, &QLineEdit::returnPressed, this, &BreakpointPanel::add_new);
+  for (const QSpinBox* box : {patch_, other_})
+    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this,
+            &BreakpointPanel::add_new);
   connect(add_, &QToolButton::clicked, this, &BreakpointPanel::add_new);
   return row;
 }
@@ -200,10 +207,29 @@ void BreakpointPanel::show_list() {
 
 void BreakpointPanel::show_state() {
   const bool can_run = focus_.map() && breakpoints_.any_enabled();
+  if (const auto map = focus_.map())
+    for (QSpinBox* box : {patch_, other_}) box->setMaximum(map->loaded->scene->patch_count() - 1);
   run_on_->setEnabled(can_run);
   run_back_->setEnabled(can_run);
   remove_->setEnabled(list_->currentRow() >= 0);
+  mark_what_holds();
   add_->setEnabled(choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput());
+}
+
+void BreakpointPanel::mark_what_holds() {
+  const QSignalBlocker quiet(list_);
+  const auto map = focus_.map();
+  const std::int32_t step = focus_.moment().step;
+  for (int row = 0; row < list_->count(); ++row) {
+    const Breakpoint& breakpoint = breakpoints_.list()[static_cast<std::size_t>(row)];
+    const bool here =
+        map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
+    QListWidgetItem* item = list_->item(row);
+    item->setText(here ? tr("%1: here").arg(words_of(breakpoint)) : words_of(breakpoint));
+    QFont font = list_->font();
+    font.setBold(here);
+    item->setFont(font);
+  }
 }
 
 void BreakpointPanel::add_new() {

@@ -34,6 +34,7 @@ class BreakpointPanel : public QWidget {
   void offer_runs(const QPoint& position);
   void show_inputs();
   void show_state();
+  void mark_what_holds();
   void add_new();
   void remove_current();
   void run(Way way);

@@ -99,10 +99,10 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   CLI::App app("Watch diffuse light settle in a scene, direction by direction.",
                "transillum-viewer");
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
-  app.add_option(
-      "SCENE", line.scene,
-      "an .obj file or a built-in scene, solved at once (default: sphere-flake); or a result (.vtp), "
-      "a session or a lesson (.json)");
+  app.add_option("SCENE", line.scene,
+                 "an .obj file or a built-in scene, solved at once (default: sphere-flake); or a "
+                 "result (.vtp), "
+                 "a session or a lesson (.json)");
   add_solve_options(app, line, words);
   auto* lesson = app.add_option("--lesson", line.lesson,
                                 "a lesson's file, or the number of one that comes along");

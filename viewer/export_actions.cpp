@@ -5,14 +5,17 @@
 #include <QBuffer>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QInputDialog>
 #include <QMenu>
 #include <QSaveFile>
+#include <algorithm>
 #include <ostream>
 #include <stdexcept>
 
 #include "convergence_view.h"
 #include "main_window.h"
+#include "save_dialog.h"
 #include "scene_page.h"
 #include "scene_view.h"
 #include "transillum/errors.h"
@@ -55,6 +58,14 @@ VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
   return result;
 }
 
+/// Of an earlier recording, which goes on; 0 where there is none.
+int last_frame_in(const QString& folder) {
+  int last = 0;
+  for (const QString& name : QDir(folder).entryList({QStringLiteral("frame_*.png")}))
+    last = std::max(last, name.mid(6, name.size() - 10).toInt());
+  return last;
+}
+
 }  // namespace
 
 ExportActions::ExportActions(MainWindow& window)
@@ -72,10 +83,16 @@ ExportActions::ExportActions(MainWindow& window)
   add("export_figures", tr("Convergence figures…"), tr("What the charts draw, as CSV"),
       &E::choose_figures);
   add("export_frames", tr("Record frames…"),
-      tr("Each new picture of the scene as a PNG, until it is switched off"), &E::toggle_frames);
+      tr("Each new picture of the scene as a PNG, while it is solved and at each step, until it "
+         "is switched off"),
+      &E::toggle_frames);
   record_ = actions_.back();
   record_->setCheckable(true);
   connect(&window_, &MainWindow::snapshot_shown, this, &ExportActions::write_frame);
+  // A run's own steps come with its snapshots.
+  connect(&window_.focus(), &Focus::moved, this, [this] {
+    if (!window_.focus().following()) write_frame();
+  });
   const auto enable = [this] {
     for (QAction* action : actions_) action->setEnabled(window_.snapshot() != nullptr);
   };
@@ -125,9 +142,12 @@ void ExportActions::write(const ResultToWrite& result) {
   }
   QMetaObject::invokeMethod(
       this,
-      [this, failure] {
+      [this, failure, path = result.path] {
         writing_ = false;
-        if (!failure.isEmpty()) window_.show_failure(failure);
+        if (failure.isEmpty())
+          window_.say_written(path);
+        else
+          window_.show_failure(failure);
       },
       Qt::QueuedConnection);
 }
@@ -167,7 +187,7 @@ void ExportActions::write_chart_figures(const QString& path) const {
 
 void ExportActions::begin_frames(const QString& folder) {
   folder_ = folder;
-  frames_ = 0;
+  frames_ = last_frame_in(folder);
   record_->setChecked(true);
   write_frame();
 }
@@ -189,14 +209,19 @@ void ExportActions::write_frame() {
   }
 }
 
+QString ExportActions::name_with(const char* ending) const {
+  const QString scene = QString::fromStdString(window_.snapshot()->loaded->scene->name());
+  return QFileInfo(scene).completeBaseName() + QString::fromLatin1(ending);
+}
+
 template <class Write>
-void ExportActions::write_chosen(const QString& title, const QString& filter, const QString& ending,
-                                 Write write) {
-  QString path = QFileDialog::getSaveFileName(&window_, title, {}, filter);
+void ExportActions::write_chosen(const QString& title, const QString& filter,
+                                 const QString& proposed, Write write) {
+  const QString path = ask_where_to_write(&window_, title, filter, proposed);
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += ending;
   try {
     write(path);
+    if (!writing_) window_.say_written(path);
   } catch (const std::exception& error) {
     window_.show_failure(QString::fromStdString(error.what()));
   }
@@ -208,27 +233,27 @@ void ExportActions::choose_scene() {
       QInputDialog::getInt(&window_, tr("Picture of the scene"),
                            tr("Times as many pixels a side as on the screen:"), 2, 1, 8, 1, &go_on);
   if (go_on)
-    write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), ".png",
+    write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
                  [&](const QString& path) { write_scene(path, scale); });
 }
 
 void ExportActions::choose_result() {
-  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), ".vtp",
+  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), name_with(".vtp"),
                [this](const QString& path) { write_result(path); });
 }
 
 void ExportActions::choose_map() {
-  write_chosen(tr("Visibility map"), tr("Maps (*.svg *.png *.vtp *.json)"), ".svg",
+  write_chosen(tr("Visibility map"), tr("Maps (*.svg *.png *.vtp *.json)"), name_with("-map.svg"),
                [this](const QString& path) { write_map_picture(path); });
 }
 
 void ExportActions::choose_charts() {
-  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg);;Pictures (*.png)"), ".svg",
-               [this](const QString& path) { write_charts(path); });
+  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg);;Pictures (*.png)"),
+               name_with("-convergence.svg"), [this](const QString& path) { write_charts(path); });
 }
 
 void ExportActions::choose_figures() {
-  write_chosen(tr("Convergence figures"), tr("Tables (*.csv)"), ".csv",
+  write_chosen(tr("Convergence figures"), tr("Tables (*.csv)"), name_with("-convergence.csv"),
                [this](const QString& path) { write_chart_figures(path); });
 }
 

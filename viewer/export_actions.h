@@ -55,8 +55,10 @@ class ExportActions : public QObject {
   void choose_figures();
   void toggle_frames();
   void write_frame();
+  /// A file's name after the open scene.
+  QString name_with(const char* ending) const;
   template <class Write>
-  void write_chosen(const QString& title, const QString& filter, const QString& ending,
+  void write_chosen(const QString& title, const QString& filter, const QString& proposed,
                     Write write);
 
   MainWindow& window_;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "main_window.h"
+#include "save_dialog.h"
 #include "stage.h"
 #include "theme.h"
 #include "transillum/files.h"
@@ -113,13 +114,13 @@ void FileActions::open_session(const QString& path) {
 }
 
 void FileActions::choose_session() {
-  QString path =
-      QFileDialog::getSaveFileName(&window_, tr("Save session"), {}, tr("Sessions (*.json)"));
+  const QString path = ask_where_to_write(&window_, tr("Save session"), tr("Sessions (*.json)"),
+                                          QStringLiteral("session.json"));
   if (path.isEmpty()) return;
-  if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) path += ".json";
   try {
     save_session(path);
     remember(path);
+    window_.say_written(path);
   } catch (const std::exception& error) {
     window_.show_failure(QString::fromStdString(error.what()));
   }
@@ -132,6 +133,7 @@ void FileActions::save_session(const QString& path) const {
   if (!file.open(QIODevice::WriteOnly) ||
       file.write(text.data(), static_cast<qint64>(text.size())) < 0 || !file.commit())
     throw std::runtime_error((path + ": " + file.errorString()).toStdString());
+  window_.keep_notes();
 }
 
 void FileActions::remember(const QString& path) {

@@ -44,9 +44,11 @@ class FileActions : public QObject {
   void save(QSettings& settings) const;
   void load(const QSettings& settings);
 
+  /// Asks where, and saves the session there.
+  void choose_session();
+
  private:
   void choose();
-  void choose_session();
   void remember(const QString& path);
   void fill_recent();
   void reload();

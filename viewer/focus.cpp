@@ -127,13 +127,15 @@ void Focus::seek(StepFinder finder, Way way) {
   way_ = way;
   // Every direction once; the last one is the first again, for what lies on its other side.
   const bool all_alike = !renews_ && passes_of(0) == passes_;
-  seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
+  seek_all_ = seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
   wanted_ = moment_;
   const std::int32_t from = moment_.step;
   const std::int32_t step = finder_(map_->history, from, way_);
   if (step != MapHistory::none) {
     moment_.step = wanted_.step = step;
-    end_seek(true);
+    end_seek();
+    emit moved();
+    emit seek_ended(true);
   } else {
     seek_on();
   }
@@ -144,7 +146,8 @@ void Focus::seek_on() {
   const Moment next = moved_by(wanted_, by, -1);
   if (--seek_left_ <= 0 || next == wanted_) {
     wanted_ = moment_;
-    end_seek(false);
+    end_seek();
+    emit seek_ended(false);
     return;
   }
   go(next.iteration, next.direction, -1, [this](const MapHistory& history) {
@@ -152,24 +155,19 @@ void Focus::seek_on() {
   });
 }
 
-void Focus::end_seek(bool found) {
+void Focus::end_seek() {
   seek_left_ = 0;
   under_way_ = false;
   emit wished();
-  if (found) emit moved();
-  emit seek_ended(found);
 }
 
 void Focus::stop() {
   leave_newest();
   const bool sought = seeking();
+  const auto searched = static_cast<int>(seek_all_ - seek_left_);
   wanted_ = moment_;
-  if (sought) {
-    end_seek(false);
-  } else {
-    under_way_ = false;
-    emit wished();
-  }
+  end_seek();
+  if (sought) emit seek_stopped(searched);
 }
 
 void Focus::set_following(bool following) {
@@ -244,13 +242,10 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
 void Focus::arrive(std::int32_t step) {
   wanted_.step = step;
   moment_ = wanted_;
-  if (seek_left_ > 0) {
-    end_seek(true);
-    return;
-  }
-  under_way_ = false;
-  emit wished();
+  const bool sought = seek_left_ > 0;
+  end_seek();
   emit moved();
+  if (sought) emit seek_ended(true);
 }
 
 }  // namespace transillum::viewer

@@ -84,7 +84,7 @@ class Focus : public QObject {
   void phase_by(int phases);
   void set_phase(Phase phase);
   /// To the nearest step after (before) this one that `finder` finds, through all directions of the
-  /// run if need be; ends with seek_ended().
+  /// run if need be; ends with seek_ended(), or with seek_stopped().
   void seek(StepFinder finder, Way way);
   /// Stays where it is.
   void stop();
@@ -100,6 +100,7 @@ class Focus : public QObject {
   void wished();  ///< what is wanted, what can be, whether it follows or seeks
   void map_wanted(int iteration, int direction);
   void seek_ended(bool found);
+  void seek_stopped(int searched);  ///< in vain until now: so many directions
   void probed();
 
  private:
@@ -114,7 +115,7 @@ class Focus : public QObject {
   void go_to_newest();
   void arrive(std::int32_t step);
   void seek_on();
-  void end_seek(bool found);
+  void end_seek();
   void leave_newest();
 
   int passes_ = 0, iterations_ = 1;
@@ -129,7 +130,7 @@ class Focus : public QObject {
   Arrival arrival_;
   StepFinder finder_;
   Way way_ = Way::forward;
-  std::int64_t seek_left_ = 0;  ///< directions still to be searched
+  std::int64_t seek_all_ = 0, seek_left_ = 0;  ///< directions to be searched
 };
 
 }  // namespace transillum::viewer

@@ -9,11 +9,13 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPlainTextEdit>
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTextDocument>
 #include <QTimer>
 #include <QToolBar>
 #include <algorithm>
@@ -218,7 +220,13 @@ void MainWindow::make_menus() {
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
   view->addAction(
-      tr("Select nothing"), this, [this] { selection_.select(no_patch); },
+      tr("Stop searching, or select nothing"), this,
+      [this] {
+        if (focus_.seeking())
+          focus_.stop();
+        else
+          selection_.select(no_patch);
+      },
       QKeySequence(Qt::Key_Escape));
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
@@ -360,6 +368,17 @@ Session MainWindow::current_session() const {
           notes_->toPlainText().toStdString(), saveState(layout_version)};
 }
 
+void MainWindow::keep_notes() { notes_->document()->setModified(false); }
+
+bool MainWindow::notes_may_go() {
+  if (!notes_->document()->isModified() || notes_->document()->isEmpty()) return true;
+  const auto answer = QMessageBox::question(
+      this, tr("Notes"), tr("The notes are in no session's file yet. Save the session?"),
+      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel);
+  if (answer == QMessageBox::Save) files_->choose_session();
+  return answer == QMessageBox::Discard || !notes_->document()->isModified();
+}
+
 bool MainWindow::at_start() const {
   return !snapshot_ || (snapshot_->progress.iteration == 0 && snapshot_->progress.direction == 0);
 }
@@ -472,6 +491,11 @@ bool MainWindow::settled() const {
 
 QString MainWindow::banner_text() const { return page_->banner()->text(); }
 
+void MainWindow::say_written(const QString& path) {
+  constexpr int ms = 5000;
+  statusBar()->showMessage(tr("Written: %1").arg(path), ms);
+}
+
 void MainWindow::show_failure(const QString& message) {
   page_->banner()->say(Banner::Kind::error, message);
 }
@@ -488,6 +512,10 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (remember_ && !notes_may_go()) {
+    event->ignore();
+    return;
+  }
   full_screen_.show_all();
   if (remember_) {
     QSettings settings;

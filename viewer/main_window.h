@@ -63,10 +63,14 @@ class MainWindow : public QMainWindow {
   /// Goes where a session was saved, and what a session is to keep now.
   void show_session(const Session& session);
   Session current_session() const;
+  /// The notes are in a file now: nothing is lost when the window closes.
+  void keep_notes();
   FileActions& files() { return *files_; }
   ExportActions& exports() { return *exports_; }
   /// Says what has gone wrong above the scene.
   void show_failure(const QString& message);
+  /// Says for a while in the status bar that a file has been written.
+  void say_written(const QString& path);
   /// As the command line names it: a file, or a number from 1. @throws InputError
   void begin_lesson(const std::string& which, int page);
   /// What the next solve will be told.
@@ -121,6 +125,8 @@ class MainWindow : public QMainWindow {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void show_state(SessionState state);
   bool at_start() const;
+  /// Whether the window may close: unsaved notes are asked about.
+  bool notes_may_go();
 
   const bool remember_;
   Selection selection_;

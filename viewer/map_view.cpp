@@ -90,11 +90,17 @@ void MapView::offer_runs(const QPoint& position) {
   const auto point = canvas_->point_at(position);
   if (!point || !focus_.map()) return;
   auto* menu = new QMenu(this);
+  menu->setObjectName("map_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(tr("Run to the next polygon over this point"), this,
-                  [this, point] { focus_.seek(find_changes_at(*point), Way::forward); });
-  menu->addAction(tr("Run back to the last polygon over this point"), this,
-                  [this, point] { focus_.seek(find_changes_at(*point), Way::backward); });
+  // Along another direction the point of the plane is another.
+  const auto offer = [&](const QString& text, Way way) {
+    Moment moment = focus_.moment();
+    moment.step = find_changes_at(*point)(focus_.map()->history, moment.step, way);
+    menu->addAction(text, this, [this, moment] { focus_.go_to(moment); })
+        ->setEnabled(moment.step != MapHistory::none);
+  };
+  offer(tr("Run to the next polygon over this point"), Way::forward);
+  offer(tr("Run back to the last polygon over this point"), Way::backward);
   menu->addAction(tr("List the patches along this line"), this,
                   [this, point] { focus_.set_probe(point); });
   menu->popup(canvas_->mapToGlobal(position));

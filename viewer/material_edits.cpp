@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "material_edits.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace transillum::viewer {
@@ -67,6 +68,33 @@ void MaterialEdits::restore() {
   for (std::size_t m = 0; m < now_.size(); ++m)
     set(static_cast<int>(m), originals_[m].exitance, originals_[m].reflectance);
   undo_.endMacro();
+}
+
+std::vector<MaterialChange> MaterialEdits::changes() const {
+  std::vector<MaterialChange> changes;
+  for (std::size_t m = 0; m < now_.size(); ++m)
+    if (!same(now_[m], originals_[m]))
+      changes.push_back({now_[m].name, now_[m].exitance, now_[m].reflectance});
+  return changes;
+}
+
+std::vector<std::string> MaterialEdits::start_over(const std::vector<MaterialChange>& changes) {
+  if (changes.empty() && !any()) return {};
+  std::vector<std::string> unknown;
+  now_ = originals_;
+  for (const MaterialChange& change : changes) {
+    const auto changed_one = std::find_if(
+        now_.begin(), now_.end(), [&](const Material& one) { return one.name == change.name; });
+    if (changed_one == now_.end()) {
+      unknown.push_back(change.name);
+      continue;
+    }
+    changed_one->exitance = change.exitance;
+    changed_one->reflectance = change.reflectance;
+  }
+  undo_.clear();
+  emit changed();
+  return unknown;
 }
 
 void MaterialEdits::put(int material, const Rgb& exitance, const Rgb& reflectance) {

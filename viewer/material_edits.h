@@ -3,11 +3,19 @@
 
 #include <QObject>
 #include <QUndoStack>
+#include <string>
 #include <vector>
 
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
+
+/// A material by its name, and what it was changed to.
+struct MaterialChange {
+  std::string name;
+  Rgb exitance;     ///< E, W/m²
+  Rgb reflectance;  ///< rho, 0 to below 1
+};
 
 /// A scene's materials as the user has changed them; every change can be undone.
 class MaterialEdits : public QObject {
@@ -28,6 +36,11 @@ class MaterialEdits : public QObject {
   void begin_drag() { ++drag_; }
   /// All as the scene has them.
   void restore();
+  /// What differs from the scene's own.
+  std::vector<MaterialChange> changes() const;
+  /// The scene's own but for `changes`, as where a session begins: nothing can be undone.
+  /// @return the names that no material has.
+  std::vector<std::string> start_over(const std::vector<MaterialChange>& changes);
 
   QUndoStack& undo_stack() { return undo_; }
 

@@ -1,7 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "patch_table_panel.h"
 
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
@@ -19,6 +18,7 @@
 #include "number_text.h"
 #include "patch_columns.h"
 #include "patch_table.h"
+#include "save_dialog.h"
 #include "transillum/files.h"
 
 namespace transillum::viewer {
@@ -62,8 +62,12 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     count_rows();
   });
   connect(search_, &QLineEdit::returnPressed, this, [this] {
-    if (current().table->rowCount() == 0) return;
-    selection_.select(current().table->patch(0));
+    const PatchTable& table = *current().table;
+    if (table.rowCount() == 0) return;
+    // A number means that patch, though the numbers of others begin so too.
+    bool is_number = false;
+    const PatchId number = search_->text().trimmed().toInt(&is_number);
+    selection_.select(is_number && table.row_of(number) >= 0 ? number : table.patch(0));
     search_->clear();  // else it would hide that patch's partners
   });
   connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
@@ -197,8 +201,9 @@ void PatchTablePanel::write_csv(const QString& path) const {
 }
 
 void PatchTablePanel::choose_csv() {
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Write the table"), QStringLiteral("patches.csv"), tr("CSV (*.csv)"));
+  const QString path =
+      ask_where_to_write(this, tr("Write the table"), tr("CSV (*.csv)"),
+                         current().table == all_.table ? "patches.csv" : "partners.csv");
   if (path.isEmpty()) return;
   try {
     write_csv(path);

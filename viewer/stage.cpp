@@ -7,6 +7,7 @@
 #include "algorithm_view.h"
 #include "banner.h"
 #include "color_controls.h"
+#include "inspection.h"
 #include "main_window.h"
 #include "map_view.h"
 #include "scene_page.h"
@@ -158,6 +159,9 @@ void Stage::arrange() {
   window_.page()->color_controls()->set_direction(wish_.direction_shown);
   window_.page()->color_controls()->set_outlines(
       wish_.outlines.value_or(window_.outlined_at_first()));
+  for (const std::string& name : window_.inspection().edits().start_over(wish_.materials))
+    window_.show_failure(
+        tr("materials: the scene has no material %1").arg(QString::fromStdString(name)));
   // The scene before would widen it.
   if (wish_.range_rule != RangeRule::widening) return;
   if (wish_.range)
@@ -211,6 +215,7 @@ ViewState Stage::state() const {
     const Moment& moment = focus.moment();
     state.focus = FocusChoice{moment.iteration, moment.direction, moment.step, focus.phase()};
   }
+  state.materials = window_.inspection().edits().changes();
   state.selection = window_.selection().patch();
   state.camera = window_.page()->scene_view()->view_point();
   const ColorChoice& colors = window_.colors();

@@ -2,7 +2,6 @@
 #include "study_dialog.h"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -16,6 +15,7 @@
 
 #include "banner.h"
 #include "number_text.h"
+#include "save_dialog.h"
 #include "study_chart.h"
 #include "study_choices.h"
 #include "transillum/study_files.h"
@@ -260,9 +260,10 @@ void StudyDialog::show_buttons() {
 }
 
 void StudyDialog::choose_file() {
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Save the study"), QStringLiteral("study.svg"),
-      tr("Plot, sharp at any size (*.svg);;Plot as a picture (*.png);;Figures (*.csv)"));
+  const QString path = ask_where_to_write(
+      this, tr("Save the study"),
+      tr("Plot, sharp at any size (*.svg);;Plot as a picture (*.png);;Figures (*.csv)"),
+      "study.svg");
   if (!path.isEmpty()) save(path);
 }
 

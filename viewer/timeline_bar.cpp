@@ -58,6 +58,10 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
     if (!found) text_->set_clauses({tr("Nothing found in all directions of the run")});
   });
+  connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {
+    text_->set_clauses({tr("The search was stopped: nothing found in the %1 directions so far")
+                            .arg(count_text(searched))});
+  });
   show_moment();
 }
 

@@ -136,6 +136,33 @@ json to_json(const std::optional<FocusChoice>& focus) {
   return result;
 }
 
+MaterialChange material_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  MaterialChange change;
+  object.read("name", change.name);
+  if (change.name.empty()) object.fail_at("name", "is missing");
+  const auto read_channels = [&](const char* key, bool below_one) {
+    const json* channels = object.find(key);
+    if (!channels) object.fail_at(key, "is missing");
+    const Vec3 c = vec3_from_json(*channels, object.where(key));
+    for (const double x : {c.x, c.y, c.z})
+      if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1)))
+        object.fail_at(key, below_one ? "must be 0 to below 1" : "must be at least 0");
+    return Rgb{c.x, c.y, c.z};
+  };
+  change.exitance = read_channels("exitance", false);
+  change.reflectance = read_channels("reflectance", true);
+  object.done();
+  return change;
+}
+
+json to_json(const MaterialChange& change) {
+  const auto list = [](const Rgb& c) { return json::array({c.r, c.g, c.b}); };
+  return {{"name", change.name},
+          {"exitance", list(change.exitance)},
+          {"reflectance", list(change.reflectance)}};
+}
+
 void read_colors(ViewState& state, const json& value, const std::string& where) {
   JsonObject object(value, where);
   read(object, "quantity", quantities, state.quantity);
@@ -209,6 +236,12 @@ ViewState view_state_from_json(const json& value, const std::string& where,
     state.solve = goal_from(*goal, object.where("solve"));
   if (const json* focus = object.find("focus"))
     state.focus = focus_from(*focus, object.where("focus"));
+  if (const json* list = object.find("materials")) {
+    if (!list->is_array()) object.fail_at("materials", "must be a list [ … ]");
+    for (const json& one : *list)
+      state.materials.push_back(material_from(
+          one, object.where("material " + std::to_string(state.materials.size() + 1))));
+  }
   object.read("select", state.selection, 0, most);
   if (const json* camera = object.find("camera"))
     state.camera = view_point_from_json(*camera, object.where("camera"));
@@ -256,6 +289,8 @@ json to_json(const ViewState& state) {
   if (state.exposure) result["colors"]["exposure"] = *state.exposure;
   for (const Overlay overlay : state.overlays)
     result["overlays"].push_back(word_of(overlays, overlay));
+  for (const MaterialChange& change : state.materials)
+    result["materials"].push_back(to_json(change));
   if (state.selection != no_patch) result["select"] = state.selection;
   if (state.camera) result["camera"] = to_json(*state.camera);
   if (state.outlines) result["outlines"] = *state.outlines;

@@ -13,6 +13,7 @@
 #include "dock_layouts.h"
 #include "focus.h"
 #include "initial_view.h"
+#include "material_edits.h"
 #include "overlay.h"
 #include "quantity.h"
 #include "run_options.h"
@@ -43,7 +44,8 @@ struct ViewState {
   std::string scene;  ///< file or built-in; empty: whichever is open
   RunOptions options;
   Goal solve{Goal::Kind::finished};
-  std::optional<FocusChoice> focus;  ///< none: the newest direction is followed
+  std::optional<FocusChoice> focus;       ///< none: the newest direction is followed
+  std::vector<MaterialChange> materials;  ///< the others are the scene's own
   PatchId selection = no_patch;
   std::optional<ViewPoint> camera;          ///< none: as at first
   Quantity quantity = Quantity::radiosity;  ///< coloured; a difference is not kept

@@ -297,10 +297,13 @@ class FocusTest : public QObject {
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
     w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
     QVERIFY(w.focus.seeking());
+    const QSignalSpy stopped(&w.focus, &Focus::seek_stopped);
     w.focus.stop();
     QVERIFY(!w.focus.seeking());
     QVERIFY(w.at({0, 0, 3}));
-    QCOMPARE(ended.count(), 1);
+    QCOMPARE(ended.count(), 0);
+    QCOMPARE(stopped.count(), 1);
+    QCOMPARE(stopped.back().front().toInt(), 1);
     w.show(1);
     QVERIFY(w.at({0, 0, 3}));
   }

@@ -105,6 +105,13 @@ class InspectTest : public QObject {
     QTest::keyClicks(search, "12");
     QTest::keyClick(search, Qt::Key_Return);
     QCOMPARE(shown.window->selection().patch(), PatchId{12});
+    // That number itself, though the numbers of patches further up begin so too.
+    shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::DescendingOrder);
+    QTest::keyClicks(search, "1");
+    QVERIFY(all.rowCount() > 1 && all.patch(0) != PatchId{1});
+    QTest::keyClick(search, Qt::Key_Return);
+    QCOMPARE(shown.window->selection().patch(), PatchId{1});
+    shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::AscendingOrder);
 
     const QTemporaryDir folder;
     auto* panel = shown.part<PatchTablePanel>("table_panel");

@@ -7,6 +7,7 @@
 #include "algorithm_view.h"
 #include "export_actions.h"
 #include "file_actions.h"
+#include "inspection.h"
 #include "scene_page.h"
 #include "session_file.h"
 #include "show_menu.h"
@@ -60,6 +61,7 @@ class SessionFileTest : public QObject {
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
       window.colors().set_range(0.25, 4);
       window.colors().set_gamma(1.8);
+      window.inspection().edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
       window.colors().set_exposure(-2);
       ShowMenu& show = *window.findChild<ShowMenu*>();
       show.overlay(Overlay::normals)->setChecked(true);
@@ -93,6 +95,11 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->colors().scale().gamma, 1.8);
     QCOMPARE(window->colors().scale().exposure, -2.0);
     QVERIFY(!window->colors().exposure_is_automatic());
+    const std::vector<MaterialChange> materials = window->inspection().edits().changes();
+    QCOMPARE(materials.size(), std::size_t{1});
+    QCOMPARE(materials[0].name, window->snapshot()->loaded->scene->material(0).name);
+    QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
+    QVERIFY((materials[0].reflectance == Rgb{0.1, 0.25, 0.625}));
     const ShowMenu& show = *window->findChild<ShowMenu*>();
     for (const Overlay overlay : all_overlays)
       QCOMPARE(show.overlay(overlay)->isChecked(),
@@ -163,6 +170,9 @@ class SessionFileTest : public QObject {
                             << "neither a session";
     QTest::newRow("scene") << R"({"show": {"scene": 1}})"
                            << "bad.json, show, scene";
+    QTest::newRow("material") << R"({"show": {"materials": [{"name": "x", "exitance": [1, 1, 1],
+                                     "reflectance": [0, 0.5, 1]}]}})"
+                              << "material 1, reflectance";
     QTest::newRow("kind") << R"({"show": {}, "breakpoints": [{"kind": "x"}]})"
                           << "breakpoint 1, kind";
     QTest::newRow("patch") << R"({"show": {}, "breakpoints": [{"kind": "cut", "patch": -1}]})"
@@ -256,6 +266,14 @@ class SessionFileTest : public QObject {
     solved.trigger("one_direction");
     QTest::qWait(200);
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
+    // Steps are pictures too, and an earlier recording goes on.
+    const QByteArray first = contents(folder.filePath("frame_00001.png"));
+    exports.begin_frames(folder.path());
+    solved.window->focus().go_to({0, 0, 2});
+    QVERIFY(wait_for([&] { return exports.frames() >= frames + 2; }));
+    exports.end_frames();
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), exports.frames());
+    QVERIFY(contents(folder.filePath("frame_00001.png")) == first);
     QVERIFY(color_count(QImage(folder.filePath("frame_00001.png"))) > 5);
   }
 };

@@ -346,6 +346,12 @@ class SteppingTest : public QObject {
       const auto steps = s.focus.map()->history.steps_of(9);
       QVERIFY(std::find(steps.begin(), steps.end(), s.focus.moment().step) != steps.end());
     }
+    // The list says which one it was.
+    s.window->breakpoints().add({Breakpoint::Kind::large_map, 0, 0, 1e6, true});
+    const auto* marked = s.window->findChild<QListWidget*>("breakpoint_list");
+    QVERIFY(marked->item(0)->text().endsWith("here") && marked->item(0)->font().bold());
+    QVERIFY(!marked->item(1)->text().endsWith("here"));
+    s.window->breakpoints().remove(1);
     QVERIFY(stops.front().direction < stops.back().direction || stops.size() == 6);
     for (int k = 4; k >= 0; --k) {
       s.trigger("run_back");
