@@ -157,7 +157,9 @@ void ExportActions::write_map_picture(const QString& path) const {
   if (!focus.map()) throw std::runtime_error("there is no visibility map yet");
   const std::int32_t step = focus.moment().step - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());
-  write_map(path.toStdString(), *focus.map()->loaded->scene, map_at(*focus.map(), step));
+  MapPictureOptions options;
+  options.patch_colors = window_.colors().patch_colors();
+  write_map(path.toStdString(), *focus.map()->loaded->scene, map_at(*focus.map(), step), options);
 }
 
 void ExportActions::write_charts(const QString& path) const {

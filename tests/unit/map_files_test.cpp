@@ -312,6 +312,17 @@ TEST_F(MapFiles, SvgTellsWhatAPatchIs) {
   EXPECT_THAT(below, HasSubstr(">0.5 m</text>"));  // the scale bar
 }
 
+TEST_F(MapFiles, SvgHasTheColorsAsked) {
+  MapPictureOptions options;
+  options.patch_colors.assign(static_cast<std::size_t>(scene_->patch_count()), {0x12, 0x34, 0x56});
+  options.patch_colors[1] = {0xab, 0xcd, 0xef};
+  const std::string colored = written("m.svg", map_from_below(direction_), options);
+  EXPECT_THAT(colored, HasSubstr("fill=\"#abcdef\""));
+  EXPECT_THAT(colored, ::testing::Not(HasSubstr(">emits<")));  // the colours do not tell that
+  EXPECT_THAT(colored, HasSubstr(">back side<"));
+  EXPECT_THAT(written("m.svg", map_from_below(direction_)), HasSubstr(">emits<"));
+}
+
 TEST_F(MapFiles, SvgHasTheSizeAsked) {
   for (const int size : {300, 1200, 5000}) {
     const auto svg = parsed(written("m.svg", of_floor(), {.size = size}));

@@ -1,8 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "transillum/scene.h"
 #include "transillum/visibility_map.h"
@@ -13,6 +16,8 @@ namespace transillum {
 struct MapPictureOptions {
   static constexpr int least_size = 200, largest_size = 8192;
   int size = 1200;  ///< pixels along the longer side, least_size to largest_size
+  /// sRGB of what shines down, one a patch; empty: by what it emits or reflects.
+  std::vector<std::array<std::uint8_t, 3>> patch_colors{};
 };
 
 /// Why there is nothing to see on the map, in a few words; empty where there is something.

@@ -36,7 +36,12 @@ PatchLook look_of(const Scene& scene, const VisibilityMap::Polygon& polygon) {
   return max_abs(scene.exitance(polygon.patch)) > 0 ? PatchLook::emits : PatchLook::reflects;
 }
 
-Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon) {
+Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
+                const MapPictureOptions& options) {
+  if (!polygon.front_facing && !options.patch_colors.empty()) {
+    const auto& color = options.patch_colors[static_cast<std::size_t>(polygon.patch)];
+    return {color[0], color[1], color[2]};
+  }
   const Rgb& exitance = scene.exitance(polygon.patch);
   const Rgb& reflectance = scene.reflectance(polygon.patch);
   switch (look_of(scene, polygon)) {

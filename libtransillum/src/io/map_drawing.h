@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "transillum/map_files.h"
 #include "transillum/scene.h"
 #include "transillum/visibility_map.h"
 
@@ -34,9 +35,10 @@ enum class PatchLook {
   back_side,  ///< receives from above and shows its back
 };
 PatchLook look_of(const Scene& scene, const VisibilityMap::Polygon& polygon);
-/// Emitters bright in the hue of their exitance, reflectors dimmer in that of their reflectance,
-/// back sides nearly grey.
-Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon);
+/// As the options say, or emitters bright in the hue of their exitance, reflectors dimmer in that
+/// of their reflectance; back sides nearly grey.
+Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
+                const MapPictureOptions& options);
 
 /// From metres on the plane to pixels, x to the right and y downward. Seen along omega, u points
 /// to the left.

@@ -185,7 +185,7 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   };
   for (const auto& polygon : map.window) canvas.lay_under(projected(polygon));
   for (const auto& polygon : map.polygons)
-    canvas.fill(projected(polygon), color_of(scene, polygon));
+    canvas.fill(projected(polygon), color_of(scene, polygon, options));
   for (const auto& polygon : map.pixels.differences) canvas.lay_over(projected(polygon));
   const double width = line_width(map, plate.transform.scale);
   if (map.pixels.side > 0) {

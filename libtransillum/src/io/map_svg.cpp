@@ -40,9 +40,10 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 class SvgFigure {
  public:
-  SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map, double size)
-      : text_(out), scene_(scene), map_(map) {
-    plate_ = fit_map(map, size - 2 * padding, size - header - footer);
+  SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+            const MapPictureOptions& options)
+      : text_(out), scene_(scene), map_(map), options_(options) {
+    plate_ = fit_map(map, options.size - 2 * padding, options.size - header - footer);
     width_ = std::max(plate_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
     height_ = plate_.height + header + footer;
     left_ = (width_ - plate_.width) / 2;
@@ -189,7 +190,7 @@ class SvgFigure {
     text_.add("    <path class=\"{} p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"",
               in_pixels() ? "patch pixel" : "patch", any.patch, any.front_facing ? "front" : "back",
               look_of(scene_, any) == PatchLook::emits ? " emits" : "", area,
-              hex(color_of(scene_, any)));
+              hex(color_of(scene_, any, options_)));
     add_outlines(polygons);
     text_.add("\"><title>patch {} ({}), {}, area {:.4g} m\u00b2</title></path>\n", any.patch,
               xml_text(scene_.material(any.patch).name), description(any), area);
@@ -276,10 +277,13 @@ class SvgFigure {
             const double pixels = polygon.area * std::pow(plate_.transform.scale, 2);
             return pixels > 0.1 && look_of(scene_, polygon) == look;
           });
-      if (found != map_.polygons.end()) entry(color_of(scene_, *found), words, width);
+      if (found != map_.polygons.end()) entry(color_of(scene_, *found, options_), words, width);
     };
-    add(PatchLook::emits, "emits", 84);
-    add(PatchLook::reflects, "reflects", 102);
+    // Colours of the caller's mean what the caller says.
+    if (options_.patch_colors.empty()) {
+      add(PatchLook::emits, "emits", 84);
+      add(PatchLook::reflects, "reflects", 102);
+    }
     add(PatchLook::back_side, "back side", 112);
     if (leaves_a_gap()) entry(map_colors::nothing, "nothing above", 132);
     if (!map_.pixels.differences.empty()) {
@@ -291,6 +295,7 @@ class SvgFigure {
   TextBuffer text_;
   const Scene& scene_;
   const VisibilityMap& map_;
+  const MapPictureOptions& options_;
   MapPlate plate_;
   double width_ = 0, height_ = 0, left_ = 0;
 };
@@ -299,7 +304,7 @@ class SvgFigure {
 
 void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options) {
-  SvgFigure(out, scene, map, options.size).write();
+  SvgFigure(out, scene, map, options).write();
 }
 
 }  // namespace transillum
