@@ -32,9 +32,9 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
                                tr("One direction"), Qt::Key_F7, tr("Take one more direction"));
   one_iteration_ = make_action(this, theme::Icon::one_iteration, "one_iteration",
                                tr("One iteration"), Qt::Key_F8, tr("Finish this iteration"));
-  stop_ = make_action(this, theme::Icon::stop, "stop", tr("Stop"),
+  stop_ = make_action(this, theme::Icon::stop, "stop", tr("Start over"),
                       QKeySequence(QStringLiteral("Shift+F5")),
-                      tr("Forget this solve: back to the first direction"));
+                      tr("Forget this solve, or stop loading: back to the first direction"));
   connect(run_, &QAction::triggered, this, &SolveActions::run);
   connect(pause_, &QAction::triggered, this, &SolveActions::pause);
   connect(one_direction_, &QAction::triggered, this, &SolveActions::one_direction);
