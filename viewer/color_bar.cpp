@@ -51,18 +51,17 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
   setToolTip(tr("To the left: how much area has which value (its root)"));
   const auto show = [this] {
-    setVisible(colors_.scale().mode != ColorMode::true_color);
+    setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
     update();
   };
   connect(&colors, &ColorChoice::changed, this, show);
-  connect(&colors, &ColorChoice::fitted, this, qOverload<>(&QWidget::update));
+  connect(&colors, &ColorChoice::fitted, this, show);
   show();
 }
 
 void ColorBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
-  if (colors_.values().empty()) return;
   paint_title(painter);
   const int top = margin + 2 * fontMetrics().height() + 10 + tip;
   const QRectF bar(margin + histogram_width, top, bar_width, height() - top - margin - tip);

@@ -11,7 +11,7 @@ class QPainter;
 namespace transillum::viewer {
 
 /// The labelled bar of the colour map, with how much area has which value; not there in true
-/// colour.
+/// colour, nor while there are no values.
 class ColorBar : public QWidget {
   Q_OBJECT
 

@@ -4,6 +4,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkInteractorStyleTrackballCamera.h>
@@ -86,6 +87,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   renderer_->AddActor(surface_);
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::draw_outline_nearer);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
   // Drawn in this order: what can be seen through comes last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
@@ -289,11 +291,15 @@ void SceneView::show_selection() {
   halo_->SetVisibility(any);
   outline_->SetVisibility(any);
   if (!any) return;
-  const double lift = 1e-3 * radius_;
-  const auto lines = patch_outline(*loaded_->scene, patch, lift);
-  vtkPolyDataMapper::SafeDownCast(outline_->GetMapper())
-      ->SetInputData(patch_outline(*loaded_->scene, patch, 1.5 * lift));
-  vtkPolyDataMapper::SafeDownCast(halo_->GetMapper())->SetInputData(lines);
+  const auto lines = patch_outline(*loaded_->scene, patch, 1.5e-3 * radius_);
+  for (const auto& actor : {halo_, outline_})
+    vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(lines);
+}
+
+// In the same place of the picture, but before its halo from whichever side it is seen.
+void SceneView::draw_outline_nearer() {
+  outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
+  outline_->SetScale(1 - 5e-4);
 }
 
 void SceneView::render() {
@@ -316,6 +322,7 @@ QImage SceneView::picture(int scale) const {
   filter->ReadFrontBufferOff();
   filter->SetInputBufferTypeToRGB();
   filter->Update();
+  if (scale > 1) window_->Render();  // on the screen is the last tile
   vtkImageData* pixels = filter->GetOutput();
   const int* size = pixels->GetDimensions();
   const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());

@@ -76,6 +76,7 @@ class SceneView : public QWidget {
   bool stepping() const;
   void show_step();
   void show_selection();
+  void draw_outline_nearer();
   void render();
 
   const Focus& focus_;

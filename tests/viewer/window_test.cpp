@@ -102,6 +102,47 @@ class WindowTest : public QObject {
     QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
   }
 
+  void without_values_the_bar_takes_no_room() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    solved.window->selection().select(no_patch);
+    const int whole = solved.scene_view->width();
+    solved.window->colors().set_quantity(Quantity::form_factor_from);
+    QTest::qWait(50);
+    QCOMPARE(solved.scene_view->width(), whole);
+    solved.window->selection().select(0);
+    QVERIFY(wait_for([&] { return solved.scene_view->width() < whole; }));
+  }
+
+  void a_picture_leaves_the_screen_as_it_was() {
+    const Solved solved("cornell-box");
+    QVERIFY(solved.ready);
+    const QImage before = picture_of(solved.scene_view->canvas());
+    const QImage large = solved.scene_view->picture(2);
+    QCOMPARE(large.size(), 2 * before.size());
+    QTest::qWait(50);
+    QVERIFY(picture_of(solved.scene_view->canvas()) == before);
+  }
+
+  void an_outline_keeps_its_color_from_all_sides() {
+    const Solved solved("rooms");
+    QVERIFY(solved.ready);
+    const PatchId lamp = 176;  // in a ceiling
+    const Patch& patch = solved.window->snapshot()->loaded->scene->patch(lamp);
+    ViewPoint view = solved.scene_view->view_point();
+    view.target = patch.center;
+    solved.window->selection().select(lamp);
+    // Its front, nearly from the side, and through its culled back.
+    for (const double below : {2.0, 0.2, -0.2, -2.0}) {
+      view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
+      solved.scene_view->look_from(view);
+      QTest::qWait(50);
+      save_picture(*solved.window, QString("outline-%1").arg(below));
+      const double pink = share_of(picture_of(solved.scene_view->canvas()), theme::selection);
+      QVERIFY2(pink > 4e-4, qPrintable(QString("%1: %2").arg(below).arg(pink)));
+    }
+  }
+
   void a_click_in_the_scene_selects_everywhere() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
