@@ -54,7 +54,6 @@ ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent
 }
 
 QString ColorNote::words() const {
-  if (colors_.shows_kept_run()) return tr("A, the kept run, while the key is down");
   const auto snapshot = colors_.snapshot();
   if (snapshot && snapshot->of_file && colors_.missing().isEmpty())
     return words_on_file(*snapshot->loaded);

@@ -10,6 +10,7 @@
 #include "color_bar.h"
 #include "color_controls.h"
 #include "color_note.h"
+#include "kept_run_label.h"
 #include "scene_view.h"
 #include "show_menu.h"
 #include "theme.h"
@@ -35,6 +36,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   connect(show, &ShowMenu::overlay_toggled, scene_view_, &SceneView::set_overlay_shown);
   connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
+  new KeptRunLabel(colors, scene_view_->canvas());
   camera_ = new CameraMenu(*scene_view_, bookmarks_);
   color_controls_->add_tool(camera_);
 

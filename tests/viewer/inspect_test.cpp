@@ -216,11 +216,19 @@ class InspectTest : public QObject {
       return shown.window->snapshot()->progress.iteration == 2 && shown.window->settled();
     }));
     const auto second = shown.window->colors().patch_colors();
+    const QWidget& canvas = *shown.scene_view->canvas();
+    const auto place = [&canvas] { return QRect(canvas.mapToGlobal(QPoint()), canvas.size()); };
+    const QRect before = place();
     QTest::keyPress(shown.window.get(), Qt::Key_A);
     QVERIFY(shown.window->colors().shows_kept_run());
     QVERIFY(shown.window->colors().patch_colors() != second);
+    // A blink comparison: but for the light nothing changes.
+    QTest::qWait(50);
+    QVERIFY(shown.part<QLabel>("kept_run_label")->isVisible());
+    QCOMPARE(place(), before);
     QTest::keyRelease(shown.window.get(), Qt::Key_A);
     QVERIFY(shown.window->colors().patch_colors() == second);
+    QVERIFY(!shown.part<QLabel>("kept_run_label")->isVisible());
     shown.trigger("show_difference");
     QVERIFY(shown.window->colors().quantity() == Quantity::difference);
     QVERIFY(shown.window->colors().missing().isEmpty());
