@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "color_controls.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
@@ -97,7 +98,14 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   connect(show_->outlines(), &QAction::toggled, this, &ColorControls::outlines_toggled);
   connect(&colors_, &ColorChoice::changed, this, &ColorControls::show_choice);
   connect(&colors_, &ColorChoice::fitted, this, &ColorControls::show_choice);
+  for (const QComboBox* list : {quantity_, mode_})
+    list->view()->parentWidget()->installEventFilter(this);
   show_choice();
+}
+
+bool ColorControls::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Hide) emit list_closed();
+  return QWidget::eventFilter(watched, event);
 }
 
 void ColorControls::add_tool(QWidget* tool) { tools_->layout()->addWidget(tool); }

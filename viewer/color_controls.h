@@ -37,8 +37,11 @@ class ColorControls : public QWidget {
  signals:
   void direction_toggled(bool shown);
   void outlines_toggled(bool shown);
+  /// Something was chosen from a list: what is typed next is not meant for it.
+  void list_closed();
 
  protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
   bool event(QEvent* event) override;
 
  private:

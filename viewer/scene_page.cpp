@@ -32,6 +32,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
           &SceneView::set_direction_shown);
   connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
           &SceneView::set_outlines_shown);
+  connect(color_controls_, &ColorControls::list_closed, scene_view_->canvas(),
+          qOverload<>(&QWidget::setFocus));
   const ShowMenu* show = color_controls_->show_menu();
   connect(show, &ShowMenu::overlay_toggled, scene_view_, &SceneView::set_overlay_shown);
   connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);

@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <QAbstractItemView>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
@@ -100,6 +101,23 @@ class WindowTest : public QObject {
     const Color8 top = color_of(ColorMap::viridis, 1);
     const QImage whole = picture_of(solved.window.get());
     QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
+  }
+
+  void what_is_typed_after_a_choice_is_not_the_lists() {
+    const Solved solved("furnace");
+    QVERIFY(solved.ready);
+    QApplication::setActiveWindow(solved.window.get());
+    auto* quantity = solved.window->findChild<QComboBox*>("quantity");
+    quantity->setFocus();
+    quantity->showPopup();
+    QVERIFY(wait_for([&] { return quantity->view()->isVisible(); }));
+    QTest::keyClick(quantity->view(), Qt::Key_Down);
+    QTest::keyClick(quantity->view(), Qt::Key_Return);
+    QVERIFY(wait_for([&] { return !quantity->view()->isVisible(); }));
+    QVERIFY(solved.window->colors().quantity() == Quantity::exitance);
+    QVERIFY(wait_for([&] { return solved.scene_view->canvas()->hasFocus(); }, 3000));
+    QTest::keyClicks(QApplication::focusWidget(), "see");
+    QVERIFY(solved.window->colors().quantity() == Quantity::exitance);
   }
 
   void without_values_the_bar_takes_no_room() {
