@@ -19,7 +19,7 @@ namespace transillum::viewer {
 Inspection::Inspection(Selection& selection, ColorChoice& colors, SolverSession& session,
                        QWidget* window)
     : QObject(window) {
-  materials_ = new MaterialPanel(relighting_, selection);
+  materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
   compare_ = new CompareActions(colors, window, this);

@@ -26,8 +26,9 @@ double most_exitance(const std::vector<Material>& materials) {
 
 }  // namespace
 
-MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection, QWidget* parent)
-    : QWidget(parent), relighting_(relighting), selection_(selection) {
+MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
+                             const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), relighting_(relighting), selection_(selection), colors_(colors) {
   material_ = new QComboBox;
   material_->setObjectName("material");
   material_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -53,6 +54,12 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   column->addWidget(account_);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
+  exposure_ = new QLabel(tr(
+      "Exposure is automatic: the picture is as bright as before. Take the tick from Auto, above "
+      "the scene, to see lamps brighten."));
+  exposure_->setObjectName("material_exposure");
+  exposure_->setWordWrap(true);
+  column->addWidget(exposure_);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 6, 12, 6);
@@ -81,6 +88,7 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   connect(material_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           &MaterialPanel::show_material);
   connect(&edits, &MaterialEdits::changed, this, &MaterialPanel::show_material);
+  connect(&colors_, &ColorChoice::changed, this, &MaterialPanel::show_state);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
     if (scene_ && patch != no_patch) material_->setCurrentIndex(scene_->patch(patch).material);
   });
@@ -104,6 +112,16 @@ void MaterialPanel::show_state() {
   words_->setHidden(obstacle.isEmpty());
   account_->setText(relighting_.account());
   account_->setHidden(account_->text().isEmpty());
+  exposure_->setVisible(exposure_hides_change());
+}
+
+bool MaterialPanel::exposure_hides_change() const {
+  const MaterialEdits& edits = relighting_.edits();
+  const bool changed =
+      !std::equal(edits.materials().begin(), edits.materials().end(), edits.originals().begin(),
+                  [](const Material& a, const Material& b) { return a.exitance == b.exitance; });
+  return changed && colors_.exposure_is_automatic() &&
+         colors_.scale().mode == ColorMode::true_color;
 }
 
 void MaterialPanel::show_material() {

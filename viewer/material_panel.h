@@ -4,6 +4,7 @@
 #include <QWidget>
 #include <memory>
 
+#include "color_choice.h"
 #include "relighting.h"
 #include "selection.h"
 
@@ -20,7 +21,8 @@ class MaterialPanel : public QWidget {
   Q_OBJECT
 
  public:
-  MaterialPanel(Relighting& relighting, const Selection& selection, QWidget* parent = nullptr);
+  MaterialPanel(Relighting& relighting, const Selection& selection, const ColorChoice& colors,
+                QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
   /// There may be form factors now.
@@ -28,14 +30,18 @@ class MaterialPanel : public QWidget {
 
  private:
   void show_material();
+  /// Whether the picture is exposed so that changed lamps look the same.
+  bool exposure_hides_change() const;
   int material() const;
 
   Relighting& relighting_;
   const Selection& selection_;
+  const ColorChoice& colors_;
   std::shared_ptr<const Scene> scene_;
   QComboBox* material_;
   QLabel* words_;
   QLabel* account_;  ///< what the light is found from
+  QLabel* exposure_;
   QWidget* sliders_;
   ChannelSliders *reflectance_, *exitance_;
   QPushButton* restore_;

@@ -149,8 +149,15 @@ class InspectTest : public QObject {
     QCOMPARE(shown.part<QComboBox>("material")->currentIndex(), scene.patch(light).material);
 
     QSignalSpy snapshots(shown.window.get(), &MainWindow::snapshot_shown);
+    const auto* exposure = shown.part<QLabel>("material_exposure");
+    QVERIFY(exposure->isHidden());
     slider->setValue(2 * slider->value());
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
+    // All is twice as bright, but not in the picture.
+    QVERIFY(!exposure->isHidden());
+    shown.window->colors().set_automatic_exposure(false);
+    QVERIFY(exposure->isHidden());
+    shown.window->colors().set_automatic_exposure(true);
     const auto after = shown.window->snapshot();
     QCOMPARE(after->progress.passes, before->progress.passes);
     QVERIFY(std::abs(material_of(*after, light).exitance.r / scene.exitance(light).r - 2) < 1e-9);
@@ -163,6 +170,7 @@ class InspectTest : public QObject {
     shown.trigger("undo");
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials == nullptr; }));
     QVERIFY(shown.window->snapshot()->radiosity == before->radiosity);
+    QVERIFY(exposure->isHidden());
     shown.trigger("redo");
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
   }
