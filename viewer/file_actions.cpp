@@ -96,7 +96,7 @@ void FileActions::try_open(const QString& path) {
 void FileActions::open(const QString& path, std::optional<Goal> goal) {
   if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
     const bool result = is_result_file(path.toStdString());
-    window_.open(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
+    window_.open_afresh(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
     return;
   }
   const std::string name = path.toStdString();

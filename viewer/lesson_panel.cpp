@@ -6,6 +6,7 @@
 #include <QComboBox>
 #include <QFontInfo>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QTextBlock>
@@ -70,6 +71,7 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
   list_->setObjectName("lesson_list");
   list_->setPlaceholderText(tr("Lessons"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  list_->installEventFilter(this);
   title_ = new QLabel;
   title_->setObjectName("lesson_title");
   title_->setWordWrap(true);
@@ -153,19 +155,40 @@ void LessonPanel::show_page(int lesson, int page) {
 }
 
 void LessonPanel::turn(int pages) {
+  const int page = page_ + pages;
   if (lesson_ < 0)
     show_page(0, 0);
+  else if (page < 0)
+    show_page(lesson_ - 1, pages_of(lesson_ - 1) - 1);
+  else if (page == pages_of(lesson_))
+    show_page(lesson_ + 1, 0);
   else
-    show_page(lesson_, page_ + pages);
+    show_page(lesson_, page);
+}
+
+int LessonPanel::pages_of(int lesson) const {
+  return static_cast<int>(lessons_[static_cast<std::size_t>(lesson)].pages.size());
+}
+
+bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == list_ && event->type() == QEvent::KeyPress) {
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) return true;  // they turn pages
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void LessonPanel::show_state() {
   list_->setCurrentIndex(lesson_);
   const bool any = lesson_ >= 0;
   again_->setEnabled(any);
-  previous_->setEnabled(any && page_ > 0);
+  const bool first = any && page_ == 0, last = any && page_ + 1 == pages_of(lesson_);
+  previous_->setEnabled(any && (!first || lesson_ > 0));
+  previous_->setText(first && lesson_ > 0 ? tr("Previous lesson") : tr("Previous page"));
+  const bool end = last && lesson_ + 1 == static_cast<int>(lessons_.size());
+  next_->setEnabled(!lessons_.empty() && !end);
+  next_->setText(end ? tr("No more pages") : last ? tr("Next lesson") : tr("Next page"));
   if (!any) {
-    next_->setEnabled(!lessons_.empty());
     title_->setText(tr("Choose a lesson"));
     text_->setMarkdown(
         tr("Each page drives the window. Look around as you like; *Show this page "
@@ -174,11 +197,9 @@ void LessonPanel::show_state() {
   } else {
     const Lesson& lesson = lessons_[static_cast<std::size_t>(lesson_)];
     const Lesson::Page& page = lesson.pages[static_cast<std::size_t>(page_)];
-    const int pages = static_cast<int>(lesson.pages.size());
-    next_->setEnabled(page_ + 1 < pages);
     title_->setText(QString::fromStdString(page.title.empty() ? lesson.title : page.title));
     text_->setMarkdown(QString::fromStdString(page.text));
-    place_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages));
+    place_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
   const int size = QFontInfo(qApp->font()).pixelSize();
   QFont large = font();

@@ -39,9 +39,14 @@ class LessonPanel : public QWidget {
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void fill_list();
+  /// Over the ends to the lessons beside.
   void turn(int pages);
+  int pages_of(int lesson) const;
   void show_state();
 
   std::vector<Lesson> lessons_;

@@ -97,7 +97,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   breakpoints_.set_undo_stack(&inspection_->edits().undo_stack());
   page_->bookmarks().set_undo_stack(&inspection_->edits().undo_stack());
   stage_ = new Stage(*this);
-  connect(lesson_panel_, &LessonPanel::page_shown, stage_, &Stage::show);
+  connect(lesson_panel_, &LessonPanel::page_shown, stage_, &Stage::show_page);
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
     if (snapshot_) show_snapshot(snapshot_);
     map_view_->update();
@@ -117,7 +117,8 @@ void MainWindow::make_center() {
   page_ = new ScenePage(focus_, selection_, colors_);
   scene_view_ = page_->scene_view();
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, this, [this](const QString& name) { open(name); });
+  connect(page_, &ScenePage::built_in_clicked, this,
+          [this](const QString& name) { open_afresh(name); });
   setCentralWidget(page_);
 }
 
@@ -252,7 +253,7 @@ void MainWindow::fill_open_menu(QMenu& menu) {
   for (const BuiltInScene& scene : built_in_scenes()) {
     const QString name = QString::fromStdString(scene.name);
     menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(scene.summary)), this,
-                   [this, name] { open(name); });
+                   [this, name] { open_afresh(name); });
   }
 }
 
@@ -296,6 +297,11 @@ void MainWindow::restore_layout() {
 
 void MainWindow::set_options(const SolveOptions& solve, const SceneOptions& scene) {
   settings_->set_options(solve, scene);
+}
+
+void MainWindow::open_afresh(const QString& spec, Goal then) {
+  stage_->leave();
+  open(spec, then);
 }
 
 void MainWindow::open(const QString& spec, Goal then) {

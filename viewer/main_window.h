@@ -58,6 +58,9 @@ class MainWindow : public QMainWindow {
 
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
   void open(const QString& spec, Goal then = {Goal::Kind::finished});
+  /// The same, as who chooses a scene expects: nothing of a lesson stays, it is looked at as at
+  /// first, exposed by itself, and the newest direction followed.
+  void open_afresh(const QString& spec, Goal then = {Goal::Kind::finished});
   /// A lesson of a JSON file; shows its first page, or says what is wrong with it.
   void open_lesson(const QString& path);
   /// Goes where a session was saved, and what a session is to keep now.

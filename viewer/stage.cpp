@@ -51,29 +51,55 @@ Stage::Stage(MainWindow& window) : QObject(&window), window_(window) {
 }
 
 void Stage::show(const ViewState& state) {
+  before_.reset();
+  bring(state);
+}
+
+void Stage::show_page(const ViewState& page) {
+  if (!before_) {
+    before_ = look();
+    before_->options = window_.options();
+  }
+  bring(page);
+}
+
+void Stage::leave() {
+  act_ = Act::idle;
+  opens_ = false;
+  left_ = true;
+  if (before_ && window_.options() == brought_options_)
+    window_.set_options(before_->options.solve, before_->options.scene);
+}
+
+void Stage::bring(const ViewState& state) {
   wish_ = state;
+  left_ = false;
   window_.page()->banner()->dismiss();
   if (wish_.layout && *wish_.layout != window_.docks().current())
     window_.docks().arrange(*wish_.layout);
   for (const std::string& panel : wish_.panels) window_.docks().bring_to_front(panel);
+  put_on(wish_);
+  begin_run();
+}
+
+void Stage::put_on(const ViewState& state) {
   ColorChoice& colors = window_.colors();
-  colors.set_quantity(wish_.quantity);
+  colors.set_quantity(state.quantity);
   colors.set_range_rule(RangeRule::automatic);
-  colors.set_mode(wish_.color_mode);
-  colors.set_map(wish_.color_map);
-  colors.set_logarithmic(wish_.logarithmic);
-  if (wish_.range_rule == RangeRule::fixed)
-    colors.set_range(wish_.range->first, wish_.range->second);
-  colors.set_gamma(wish_.gamma);
-  colors.set_automatic_exposure(!wish_.exposure);
-  if (wish_.exposure) colors.set_exposure(*wish_.exposure);
+  colors.set_mode(state.color_mode);
+  colors.set_map(state.color_map);
+  colors.set_logarithmic(state.logarithmic);
+  if (state.range_rule == RangeRule::fixed)
+    colors.set_range(state.range->first, state.range->second);
+  colors.set_gamma(state.gamma);
+  colors.set_automatic_exposure(!state.exposure);
+  if (state.exposure) colors.set_exposure(*state.exposure);
   const ShowMenu& show = *window_.page()->color_controls()->show_menu();
   for (const Overlay overlay : all_overlays)
     show.overlay(overlay)->setChecked(
-        std::count(wish_.overlays.begin(), wish_.overlays.end(), overlay) > 0);
-  window_.algorithm()->set_kind(wish_.algorithm);
-  window_.map_view()->set_labels_shown(wish_.labels);
-  begin_run();
+        std::count(state.overlays.begin(), state.overlays.end(), overlay) > 0);
+  window_.algorithm()->set_kind(state.algorithm);
+  window_.map_view()->set_labels_shown(state.labels);
 }
 
 void Stage::reload() {
@@ -96,6 +122,7 @@ void Stage::begin_run() {
   wish_.options.solve.threads = now.solve.threads;
   wish_.options.solve.memory = now.solve.memory;
   window_.set_options(wish_.options.solve, wish_.options.scene);
+  brought_options_ = window_.options();
 
   const auto snapshot = window_.snapshot();
   if (!snapshot || !window_.shows(wish_.scene, wish_.options.scene)) {
@@ -117,8 +144,20 @@ void Stage::begin_run() {
 // Of wishes that follow one another quickly each asks for the scene, and more than one may get it;
 // every time it begins anew.
 void Stage::on_scene() {
+  if (left_) begin_with_first_look();
   opens_ = opens_ && window_.shows(wish_.scene, wish_.options.scene);
   act_ = opens_ ? Act::awaits_run : Act::idle;  // idle: the user has opened another
+}
+
+void Stage::begin_with_first_look() {
+  left_ = false;
+  if (before_) {
+    put_on(*before_);
+    window_.page()->color_controls()->set_direction(before_->direction_shown);
+    before_.reset();
+  }
+  window_.colors().set_automatic_exposure(true);
+  window_.focus().set_following(true);
 }
 
 // Snapshots of the run before may still be on their way.
@@ -199,9 +238,9 @@ void Stage::on_direction() {
 bool Stage::arrived() const { return act_ == Act::idle && window_.focus().arrived(); }
 
 ViewState Stage::state() const {
-  ViewState state;
   const auto snapshot = window_.snapshot();
-  if (!snapshot) return state;
+  if (!snapshot) return {};
+  ViewState state = look();
   state.scene = window_.spec();
   state.options = {snapshot->options, window_.scene_options_in_effect()};
   const bool finished = window_.session().state() == SessionState::finished ||
@@ -218,6 +257,13 @@ ViewState Stage::state() const {
   state.materials = window_.inspection().edits().changes();
   state.selection = window_.selection().patch();
   state.camera = window_.page()->scene_view()->view_point();
+  state.outlines = window_.page()->color_controls()->outlines();
+  state.layout = window_.docks().current();
+  return state;
+}
+
+ViewState Stage::look() const {
+  ViewState state;
   const ColorChoice& colors = window_.colors();
   if (colors.quantity() != Quantity::difference) state.quantity = colors.quantity();
   state.range_rule = colors.range_rule();
@@ -232,10 +278,8 @@ ViewState Stage::state() const {
   for (const Overlay overlay : all_overlays)
     if (show.overlay(overlay)->isChecked()) state.overlays.push_back(overlay);
   state.algorithm = window_.algorithm()->kind();
-  state.outlines = window_.page()->color_controls()->outlines();
   state.direction_shown = window_.page()->color_controls()->direction();
   state.labels = window_.map_view()->labels_shown();
-  state.layout = window_.docks().current();
   return state;
 }
 

@@ -79,7 +79,7 @@ class LessonsTest : public QObject {
     QCOMPARE(window.snapshot()->progress.passes, 8);
     QCOMPARE(taught.focus().moment().iteration, 1);
     QVERIFY(taught.focus().map()->history.step(taught.focus().moment().step).exchanges > 0);
-    QVERIFY(!window.findChild<QAction*>("lesson_next")->isEnabled());
+    QCOMPARE(window.findChild<QAction*>("lesson_next")->text(), QString("Next lesson"));
 
     // Back is back: fewer directions than are solved mean a solve anew.
     taught.trigger("lesson_previous");
@@ -137,6 +137,58 @@ class LessonsTest : public QObject {
     QVERIFY(taught.window->banner_text().contains("no patch 99"));
     taught.trigger("lesson_next");
     QVERIFY(wait_for([&] { return taught.window->banner_text().contains("no direction 5"); }));
+  }
+
+  void pages_turn_over_the_ends_of_lessons() {
+    LessonPanel panel(built_in_lessons());
+    panel.show();
+    const auto at = [&panel] { return std::pair(panel.lesson(), panel.page()); };
+    const auto* next = panel.findChild<QAction*>("lesson_next");
+    auto* previous = panel.findChild<QAction*>("lesson_previous");
+    const int last = static_cast<int>(panel.lessons().front().pages.size()) - 1;
+    panel.show_page(0, last);
+    panel.findChild<QAction*>("lesson_next")->trigger();
+    QCOMPARE(at(), std::pair(1, 0));
+    previous->trigger();
+    QCOMPARE(at(), std::pair(0, last));
+    const int lessons = static_cast<int>(panel.lessons().size());
+    const int end = static_cast<int>(panel.lessons().back().pages.size()) - 1;
+    panel.show_page(lessons - 1, end);
+    QVERIFY(!next->isEnabled());
+    // The list has the same keys for its rows.
+    for (const int key : {Qt::Key_PageDown, Qt::Key_PageUp}) {
+      panel.show_page(key == Qt::Key_PageUp ? 0 : lessons - 1, key == Qt::Key_PageUp ? 0 : end);
+      const auto before = at();
+      QTest::keyClick(panel.findChild<QComboBox*>("lesson_list"), static_cast<Qt::Key>(key));
+      QCOMPARE(at(), before);
+    }
+  }
+
+  void a_scene_that_is_chosen_keeps_nothing_of_a_lesson() {
+    Taught taught;
+    MainWindow& window = *taught.window;
+    window.colors().set_logarithmic(true);
+    window.begin_lesson("2", 3);
+    QVERIFY(taught.settles());
+    QVERIFY(window.map_view()->labels_shown() && !taught.focus().following());
+    // The lesson's own scene, and another; a fixed exposure is the scene's before.
+    for (const std::string& scene : {window.spec(), std::string("furnace")}) {
+      window.colors().set_exposure(-3);
+      window.findChild<SceneView*>()->look_from_side(Side::top);
+      const auto before = window.snapshot()->loaded;
+      window.open_afresh(QString::fromStdString(scene));
+      QVERIFY(wait_for([&] { return window.snapshot() && window.snapshot()->loaded != before; }));
+      QVERIFY(taught.settles());
+      QCOMPARE(window.spec(), scene);
+      QCOMPARE(window.snapshot()->options.directions, 32);
+      QVERIFY(taught.focus().following());
+      QVERIFY(window.colors().exposure_is_automatic() && window.colors().scale().logarithmic);
+      QVERIFY(!window.map_view()->labels_shown());
+      const auto* view = window.findChild<SceneView*>();
+      const ViewPoint shown = view->view_point();
+      window.findChild<SceneView*>()->reset_view();
+      QVERIFY(view->view_point() == shown);
+    }
   }
 
   void pages_that_come_quickly_end_with_the_last() {
