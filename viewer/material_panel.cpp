@@ -54,9 +54,9 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
   column->addWidget(account_);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
-  exposure_ = new QLabel(tr(
-      "Exposure is automatic: the picture is as bright as before. Take the tick from Auto, above "
-      "the scene, to see lamps brighten."));
+  exposure_ = new QLabel(tr("Auto exposure hides this: untick Auto."));
+  exposure_->setToolTip(
+      tr("The picture is exposed anew for every light. Auto stands above the scene."));
   exposure_->setObjectName("material_exposure");
   exposure_->setWordWrap(true);
   column->addWidget(exposure_);
