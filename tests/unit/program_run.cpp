@@ -66,6 +66,14 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
 
 void RunningProgram::send(int signal) const { ::kill(process_, signal); }
 
+bool RunningProgram::catches(int signal) const {
+  const std::string status = read_file("/proc/" + std::to_string(process_) + "/status");
+  const std::string key = "SigCgt:";
+  const std::size_t at = status.find(key);
+  if (at == std::string::npos) return false;
+  return std::stoull(status.substr(at + key.size()), nullptr, 16) >> (signal - 1) & 1;
+}
+
 std::string RunningProgram::err_so_far() const { return read_file(streams_ / "err"); }
 
 ProgramResult RunningProgram::wait() {

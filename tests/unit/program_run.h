@@ -41,6 +41,8 @@ class RunningProgram {
   /// @param out where standard output goes; empty: kept for the result
   explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {});
   void send(int signal) const;
+  /// Whether it has got so far as to take a signal as a wish, not as its end.
+  bool catches(int signal) const;
   /// Text on stderr so far.
   std::string err_so_far() const;
   ProgramResult wait();
