@@ -26,7 +26,9 @@ struct BoundsCall {
 };
 
 int run(const BoundsCall& call) {
-  if (!call.out.empty()) check_statistics_path(call.out);
+  if (!call.out.empty()) {
+    check_statistics_path(call.out);
+  }
   check_output_files(call.out.empty() ? std::vector<std::string>() : std::vector{call.out},
                      call.scene);
   const Cancellation& cancellation = cancel_on_signals();

@@ -19,12 +19,18 @@ using Json = nlohmann::json;
 void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double size_ratio) {
   const PaperTables& paper = paper_tables();
   const auto found = std::find(paper.rho.begin(), paper.rho.end(), row.rho);
-  if (found == paper.rho.end()) return;
+  if (found == paper.rho.end()) {
+    return;
+  }
   const auto k = static_cast<std::size_t>(found - paper.rho.begin());
   row.paper_contract = paper.to_contract[k];
-  if (question.accuracy != PaperTables::accuracy) return;
+  if (question.accuracy != PaperTables::accuracy) {
+    return;
+  }
   row.paper_homogeneous = paper.if_homogeneous[k];
-  if (size_ratio == PaperTables::size_ratio) row.paper_heterogeneous = paper.if_heterogeneous[k];
+  if (size_ratio == PaperTables::size_ratio) {
+    row.paper_heterogeneous = paper.if_heterogeneous[k];
+  }
 }
 
 BoundsRow make_row(double rho, const BoundsQuestion& question, double size_ratio,
@@ -71,22 +77,30 @@ Sampling sampling_of(const std::string& name, const std::string& path) {
 
 RunEstimate read_run(const std::string& path, double accuracy) {
   std::ifstream in(path);
-  if (!in) throw InputError(path + ": cannot be read");
+  if (!in) {
+    throw InputError(path + ": cannot be read");
+  }
   const Json json = Json::parse(in, nullptr, false);
   const auto fail = [&path](const char* what) -> double {
     throw InputError(fmt::format("{}: {}", path, what));
   };
-  if (!json.is_object() || !json.contains("options")) fail("no statistics of a solve (--stats)");
+  if (!json.is_object() || !json.contains("options")) {
+    fail("no statistics of a solve (--stats)");
+  }
   try {
     RunEstimate run;
     run.scene = json.value("scene", "");
     run.sampling = sampling_of(json.at("options").at("sampling"), path);
     run.passes = json.at("passes");
     const Json estimate = json.value("error_estimate", Json());
-    if (!estimate.is_object()) fail("has no error estimate; solve with --replicas 4");
+    if (!estimate.is_object()) {
+      fail("has no error estimate; solve with --replicas 4");
+    }
     run.error = estimate.at("rms");
     const double replicas = estimate.at("replicas");
-    if (!(run.error > 0 && run.passes >= 1 && replicas >= 1)) fail("its error estimate is 0");
+    if (!(run.error > 0 && run.passes >= 1 && replicas >= 1)) {
+      fail("its error estimate is 0");
+    }
     run.estimated_passes =
         estimated_passes_by_replicas(run.sampling, run.passes, replicas, run.error, accuracy);
     return run;
@@ -100,21 +114,31 @@ RunEstimate read_run(const std::string& path, double accuracy) {
 BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancellation) {
   BoundsReport report;
   report.question = question;
-  if (!question.run.empty()) report.run = read_run(question.run, question.accuracy);
-  if (question.scene) report.measures = measure(*question.scene, cancellation);
+  if (!question.run.empty()) {
+    report.run = read_run(question.run, question.accuracy);
+  }
+  if (question.scene) {
+    report.measures = measure(*question.scene, cancellation);
+  }
   report.size_ratio = question.size_ratio.value_or(report.measures ? report.measures->size_ratio
                                                                    : PaperTables::size_ratio);
   std::optional<double> rho = question.rho;
-  if (!rho && report.measures) rho = report.measures->rho_max;
+  if (!rho && report.measures) {
+    rho = report.measures->rho_max;
+  }
   const auto add_row = [&](double r) {
     report.rows.push_back(make_row(r, question, report.size_ratio, cancellation));
   };
   if (rho) {
     add_row(*rho);
   } else {
-    for (const double r : paper_tables().rho) add_row(r);
+    for (const double r : paper_tables().rho) {
+      add_row(r);
+    }
   }
-  if (rho) report.prediction = predict(*rho, question, report.size_ratio, cancellation);
+  if (rho) {
+    report.prediction = predict(*rho, question, report.size_ratio, cancellation);
+  }
   return report;
 }
 

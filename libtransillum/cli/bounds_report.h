@@ -59,7 +59,7 @@ struct BoundsReport {
   std::optional<RunEstimate> run;
 };
 
-/// @throws InputError, Cancelled
+/// @throws InputError, Canceled
 BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancellation);
 
 std::string text_of(const BoundsReport& report);

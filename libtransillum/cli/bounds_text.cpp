@@ -153,10 +153,16 @@ Json json_of(const BoundsPrediction& p) {
 
 std::string text_of(const BoundsReport& report) {
   std::string text;
-  if (report.measures) text += scene_text(report);
+  if (report.measures) {
+    text += scene_text(report);
+  }
   text += tables_text(report);
-  if (report.prediction) text += prediction_text(report) + verdict_text(report);
-  if (report.run) text += run_text(report);
+  if (report.prediction) {
+    text += prediction_text(report) + verdict_text(report);
+  }
+  if (report.run) {
+    text += run_text(report);
+  }
   return text;
 }
 
@@ -171,7 +177,9 @@ void write_bounds_report(const std::string& path, const BoundsReport& report) {
   json["sampling"] = name_of(question.sets.sampling);
   json["two_way"] = question.sets.two_way;
   json["tables"] = Json::array();
-  for (const BoundsRow& r : report.rows) json["tables"].push_back(json_of(r));
+  for (const BoundsRow& r : report.rows) {
+    json["tables"].push_back(json_of(r));
+  }
   json["prediction"] = report.prediction ? json_of(*report.prediction) : Json();
   json["scene"] = Json();
   if (report.measures) {

@@ -22,7 +22,9 @@ constexpr int spread = 2048;
 
 std::vector<Vec3> normals_of(const Scene& scene) {
   std::vector<Vec3> normals;
-  for (const Patch& patch : scene.patches()) normals.push_back(patch.normal);
+  for (const Patch& patch : scene.patches()) {
+    normals.push_back(patch.normal);
+  }
   return normals;
 }
 
@@ -44,7 +46,9 @@ std::string errors_text(const DirectionStatistics& s, const std::vector<double>&
 Json errors_json(const DirectionStatistics& s, const std::vector<double>& errors) {
   const QuadratureErrors summary = summary_of(errors);
   Json json{{"rms", summary.rms}, {"max", summary.max}};
-  if (s.scene) json["patches"] = errors;
+  if (s.scene) {
+    json["patches"] = errors;
+  }
   return json;
 }
 

@@ -30,7 +30,9 @@ struct DirectionsCall {
 
 void check(const DirectionsCall& call) {
   std::vector<std::string> files;
-  if (!call.out.empty()) files.push_back(call.out);
+  if (!call.out.empty()) {
+    files.push_back(call.out);
+  }
   if (!call.stats_file.empty()) {
     check_statistics_path(call.stats_file);
     files.push_back(call.stats_file);
@@ -65,8 +67,12 @@ int run(const DirectionsCall& call) {
   check(call);
   const SequenceOptions& sequence = call.sequence;
   auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
-  if (sequence.rotation) samples = rotated(std::move(samples), *sequence.rotation);
-  if (call.stats->count() > 0) measure(call, samples);
+  if (sequence.rotation) {
+    samples = rotated(std::move(samples), *sequence.rotation);
+  }
+  if (call.stats->count() > 0) {
+    measure(call, samples);
+  }
   if (!call.out.empty()) {
     write_directions_csv(call.out, samples);
   } else if (call.stats->count() == 0) {

@@ -83,7 +83,9 @@ FormFactors find_form_factors(const FactorsCall& call, const std::shared_ptr<con
 
 int run(const FactorsCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  if (!call.out.empty()) check_output_files({call.out}, call.scene);
+  if (!call.out.empty()) {
+    check_output_files({call.out}, call.scene);
+  }
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   print_warnings(*scene);
   ProgressDisplay display;

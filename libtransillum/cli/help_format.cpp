@@ -28,7 +28,9 @@ std::string wrapped(const std::string& text, std::size_t width) {
   std::size_t column = 0;
   while (words >> word) {
     const bool fits = column + 1 + word.size() <= width;
-    if (!result.empty()) result += fits ? ' ' : '\n';
+    if (!result.empty()) {
+      result += fits ? ' ' : '\n';
+    }
     column = fits && !result.empty() ? column + 1 + word.size() : word.size();
     result += word;
   }

@@ -10,6 +10,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "progress_display.h"
+#include "transillum/at.h"
 #include "transillum/coplanar_overlap.h"
 #include "transillum/radiosity.h"
 
@@ -74,9 +75,13 @@ void print_mended(const SceneReport& report) {
       {"unused points", report.unused_points},
       {"coincident faces", report.coincident_faces}};
   for (const auto& [name, count] : counts) {
-    if (count > 0) print_row(name, fmt::format("{}", count));
+    if (count > 0) {
+      print_row(name, fmt::format("{}", count));
+    }
   }
-  for (const std::string& warning : report.warnings) print_row("warning", warning);
+  for (const std::string& warning : report.warnings) {
+    print_row("warning", warning);
+  }
 }
 
 struct SeenFace {
@@ -90,13 +95,15 @@ std::vector<SeenFace> faces_seen_from_behind(const Scene& scene,
   std::map<std::int32_t, std::pair<double, double>> by_face;  // seen and whole area
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     auto& [seen, whole] = by_face[scene.patch(i).face];
-    seen += scene.patch(i).area * shares[static_cast<std::size_t>(i)];
+    seen += scene.patch(i).area * at(shares, i);
     whole += scene.patch(i).area;
   }
   std::vector<SeenFace> faces;
   for (const auto& [face, areas] : by_face) {
     const double share = areas.first / areas.second;
-    if (share > open_share) faces.push_back({face, share});
+    if (share > open_share) {
+      faces.push_back({face, share});
+    }
   }
   return faces;
 }
@@ -117,7 +124,9 @@ void print_faces_seen(const std::vector<SeenFace>& faces) {
 }
 
 void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& overlaps) {
-  if (overlaps.empty()) return;
+  if (overlaps.empty()) {
+    return;
+  }
   print_row(
       "coplanar overlap",
       fmt::format("{}{} pair{} of patches{}", overlaps.size() < most_overlaps ? "" : "at least ",

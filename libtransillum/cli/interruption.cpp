@@ -14,23 +14,27 @@ namespace {
 // Cancellation::cancel() is a store to a flag of this kind: allowed in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-const Cancellation* cancelled_by_signals = nullptr;
+const Cancellation* canceled_by_signals = nullptr;
 
 void on_signal(int) {
-  if (cancelled_by_signals->cancelled()) ::_exit(interrupted);
-  cancelled_by_signals->cancel();
+  if (canceled_by_signals->canceled()) {
+    ::_exit(interrupted);
+  }
+  canceled_by_signals->cancel();
 }
 
 }  // namespace
 
 const Cancellation& cancel_on_signals() {
   static const Cancellation cancellation;
-  cancelled_by_signals = &cancellation;
+  canceled_by_signals = &cancellation;
   struct sigaction action = {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    sigaction(signal, &action, nullptr);
+  }
   return cancellation;
 }
 

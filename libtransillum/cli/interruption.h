@@ -9,8 +9,8 @@
 
 namespace transillum::cli {
 
-/// Cancelled where what is done would be of no use to anybody; what() tells why.
-class NothingToSave : public Cancelled {
+/// Canceled where what is done would be of no use to anybody; what() tells why.
+class NothingToSave : public Canceled {
  public:
   explicit NothingToSave(std::string why) : why_(std::move(why)) {}
   const char* what() const noexcept override { return why_.c_str(); }

@@ -14,6 +14,7 @@
 #include "help_format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"
 
@@ -24,7 +25,9 @@ namespace {
 /// messages would end up in it. Opened the wrong way round, so that using one still fails.
 void occupy_closed_streams() {
   for (int stream = 0; stream < 3; ++stream) {
-    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+    if (::fcntl(stream, F_GETFD) < 0) {
+      ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+    }
   }
 }
 
@@ -32,7 +35,9 @@ std::string built_in_text(const BuiltInScene& scene) {
   constexpr std::size_t width = 80;
   constexpr const char* indent = "\n                 ";
   std::string text = scene.summary;
-  if (!scene.parameters.empty()) text += " Parameters: " + scene.parameters;
+  if (!scene.parameters.empty()) {
+    text += " Parameters: " + scene.parameters;
+  }
   text = wrapped(text, width);
   for (std::size_t end = 0; (end = text.find('\n', end)) != std::string::npos; ++end) {
     text.replace(end, 1, indent);
@@ -42,7 +47,9 @@ std::string built_in_text(const BuiltInScene& scene) {
 
 std::string program_footer() {
   std::string text = "Built-in scenes (parameters follow a colon, as in rooms:n=50,seed=2):\n";
-  for (const BuiltInScene& scene : built_in_scenes()) text += built_in_text(scene);
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    text += built_in_text(scene);
+  }
   text +=
       "\nExit status: 0; 2 for a wrong call or bad input; 1 for any other failure; 130 when\n"
       "interrupted.\n"
@@ -70,12 +77,16 @@ struct Program {
 
   std::vector<std::string> command_names() const {
     std::vector<std::string> names;
-    for (const auto& [command, run] : commands) names.push_back(command->get_name());
+    for (const auto& [command, run] : commands) {
+      names.push_back(command->get_name());
+    }
     return names;
   }
   const std::pair<CLI::App*, Run>* chosen() const {
     for (const auto& entry : commands) {
-      if (entry.first->parsed()) return &entry;
+      if (entry.first->parsed()) {
+        return &entry;
+      }
     }
     return nullptr;
   }
@@ -96,7 +107,9 @@ std::vector<std::string> joined_directions(int argc, char** argv) {
 
 /// `help` and `help solve` are what people try first.
 void turn_help_into_option(std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments[0] != "help") return;
+  if (arguments.empty() || arguments[0] != "help") {
+    return;
+  }
   arguments.erase(arguments.begin());
   arguments.resize(std::min<std::size_t>(arguments.size(), 1));
   arguments.emplace_back("--help");
@@ -104,12 +117,16 @@ void turn_help_into_option(std::vector<std::string>& arguments) {
 
 /// CLI11 knows that a word was not expected; this says which was meant.
 void check_first_word(const Program& program, const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return;
+  if (arguments.empty()) {
+    return;
+  }
   const std::string& word = arguments[0];
   const bool option = !word.empty() && word[0] == '-';
   const std::vector<std::string> names =
       option ? std::vector<std::string>{"-h", "--help", "--version"} : program.command_names();
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  if (std::find(names.begin(), names.end(), word) != names.end()) {
+    return;
+  }
   const std::string hint = did_you_mean(word, names);
   throw InputError(
       fmt::format("unknown {} \"{}\"{}", option ? "option" : "command", word,
@@ -118,14 +135,20 @@ void check_first_word(const Program& program, const std::vector<std::string>& ar
 
 std::string unexpected_argument_text(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining(true);
-  if (rest.empty()) return "unexpected argument";
+  if (rest.empty()) {
+    return "unexpected argument";
+  }
   // Its value may be among the rest too; the option is what is wrong.
   const auto option = std::find_if(rest.begin(), rest.end(),
                                    [](const auto& word) { return word.rfind("--", 0) == 0; });
-  if (option == rest.end()) return fmt::format("unexpected argument \"{}\"", rest.front());
+  if (option == rest.end()) {
+    return fmt::format("unexpected argument \"{}\"", rest.front());
+  }
   std::vector<std::string> names;
   for (const CLI::Option* known : command.get_options()) {
-    for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : known->get_lnames()) {
+      names.push_back("--" + name);
+    }
   }
   const std::string word = option->substr(0, option->find('='));
   return fmt::format("unknown option \"{}\"{}", word, did_you_mean(word, names));
@@ -133,7 +156,9 @@ std::string unexpected_argument_text(const CLI::App& command) {
 
 /// CLI11's errors as one line, with what to type for more.
 int report(const Program& program, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return program.app.exit(error);  // --help and --version
+  if (error.get_exit_code() == 0) {
+    return program.app.exit(error);  // --help and --version
+  }
   const auto* chosen = program.chosen();
   const CLI::App& command = chosen ? *chosen->first : program.app;
   const bool unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
@@ -168,7 +193,7 @@ int run_reporting_errors(int argc, char** argv) {
   } catch (const NothingToSave& interruption) {
     print_message(std::string("interrupted; ") + interruption.what());
     return interrupted;
-  } catch (const Cancelled&) {
+  } catch (const Canceled&) {
     print_message("interrupted; there was nothing to save yet");
     return interrupted;
   } catch (const std::bad_alloc&) {
@@ -185,7 +210,9 @@ int after_flush(int status) {
   errno = 0;
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
-  if (written || status != success) return status;
+  if (written || status != success) {
+    return status;
+  }
   // A reader that has seen enough, such as `head`, needs no message.
   if (errno != EPIPE) {
     print_message("standard output: cannot be written" +

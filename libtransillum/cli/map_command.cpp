@@ -32,7 +32,9 @@ struct MapCall {
 };
 
 void check_receiver(const MapCall& call, const Scene& scene) {
-  if (call.receiver < scene.patch_count()) return;
+  if (call.receiver < scene.patch_count()) {
+    return;
+  }
   throw InputError(fmt::format("--receiver: there is no patch {} of {}: they are 0 to {}",
                                call.receiver, scene.patch_count(), scene.patch_count() - 1));
 }
@@ -49,7 +51,9 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
   ProgressDisplay progress;
   const auto tree = std::make_shared<const BspTree>(
       *scene, cancellation, [&](double share) { progress.show("sorting", share); });
-  if (call.engine == Engine::local) return exact_map(call, *scene, *tree, cancellation);
+  if (call.engine == Engine::local) {
+    return exact_map(call, *scene, *tree, cancellation);
+  }
   const PixelMap pixels = pixel_map(call.engine, scene, tree, call.direction, call.receiver,
                                     call.engine_options, cancellation);
   VisibilityMap map = drawn_in_pixels(*scene, pixels);
@@ -92,16 +96,20 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
 
 int run(const MapCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  for (const std::string& file : call.out) check_map_path(file);
+  for (const std::string& file : call.out) {
+    check_map_path(file);
+  }
   check_output_files(call.out, call.scene);
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   check_receiver(call, *scene);
   print_warnings(*scene);
   const VisibilityMap map = make_map(call, scene, cancellation);
   const std::string reason = why_empty(*scene, map);
-  if (!reason.empty()) print_message("note: the map is empty, since " + reason);
+  if (!reason.empty()) {
+    print_message("note: the map is empty, since " + reason);
+  }
   for (const std::string& file : call.out) {
-    cancellation.throw_if_cancelled();
+    cancellation.throw_if_canceled();
     write_map(file, *scene, map, call.picture);
   }
   return success;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "transillum/scene.h"
 
@@ -12,7 +11,5 @@ namespace transillum::cli {
 void print_message(const std::string& text);
 /// What was mended in the scene, a line a warning.
 void print_warnings(const Scene& scene);
-/// `, did you mean "..."?` where one of the choices is nearly `word`, else nothing.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& choices);
 
 }  // namespace transillum::cli

@@ -38,13 +38,21 @@ Vec3 parse_direction(const std::string& option, const std::string& text) {
   std::string_view rest = text;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) wrong();
-    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) wrong();
-    if (k < 2) rest.remove_prefix(comma + 1);
+    if ((comma == std::string_view::npos) != (k == 2)) {
+      wrong();
+    }
+    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) {
+      wrong();
+    }
+    if (k < 2) {
+      rest.remove_prefix(comma + 1);
+    }
   }
   const Vec3 direction{xyz[0], xyz[1], xyz[2]};
   const double largest = max_abs(direction);
-  if (largest == 0) wrong();
+  if (largest == 0) {
+    wrong();
+  }
   // Scaled first, or the squares of huge numbers overflow and those of tiny ones vanish; by a
   // power of two, so that a unit vector keeps its bits.
   int exponent = 0;
@@ -95,9 +103,13 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
     }
   }
   double size = 0;
-  if (!reads_as(digits, size) || !(size >= 0)) wrong();
+  if (!reads_as(digits, size) || !(size >= 0)) {
+    wrong();
+  }
   size = std::ldexp(size, shift);
-  if (!(size < 0x1p63)) wrong();
+  if (!(size < 0x1p63)) {
+    wrong();
+  }
   return static_cast<std::uint64_t>(size);
 }
 

@@ -22,7 +22,9 @@ bool stderr_redraws() {
 
 std::size_t terminal_width() {
   winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) {
+    return 80;
+  }
   return size.ws_col;
 }
 
@@ -39,20 +41,28 @@ ProgressDisplay::ProgressDisplay() : terminal_(stderr_redraws()), last_(Clock::n
 bool ProgressDisplay::due() {
   using namespace std::chrono_literals;
   const auto now = Clock::now();
-  if (now - last_ < (terminal_ ? 100ms : 1000ms)) return false;
+  if (now - last_ < (terminal_ ? 100ms : 1000ms)) {
+    return false;
+  }
   last_ = now;
   return true;
 }
 
 void ProgressDisplay::show(const std::string& what, double share, const std::string& detail) {
-  if (!due()) return;
+  if (!due()) {
+    return;
+  }
   if (terminal_) {
     redraw(what, share, detail);
     return;
   }
   std::string line = what;
-  if (share >= 0) line += fmt::format(", {:.0f} %", 100 * std::min(share, 1.0));
-  if (!detail.empty()) line += ", " + detail;
+  if (share >= 0) {
+    line += fmt::format(", {:.0f} %", 100 * std::min(share, 1.0));
+  }
+  if (!detail.empty()) {
+    line += ", " + detail;
+  }
   fmt::print(stderr, "{}\n", line);
 }
 
@@ -62,7 +72,9 @@ void ProgressDisplay::redraw(const std::string& what, double share, const std::s
     const double shown = std::min(share, 1.0);
     line += fmt::format(" {} {:3.0f} %", bar(shown, 16), 100 * shown);
   }
-  if (!detail.empty()) line += "  " + detail;
+  if (!detail.empty()) {
+    line += "  " + detail;
+  }
   // A line that wraps could not be redrawn in place.
   line.resize(std::min(line.size(), terminal_width() - 1));
   fmt::print(stderr, "\r{}\033[K", line);
@@ -71,18 +83,28 @@ void ProgressDisplay::redraw(const std::string& what, double share, const std::s
 }
 
 void ProgressDisplay::clear() {
-  if (!drawn_) return;
+  if (!drawn_) {
+    return;
+  }
   fmt::print(stderr, "\r\033[K");
   std::fflush(stderr);
   drawn_ = false;
 }
 
 std::string time_text(double seconds) {
-  if (!std::isfinite(seconds)) return "?";
-  if (seconds < 1) return fmt::format("{:.0f} ms", 1000 * seconds);
-  if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+  if (!std::isfinite(seconds)) {
+    return "?";
+  }
+  if (seconds < 1) {
+    return fmt::format("{:.0f} ms", 1000 * seconds);
+  }
+  if (seconds < 59.95) {
+    return fmt::format("{:.1f} s", seconds);
+  }
   const auto whole = static_cast<std::int64_t>(std::llround(seconds));
-  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  if (whole < 3600) {
+    return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  }
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 

@@ -27,7 +27,9 @@ int run(const SceneCall& call) {
   }
   check_writable(out);
   const SceneDescription description = describe_scene(call.scene, cancellation);
-  for (const std::string& note : description.notes) print_message("warning: " + note);
+  for (const std::string& note : description.notes) {
+    print_message("warning: " + note);
+  }
   write_obj(out, description);
   return success;
 }

@@ -41,7 +41,9 @@ struct SolveCall {
 };
 
 void check_outputs(const SolveCall& call) {
-  for (const std::string& file : call.out) check_result_path(file);
+  for (const std::string& file : call.out) {
+    check_result_path(file);
+  }
   std::vector<std::string> files = call.out;
   if (!call.stats.empty()) {
     check_statistics_path(call.stats);
@@ -88,12 +90,16 @@ struct FirstShot {
 FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                       const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
   FirstShot shot;
-  if (!options.first_shot) return shot;
+  if (!options.first_shot) {
+    return shot;
+  }
   const auto start = Clock::now();
   shot.light = std::make_shared<const DirectLight>(
       shoot(*scene, find_small_sources(*scene, *options.first_shot), options.threads, cancellation,
             [&](double share) {
-              if (!quiet) display.show("shooting", share);
+              if (!quiet) {
+                display.show("shooting", share);
+              }
             }));
   shot.seconds = seconds_since(start);
   return shot;
@@ -104,19 +110,25 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
                        const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
   const auto start = Clock::now();
   const auto tree = std::make_shared<const BspTree>(*scene, cancellation, [&](double share) {
-    if (!quiet) display.show("sorting", share);
+    if (!quiet) {
+      display.show("sorting", share);
+    }
   });
   const double seconds_bsp = seconds_since(start);
   const auto shot = shoot_first(scene, options, cancellation, display, quiet);
   RadiositySolver solver(scene, options, tree, cancellation, shot.light);
   try {
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-      if (!quiet) show_progress(display, watched);
+      if (!quiet) {
+        show_progress(display, watched);
+      }
       return true;
     });
-  } catch (const Cancelled&) {
+  } catch (const Canceled&) {
     const SolveProgress progress = solver.progress();
-    if (progress.direction == 0 && progress.iteration == 0) throw;  // there is nothing to save
+    if (progress.direction == 0 && progress.iteration == 0) {
+      throw;  // there is nothing to save
+    }
   }
   const SolveProgress progress = solver.progress();
   Solution solution;
@@ -137,9 +149,11 @@ Solution solve_by_drawing(const std::shared_ptr<const Scene>& scene, const Solve
   try {
     return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
       drawn = share;
-      if (!quiet) display.show("hemicubes", share);
+      if (!quiet) {
+        display.show("hemicubes", share);
+      }
     });
-  } catch (const Cancelled&) {
+  } catch (const Canceled&) {
     // Where rows are missing there is no B that would be an estimate of anything.
     throw NothingToSave(fmt::format(
         "{:.0f} % of the hemicubes were drawn, and B takes all of them: nothing is saved",
@@ -154,14 +168,20 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
     try {
       write();
     } catch (const std::exception&) {
-      if (!first_failure) first_failure = std::current_exception();
+      if (!first_failure) {
+        first_failure = std::current_exception();
+      }
     }
   };
   for (const std::string& file : call.out) {
     attempt([&] { write_result(file, solution); });
   }
-  if (!call.stats.empty()) attempt([&] { write_statistics(call.stats, options, solution); });
-  if (first_failure) std::rethrow_exception(first_failure);
+  if (!call.stats.empty()) {
+    attempt([&] { write_statistics(call.stats, options, solution); });
+  }
+  if (first_failure) {
+    std::rethrow_exception(first_failure);
+  }
 }
 
 int run(const SolveCall& call) {
@@ -187,7 +207,9 @@ int run(const SolveCall& call) {
   } else if (!call.quiet) {
     fmt::print(stderr, "{}", summary);
   }
-  if (solution.complete) return success;
+  if (solution.complete) {
+    return success;
+  }
   print_message(call.out.empty() && call.stats.empty()
                     ? "interrupted; this is the estimate so far"
                     : "interrupted; the results so far are saved");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "progress_display.h"
+#include "transillum/at.h"
 
 namespace transillum::cli {
 namespace {
@@ -22,7 +23,7 @@ RadiosityRange radiosity_range(const Solution& solution) {
   RadiosityRange range;
   double area = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    const Rgb& b = solution.radiosity[static_cast<std::size_t>(i)];
+    const Rgb& b = at(solution.radiosity, i);
     range.low = {std::min(range.low.r, b.r), std::min(range.low.g, b.g),
                  std::min(range.low.b, b.b)};
     range.high = {std::max(range.high.r, b.r), std::max(range.high.g, b.g),
@@ -30,7 +31,9 @@ RadiosityRange radiosity_range(const Solution& solution) {
     range.mean += solution.scene->patch(i).area * b;
     area += solution.scene->patch(i).area;
   }
-  if (area > 0) range.mean = (1 / area) * range.mean;
+  if (area > 0) {
+    range.mean = (1 / area) * range.mean;
+  }
   return range;
 }
 
@@ -47,7 +50,9 @@ double peak_memory_megabytes() {
 }
 
 std::string convergence_text(const SolveStatistics& statistics) {
-  if (statistics.steps.empty()) return "none finished";
+  if (statistics.steps.empty()) {
+    return "none finished";
+  }
   return fmt::format("{}, last change {:.2e}{}", statistics.iterations,
                      statistics.steps.back().change, statistics.converged ? ", converged" : "");
 }
@@ -91,11 +96,15 @@ std::string solve_summary(const Solution& solution) {
   text += row("iterations", convergence_text(s));
   text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",
                                             s.closure_defect_max, 100 * s.escaped));
-  if (!s.steps.empty()) text += row("energy defect", fmt::format("{:.1e}", s.energy_defect));
+  if (!s.steps.empty()) {
+    text += row("energy defect", fmt::format("{:.1e}", s.energy_defect));
+  }
   text += row("B min, W/m2", color_text(b.low));
   text += row("B mean, W/m2", color_text(b.mean));
   text += row("B max, W/m2", color_text(b.high));
-  if (solution.error.replicas > 0) text += error_text(solution.error);
+  if (solution.error.replicas > 0) {
+    text += error_text(solution.error);
+  }
   text += row("time", fmt::format("{} (load {}, sorting {}, passes {}, iteration {})",
                                   time_text(s.seconds_total), time_text(s.seconds_load),
                                   time_text(s.seconds_bsp), time_text(s.seconds_transfers),

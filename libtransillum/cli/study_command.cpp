@@ -52,7 +52,9 @@ std::vector<StudySeries> all_combinations(const StudyCall& call) {
   const int resolution = call.study.solve.engine_options.resolution;
   for (const Sampling sampling : call.samplings) {
     for (const bool two_way : {false, true}) {
-      if (!(two_way ? call.two_way || !call.one_way : call.one_way)) continue;
+      if (!(two_way ? call.two_way || !call.one_way : call.one_way)) {
+        continue;
+      }
       for (const Normalization normalize : call.normalizations) {
         for (const Scheme scheme : call.schemes) {
           for (const std::optional<double>& first_shot : call.first_shots) {
@@ -77,7 +79,9 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
       // Whatever directions others take, it is the same.
       series.sampling = call.samplings.front();
       series.two_way = call.two_way || !call.one_way;
-      if (std::find(all.begin(), all.end(), series) != all.end()) continue;
+      if (std::find(all.begin(), all.end(), series) != all.end()) {
+        continue;
+      }
     }
     try {
       StudyOptions alone = call.study;
@@ -89,8 +93,12 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
       refusal = error.what();
     }
   }
-  if (all.empty()) throw InputError(refusal);
-  if (!refusal.empty()) print_message("left out: " + refusal);
+  if (all.empty()) {
+    throw InputError(refusal);
+  }
+  if (!refusal.empty()) {
+    print_message("left out: " + refusal);
+  }
   return all;
 }
 
@@ -103,7 +111,7 @@ StudyOptions study_options(const StudyCall& call) {
 }
 
 /// What all parts of the work share.
-struct Workshop {
+struct StudyContext {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   Cancellation cancellation;
@@ -111,7 +119,9 @@ struct Workshop {
   bool quiet = false;
 
   void show(const std::string& what, double share, double rate, double seconds_left) {
-    if (quiet) return;
+    if (quiet) {
+      return;
+    }
     display.show(what, share,
                  fmt::format("{:.1f} passes/s, {} left", rate, time_text(seconds_left)));
   }
@@ -119,13 +129,17 @@ struct Workshop {
 
 /// From the cache, or solved for and kept there.
 std::vector<Rgb> reference_radiosity(const StudyCall& call, const SolveOptions& options,
-                                     Workshop& work) {
+                                     StudyContext& work) {
   const ReferenceCache cache(call.cache);
-  if (auto kept = cache.find(*work.scene, options)) return *std::move(kept);
+  if (auto kept = cache.find(*work.scene, options)) {
+    return *std::move(kept);
+  }
   const std::vector<Rgb> radiosity = solve_reference(
       work.scene, work.tree, options,
       [&work](const SolveProgress& now) {
-        if (now.direction == 0) return;
+        if (now.direction == 0) {
+          return;
+        }
         work.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
                   static_cast<double>(now.direction) / now.passes, now.passes_per_second,
                   now.seconds_left);
@@ -141,7 +155,9 @@ std::vector<Rgb> reference_radiosity(const StudyCall& call, const SolveOptions& 
 
 void report_failures(const Study& study, const std::vector<std::string>& names) {
   for (const StudyPoint& point : study.points) {
-    if (point.failure.empty()) continue;
+    if (point.failure.empty()) {
+      continue;
+    }
     print_message(fmt::format("left out: {} with {} passes: {}", names[point.series], point.passes,
                               point.failure));
   }
@@ -149,18 +165,24 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
 
 int run(const StudyCall& call) {
   const StudyOptions options = study_options(call);
-  for (const std::string& file : call.plots) check_chart_path(file);
+  for (const std::string& file : call.plots) {
+    check_chart_path(file);
+  }
   std::vector<std::string> files = call.plots;
-  if (!call.out.empty()) files.push_back(call.out);
+  if (!call.out.empty()) {
+    files.push_back(call.out);
+  }
   check_output_files(files, call.scene);
 
-  Workshop work;
+  StudyContext work;
   work.cancellation = cancel_on_signals();
   work.quiet = call.quiet;
   work.scene = load_scene(call.scene, call.scene_options, work.cancellation);
   print_warnings(*work.scene);
   work.tree = std::make_shared<const BspTree>(*work.scene, work.cancellation, [&](double share) {
-    if (!call.quiet) work.display.show("sorting", share);
+    if (!call.quiet) {
+      work.display.show("sorting", share);
+    }
   });
   const std::vector<Rgb> reference =
       reference_radiosity(call, options.reference(call.reference), work);
@@ -173,10 +195,14 @@ int run(const StudyCall& call) {
       },
       work.cancellation);
   work.display.clear();
-  if (study.points.empty()) throw Cancelled();  // there is nothing to save
+  if (study.points.empty()) {
+    throw Canceled();  // there is nothing to save
+  }
 
   report_failures(study, names);
-  if (!call.out.empty()) write_study_csv(call.out, options.series, study);
+  if (!call.out.empty()) {
+    write_study_csv(call.out, options.series, study);
+  }
   for (const std::string& file : call.plots) {
     write_charts(file, {study_chart(call.scene, options.series, study, call.error, call.against)});
   }
@@ -186,7 +212,9 @@ int run(const StudyCall& call) {
   } else if (!call.quiet) {
     fmt::print(stderr, "{}", summary);
   }
-  if (study.complete) return success;
+  if (study.complete) {
+    return success;
+  }
   print_message(files.empty() ? "interrupted; these are the points so far"
                               : "interrupted; the points so far are saved");
   return interrupted;
@@ -218,13 +246,17 @@ std::vector<int> parse_directions(const std::string& text) {
     return static_cast<int>(parse_whole_number("--directions", digits, 1, max_directions));
   };
   const std::size_t dots = text.find("..");
-  if (dots == std::string::npos) return {number(text)};
+  if (dots == std::string::npos) {
+    return {number(text)};
+  }
   const int first = number(text.substr(0, dots)), last = number(text.substr(dots + 2));
   if (last < first) {
     throw InputError(fmt::format("--directions: \"{}\" ends before it begins", text));
   }
   std::vector<int> doubled;
-  for (int m = first; m <= last; m *= 2) doubled.push_back(m);
+  for (int m = first; m <= last; m *= 2) {
+    doubled.push_back(m);
+  }
   return doubled;
 }
 

@@ -17,12 +17,16 @@ namespace {
 constexpr std::size_t column = 8;
 
 std::string percent(double share) {
-  if (!std::isfinite(share)) return "-";
+  if (!std::isfinite(share)) {
+    return "-";
+  }
   return fmt::format("{:.{}g}", 100 * share, share >= 1 ? 3 : 2);
 }
 
 std::string cost_text(const std::optional<StudyCost>& cost) {
-  if (!cost) return "-";
+  if (!cost) {
+    return "-";
+  }
   return fmt::format("{}{:.0f}, {}", cost->at_most ? "<= " : "", cost->passes,
                      time_text(cost->seconds));
 }
@@ -30,7 +34,9 @@ std::string cost_text(const std::optional<StudyCost>& cost) {
 /// No passes, but one solve.
 std::string hemicubes_text(const std::string& name, std::size_t width,
                            const std::vector<StudyPoint>& points, ErrorMeasure error) {
-  if (points.empty()) return {};
+  if (points.empty()) {
+    return {};
+  }
   const StudyPoint& point = points.front();
   return fmt::format("{:<{}}  {} % by {} hemicubes of {} pixels, {}\n", name, width,
                      percent(point.error(error)), point.passes, point.directions,
@@ -44,15 +50,21 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
   const std::vector<std::string> names = names_of(options.series);
   std::map<std::int64_t, double> bounds;
   for (const StudyPoint& point : study.points) {
-    if (takes_directions(options.series[point.series].engine)) bounds[point.passes] = point.bound;
+    if (takes_directions(options.series[point.series].engine)) {
+      bounds[point.passes] = point.bound;
+    }
   }
 
   std::size_t width = std::string("bound (eq. 37)").size();
-  for (const std::string& name : names) width = std::max(width, name.size());
+  for (const std::string& name : names) {
+    width = std::max(width, name.size());
+  }
   std::string text = fmt::format("{} error of B in %{}, by passes\n{:<{}}",
                                  error == ErrorMeasure::rms ? "RMS" : "Largest",
                                  options.without_sources ? ", without sources" : "", "", width);
-  for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", passes, column);
+  for (const auto& [passes, bound] : bounds) {
+    text += fmt::format("{:>{}}", passes, column);
+  }
   text += fmt::format("{:>{}}{:>16}{:>16}\n", "slope", column, "to 1 %", "to 0.1 %");
 
   for (std::size_t series = 0; series < names.size(); ++series) {
@@ -73,10 +85,14 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
                         cost_text(cost_of(points, 0.001, error)));
   }
   text += fmt::format("{:<{}}", "bound (eq. 37)", width);
-  for (const auto& [passes, bound] : bounds) text += fmt::format("{:>{}}", percent(bound), column);
+  for (const auto& [passes, bound] : bounds) {
+    text += fmt::format("{:>{}}", percent(bound), column);
+  }
 
   const SceneMeasures measures = measure(scene);
-  if (bounds.empty()) return text + '\n';
+  if (bounds.empty()) {
+    return text + '\n';
+  }
   const auto most = static_cast<double>(bounds.rbegin()->first);
   text += fmt::format(
       "\nIn any environment (eq. 43; rho {:.3g}, R2/A {:.3g}) {:.0f} directions are proven to be "

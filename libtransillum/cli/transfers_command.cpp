@@ -28,7 +28,9 @@ struct TransfersCall {
 
 int run(const TransfersCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  if (!call.out.empty()) check_output_files({call.out}, call.scene);
+  if (!call.out.empty()) {
+    check_output_files({call.out}, call.scene);
+  }
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   print_warnings(*scene);
   ProgressDisplay progress;

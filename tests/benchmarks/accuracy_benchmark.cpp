@@ -17,22 +17,26 @@
 namespace transillum::benchmarks {
 namespace {
 
-SceneDescription grey_flake() {
+SceneDescription gray_flake() {
   SceneDescription flake = describe_scene("sphere-flake");
-  for (Material& material : flake.materials) material.reflectance = {0.6, 0.6, 0.6};
+  for (Material& material : flake.materials) {
+    material.reflectance = {0.6, 0.6, 0.6};
+  }
   return flake;
 }
 
 /// The same numbers of patches, turned: so the same sequence gives other directions.
 SceneDescription turned(SceneDescription description) {
   const Vec3 x = normalized({1, 2, 3}), y = normalized(cross({3, 1, 1}, x)), z = cross(x, y);
-  for (Vec3& p : description.points) p = p.x * x + p.y * y + p.z * z;
+  for (Vec3& p : description.points) {
+    p = p.x * x + p.y * y + p.z * z;
+  }
   return description;
 }
 
 const std::vector<Rgb>& reference() {
   static const std::vector<Rgb> radiosity = [] {
-    const auto scene = std::make_shared<const Scene>(turned(grey_flake()));
+    const auto scene = std::make_shared<const Scene>(turned(gray_flake()));
     return solve(scene, {.directions = 4096, .tolerance = 1e-7}).radiosity;
   }();
   return radiosity;
@@ -81,7 +85,9 @@ TimeToAccuracy measure(const char* name, int effort, int largest,
         *time = before ? seconds_at(target, *before, run) : run.seconds;
       }
     }
-    if (times.to_0_2_percent > 0) break;
+    if (times.to_0_2_percent > 0) {
+      break;
+    }
     before = run;
   }
   return times;
@@ -89,7 +95,7 @@ TimeToAccuracy measure(const char* name, int effort, int largest,
 
 void TimeToAccuracyOfB(benchmark::State& state) {
   TimeToAccuracy passes, gather;
-  const auto scene = std::make_shared<const Scene>(grey_flake());
+  const auto scene = std::make_shared<const Scene>(gray_flake());
   reference();
   for (auto _ : state) {
     passes = measure("passes", 16, 4096, [&](int directions) {

@@ -45,7 +45,9 @@ struct Query : RTCIntersectContext {
 
   void note(unsigned line, float distance, unsigned triangle) {
     unsigned& n = count[line];
-    if (n < most_hits) hits[line][n++] = {distance, triangle};
+    if (n < most_hits) {
+      hits[line][n++] = {distance, triangle};
+    }
   }
 };
 
@@ -73,7 +75,9 @@ void collect(const RTCFilterFunctionNArguments* found) {
     return;
   }
   for (unsigned k = 0; k < found->N; ++k) {
-    if (!found->valid[k]) continue;
+    if (!found->valid[k]) {
+      continue;
+    }
     found->valid[k] = 0;
     query.note(RTCRayN_id(found->ray, found->N, k), RTCRayN_tfar(found->ray, found->N, k),
                RTCHitN_primID(found->hit, found->N, k));
@@ -99,7 +103,9 @@ class FastLines {
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                scene.points().size()));
     for (const Vec3& p : scene.points()) {
-      for (const double x : {p.x, p.y, p.z}) *points++ = static_cast<float>(x);
+      for (const double x : {p.x, p.y, p.z}) {
+        *points++ = static_cast<float>(x);
+      }
     }
     void* indices = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(unsigned), corners.size() / 3);
@@ -206,7 +212,9 @@ class FastLines {
       for (unsigned a = 1; a < query_.count[k]; ++a) {
         const LineHit hit = hits[a];
         unsigned b = a;
-        for (; b > 0 && hits[b - 1].distance > hit.distance; --b) hits[b] = hits[b - 1];
+        for (; b > 0 && hits[b - 1].distance > hit.distance; --b) {
+          hits[b] = hits[b - 1];
+        }
         hits[b] = hit;
       }
     }

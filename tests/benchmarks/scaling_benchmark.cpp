@@ -25,7 +25,9 @@ double pass_milliseconds(const std::shared_ptr<const Scene>& scene) {
   double best = HUGE_VAL;
   for (int round = 0; round < 3; ++round) {
     const double seconds = seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] {
-      for (const Vec3& omega : directions) engine(omega, {});
+      for (const Vec3& omega : directions) {
+        engine(omega, {});
+      }
     });
     best = std::min(best, 1e3 * seconds / static_cast<double>(directions.size()));
   }
@@ -86,18 +88,22 @@ BENCHMARK(RefinedStarsScaling)->Name("Scaling/stars")->Iterations(1)->Unit(bench
 std::shared_ptr<const Scene> huge_over_small(int side) {
   SceneDescription description;
   description.name = "huge over small";
-  description.materials.push_back({"grey", {0.5, 0.5, 0.5}, {1, 1, 1}});
+  description.materials.push_back({"gray", {0.5, 0.5, 0.5}, {1, 1, 1}});
   const auto add = [&](double x, double y, double z, double width, bool up) {
     std::vector<PointId> ids;
     for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
       ids.push_back(static_cast<PointId>(description.points.size()));
       description.points.push_back({x + i * width, y + j * width, z});
     }
-    if (!up) std::reverse(ids.begin(), ids.end());
+    if (!up) {
+      std::reverse(ids.begin(), ids.end());
+    }
     description.add_face(ids, 0);
   };
   for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) add(1.0 * i / side, 1.0 * j / side, 0, 0.9 / side, true);
+    for (int j = 0; j < side; ++j) {
+      add(1.0 * i / side, 1.0 * j / side, 0, 0.9 / side, true);
+    }
   }
   add(-1, -1, 0.5, 3, false);
   return std::make_shared<const Scene>(description);

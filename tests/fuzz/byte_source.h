@@ -20,7 +20,9 @@ class ByteSource {
   /// them is rounded.
   double fraction() {
     std::uint32_t bits = 0;
-    for (int k = 0; k < 4; ++k) bits = bits << 8 | byte();
+    for (int k = 0; k < 4; ++k) {
+      bits = bits << 8 | byte();
+    }
     return bits * 0x1p-32;
   }
 

@@ -15,7 +15,8 @@
 #include "fuzz/byte_source.h"
 #include "fuzz/exact_clip.h"
 #include "fuzz/require.h"
-#include "visibility/map_polygon.h"
+#include "transillum/at.h"
+#include "visibility/plane/map_polygon.h"
 
 namespace transillum::fuzz {
 namespace {
@@ -60,14 +61,18 @@ GridPolygon take_polygon(ByteSource& bytes) {
   const bool flat = std::all_of(points.begin(), points.end(), [&](const GridPoint& p) {
     return turn(points.front(), points.back(), p) == 0;
   });
-  if (flat) return {};
+  if (flat) {
+    return {};
+  }
   hull.insert(hull.end(), upper.begin() + 1, upper.end() - 1);
   return hull;
 }
 
 ExactPolygon exact(const GridPolygon& polygon) {
   ExactPolygon result;
-  for (const GridPoint& p : polygon) result.push_back({p.x, p.y});
+  for (const GridPoint& p : polygon) {
+    result.push_back({p.x, p.y});
+  }
   return result;
 }
 
@@ -95,7 +100,9 @@ Case take_case(ByteSource& bytes) {
   const std::size_t count = 2 + bytes.below(most_windows);
   for (std::size_t k = 0; k < count; ++k) {
     GridPolygon polygon = take_polygon(bytes);
-    if (!polygon.empty()) made.polygons.push_back(std::move(polygon));
+    if (!polygon.empty()) {
+      made.polygons.push_back(std::move(polygon));
+    }
   }
   return made;
 }
@@ -103,7 +110,7 @@ Case take_case(ByteSource& bytes) {
 std::shared_ptr<const Scene> scene_of(const Case& from) {
   SceneDescription description;
   description.name = "case";
-  description.materials = {{"grey", {0.5, 0.5, 0.5}, {}}};
+  description.materials = {{"gray", {0.5, 0.5, 0.5}, {}}};
   double height = 0;
   for (const GridPolygon& polygon : from.polygons) {
     std::vector<PointId> outline;
@@ -113,7 +120,9 @@ std::shared_ptr<const Scene> scene_of(const Case& from) {
                                    height * from.along);
     }
     description.add_face(outline, 0);
-    if (from.lifted) height += 1;
+    if (from.lifted) {
+      height += 1;
+    }
   }
   return std::make_shared<const Scene>(description);
 }
@@ -132,8 +141,8 @@ std::vector<MapPolygon> projected(const Scene& scene, const BspTree& tree,
     MapPolygon& polygon = polygons.emplace_back();
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const auto [a, b] = std::minmax(corners[k], corners[(k + 1) % corners.size()]);
-      polygon.push_back({projection.points[static_cast<std::size_t>(corners[k])],
-                         line_between.at({a, b}), corners[k] == a});
+      polygon.push_back(
+          {at(projection.points, corners[k]), line_between.at({a, b}), corners[k] == a});
     }
   }
   return polygons;
@@ -157,7 +166,9 @@ Cut clip_for_map(const Projection& projection, const MapPolygon& subject,
   MapClipper clipper(projection);
   Cut cut;
   cut.overlap = clipper.clip(subject, window);
-  if (!cut.overlap) return cut;
+  if (!cut.overlap) {
+    return cut;
+  }
   cut.inside_area = clipper.inside_area();
   for (std::size_t k = 0; k < clipper.outside_count(); ++k) {
     cut.outside.push_back(clipper.outside(k));
@@ -179,7 +190,9 @@ class Trial {
         left_{polygons[0]},
         exactly_left_{exact(from.polygons[0])} {
     // Looked at obliquely, the axes of the plane are rounded to doubles.
-    if (!case_.is_exact()) tolerance_to_exact_ = 1e-11L;
+    if (!case_.is_exact()) {
+      tolerance_to_exact_ = 1e-11L;
+    }
   }
 
   void run() {
@@ -192,7 +205,9 @@ class Trial {
       require_near(inside, cut_out_exactly(exact(case_.polygons[k])), "the area inside");
       taken += inside;
     }
-    for (const MapPolygon& part : left_) taken += area_of(part);
+    for (const MapPolygon& part : left_) {
+      taken += area_of(part);
+    }
     require(std::abs(taken - whole) <= tolerance_, named("inside and outside make up the subject"));
   }
 
@@ -203,7 +218,9 @@ class Trial {
     const Cut other = clipper_.clip(projection_, polygons_[k], polygons_[0]);
     require(std::abs(one.inside_area - other.inside_area) <= tolerance_,
             named("subject and window may change places"));
-    if (!case_.is_exact()) return;
+    if (!case_.is_exact()) {
+      return;
+    }
     std::vector<ExactPolygon> outside;
     const bool overlap =
         area_of(clip(exact(case_.polygons[0]), exact(case_.polygons[k]), outside)) > 0;
@@ -223,7 +240,9 @@ class Trial {
       require(cut.inside_area > 0, named("an overlap has an area"));
       inside += cut.inside_area;
       for (MapPolygon& outside : cut.outside) {
-        if (!(area_of(outside) > 0)) continue;  // as the engine does
+        if (!(area_of(outside) > 0)) {
+          continue;  // as the engine does
+        }
         require_left_turns(outside);
         left.push_back(std::move(outside));
       }
@@ -286,12 +305,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace transillum::fuzz;
   ByteSource bytes(data, size);
   const Case from = take_case(bytes);
-  if (from.polygons.size() < 2) return 0;
+  if (from.polygons.size() < 2) {
+    return 0;
+  }
   const auto scene = scene_of(from);
   const BspTree tree(*scene);
   require(scene->pieces().size() == from.polygons.size(), "a convex polygon is one piece");
   const Projection projection(*scene, tree, from.omega());
   const std::vector<MapPolygon> polygons = projected(*scene, tree, projection);
-  for (const Clipper& clipper : clippers) Trial(clipper, from, projection, polygons).run();
+  for (const Clipper& clipper : clippers) {
+    Trial(clipper, from, projection, polygons).run();
+  }
   return 0;
 }

@@ -15,6 +15,7 @@
 #include "fuzz/byte_source.h"
 #include "fuzz/require.h"
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 
@@ -83,14 +84,18 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
     case 0:
       return take_rectangle(bytes);
     case 1:  // a triangle of the grid
-      for (int k = 0; k < 3; ++k) outline.push_back(grid_point(bytes));
+      for (int k = 0; k < 3; ++k) {
+        outline.push_back(grid_point(bytes));
+      }
       return outline;
     case 2: {  // a parallelogram of the grid
       const Vec3 a = grid_point(bytes), b = grid_point(bytes), c = grid_point(bytes);
       return {a, b, c, c - b + a};
     }
     case 3:  // a triangle anywhere
-      for (int k = 0; k < 3; ++k) outline.push_back(free_point(bytes));
+      for (int k = 0; k < 3; ++k) {
+        outline.push_back(free_point(bytes));
+      }
       return outline;
     case 4: {  // concave, in the plane of three grid points, with straight corners at times
       const Vec3 o = grid_point(bytes), u = grid_point(bytes) - o, v = grid_point(bytes) - o;
@@ -104,12 +109,16 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
     case 5:
       return take_disc(bytes);
     default:  // an earlier one again, where it was, or moved far or by very little
-      if (before.empty()) return take_rectangle(bytes);
+      if (before.empty()) {
+        return take_rectangle(bytes);
+      }
       outline = before[bytes.below(static_cast<unsigned>(before.size()))];
       if (bytes.flag()) {
         const Vec3 shift = grid_point(bytes);
         const double share = std::ldexp(0.5, -static_cast<int>(bytes.below(20)));
-        for (Vec3& p : outline) p = p + share * shift;
+        for (Vec3& p : outline) {
+          p = p + share * shift;
+        }
       }
       return outline;
   }
@@ -118,9 +127,15 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
 Vec3 take_direction(ByteSource& bytes) {
   const bool is_free = bytes.flag();
   Vec3 omega = is_free ? free_point(bytes) : grid_point(bytes);
-  if (bytes.flag()) omega.x = -omega.x;
-  if (bytes.flag()) omega.y = -omega.y;
-  if (bytes.flag()) omega.z = -omega.z;
+  if (bytes.flag()) {
+    omega.x = -omega.x;
+  }
+  if (bytes.flag()) {
+    omega.y = -omega.y;
+  }
+  if (bytes.flag()) {
+    omega.z = -omega.z;
+  }
   return norm(omega) > 0 ? normalized(omega) : Vec3{0, 0, 1};
 }
 
@@ -137,12 +152,16 @@ Case take_case(ByteSource& bytes) {
   for (unsigned left = 1 + bytes.below(most_polygons); left > 0 && !bytes.empty(); --left) {
     const unsigned how = bytes.byte();
     std::vector<Vec3> outline = take_outline(bytes, outlines);
-    if ((how & 1u) != 0) std::reverse(outline.begin(), outline.end());
+    if ((how & 1u) != 0) {
+      std::reverse(outline.begin(), outline.end());
+    }
     sketch.face(outline, materials[how >> 1 & 1u]);
     outlines.push_back(std::move(outline));
   }
   // Parallelograms may reach three grids far, and so may those that are moved.
-  if (made.closed) sketch.box({-100, -100, -100}, {100, 100, 100}, true, materials[0]);
+  if (made.closed) {
+    sketch.box({-100, -100, -100}, {100, 100, 100}, true, materials[0]);
+  }
   made.scene = sketch.scene({.two_sided = kind == two_sided});
   return made;
 }
@@ -150,7 +169,9 @@ Case take_case(ByteSource& bytes) {
 using Areas = std::map<std::pair<PatchId, PatchId>, double>;
 Areas areas_of(const Transfers& transfers) {
   Areas areas;
-  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+  for (const Transfer& t : transfers.exchanges) {
+    areas[{t.receiver, t.source}] = t.area;
+  }
   return areas;
 }
 
@@ -158,7 +179,9 @@ Areas areas_of(const Transfers& transfers) {
 /// area of a needle across the scene.
 double slack_of(const Scene& scene, PatchId i) {
   Bounds box;
-  for (const PointId p : scene.outline(i)) box.add(scene.point(p));
+  for (const PointId p : scene.outline(i)) {
+    box.add(scene.point(p));
+  }
   const double farthest = std::max(max_abs(box.low), max_abs(box.high));
   return tolerance * scene.patch(i).area + 16 * 0x1p-52 * farthest * box.diagonal();
 }
@@ -176,8 +199,8 @@ void check(const Case& from, const Transfers& transfers, const std::string& engi
     require(std::isfinite(t.area) && t.area > 0, engine + ": areas are finite and > 0");
     require(last < std::pair(t.receiver, t.source), engine + ": sorted, one entry a pair");
     last = {t.receiver, t.source};
-    received[static_cast<std::size_t>(t.receiver)] += t.area;
-    sent[static_cast<std::size_t>(t.source)] += t.area;
+    at(received, t.receiver) += t.area;
+    at(sent, t.source) += t.area;
   }
   for (std::size_t i = 0; i < patches; ++i) {
     const double area = scene.patches()[i].area;
@@ -221,7 +244,9 @@ void require_equal(const Scene& scene, Areas expected, const Areas& found,
 /// Looked at from the other end, receiver and source change places.
 Areas transposed(const Areas& areas) {
   Areas result;
-  for (const auto& [pair, area] : areas) result[{pair.second, pair.first}] = area;
+  for (const auto& [pair, area] : areas) {
+    result[{pair.second, pair.first}] = area;
+  }
   return result;
 }
 
@@ -236,7 +261,9 @@ void run(const Case& from) {
   const Transfers back = make_engine(Engine::local, from.scene, tree)(-from.omega, {});
   require_equal(*from.scene, local, transposed(areas_of(back)), "local, from both ends");
   require_equal(*from.scene, local, transfers_by(Engine::fast), "local and fast");
-  if (tree->fragments().size() > most_fragments_exactly) return;
+  if (tree->fragments().size() > most_fragments_exactly) {
+    return;
+  }
   require_equal(*from.scene, local, transfers_by(Engine::exact), "local and exact");
 }
 

@@ -31,8 +31,12 @@ inline ExactHalves halves(const ExactPolygon& polygon, const ExactPoint& a, cons
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const ExactPoint &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
     const Rational here = turn(a, b, p), there = turn(a, b, q);
-    if (here >= 0) result.left.push_back(p);
-    if (here <= 0) result.right.push_back(p);
+    if (here >= 0) {
+      result.left.push_back(p);
+    }
+    if (here <= 0) {
+      result.right.push_back(p);
+    }
     if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
       const Rational t = here / (here - there);
       const ExactPoint crossing{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
@@ -57,7 +61,9 @@ inline ExactPolygon clip(ExactPolygon polygon, const ExactPolygon& window,
                          std::vector<ExactPolygon>& outside) {
   for (std::size_t k = 0; k < window.size() && !polygon.empty(); ++k) {
     ExactHalves cut = halves(polygon, window[k], window[(k + 1) % window.size()]);
-    if (area_of(cut.right) > 0) outside.push_back(std::move(cut.right));
+    if (area_of(cut.right) > 0) {
+      outside.push_back(std::move(cut.right));
+    }
     polygon = std::move(cut.left);
   }
   return polygon;

@@ -7,8 +7,9 @@
 #include <string_view>
 
 #include "fuzz/require.h"
-#include "scene/obj_reader.h"
+#include "scene/read/obj_reader.h"
 #include "support/temporary_folder.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -29,14 +30,18 @@ Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
 
 double area_of(const Scene& scene) {
   double sum = 0;
-  for (const Patch& patch : scene.patches()) sum += patch.area;
+  for (const Patch& patch : scene.patches()) {
+    sum += patch.area;
+  }
   return sum;
 }
 
 /// What the coordinates' own rounding may do to an area in the scene.
 double rounding_of_areas(const Scene& scene) {
   double largest = 0;
-  for (const Vec3& p : scene.points()) largest = std::max(largest, max_abs(p));
+  for (const Vec3& p : scene.points()) {
+    largest = std::max(largest, max_abs(p));
+  }
   return 256 * 0x1p-52 * largest * scene.bounds().diagonal();
 }
 
@@ -61,14 +66,14 @@ void check(const Scene& scene) {
     require(piece.end - piece.begin >= 3, "a piece has three corners");
     const Vec3& normal = scene.patch(piece.patch).normal;
     const double area = dot(normal, doubled_area(scene, scene.corners(piece))) / 2;
-    piece_area[static_cast<std::size_t>(piece.patch)] += area;
+    at(piece_area, piece.patch) += area;
   }
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Patch& patch = scene.patch(i);
     require(patch.area > 0 && std::isfinite(patch.area), "a patch has an area");
     require(std::abs(norm(patch.normal) - 1) < 1e-12, "a normal is a unit vector");
     require(is_finite(patch.center), "a patch has a center");
-    require(std::abs(piece_area[static_cast<std::size_t>(i)] - patch.area) <=
+    require(std::abs(at(piece_area, i) - patch.area) <=
                 1e-9 * patch.area + bend_of(scene, i) + rounding,
             "the pieces make up the patch");
     const Rgb &rho = scene.reflectance(i), &e = scene.exitance(i);
@@ -90,9 +95,8 @@ void check_written(const test::TemporaryFolder& folder, const SceneDescription& 
   require(again.corners == description.corners && again.face_begin == description.face_begin,
           "faces read back");
   for (std::size_t f = 0; f < description.face_count(); ++f) {
-    const auto& before =
-        description.materials[static_cast<std::size_t>(description.face_material[f])];
-    const auto& after = again.materials[static_cast<std::size_t>(again.face_material[f])];
+    const auto& before = at(description.materials, description.face_material[f]);
+    const auto& after = at(again.materials, again.face_material[f]);
     require(before.reflectance == after.reflectance && before.exitance == after.exitance,
             "materials read back");
   }
@@ -105,7 +109,9 @@ void check_file(const test::TemporaryFolder& folder, const std::string& path) {
   check_written(folder, description);
   // Some hundred patches, from however large a face.
   const double area = area_of(scene);
-  if (!(area > 0 && std::isfinite(area))) return;
+  if (!(area > 0 && std::isfinite(area))) {
+    return;
+  }
   const Scene fine(description, {.two_sided = true, .max_patch_area = area / 100});
   check(fine);
   // A face that is a thousandth of its width off its plane is measured anew in parts.

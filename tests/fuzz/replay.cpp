@@ -18,7 +18,9 @@ namespace {
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
+    if (entry.is_regular_file()) {
+      files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -44,10 +46,14 @@ bool replay(const std::filesystem::path& path) {
 int main(int argc, char** argv) {
   int replayed = 0, failed = 0;
   for (int k = 1; k < argc; ++k) {
-    if (argv[k][0] == '-') continue;
+    if (argv[k][0] == '-') {
+      continue;
+    }
     for (const std::filesystem::path& file : files_in(argv[k])) {
       ++replayed;
-      if (!replay(file)) ++failed;
+      if (!replay(file)) {
+        ++failed;
+      }
     }
   }
   std::cout << replayed << " files, " << failed << " failed\n";

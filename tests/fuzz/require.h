@@ -13,7 +13,9 @@ class PropertyError : public std::logic_error {
 };
 
 inline void require(bool holds, const std::string& what) {
-  if (!holds) throw PropertyError(what);
+  if (!holds) {
+    throw PropertyError(what);
+  }
 }
 
 }  // namespace transillum::fuzz

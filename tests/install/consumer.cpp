@@ -12,7 +12,9 @@ int main() {
   options.normalize = transillum::Normalization::rows;
   options.tolerance = 1e-12;
   const auto solution = transillum::solve(transillum::load_scene("furnace"), options);
-  if (!solution.complete || solution.radiosity.empty()) return 1;
+  if (!solution.complete || solution.radiosity.empty()) {
+    return 1;
+  }
   for (const transillum::Rgb& b : solution.radiosity) {
     if (std::abs(b.r - 2) > 1e-9) {
       std::printf("B is %.17g, not 2\n", b.r);

@@ -41,10 +41,14 @@ class Table : public ::testing::Environment {
   void take(Engine a, Engine b, const TransferDifference& found) {
     Row& row = rows_[{a, b}];
     ++row.directions;
-    if (!(found.share <= row.worst)) row.worst = found.share;
+    if (!(found.share <= row.worst)) {
+      row.worst = found.share;
+    }
   }
   void TearDown() override {
-    if (rows_.empty()) return;
+    if (rows_.empty()) {
+      return;
+    }
     std::cout << "Largest differences, as shares of the patches' areas:\n";
     for (const auto& [pair, row] : rows_) {
       std::cout << fmt::format("  {:<6} {:<6} {:9.2e}  in {} directions\n", name_of(pair.first),
@@ -67,7 +71,9 @@ class Contest {
   explicit Contest(std::shared_ptr<const Scene> scene)
       : scene_(std::move(scene)), tree_(std::make_shared<const BspTree>(*scene_)) {
     for (const Contestant& contestant : contestants) {
-      if (tree_->fragments().size() > contestant.most_fragments) continue;
+      if (tree_->fragments().size() > contestant.most_fragments) {
+        continue;
+      }
       engines_.emplace_back(contestant.engine, make_engine(contestant.engine, scene_, tree_));
     }
   }
@@ -75,7 +81,9 @@ class Contest {
   void expect_agreement(const Vec3& omega) const {
     const testing::MapOnFailure map(*scene_, *tree_, omega);
     std::vector<Transfers> results;
-    for (const auto& [engine, run] : engines_) results.push_back(run(omega, {}));
+    for (const auto& [engine, run] : engines_) {
+      results.push_back(run(omega, {}));
+    }
     for (std::size_t a = 0; a < results.size(); ++a) {
       for (std::size_t b = a + 1; b < results.size(); ++b) {
         const TransferDifference found = testing::difference(*scene_, results[a], results[b]);
@@ -115,7 +123,9 @@ std::vector<std::string> corpus() {
   for (const char* folder : {"/corpus", "/scenes"}) {
     for (const auto& entry :
          std::filesystem::directory_iterator(std::string(TRANSILLUM_DATA_DIR) + folder)) {
-      if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
+      if (entry.path().extension() == ".obj") {
+        files.push_back(entry.path().string());
+      }
     }
   }
   std::sort(files.begin(), files.end());
@@ -128,7 +138,9 @@ TEST_P(AgreementCorpus, InEveryDirection) {
   for (const bool two_sided : {false, true}) {
     const auto scene = load_scene(GetParam(), {.two_sided = two_sided});
     const Contest contest(scene);
-    for (const Vec3& omega : testing::test_directions(15, 22)) contest.expect_agreement(omega);
+    for (const Vec3& omega : testing::test_directions(15, 22)) {
+      contest.expect_agreement(omega);
+    }
     // Faces seen edge-on, along an edge and in their plane.
     for (PatchId i = 0; i < scene->patch_count(); i += 1 + scene->patch_count() / 8) {
       const auto outline = scene->outline(i);
@@ -163,14 +175,18 @@ void expect_agreement_on(std::uint64_t seed) {
   const Contest contest(scene);
   for (const Vec3& omega : random.directions) {
     contest.expect_agreement(omega);
-    if (!random.closed) continue;
+    if (!random.closed) {
+      continue;
+    }
     const ClosureDefect defect = closure_defect(contest.local(omega), *scene);
     EXPECT_LE(defect.relative, 1e-10)
         << "patch " << defect.worst
         << fmt::format(", direction {},{},{}", omega.x, omega.y, omega.z);
     EXPECT_LE(defect.grazing, 1e-12);
   }
-  if (!::testing::Test::HasFailure()) return;
+  if (!::testing::Test::HasFailure()) {
+    return;
+  }
   const std::string file = fmt::format("{}/random-{}.obj", ::testing::TempDir(), seed);
   write_obj(file, random.description);
   std::cerr << "The scene: " << file << '\n';
@@ -179,7 +195,9 @@ void expect_agreement_on(std::uint64_t seed) {
 void expect_agreement_on(std::uint64_t first, std::uint64_t count) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     expect_agreement_on(seed);
-    if (::testing::Test::HasFailure()) return;
+    if (::testing::Test::HasFailure()) {
+      return;
+    }
   }
 }
 

@@ -29,7 +29,9 @@ void expect_closure(const std::shared_ptr<const Scene>& scene, Engine by, int di
     ASSERT_LE(defect.grazing, 1e-12);
     // Something is seen at all, and no more than there is.
     double projected = 0, exchanged = 0;
-    for (const Coverage& c : transfers.forward) projected += c.projected;
+    for (const Coverage& c : transfers.forward) {
+      projected += c.projected;
+    }
     for (const Transfer& t : transfers.exchanges) {
       ASSERT_GT(t.area, 0);
       exchanged += t.area;
@@ -69,8 +71,8 @@ class ClosureInterpenetrating : public ::testing::TestWithParam<Engine> {};
 
 TEST_P(ClosureInterpenetrating, ReceivedAreasAddUpTo200Projections) {
   testing::Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.tetrahedra(10, 0.6, 23, grey).box({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, true, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.tetrahedra(10, 0.6, 23, gray).box({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, true, gray);
   expect_closure(sketch.scene(), GetParam(), 200);
 }
 
@@ -103,7 +105,9 @@ TEST(Reciprocity, OppositeDirectionsGiveTheSameAreas) {
     for (const Vec3& omega : test_directions(20, 11)) {
       const testing::MapOnFailure drawn(*scene, *tree, omega);
       std::map<std::pair<PatchId, PatchId>, double> there;
-      for (const Transfer& t : engine(omega, {}).exchanges) there[{t.receiver, t.source}] = t.area;
+      for (const Transfer& t : engine(omega, {}).exchanges) {
+        there[{t.receiver, t.source}] = t.area;
+      }
       for (const Transfer& t : engine(-omega, {}).exchanges) {
         const double area = scene->patch(t.receiver).area;
         EXPECT_NEAR((there[{t.source, t.receiver}]), t.area, 1e-11 * area) << spec;

@@ -8,6 +8,7 @@
 
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
+#include "transillum/at.h"
 #include "transillum/corrected_map.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -58,16 +59,18 @@ TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
 
 TEST(CorrectedEngine, SeesNothingBehindWhatHidesItWholly) {
   testing::Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
+  const int gray = sketch.material(0.5, 1);
   const auto square = [](double half, double z, bool up) {
     std::vector<Vec3> outline{
         {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
-    if (!up) std::swap(outline[1], outline[3]);
+    if (!up) {
+      std::swap(outline[1], outline[3]);
+    }
     return outline;
   };
-  sketch.face(square(1, 0, true), grey);
-  sketch.face(square(2, 1, false), grey);
-  sketch.face(square(3, 2, false), grey);
+  sketch.face(square(1, 0, true), gray);
+  sketch.face(square(2, 1, false), gray);
+  sketch.face(square(3, 2, false), gray);
   const Transfers transfers = Engines(sketch.scene()).corrected({0, 0, 1}, {});
   ASSERT_EQ(transfers.exchanges.size(), 1U);
   EXPECT_EQ(transfers.exchanges[0].receiver, 0);
@@ -78,10 +81,10 @@ TEST(CorrectedEngine, SeesNothingBehindWhatHidesItWholly) {
 /// A shade over a corner of the floor: the lamp's share of the rest is right.
 TEST(CorrectedEngine, GivesTheRestToWhatIsBehind) {
   testing::Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, grey);
-  sketch.face({{1, 1, 1}, {1, 3, 1}, {3, 3, 1}, {3, 1, 1}}, grey);
-  sketch.face({{-9, -9, 2}, {-9, 9, 2}, {9, 9, 2}, {9, -9, 2}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, gray);
+  sketch.face({{1, 1, 1}, {1, 3, 1}, {3, 3, 1}, {3, 1, 1}}, gray);
+  sketch.face({{-9, -9, 2}, {-9, 9, 2}, {9, 9, 2}, {9, -9, 2}}, gray);
   const Transfers transfers = Engines(sketch.scene()).corrected({0, 0, 1}, {});
   ASSERT_EQ(transfers.exchanges.size(), 2U);
   EXPECT_NEAR(transfers.exchanges[0].area, 1, 1e-12);
@@ -138,7 +141,7 @@ TEST(CorrectedEngine, StopsWhenAsked) {
   const Engines engines(load_scene("rooms"));
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Cancelled);
+  EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Canceled);
 }
 
 /// The map is the engine's own account: what it does not count as open it has given to somebody.
@@ -156,14 +159,18 @@ TEST(CorrectedMap, IsWhatTheEngineBooks) {
       double area = 0;
       for (const CorrectedMap::Part& part : map.parts) {
         area += part.area;
-        if (part.front_facing) continue;
-        given[static_cast<std::size_t>(part.patch)] += part.area - part.open;
-        open[static_cast<std::size_t>(part.patch)] += part.exact;
+        if (part.front_facing) {
+          continue;
+        }
+        at(given, part.patch) += part.area - part.open;
+        at(open, part.patch) += part.exact;
       }
       for (std::size_t i = 0; i < given.size(); ++i) {
         ASSERT_NEAR(given[i], booked.backward[i].covered, 1e-9 * area) << spec << " " << i;
         const Coverage& truly = direction.transfers.backward[i];
-        if (std::string(spec) == "boards") continue;  // backs cover there, which no receiver books
+        if (std::string(spec) == "boards") {
+          continue;  // backs cover there, which no receiver books
+        }
         ASSERT_NEAR(open[i], truly.projected - truly.covered, 1e-9 * area) << spec << " " << i;
       }
     }
@@ -172,12 +179,12 @@ TEST(CorrectedMap, IsWhatTheEngineBooks) {
 
 TEST(CorrectedMap, TellsWhatIsTakenWrongly) {
   testing::Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
+  const int gray = sketch.material(0.5, 1);
   // Over a wide receiver a light, and half over that another one: between their parts is a gap that
   // only shapes could tell of.
-  sketch.face({{0, 0, 3}, {0, 1, 3}, {2, 1, 3}, {2, 0, 3}}, grey);
-  sketch.face({{1, 0, 2}, {1, 1, 2}, {3, 1, 2}, {3, 0, 2}}, grey);
-  sketch.face({{0.5, 0, 1}, {3.5, 0, 1}, {3.5, 1, 1}, {0.5, 1, 1}}, grey);
+  sketch.face({{0, 0, 3}, {0, 1, 3}, {2, 1, 3}, {2, 0, 3}}, gray);
+  sketch.face({{1, 0, 2}, {1, 1, 2}, {3, 1, 2}, {3, 0, 2}}, gray);
+  sketch.face({{0.5, 0, 1}, {3.5, 0, 1}, {3.5, 1, 1}, {0.5, 1, 1}}, gray);
   const auto scene = sketch.scene();
   const auto tree = std::make_shared<const BspTree>(*scene);
   const MapRecord record = record_local_map(*scene, *tree, {0, 0, 1}).record;

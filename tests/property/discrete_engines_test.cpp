@@ -6,6 +6,7 @@
 
 #include "support/pair_areas.h"
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
 #include "transillum/radiosity.h"
@@ -42,8 +43,8 @@ TEST_P(DiscreteEngines, AreasOfAPatchSumToItsPixels) {
       const Transfers transfers = engine(omega, {});
       std::vector<double> received(transfers.forward.size()), sent(received.size());
       for (const Transfer& t : transfers.exchanges) {
-        received[static_cast<std::size_t>(t.receiver)] += t.area;
-        sent[static_cast<std::size_t>(t.source)] += t.area;
+        at(received, t.receiver) += t.area;
+        at(sent, t.source) += t.area;
       }
       for (std::size_t i = 0; i < received.size(); ++i) {
         ASSERT_EQ(received[i], transfers.forward[i].projected) << spec << " patch " << i;
@@ -57,8 +58,12 @@ TEST_P(DiscreteEngines, AreasOfAPatchSumToItsPixels) {
 
 double total_difference(const PairAreas& exact, PairAreas found) {
   double sum = 0;
-  for (const auto& [pair, area] : exact) found[pair] -= area;
-  for (const auto& [pair, area] : found) sum += std::abs(area);
+  for (const auto& [pair, area] : exact) {
+    found[pair] -= area;
+  }
+  for (const auto& [pair, area] : found) {
+    sum += std::abs(area);
+  }
   return sum;
 }
 
@@ -74,7 +79,9 @@ TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
       // The first ones look along axes, where pixels may happen to fit.
       for (auto omega = directions.begin() + 14; omega != directions.end(); ++omega) {
         const PairAreas areas = areas_of(exact(*omega, {}));
-        for (const auto& [pair, area] : areas) total += area;
+        for (const auto& [pair, area] : areas) {
+          total += area;
+        }
         sum += total_difference(areas, areas_of(engine(*omega, {})));
       }
       return sum / total;
@@ -87,7 +94,7 @@ TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
   }
 }
 
-/// The other way round the same centres are met, mirrored. Only an edge that runs through centres
+/// The other way round the same centers are met, mirrored. Only an edge that runs through centers
 /// gives them to another side then; where a scene's edges run along the grid, to a row of pixels.
 TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
   constexpr int resolution = 64;
@@ -97,10 +104,13 @@ TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
     const TransferEngine engine = engine_of(GetParam(), scene, {.resolution = resolution});
     for (const Vec3& omega : testing::test_directions(20, 8)) {
       PairAreas there = areas_of(engine(omega, {})), back;
-      for (const Transfer& t : engine(-1 * omega, {}).exchanges)
+      for (const Transfer& t : engine(-1 * omega, {}).exchanges) {
         back[{t.source, t.receiver}] = t.area;
+      }
       double all = 0;
-      for (const auto& [pair, area] : there) all += area;
+      for (const auto& [pair, area] : there) {
+        all += area;
+      }
       const double differ = total_difference(there, back);
       EXPECT_LE(differ, 8.0 / resolution * all)
           << scene->name() << " " << omega.x << " " << omega.y;
@@ -131,10 +141,10 @@ TEST(DiscreteEngines, ZBufferAndPainterAgree) {
 /// Two unit squares face each other in pixels of 1/64.
 TEST_P(DiscreteEngines, PixelsThatFitAreExact) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
-  sketch.face({{0, 0, 1}, {0, 1, 1}, {0.5, 1, 1}, {0.5, 0, 1}}, grey);
-  sketch.face({{0.5, 0, 2}, {0.5, 1, 2}, {1, 1, 2}, {1, 0, 2}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {0.5, 1, 1}, {0.5, 0, 1}}, gray);
+  sketch.face({{0.5, 0, 2}, {0.5, 1, 2}, {1, 1, 2}, {1, 0, 2}}, gray);
   const Transfers transfers =
       engine_of(GetParam(), sketch.scene(), {.resolution = 64})({0, 0, 1}, {});
   EXPECT_EQ(areas_of(transfers), (PairAreas{{{0, 1}, 0.5}, {{0, 2}, 0.5}}));
@@ -142,12 +152,12 @@ TEST_P(DiscreteEngines, PixelsThatFitAreExact) {
   EXPECT_EQ(transfers.counts.pixels, 2 * 64 * 64);
 }
 
-/// What falls between the centres of pixels is lost, and said to be.
+/// What falls between the centers of pixels is lost, and said to be.
 TEST_P(DiscreteEngines, SmallPatchesAreMissedAndCounted) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
-  sketch.face({{0.001, 0.001, 1}, {0.001, 0.002, 1}, {0.002, 0.002, 1}, {0.002, 0.001, 1}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
+  sketch.face({{0.001, 0.001, 1}, {0.001, 0.002, 1}, {0.002, 0.002, 1}, {0.002, 0.001, 1}}, gray);
   const auto scene = sketch.scene();
   const auto at = [&](int resolution) {
     return engine_of(GetParam(), scene, {.resolution = resolution})({0, 0, 1}, {});
@@ -167,7 +177,9 @@ TEST_P(DiscreteEngines, TheFurnaceIsAtTwoForAnyNumberOfThreads) {
                        .tolerance = 1e-13,
                        .threads = 1};
   const Solution one = solve(load_scene("furnace"), options);
-  for (const Rgb& b : one.radiosity) EXPECT_NEAR(b.r, 2, 1e-10);
+  for (const Rgb& b : one.radiosity) {
+    EXPECT_NEAR(b.r, 2, 1e-10);
+  }
   EXPECT_EQ(one.statistics.closure_defect_max, 0);
   EXPECT_GT(one.statistics.counts.pixels, 32 * 60 * 60);
   options.threads = 4;
@@ -180,8 +192,8 @@ TEST_P(DiscreteEngines, TheFurnaceIsAtTwoForAnyNumberOfThreads) {
 /// Where Newell's tests find an order, it shows what the tree's shows.
 TEST(NewellOrder, ShowsWhatTheTreeShows) {
   Sketch light_in_ceiling;
-  const int grey = light_in_ceiling.material(0.5, 0), bright = light_in_ceiling.material(0.5, 9);
-  light_in_ceiling.box({0, 0, 0}, {3, 2, 1}, true, grey);
+  const int gray = light_in_ceiling.material(0.5, 0), bright = light_in_ceiling.material(0.5, 9);
+  light_in_ceiling.box({0, 0, 0}, {3, 2, 1}, true, gray);
   light_in_ceiling.face({{1, 1, 1}, {1, 1.5, 1}, {2, 1.5, 1}, {2, 1, 1}}, bright);
   for (const auto& scene :
        {load_scene("cornell-box"), load_scene("sphere-flake:levels=1"), load_scene("furnace"),
@@ -212,16 +224,16 @@ TEST(NewellOrder, GivesUpOnCirclesAndCuts) {
               ::testing::MatchesRegex("boards: seen along 0, 0, 1, patches [0-9, ]+ overlap in a "
                                       "circle: .*newell.*bsp.*"));
   Sketch crossed;
-  const int grey = crossed.material(0.5, 1);
-  crossed.face({{0, 0, 0}, {2, 0, 1}, {2, 1, 1}, {0, 1, 0}}, grey);
-  crossed.face({{0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}, grey);
+  const int gray = crossed.material(0.5, 1);
+  crossed.face({{0, 0, 0}, {2, 0, 1}, {2, 1, 1}, {0, 1, 0}}, gray);
+  crossed.face({{0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}, gray);
   EXPECT_THAT(complaint(crossed.scene(), {0, 0, 1}),
               ::testing::HasSubstr("patches 0 and 1 cut through each other"));
   // Both reach over both sides of the other's plane, but not where they overlap.
   Sketch skew;
-  ASSERT_EQ(skew.material(0.5, 1), grey);
-  skew.face({{0, 0, 0}, {4, 0, 2}, {4, 1, 2}, {0, 1, 0}}, grey);
-  skew.face({{0, -1, 1}, {1, -1, 1}, {1, 5, 0}, {0, 5, 0}}, grey);
+  ASSERT_EQ(skew.material(0.5, 1), gray);
+  skew.face({{0, 0, 0}, {4, 0, 2}, {4, 1, 2}, {0, 1, 0}}, gray);
+  skew.face({{0, -1, 1}, {1, -1, 1}, {1, 5, 0}, {0, 5, 0}}, gray);
   EXPECT_EQ(complaint(skew.scene(), {0, 0, 1}), "no complaint");
 }
 
@@ -244,7 +256,7 @@ TEST_P(DiscreteEngines, StopAndRefuse) {
   }
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(engine_of(GetParam(), scene)({0, 0, 1}, cancellation), Cancelled);
+  EXPECT_THROW(engine_of(GetParam(), scene)({0, 0, 1}, cancellation), Canceled);
 }
 
 }  // namespace

@@ -29,7 +29,9 @@ class ExactEngines : public ::testing::TestWithParam<Engine> {
   double only_area(const Sketch& sketch) {
     const Transfers transfers = transfers_of(GetParam(), sketch.scene(), {0, 0, 1});
     EXPECT_EQ(transfers.exchanges.size(), 1u);
-    if (transfers.exchanges.size() != 1) return 0;
+    if (transfers.exchanges.size() != 1) {
+      return 0;
+    }
     EXPECT_EQ(transfers.exchanges[0].receiver, 0);
     EXPECT_EQ(transfers.exchanges[0].source, 1);
     return transfers.exchanges[0].area;
@@ -38,7 +40,9 @@ class ExactEngines : public ::testing::TestWithParam<Engine> {
 
 /// Faces up, respectively down, at height z.
 std::vector<Vec3> up(std::vector<Vec3> outline, double z) {
-  for (Vec3& p : outline) p.z = z;
+  for (Vec3& p : outline) {
+    p.z = z;
+  }
   return outline;
 }
 std::vector<Vec3> down(std::vector<Vec3> outline, double z) {
@@ -52,28 +56,28 @@ std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
 
 TEST_P(ExactEngines, SquaresGiveTheRoundedTruth) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
+  const int gray = sketch.material(0.5, 1);
   // 1 - 0.1 and the like are the roundings of what the doubles' own values give.
-  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
-  sketch.face(down(rectangle(0.1, -1, 3, 2), 1), grey);
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
+  sketch.face(down(rectangle(0.1, -1, 3, 2), 1), gray);
   EXPECT_EQ(only_area(sketch), 1 - 0.1);
 }
 
 TEST_P(ExactEngines, ThirdsAreRoundedOnce) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
-  sketch.face(down({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}}, 1), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
+  sketch.face(down({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}}, 1), gray);
   EXPECT_EQ(only_area(sketch), 1.0 / 6);
 }
 
 TEST_P(ExactEngines, PartsRoundABlockerAddUpToTheRoundedTruth) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(up(rectangle(0, 0, 1, 1), 0), grey);
-  sketch.face(down(rectangle(-1, -1, 2, 2), 2), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
+  sketch.face(down(rectangle(-1, -1, 2, 2), 2), gray);
   // In the way, its back to the receiver: in the square it is 3/4 long and rises to 9/28.
-  sketch.face(up({{0.25, 0.25, 0}, {7.25, 0.25, 0}, {7.25, 3.25, 0}}, 1), grey);
+  sketch.face(up({{0.25, 0.25, 0}, {7.25, 0.25, 0}, {7.25, 3.25, 0}}, 1), gray);
   const Transfers transfers = transfers_of(GetParam(), sketch.scene(), {0, 0, 1});
   const double hidden = 27.0 / 224;
   EXPECT_EQ(transfers.forward[0].projected, 1);
@@ -85,31 +89,31 @@ TEST_P(ExactEngines, PartsRoundABlockerAddUpToTheRoundedTruth) {
   EXPECT_EQ(transfers.exchanges[0].area, 197.0 / 224);
 }
 
-TEST_P(ExactEngines, StopAtOnceWhenCancelled) {
+TEST_P(ExactEngines, StopAtOnceWhenCanceled) {
   const auto scene = load_scene("cornell-box");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
   const Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(engine({0, 0, 1}, cancellation), Cancelled);
+  EXPECT_THROW(engine({0, 0, 1}, cancellation), Canceled);
 }
 
-TEST_P(ExactEngines, StopSoonWhenCancelledUnderWay) {
+TEST_P(ExactEngines, StopSoonWhenCanceledUnderWay) {
   const auto scene = load_scene("sphere-flake:levels=2,slices=10,stacks=6");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
   using Clock = std::chrono::steady_clock;
   const Cancellation cancellation;
-  Clock::time_point cancelled;
+  Clock::time_point canceled;
   std::thread canceller([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    cancelled = Clock::now();
+    canceled = Clock::now();
     cancellation.cancel();
   });
-  EXPECT_THROW(engine(normalized({1, 2, 3}), cancellation), Cancelled);
+  EXPECT_THROW(engine(normalized({1, 2, 3}), cancellation), Canceled);
   canceller.join();
   // 50 ms are promised; machines may be busy.
-  EXPECT_LT(Clock::now() - cancelled, std::chrono::milliseconds(500));
+  EXPECT_LT(Clock::now() - canceled, std::chrono::milliseconds(500));
 }
 
 TEST_P(ExactEngines, GiveTheSameBitsEachTimeAndInAnyThread) {
@@ -140,7 +144,9 @@ using Pair = std::pair<PatchId, PatchId>;
 
 std::map<Pair, double> by_pair(const Transfers& transfers) {
   std::map<Pair, double> areas;
-  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+  for (const Transfer& t : transfers.exchanges) {
+    areas[{t.receiver, t.source}] = t.area;
+  }
   return areas;
 }
 
@@ -151,7 +157,9 @@ double difference(const Scene& scene, const Transfers& a, const Transfers& b) {
     largest = std::max(largest, std::abs(one - other) / scene.patch(i).area);
   };
   auto pairs = by_pair(a);
-  for (const auto& [pair, area] : by_pair(b)) pairs[pair] -= area;
+  for (const auto& [pair, area] : by_pair(b)) {
+    pairs[pair] -= area;
+  }
   for (const auto& [pair, area] : pairs) {
     compare(pair.first, area, 0);
     compare(pair.second, area, 0);

@@ -9,10 +9,11 @@
 #include <numeric>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/exact_form_factors.h"
 #include "transillum/hemicube_image.h"
-#include "visibility/hemicube.h"
+#include "visibility/pixels/hemicube.h"
 
 namespace transillum {
 namespace {
@@ -28,14 +29,18 @@ double row_sum(const FormFactors& f, PatchId i) {
 double factor(const FormFactors& f, PatchId i, PatchId j) {
   const auto row = static_cast<std::size_t>(i);
   for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
-    if (f.source[k] == j) return f.value[k];
+    if (f.source[k] == j) {
+      return f.value[k];
+    }
   }
   return 0;
 }
 
 std::vector<Vec3> square(double half, double z, bool up) {
   std::vector<Vec3> outline{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
-  if (!up) std::swap(outline[1], outline[3]);
+  if (!up) {
+    std::swap(outline[1], outline[3]);
+  }
   return outline;
 }
 
@@ -62,15 +67,17 @@ TEST(HemicubeFactors, RowsOfClosedScenesSumToOne) {
   for (const char* spec : {"cornell-box", "furnace", "rooms", "sphere-flake:levels=0"}) {
     const auto scene = load_scene(spec);
     const FormFactors f = hemicube_form_factors(*scene, {.resolution = 32});
-    for (PatchId i = 0; i < scene->patch_count(); ++i) ASSERT_NEAR(row_sum(f, i), 1, 1e-9) << spec;
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      ASSERT_NEAR(row_sum(f, i), 1, 1e-9) << spec;
+    }
   }
 }
 
 /// From a point to a square above it.
 TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(square(1e-3, 0, true), grey).face(square(0.5, 1, false), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(square(1e-3, 0, true), gray).face(square(0.5, 1, false), gray);
   const auto scene = sketch.scene();
   const double r = std::sqrt(1.25);
   const double exact = 4 / std::numbers::pi * (0.5 / r) * std::atan(0.5 / r);
@@ -89,8 +96,8 @@ TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
   const double exact = 0.1998248957;
   const auto error = [&](double patch_area) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.face(square(0.5, 0, true), grey).face(square(0.5, 1, false), grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.face(square(0.5, 0, true), gray).face(square(0.5, 1, false), gray);
     const auto scene = sketch.scene({.max_patch_area = patch_area});
     const FormFactors f = hemicube_form_factors(*scene, {.resolution = 256});
     double power = 0;
@@ -108,16 +115,16 @@ TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
 
 TEST(HemicubeFactors, WhatIsNearerHidesAndBacksAbsorb) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(square(1e-3, 0, true), grey)
-      .face(square(1, 1, false), grey)
-      .face(square(9, 2, false), grey)
-      .face(square(2, 3, false), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(square(1e-3, 0, true), gray)
+      .face(square(1, 1, false), gray)
+      .face(square(9, 2, false), gray)
+      .face(square(2, 3, false), gray);
   const FormFactors seen = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
   EXPECT_GT(factor(seen, 0, 1), 0.5);
   EXPECT_GT(factor(seen, 0, 2), 0.2);
   EXPECT_EQ(factor(seen, 0, 3), 0);
-  sketch.face(square(1, 0.5, true), grey);
+  sketch.face(square(1, 0.5, true), gray);
   const FormFactors shaded = hemicube_form_factors(*sketch.scene(), {.resolution = 64});
   EXPECT_EQ(factor(shaded, 0, 1), 0);
   EXPECT_LT(row_sum(shaded, 0), 0.3);
@@ -127,11 +134,15 @@ TEST(HemicubeFactors, WhatIsNearerHidesAndBacksAbsorb) {
 TEST(HemicubeFactors, ALightInItsCeilingShines) {
   for (const bool light_first : {true, false}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 0), bright = sketch.material(0, 10);
-    if (light_first) sketch.face(square(0.3, 1, false), bright);
-    sketch.face(square(1, 1, false), grey);
-    if (!light_first) sketch.face(square(0.3, 1, false), bright);
-    sketch.face(square(0.1, 0, true), grey);
+    const int gray = sketch.material(0.5, 0), bright = sketch.material(0, 10);
+    if (light_first) {
+      sketch.face(square(0.3, 1, false), bright);
+    }
+    sketch.face(square(1, 1, false), gray);
+    if (!light_first) {
+      sketch.face(square(0.3, 1, false), bright);
+    }
+    sketch.face(square(0.1, 0, true), gray);
     const FormFactors f = hemicube_form_factors(*sketch.scene(), {.resolution = 128});
     EXPECT_NEAR(factor(f, 2, light_first ? 0 : 1), 0.1042, 5e-3);
   }
@@ -150,18 +161,30 @@ std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
   std::vector<int> parts(static_cast<std::size_t>(patches), 0), todo;
   for (std::size_t first = 0; first < cells.size(); ++first) {
     const PatchId patch = cells[first];
-    if (patch == no_patch) continue;
-    ++parts[static_cast<std::size_t>(patch)];
+    if (patch == no_patch) {
+      continue;
+    }
+    ++at(parts, patch);
     todo.assign(1, static_cast<int>(first));
     while (!todo.empty()) {
-      const int at = todo.back(), column = at % size, row = at / size;
+      const int cell = todo.back(), column = cell % size, row = cell / size;
       todo.pop_back();
-      if (cells[static_cast<std::size_t>(at)] != patch) continue;
-      cells[static_cast<std::size_t>(at)] = no_patch;
-      if (column > 0) todo.push_back(at - 1);
-      if (column + 1 < size) todo.push_back(at + 1);
-      if (row > 0) todo.push_back(at - size);
-      if (row + 1 < size) todo.push_back(at + size);
+      if (at(cells, cell) != patch) {
+        continue;
+      }
+      at(cells, cell) = no_patch;
+      if (column > 0) {
+        todo.push_back(cell - 1);
+      }
+      if (column + 1 < size) {
+        todo.push_back(cell + 1);
+      }
+      if (row > 0) {
+        todo.push_back(cell - size);
+      }
+      if (row + 1 < size) {
+        todo.push_back(cell + size);
+      }
     }
   }
   return parts;
@@ -171,8 +194,8 @@ std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
 /// the corners.
 TEST(HemicubeImage, UnfoldsToACross) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(square(0.1, 0, true), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(square(0.1, 0, true), gray);
   constexpr int count = 16;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * std::numbers::pi * k / count;
@@ -180,7 +203,7 @@ TEST(HemicubeImage, UnfoldsToACross) {
     const Vec3 along = 0.75 * Vec3{-out.y, out.x, 0}, up = 0.5 * (Vec3{0, 0, 1} - out);
     const Vec3 middle = 5 * out + Vec3{0, 0, 5};
     sketch.face(
-        {middle + along - up, middle - along - up, middle - along + up, middle + along + up}, grey);
+        {middle + along - up, middle - along - up, middle - along + up, middle + along + up}, gray);
   }
   const auto scene = sketch.scene();
   const auto tree = std::make_shared<const BspTree>(*scene);
@@ -188,7 +211,9 @@ TEST(HemicubeImage, UnfoldsToACross) {
   std::vector<int> met(image.items.size(), 0);
   for (int row = 0; row < image.cross(); ++row) {
     for (int column = 0; column < image.cross(); ++column) {
-      if (const auto pixel = image.pixel_at(column, row)) ++met[*pixel];
+      if (const auto pixel = image.pixel_at(column, row)) {
+        ++met[*pixel];
+      }
     }
   }
   EXPECT_THAT(met, ::testing::Each(1));
@@ -205,7 +230,7 @@ TEST(HemicubeImage, IsTheRowOfTheEngine) {
     for (const PatchId i : {0, scene->patch_count() / 2, scene->patch_count() - 1}) {
       const HemicubeImage image = hemicube_image(scene, tree, i, {.resolution = 32});
       for (PatchId j = 0; j < scene->patch_count(); ++j) {
-        EXPECT_EQ(image.form_factors[static_cast<std::size_t>(j)], factor(f, i, j)) << spec;
+        EXPECT_EQ(at(image.form_factors, j), factor(f, i, j)) << spec;
       }
     }
   }
@@ -280,7 +305,7 @@ TEST(HemicubeSolve, RefusesWhatItHasNot) {
   EXPECT_THROW(solve_with([](auto& o) { o.memory = 100; }), std::runtime_error);
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(solve_by_hemicubes(scene, {}, cancellation), Cancelled);
+  EXPECT_THROW(solve_by_hemicubes(scene, {}, cancellation), Canceled);
 }
 
 }  // namespace

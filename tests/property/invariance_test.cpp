@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -27,8 +28,8 @@ void expect_same_transfers(std::shared_ptr<const Scene> a, std::shared_ptr<const
   for (const Vec3& omega : testing::test_directions(15, 9)) {
     std::vector<double> difference(n * n, 0.0);
     for (const Transfer& t : engine_a(omega, {}).exchanges) {
-      const auto i = static_cast<std::size_t>(patch_in_b[static_cast<std::size_t>(t.receiver)]);
-      const auto j = static_cast<std::size_t>(patch_in_b[static_cast<std::size_t>(t.source)]);
+      const auto i = static_cast<std::size_t>(at(patch_in_b, t.receiver));
+      const auto j = static_cast<std::size_t>(at(patch_in_b, t.source));
       difference[i * n + j] += t.area * scale * scale;
     }
     for (const Transfer& t : engine_b(normalized(turn(omega)), {}).exchanges) {
@@ -84,7 +85,7 @@ TEST(Invariance, OrderOfFaces) {
     std::shuffle(order.begin(), order.end(), std::mt19937(6));
     std::vector<int> place(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
-      place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+      at(place, order[k]) = static_cast<int>(k);
     }
     expect_same_transfers(
         std::make_shared<const Scene>(description),
@@ -97,14 +98,14 @@ TEST(Invariance, OrderOfFaces) {
 TEST(Invariance, PatchCutByHand) {
   const auto room = [](bool cut) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.box({0, 0, 0}, {3, 2, 2}, true, grey);
-    sketch.box({1, 0.5, 0.5}, {2, 1.2, 1.1}, false, grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.box({0, 0, 0}, {3, 2, 2}, true, gray);
+    sketch.box({1, 0.5, 0.5}, {2, 1.2, 1.1}, false, gray);
     if (cut) {
-      sketch.face({{0.2, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.2, 1.7}}, grey);
-      sketch.face({{0.9, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.9, 1.5}}, grey);
+      sketch.face({{0.2, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.2, 1.7}}, gray);
+      sketch.face({{0.9, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.9, 1.5}}, gray);
     } else {
-      sketch.face({{0.2, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.9, 1.5}, {0.9, 0.2, 1.7}}, grey);
+      sketch.face({{0.2, 0.2, 1.7}, {0.2, 0.9, 1.5}, {0.9, 0.9, 1.5}, {0.9, 0.2, 1.7}}, gray);
     }
     return sketch.scene();
   };
@@ -124,10 +125,16 @@ TEST(Invariance, PatchCutByHand) {
     };
     for (const Transfer& t : whole_engine(omega, {}).exchanges) {
       at(t.receiver, t.source) += t.area;
-      if (t.receiver == last || t.source == last) seen += t.area;
+      if (t.receiver == last || t.source == last) {
+        seen += t.area;
+      }
     }
-    for (const Transfer& t : halves_engine(omega, {}).exchanges) at(t.receiver, t.source) -= t.area;
-    for (const double d : difference) ASSERT_NEAR(d, 0, 1e-13);
+    for (const Transfer& t : halves_engine(omega, {}).exchanges) {
+      at(t.receiver, t.source) -= t.area;
+    }
+    for (const double d : difference) {
+      ASSERT_NEAR(d, 0, 1e-13);
+    }
   }
   EXPECT_GT(seen, 1);
 }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 
 namespace transillum {
 namespace {
@@ -39,7 +40,7 @@ struct Recorded {
   }
 };
 
-/// Area of a union of convex polygons: between two neighbours among the x of all corners and
+/// Area of a union of convex polygons: between two neighbors among the x of all corners and
 /// crossings no edges cross, so the union's height is linear and its middle tells the area.
 class UnionArea {
  public:
@@ -47,7 +48,9 @@ class UnionArea {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const Edge edge{polygon[k], polygon[(k + 1) % polygon.size()]};
       cuts_.push_back(edge.a.x);
-      for (const Edge& other : edges_) add_crossing(edge, other);
+      for (const Edge& other : edges_) {
+        add_crossing(edge, other);
+      }
       edges_.push_back(edge);
     }
     polygons_.push_back(polygon);
@@ -57,9 +60,11 @@ class UnionArea {
     std::vector<double> cuts = cuts_;
     std::sort(cuts.begin(), cuts.end());
     double sum = 0;
-    for (std::size_t k = 1; k < cuts.size(); ++k)
-      if (cuts[k] > cuts[k - 1])
+    for (std::size_t k = 1; k < cuts.size(); ++k) {
+      if (cuts[k] > cuts[k - 1]) {
         sum += (cuts[k] - cuts[k - 1]) * height((cuts[k - 1] + cuts[k]) / 2);
+      }
+    }
     return sum;
   }
 
@@ -73,9 +78,13 @@ class UnionArea {
   void add_crossing(const Edge& e, const Edge& f) {
     const double ex = e.b.x - e.a.x, ey = e.b.y - e.a.y, fx = f.b.x - f.a.x, fy = f.b.y - f.a.y;
     const double turn = ex * fy - ey * fx;
-    if (turn == 0) return;
+    if (turn == 0) {
+      return;
+    }
     const double t = ((f.a.x - e.a.x) * fy - (f.a.y - e.a.y) * fx) / turn;
-    if (t > 0 && t < 1) cuts_.push_back(e.a.x + t * ex);
+    if (t > 0 && t < 1) {
+      cuts_.push_back(e.a.x + t * ex);
+    }
   }
 
   double height(double x) const {
@@ -84,11 +93,15 @@ class UnionArea {
       double low = HUGE_VAL, high = -HUGE_VAL;
       for (std::size_t k = 0; k < polygon.size(); ++k) {
         const Edge edge{polygon[k], polygon[(k + 1) % polygon.size()]};
-        if (!edge.spans(x)) continue;
+        if (!edge.spans(x)) {
+          continue;
+        }
         low = std::min(low, edge.y(x));
         high = std::max(high, edge.y(x));
       }
-      if (low < high) spans.emplace_back(low, high);
+      if (low < high) {
+        spans.emplace_back(low, high);
+      }
     }
     std::sort(spans.begin(), spans.end());
     double sum = 0, done = -HUGE_VAL;
@@ -114,14 +127,16 @@ TEST(MapHistory, MapHasTheAreaOfTheUnionOfWhatWasProcessed) {
       for (std::int32_t k = 0; k < history.step_count(); ++k) {
         if (history.step(k).row != MapRecord::no_row) {
           std::vector<Vec2> polygon;
-          const auto& fragment = recorded.tree.fragment(record.order[static_cast<std::size_t>(k)]);
-          for (const BspTree::Corner& corner : recorded.tree.corners(fragment))
-            polygon.push_back(record.frame.project(
-                recorded.tree.points()[static_cast<std::size_t>(corner.point)]));
+          const auto& fragment = recorded.tree.fragment(at(record.order, k));
+          for (const BspTree::Corner& corner : recorded.tree.corners(fragment)) {
+            polygon.push_back(record.frame.project(at(recorded.tree.points(), corner.point)));
+          }
           expected.add(polygon);
         }
         double area = 0;
-        for (const std::int32_t r : record.map_after(k)) area += record.area(history.row(r));
+        for (const std::int32_t r : record.map_after(k)) {
+          area += record.area(history.row(r));
+        }
         ASSERT_NEAR(area, expected.area(), 1e-12 * scale) << scene->name() << " step " << k;
       }
     }
@@ -137,11 +152,16 @@ TEST(MapHistory, StepsTellWhatTheTableTells) {
         for (std::int32_t r = 0; r < static_cast<std::int32_t>(record.rows.size()); ++r) {
           const MapRecord::Row& row = history.row(r);
           const bool part = row.parent != MapRecord::no_row;
-          if (row.consumed == k && row.made < k) cut.push_back(r);
-          if (row.made == k && row.consumed == k) inside.push_back(r);
-          if (row.made == k && row.consumed > k && part) outside.push_back(r);
-          EXPECT_EQ(history.cut_by(r),
-                    part ? record.step_patch[static_cast<std::size_t>(row.made)] : no_patch);
+          if (row.consumed == k && row.made < k) {
+            cut.push_back(r);
+          }
+          if (row.made == k && row.consumed == k) {
+            inside.push_back(r);
+          }
+          if (row.made == k && row.consumed > k && part) {
+            outside.push_back(r);
+          }
+          EXPECT_EQ(history.cut_by(r), part ? at(record.step_patch, row.made) : no_patch);
         }
         EXPECT_THAT(history.inside_at(k), ElementsAreArray(inside));
         EXPECT_THAT(history.outside_at(k), ElementsAreArray(outside));
@@ -151,9 +171,13 @@ TEST(MapHistory, StepsTellWhatTheTableTells) {
         const MapHistory::Step& step = history.step(k);
         EXPECT_EQ(step.cut, static_cast<std::int32_t>(cut.size()));
         EXPECT_EQ(step.map_size, static_cast<std::int32_t>(record.map_after(k).size()));
-        if (step.row == MapRecord::no_row) continue;
+        if (step.row == MapRecord::no_row) {
+          continue;
+        }
         double covered = 0;
-        for (const std::int32_t r : inside) covered += record.area(history.row(r));
+        for (const std::int32_t r : inside) {
+          covered += record.area(history.row(r));
+        }
         EXPECT_DOUBLE_EQ(step.covered, covered);
         EXPECT_DOUBLE_EQ(step.area, record.area(history.row(step.row)));
         EXPECT_LE(step.smallest, step.area);
@@ -171,7 +195,9 @@ TEST(MapHistory, ExchangesOfAllStepsAddUpToTheTransfers) {
       for (std::int32_t k = 0; k < history.step_count(); ++k) {
         int exchanges = 0;
         for (const std::int32_t r : history.inside_at(k)) {
-          if (!history.exchanges(r)) continue;
+          if (!history.exchanges(r)) {
+            continue;
+          }
           ++exchanges;
           sums[{history.step(k).patch, history.row(r).patch}] +=
               history.record().area(history.row(r));
@@ -180,8 +206,9 @@ TEST(MapHistory, ExchangesOfAllStepsAddUpToTheTransfers) {
       }
       const auto& expected = recorded.transfers[d].exchanges;
       ASSERT_EQ(sums.size(), expected.size());
-      for (const Transfer& transfer : expected)
+      for (const Transfer& transfer : expected) {
         EXPECT_NEAR((sums[{transfer.receiver, transfer.source}]), transfer.area, 1e-12);
+      }
     }
   }
 }
@@ -189,12 +216,15 @@ TEST(MapHistory, ExchangesOfAllStepsAddUpToTheTransfers) {
 TEST(MapHistory, ClosedScenesLeaveNothingOpenAboveAReceiver) {
   const auto closed = load_scene("furnace");
   int receivers = 0;
-  for (const MapHistory& history : Recorded(closed, 12).histories)
+  for (const MapHistory& history : Recorded(closed, 12).histories) {
     for (std::int32_t k = 0; k < history.step_count(); ++k) {
-      if (!history.step(k).front_facing || history.step(k).area < 1e-6) continue;
+      if (!history.step(k).front_facing || history.step(k).area < 1e-6) {
+        continue;
+      }
       ++receivers;
       EXPECT_LT(history.step(k).open_share(), 1e-10);
     }
+  }
   EXPECT_GT(receivers, 0);
 }
 
@@ -203,10 +233,16 @@ TEST(MapHistory, FindsTheEventsOfAPatch) {
     for (const MapHistory& history : Recorded(scene, 9).histories) {
       for (PatchId patch = 0; patch < scene->patch_count(); ++patch) {
         std::set<std::int32_t> expected;
-        for (std::int32_t k = 0; k < history.step_count(); ++k)
-          if (history.step(k).patch == patch) expected.insert(k);
-        for (const MapRecord::Row& row : history.record().rows)
-          if (row.patch == patch && row.consumed != MapRecord::never) expected.insert(row.consumed);
+        for (std::int32_t k = 0; k < history.step_count(); ++k) {
+          if (history.step(k).patch == patch) {
+            expected.insert(k);
+          }
+        }
+        for (const MapRecord::Row& row : history.record().rows) {
+          if (row.patch == patch && row.consumed != MapRecord::never) {
+            expected.insert(row.consumed);
+          }
+        }
         ASSERT_THAT(history.steps_of(patch), ElementsAreArray(expected));
 
         for (std::int32_t k = -1; k <= history.step_count(); ++k) {

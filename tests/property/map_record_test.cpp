@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum {
@@ -45,14 +46,20 @@ TEST(MapRecord, AreaIsKeptAtEveryStep) {
     for (std::int32_t step = 0; step < record.step_count(); ++step) {
       double area = 0;
       for (const std::int32_t row : record.map_after(step)) {
-        area += area_of(record.outline(record.rows[static_cast<std::size_t>(row)]));
+        area += area_of(record.outline(at(record.rows, row)));
       }
       double taken = 0, put = 0;
       for (const MapRecord::Row& row : record.rows) {
-        if (row.made != step) continue;
+        if (row.made != step) {
+          continue;
+        }
         const double part = area_of(record.outline(row));
-        if (row.consumed == step) taken += part;
-        if (row.parent == MapRecord::no_row) put += part;
+        if (row.consumed == step) {
+          taken += part;
+        }
+        if (row.parent == MapRecord::no_row) {
+          put += part;
+        }
       }
       ASSERT_NEAR(area, area_before - taken + put, 1e-12) << "step " << step;
       ASSERT_LE(taken, put + 1e-12) << "step " << step;
@@ -71,9 +78,9 @@ TEST(MapRecord, RowsTellWhereTheyCameFrom) {
   for (const MapRecord::Row& row : record.rows) {
     EXPECT_LE(row.made, row.consumed);
     if (row.parent == MapRecord::no_row) {
-      EXPECT_EQ(row.patch, record.step_patch[static_cast<std::size_t>(row.made)]);
+      EXPECT_EQ(row.patch, at(record.step_patch, row.made));
     } else {
-      const MapRecord::Row& parent = record.rows[static_cast<std::size_t>(row.parent)];
+      const MapRecord::Row& parent = at(record.rows, row.parent);
       EXPECT_EQ(row.patch, parent.patch);
       EXPECT_EQ(row.made, parent.consumed);
       ++cut;
@@ -83,8 +90,10 @@ TEST(MapRecord, RowsTellWhereTheyCameFrom) {
   const auto shining = [&](std::int32_t step) {
     double rows = 0, area = 0;
     for (const std::int32_t number : record.map_after(step)) {
-      const MapRecord::Row& row = record.rows[static_cast<std::size_t>(number)];
-      if (row.front_facing) continue;
+      const MapRecord::Row& row = at(record.rows, number);
+      if (row.front_facing) {
+        continue;
+      }
       rows += 1;
       area += area_of(record.outline(row));
     }

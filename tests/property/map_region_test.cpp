@@ -28,8 +28,11 @@ class Picture {
       low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
       high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
     }
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) covers_.push_back(covers_at(point(x, y)));
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        covers_.push_back(covers_at(point(x, y)));
+      }
+    }
   }
 
   Vec2 point(int x, int y) const {
@@ -45,7 +48,7 @@ class Picture {
     double area = 0;
     int rim = 0;  ///< pixels with others beside them
   };
-  /// The pixels that can be reached from one through neighbours with the same cover.
+  /// The pixels that can be reached from one through neighbors with the same cover.
   Filled fill(int x, int y) const {
     std::vector<char> seen(covers_.size());
     std::vector<std::array<int, 2>> waiting{{x, y}};
@@ -60,7 +63,9 @@ class Picture {
         const int nx = px + dx, ny = py + dy;
         const bool same = nx >= 0 && ny >= 0 && nx < side && ny < side && at(nx, ny) == at(x, y);
         rim = rim || !same;
-        if (!same || seen[index(nx, ny)]) continue;
+        if (!same || seen[index(nx, ny)]) {
+          continue;
+        }
         seen[index(nx, ny)] = 1;
         waiting.push_back({nx, ny});
       }
@@ -76,8 +81,9 @@ class Picture {
     std::vector<std::int32_t> steps;
     for (std::int32_t k = 0; k < history_.step_count(); ++k) {
       const std::int32_t row = history_.step(k).row;
-      if (row != MapRecord::no_row && history_.record().covers(history_.row(row), p))
+      if (row != MapRecord::no_row && history_.record().covers(history_.row(row), p)) {
         steps.push_back(k);
+      }
     }
     return steps;
   }
@@ -126,20 +132,26 @@ TEST(MapRegion, HasTheAreaThatAPictureFills) {
         const int x = 4 * (k * 37 % 53) + 11, y = 5 * (k * 29 % 41) + 13;
         const auto region = region_at(history, picture.point(x, y));
         ASSERT_EQ(region.has_value(), picture.covered(x, y));
-        if (!region) continue;
+        if (!region) {
+          continue;
+        }
         const Picture::Filled filled = picture.fill(x, y);
         // Where the picture is too coarse for a narrow place it may end, or go on, at it.
-        if (filled.rim * picture.pixel() > 0.2 * filled.area) continue;
+        if (filled.rim * picture.pixel() > 0.2 * filled.area) {
+          continue;
+        }
         EXPECT_NEAR(region->area, filled.area, 0.5 * filled.rim * picture.pixel())
             << scene->patch_count() << ' ' << x << ' ' << y;
         ++compared;
         several += region->parts.size() > 1;
         double sum = 0;
-        for (const auto& part : region->parts)
-          for (std::size_t c = 2; c < part.size(); ++c)
+        for (const auto& part : region->parts) {
+          for (std::size_t c = 2; c < part.size(); ++c) {
             sum += std::abs((part[c - 1].x - part[0].x) * (part[c].y - part[0].y) -
                             (part[c - 1].y - part[0].y) * (part[c].x - part[0].x)) /
                    2;
+          }
+        }
         EXPECT_NEAR(sum, region->area, 1e-12);
       }
     }
@@ -177,14 +189,20 @@ TEST(MapRegion, AddsUpToWhatTheLocalMapExchanges) {
       for (int x = 0; x < Picture::side; x += 2) {
         const Vec2 point = picture.point(x, y);
         const auto is_in = [&](const MapRegion& region) { return has(region, point); };
-        if (!picture.covered(x, y) || std::any_of(found.begin(), found.end(), is_in)) continue;
+        if (!picture.covered(x, y) || std::any_of(found.begin(), found.end(), is_in)) {
+          continue;
+        }
         const auto region = region_at(history, point);
-        if (!region) continue;
+        if (!region) {
+          continue;
+        }
         found.push_back(*region);
         const std::vector<std::int32_t>& list = picture.list(x, y);
         for (std::size_t k = 1; k < list.size(); ++k) {
           const auto &i = history.step(list[k]), &j = history.step(list[k - 1]);
-          if (i.front_facing && !j.front_facing) sums[{i.patch, j.patch}] += region->area;
+          if (i.front_facing && !j.front_facing) {
+            sums[{i.patch, j.patch}] += region->area;
+          }
         }
       }
     }
@@ -207,14 +225,16 @@ TEST(MapRegion, IsTheSameFromAllItsPoints) {
   for (int k = 0; k < 30; ++k) {
     const Vec2 point = picture.point(13 * k % Picture::side, 29 * k % Picture::side);
     const auto region = region_at(history, point);
-    if (!region) continue;
+    if (!region) {
+      continue;
+    }
     for (const auto& part : region->parts) {
-      Vec2 centre;
+      Vec2 center;
       for (const Vec2& p : part) {
-        centre.x += p.x / static_cast<double>(part.size());
-        centre.y += p.y / static_cast<double>(part.size());
+        center.x += p.x / static_cast<double>(part.size());
+        center.y += p.y / static_cast<double>(part.size());
       }
-      const auto again = region_at(history, centre);
+      const auto again = region_at(history, center);
       ASSERT_TRUE(again);
       EXPECT_NEAR(again->area, region->area, 1e-9 * region->area);
     }

@@ -52,12 +52,20 @@ std::optional<bool> holds(std::span<const Vec2> outline, const Vec2& p, double n
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (length < 1e-12) continue;  // its line is noise
+    if (length < 1e-12) {
+      continue;  // its line is noise
+    }
     const double side = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
-    if (side < -near) return false;
-    if (side < near) inside = false;
+    if (side < -near) {
+      return false;
+    }
+    if (side < near) {
+      inside = false;
+    }
   }
-  if (inside) return true;
+  if (inside) {
+    return true;
+  }
   return std::nullopt;
 }
 
@@ -69,10 +77,14 @@ struct Found {
 Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
   Found found;
   for (const auto& polygon : polygons) {
-    if (polygon.area < 1e-15) continue;  // may be a point
+    if (polygon.area < 1e-15) {
+      continue;  // may be a point
+    }
     const auto inside = holds(map.outline(polygon), p, 1e-9);
     found.doubtful = found.doubtful || !inside;
-    if (inside.value_or(false)) found.polygon = &polygon;
+    if (inside.value_or(false)) {
+      found.polygon = &polygon;
+    }
   }
   return found;
 }
@@ -91,7 +103,9 @@ void expect_marked_where_wrong(const Views& views) {
     const Found truly = find(views.exact, views.exact.polygons, p);
     const Found marked = find(views.drawn, views.drawn.pixels.differences, p);
     const Found drawn = find(views.drawn, views.drawn.polygons, p);
-    if (truly.doubtful || marked.doubtful || drawn.doubtful) continue;
+    if (truly.doubtful || marked.doubtful || drawn.doubtful) {
+      continue;
+    }
     const PatchId seen = truly.polygon != nullptr ? truly.polygon->patch : no_patch;
     ASSERT_EQ(drawn.polygon != nullptr ? drawn.polygon->patch : no_patch, shown);
     ASSERT_EQ(marked.polygon != nullptr, seen != shown) << seen << " " << shown;
@@ -127,9 +141,9 @@ TEST(PixelMap, DifferencesFallAsPixelsShrink) {
 
 TEST(PixelMap, PixelsThatFitDoNotDiffer) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
-  sketch.face({{0, 0, 1}, {0, 1, 1}, {0.5, 1, 1}, {0.5, 0, 1}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {0.5, 1, 1}, {0.5, 0, 1}}, gray);
   const Views views(sketch.scene(), {0, 0, 1}, Engine::painter, 16, 0);
   EXPECT_LT(area_of(views.drawn.pixels.differences), 1e-6);  // pixels are rounded up by 2^-24
   EXPECT_NEAR(area_of(views.drawn.window), 1, 1e-6);
@@ -169,10 +183,10 @@ Step after_step(const std::shared_ptr<const Scene>& scene, const BspTree& tree,
 
 TEST(PixelMap, AllEnginesShowEachStepOfADirection) {
   Sketch concave;  // the L lies under one square and over another
-  const int grey = concave.material(0.5, 1);
-  concave.face({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, grey);
-  concave.face({{2, 0, 1}, {3, 0, 1}, {3, 2, 1}, {2, 2, 1}}, grey);
-  concave.face({{0, 2, -1}, {2, 2, -1}, {2, 3, -1}, {0, 3, -1}}, grey);
+  const int gray = concave.material(0.5, 1);
+  concave.face({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, gray);
+  concave.face({{2, 0, 1}, {3, 0, 1}, {3, 2, 1}, {2, 2, 1}}, gray);
+  concave.face({{0, 2, -1}, {2, 2, -1}, {2, 3, -1}, {0, 3, -1}}, gray);
   for (const auto& scene : {load_scene("cornell-box"), load_scene("sphere-flake:levels=1"),
                             concave.scene({.two_sided = true})}) {
     const auto tree = std::make_shared<const BspTree>(*scene);
@@ -188,7 +202,9 @@ TEST(PixelMap, AllEnginesShowEachStepOfADirection) {
           show(Engine::painter, {.resolution = 100, .order = PaintersOrder::newell});
       EXPECT_EQ(newell.pixels.items, painter.pixels.items) << scene->name() << " " << step;
       EXPECT_EQ(show(Engine::zbuffer, {.resolution = 100}).pixels.items, painter.pixels.items);
-      if (step < 0) continue;
+      if (step < 0) {
+        continue;
+      }
       // Rays meet another point of each pixel, and the same share of it is wrong.
       const Step rays = show(Engine::rays, {.resolution = 100});
       EXPECT_NE(rays.pixels.items, painter.pixels.items);
@@ -225,7 +241,7 @@ TEST(PixelMap, RefusesWhatHasNoPixels) {
   }
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {}, cancellation), Cancelled);
+  EXPECT_THROW(pixel_map(Engine::painter, scene, tree, up, no_patch, {}, cancellation), Canceled);
 }
 
 }  // namespace

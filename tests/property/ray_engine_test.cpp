@@ -21,7 +21,9 @@ using testing::Sketch;
 
 double total(const Transfers& transfers) {
   double sum = 0;
-  for (const Transfer& t : transfers.exchanges) sum += t.area;
+  for (const Transfer& t : transfers.exchanges) {
+    sum += t.area;
+  }
   return sum;
 }
 
@@ -57,13 +59,13 @@ struct Deviations {
 
 Sketch letters() {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
+  const int gray = sketch.material(0.5, 1);
   // A U, concave, above an L, looking at each other.
-  sketch.face({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, grey);
+  sketch.face({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, gray);
   sketch.face(
       {{0, 0, 1}, {0, 3, 1}, {1, 3, 1}, {1, 1, 1}, {2, 1, 1}, {2, 3, 1}, {3, 3, 1}, {3, 0, 1}},
-      grey);
-  sketch.box({-1, -1, -1}, {5, 4, 2}, true, grey);
+      gray);
+  sketch.box({-1, -1, -1}, {5, 4, 2}, true, gray);
   return sketch;
 }
 
@@ -109,7 +111,9 @@ TEST(RayEngine, CountsArePlainBinomialNumbers) {
         all.add(rest / window * lines, lines, rest_expected / window);
       }
       double never = 0;
-      for (const auto& [pair, area] : found) never += area / window * lines;
+      for (const auto& [pair, area] : found) {
+        never += area / window * lines;
+      }
       EXPECT_LE(never, 1e-5 * lines) << scene->name();
     }
   }
@@ -126,7 +130,9 @@ TEST(RayEngine, LinesSeeNoGaps) {
     for (const Vec3& omega : testing::test_directions(30, 9)) {
       const Transfers transfers = rays(omega, {});
       EXPECT_EQ(closure_defect(transfers, *scene).relative, 0) << spec;
-      for (const double seen : transfers.back_seen) ASSERT_EQ(seen, 0) << spec;
+      for (const double seen : transfers.back_seen) {
+        ASSERT_EQ(seen, 0) << spec;
+      }
       EXPECT_GT(total(transfers), 0);
     }
   }
@@ -138,7 +144,9 @@ double rms_error(const PairAreas& exact, PairAreas found) {
     sum += (found[pair] - area) * (found[pair] - area);
     found.erase(pair);
   }
-  for (const auto& [pair, area] : found) sum += area * area;
+  for (const auto& [pair, area] : found) {
+    sum += area * area;
+  }
   return std::sqrt(sum / static_cast<double>(exact.size()));
 }
 
@@ -200,9 +208,15 @@ TEST(RayEngine, IsAFunctionOfTheDirection) {
   const Transfers first = rays(omega, {});
   std::vector<Transfers> others(8);
   std::vector<std::thread> threads;
-  for (Transfers& other : others) threads.emplace_back([&] { other = rays(omega, {}); });
-  for (std::thread& thread : threads) thread.join();
-  for (const Transfers& other : others) EXPECT_TRUE(same_bits(first, other));
+  for (Transfers& other : others) {
+    threads.emplace_back([&] { other = rays(omega, {}); });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  for (const Transfers& other : others) {
+    EXPECT_TRUE(same_bits(first, other));
+  }
   EXPECT_TRUE(same_bits(rays({0, 0, 1}, {}), rays({-0.0, 0, 1}, {})));
   const TransferEngine reseeded = make_engine(Engine::rays, scene, nullptr, {.seed = 2});
   EXPECT_FALSE(same_bits(first, reseeded(omega, {})));
@@ -216,7 +230,9 @@ TEST(RayEngine, SizeAndPlaceDoNotMatter) {
     const auto scene = std::make_shared<const Scene>(
         testing::moved(flake, [&](const Vec3& p) { return size * p + shift; }));
     Transfers transfers = make_engine(Engine::rays, scene, nullptr)(omega, {});
-    for (Transfer& t : transfers.exchanges) t.area /= size * size;
+    for (Transfer& t : transfers.exchanges) {
+      t.area /= size * size;
+    }
     return transfers;
   };
   const Transfers as_is = areas(1, {});
@@ -224,9 +240,13 @@ TEST(RayEngine, SizeAndPlaceDoNotMatter) {
        {std::pair{1e-6, Vec3{}}, {1e6, Vec3{}}, {1.0, Vec3{1e6, -1e7, 1e5}}}) {
     const Transfers moved = areas(size, shift);
     PairAreas difference = areas_of(as_is);
-    for (const auto& [pair, area] : areas_of(moved)) difference[pair] -= area;
+    for (const auto& [pair, area] : areas_of(moved)) {
+      difference[pair] -= area;
+    }
     double sum = 0;
-    for (const auto& [pair, area] : difference) sum += std::abs(area);
+    for (const auto& [pair, area] : difference) {
+      sum += std::abs(area);
+    }
     EXPECT_LT(sum, 1e-4 * total(as_is)) << size;
   }
 }
@@ -239,16 +259,18 @@ TEST(RayEngine, StopsAndRefuses) {
   const TransferEngine rays = make_engine(Engine::rays, scene, nullptr);
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(rays({0, 0, 1}, cancellation), Cancelled);
+  EXPECT_THROW(rays({0, 0, 1}, cancellation), Canceled);
 }
 
-/// With rows normalised by what the same lines saw, the furnace is exact whatever they hit.
+/// With rows normalized by what the same lines saw, the furnace is exact whatever they hit.
 TEST(RayEngine, TheFurnaceIsAtTwo) {
   const Solution solution = solve(load_scene("furnace"), {.directions = 32,
                                                           .engine = Engine::rays,
                                                           .normalize = Normalization::rows,
                                                           .tolerance = 1e-13});
-  for (const Rgb& b : solution.radiosity) EXPECT_NEAR(b.r, 2, 1e-10);
+  for (const Rgb& b : solution.radiosity) {
+    EXPECT_NEAR(b.r, 2, 1e-10);
+  }
   EXPECT_EQ(solution.statistics.closure_defect_max, 0);
   EXPECT_EQ(solution.statistics.escaped, 0);
 }

@@ -23,12 +23,18 @@ double height_on_line(const Scene& scene, PatchId i, const PlaneFrame& frame, co
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 a = frame.project(scene.point(outline[k]));
     const Vec2 b = frame.project(scene.point(outline[(k + 1) % outline.size()]));
-    if ((a.y > at.y) == (b.y > at.y)) continue;
-    if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+    if ((a.y > at.y) == (b.y > at.y)) {
+      continue;
+    }
+    if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+      inside = !inside;
+    }
   }
   const Vec3& normal = scene.patch(i).normal;
   const double cosine = dot(normal, frame.omega);
-  if (!inside || std::abs(cosine) < 1e-9) return std::nan("");
+  if (!inside || std::abs(cosine) < 1e-9) {
+    return std::nan("");
+  }
   const Vec3 start = frame.origin + at.x * frame.u + at.y * frame.v;
   return dot(normal, scene.patch(i).center - start) / cosine;
 }
@@ -42,7 +48,9 @@ std::vector<Hit> hits_on_line(const Scene& scene, const PlaneFrame& frame, const
   std::vector<Hit> hits;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const double height = height_on_line(scene, i, frame, at);
-    if (!std::isnan(height)) hits.push_back({height, i});
+    if (!std::isnan(height)) {
+      hits.push_back({height, i});
+    }
   }
   // Downward, as light travels.
   std::sort(hits.begin(), hits.end(),
@@ -84,7 +92,9 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
     const double radius = 0.51 * scene->bounds().diagonal();
     const auto sampled = sampled_transfers(*scene, plane_frame(*scene, omega), radius, resolution);
     std::map<std::pair<PatchId, PatchId>, double> exact;
-    for (const Transfer& t : engine(omega, {}).exchanges) exact[{t.receiver, t.source}] = t.area;
+    for (const Transfer& t : engine(omega, {}).exchanges) {
+      exact[{t.receiver, t.source}] = t.area;
+    }
 
     const double cell = 2 * radius / resolution;
     auto pairs = exact;
@@ -92,7 +102,7 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
     for (const auto& [pair, ignored] : pairs) {
       const double a = exact.contains(pair) ? exact.at(pair) : 0.0;
       const double b = sampled.contains(pair) ? sampled.at(pair) : 0.0;
-      // A grid of lines errs by some cells along the outline, which is a few metres at most; the
+      // A grid of lines errs by some cells along the outline, which is a few meters at most; the
       // errors of its cells cancel.
       EXPECT_NEAR(a, b, 60 * cell * cell) << seed << ": " << pair.first << " sees " << pair.second;
       total += a;
@@ -119,7 +129,9 @@ TEST(SampledOrder, TreeOrderIsTheOrderOfHeights) {
         // Polygons that were new at their step, in the order of steps, against heights.
         double last = HUGE_VAL;
         for (const MapRecord::Row& row : record.rows) {
-          if (row.parent != MapRecord::no_row) continue;
+          if (row.parent != MapRecord::no_row) {
+            continue;
+          }
           const auto outline = record.outline(row);
           bool inside = true;
           for (std::size_t k = 0; k < outline.size() && inside; ++k) {
@@ -127,9 +139,13 @@ TEST(SampledOrder, TreeOrderIsTheOrderOfHeights) {
             const Vec2& b = outline[(k + 1) % outline.size()];
             inside = (b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x) > 0;
           }
-          if (!inside) continue;
+          if (!inside) {
+            continue;
+          }
           const double height = height_on_line(*scene, row.patch, record.frame, at);
-          if (std::isnan(height)) continue;
+          if (std::isnan(height)) {
+            continue;
+          }
           EXPECT_LE(height, last + 1e-9) << spec;
           last = height;
           ++compared;

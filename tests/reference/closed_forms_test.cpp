@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -86,11 +87,11 @@ TEST(ClosedForms, ASphereInAUniformEnclosureSeesItWholly) {
   const auto sums = solver.form_factor_sums();
   // eps(M)/pi measured for 2 x 2000 Fibonacci points: 6e-5 RMS.
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
-    EXPECT_NEAR(sums[static_cast<std::size_t>(i)], 1.0, 5e-4) << i;
+    EXPECT_NEAR(at(sums, i), 1.0, 5e-4) << i;
   }
 }
 
-TEST(Furnace, IsTwoEverywhereExactlyWithNormalisedRows) {
+TEST(Furnace, IsTwoEverywhereExactlyWithNormalizedRows) {
   for (const std::string& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     for (const bool two_way : {false, true}) {
@@ -110,7 +111,7 @@ TEST(Furnace, IsTwoEverywhereExactlyWithNormalisedRows) {
 }
 
 /// Plain estimator: within the bound of eq. 37, eps(M) by eq. 21.
-TEST(Furnace, IsTwoWithinTheBoundWithoutNormalisation) {
+TEST(Furnace, IsTwoWithinTheBoundWithoutNormalization) {
   for (const int directions : {64, 256, 1024}) {
     const Solution solution = solve(load_scene("furnace"), {.directions = directions,
                                                             .sampling = Sampling::hammersley,
@@ -119,7 +120,9 @@ TEST(Furnace, IsTwoWithinTheBoundWithoutNormalisation) {
     const double epsilon = 2 * std::numbers::pi / directions * (std::log2(directions) + 7);
     const double rho = 0.5;
     const double bound = rho / (1 - rho) * epsilon / std::numbers::pi * 2;
-    for (const Rgb& b : solution.radiosity) EXPECT_NEAR(b.r, 2, bound) << directions;
+    for (const Rgb& b : solution.radiosity) {
+      EXPECT_NEAR(b.r, 2, bound) << directions;
+    }
   }
 }
 
@@ -141,7 +144,9 @@ TEST(Energy, WhatIsEmittedIsAbsorbed) {
        {"cornell-box", "furnace", "boards", "rooms", "stars", "sphere-flake:levels=1"}) {
     RadiositySolver solver(load_scene(spec), {.directions = 256, .tolerance = 1e-10});
     solver.advance(RadiositySolver::Until::finished);
-    for (const double seen : solver.back_seen_shares()) ASSERT_LE(seen, 1e-12) << spec;
+    for (const double seen : solver.back_seen_shares()) {
+      ASSERT_LE(seen, 1e-12) << spec;
+    }
     EXPECT_NEAR(solver.statistics().energy_balance, 1, 2e-3) << spec;
   }
 }

@@ -9,9 +9,11 @@ namespace transillum {
 namespace {
 
 /// Reflectance 0.6 everywhere, the sky too.
-std::shared_ptr<const Scene> grey_flake() {
+std::shared_ptr<const Scene> gray_flake() {
   SceneDescription flake = describe_scene("sphere-flake:levels=1,slices=9,stacks=5");
-  for (Material& material : flake.materials) material.reflectance = {0.6, 0.6, 0.6};
+  for (Material& material : flake.materials) {
+    material.reflectance = {0.6, 0.6, 0.6};
+  }
   return std::make_shared<const Scene>(flake);
 }
 
@@ -30,7 +32,7 @@ double rms_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
 /// The whole flake comes to 0.9 % with 150 passes (ALGORITHM.md, 7.3); this small one, with larger
 /// patches, to 0.25 %. Random directions: 3.5 %, the paper's set: 1.6 %.
 TEST(DirectionsNeeded, DefaultSetReachesOnePercentOnTheFlakeWithin150Passes) {
-  const auto scene = grey_flake();
+  const auto scene = gray_flake();
   const auto reference =
       solve(scene, {.directions = 1024, .rotation = 77, .tolerance = 1e-7}).radiosity;
   const auto error = [&](const SolveOptions& options) {

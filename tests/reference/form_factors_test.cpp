@@ -20,7 +20,9 @@ constexpr double perpendicular_unit_squares = 0.2000437761;  // with a common ed
 double entry(const FormFactors& f, PatchId i, PatchId j) {
   const auto row = static_cast<std::size_t>(i);
   for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
-    if (f.source[k] == j) return f.value[k];
+    if (f.source[k] == j) {
+      return f.value[k];
+    }
   }
   return 0;
 }
@@ -28,15 +30,17 @@ double entry(const FormFactors& f, PatchId i, PatchId j) {
 double row_sum(const FormFactors& f, PatchId i) {
   const auto row = static_cast<std::size_t>(i);
   double sum = 0;
-  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) sum += f.value[k];
+  for (std::size_t k = f.row_begin[row]; k < f.row_begin[row + 1]; ++k) {
+    sum += f.value[k];
+  }
   return sum;
 }
 
 std::shared_ptr<const Scene> squares(const std::vector<Vec3>& second,
                                      const SceneOptions& options = {}) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey).face(second, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray).face(second, gray);
   return sketch.scene(options);
 }
 
@@ -105,7 +109,9 @@ TEST(Gather, IsReciprocalWithinItsNoise) {
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
     for (PatchId j = 0; j < i; ++j) {
       const double there = entry(f, i, j), back = entry(f, j, i);
-      if (there == 0 && back == 0) continue;
+      if (there == 0 && back == 0) {
+        continue;
+      }
       const double a = scene->patch(i).area, b = scene->patch(j).area;
       const double deviation =
           std::sqrt((a * a * there + b * b * back) / rays) + a / rays + b / rays;
@@ -139,7 +145,7 @@ TEST(Gather, StopsAndRefuses) {
   EXPECT_THROW(gather_form_factors(*scene, {.threads = -1}), InputError);
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(gather_form_factors(*scene, {}, cancellation), Cancelled);
+  EXPECT_THROW(gather_form_factors(*scene, {}, cancellation), Canceled);
 }
 
 TEST(FormFactors, OfPassesGiveWhatTheSolverGives) {
@@ -179,7 +185,9 @@ TEST(FormFactors, OfRaysGiveTheRadiosityOfPasses) {
 TEST(FormFactors, ThatDoNotContractAreReported) {
   const auto scene = load_scene("furnace");
   FormFactors f = gather_form_factors(*scene, {.rays_per_patch = 100});
-  for (double& value : f.value) value *= 3;
+  for (double& value : f.value) {
+    value *= 3;
+  }
   EXPECT_THROW(solve_radiosity(*scene, f, 1e-6), std::runtime_error);
 }
 

@@ -43,13 +43,17 @@ MapOnFailure::MapOnFailure(const Scene& scene, const BspTree& tree, const Vec3& 
     : scene_(scene), tree_(tree), omega_(omega), failures_(failures_so_far()) {}
 
 MapOnFailure::~MapOnFailure() {
-  if (failures_so_far() == failures_) return;
+  if (failures_so_far() == failures_) {
+    return;
+  }
   // A few tell as much as thousands.
   constexpr int most = 5;
   static std::map<std::string, int> written;
   const std::string test = current_test_name();
   const int number = ++written[test];
-  if (number > most) return;
+  if (number > most) {
+    return;
+  }
   try {
     std::cerr << "The visibility map of this direction: "
               << save_map(scene_, tree_, omega_, test + "-" + std::to_string(number)) << '\n';

@@ -13,7 +13,9 @@ using PairAreas = std::map<std::pair<PatchId, PatchId>, double>;
 
 inline PairAreas areas_of(const Transfers& transfers) {
   PairAreas areas;
-  for (const Transfer& t : transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+  for (const Transfer& t : transfers.exchanges) {
+    areas[{t.receiver, t.source}] = t.area;
+  }
   return areas;
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 
 namespace transillum::testing {
 namespace {
@@ -15,7 +16,9 @@ namespace {
 class SceneGame {
  public:
   explicit SceneGame(std::uint64_t seed) : generator_(seed * 0x9e3779b97f4a7c15U + 1) {
-    for (int k = 0; k < 4; ++k) materials_.push_back(sketch_.material(0.2 * k, k % 2));
+    for (int k = 0; k < 4; ++k) {
+      materials_.push_back(sketch_.material(0.2 * k, k % 2));
+    }
   }
 
   double uniform(double low = 0, double high = 1) {
@@ -35,16 +38,20 @@ class SceneGame {
   Vec3 unit() {
     for (;;) {
       const Vec3 p = point();
-      if (norm(p) > 0.1 && norm(p) < 1) return normalized(p);
+      if (norm(p) > 0.1 && norm(p) < 1) {
+        return normalized(p);
+      }
     }
   }
 
   void face(std::vector<Vec3> outline) {
-    if (chance(0.5)) std::reverse(outline.begin(), outline.end());
+    if (chance(0.5)) {
+      std::reverse(outline.begin(), outline.end());
+    }
     face_as_it_is(outline);
   }
   void face_as_it_is(const std::vector<Vec3>& outline) { sketch_.face(outline, any_material()); }
-  int any_material() { return materials_[static_cast<std::size_t>(pick(4))]; }
+  int any_material() { return at(materials_, pick(4)); }
   Sketch& sketch() { return sketch_; }
 
   bool closed = false;
@@ -59,7 +66,9 @@ class SceneGame {
 std::vector<Vec3> placed(const std::vector<std::array<double, 2>>& figure, const Vec3& at,
                          const Vec3& u, const Vec3& v) {
   std::vector<Vec3> outline;
-  for (const auto& [x, y] : figure) outline.push_back(at + x * u + y * v);
+  for (const auto& [x, y] : figure) {
+    outline.push_back(at + x * u + y * v);
+  }
   return outline;
 }
 
@@ -80,13 +89,17 @@ std::vector<std::array<double, 2>> star(SceneGame& game, int count, bool straigh
     const double radius = game.uniform(0.25, 1);
     figure.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
-  if (!straight_corners) return figure;
+  if (!straight_corners) {
+    return figure;
+  }
   std::vector<std::array<double, 2>> refined;
   for (std::size_t k = 0; k < figure.size(); ++k) {
     const auto& a = figure[k];
     const auto& b = figure[(k + 1) % figure.size()];
     refined.push_back(a);
-    if (game.chance(0.5)) refined.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+    if (game.chance(0.5)) {
+      refined.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+    }
   }
   return refined;
 }
@@ -95,7 +108,9 @@ void add_triangles(SceneGame& game, int count) {
   for (int k = 0; k < count; ++k) {
     const Vec3 at = game.point(0.7);
     std::vector<Vec3> outline;
-    for (int corner = 0; corner < 3; ++corner) outline.push_back(at + game.point(0.8));
+    for (int corner = 0; corner < 3; ++corner) {
+      outline.push_back(at + game.point(0.8));
+    }
     game.face(outline);
   }
 }
@@ -164,7 +179,9 @@ void cut_rectangle(SceneGame& game, const Axes& axes, const Vec3& at, double x0,
     return;
   }
   auto outline = placed({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, at, axes.u, axes.v);
-  if (reversed) std::reverse(outline.begin(), outline.end());
+  if (reversed) {
+    std::reverse(outline.begin(), outline.end());
+  }
   game.face_as_it_is(outline);
 }
 
@@ -201,9 +218,13 @@ void snapped_to_a_grid(SceneGame& game) {
   };
   for (int added = 0, wanted = game.some(8, 35); added < wanted;) {
     const Vec3 a = corner(), b = corner(), c = corner();
-    if (norm(cross(b - a, c - a)) == 0) continue;
+    if (norm(cross(b - a, c - a)) == 0) {
+      continue;
+    }
     std::vector<Vec3> outline{a, b, c};
-    if (game.chance(0.4)) outline.push_back(a + (c - b));
+    if (game.chance(0.4)) {
+      outline.push_back(a + (c - b));
+    }
     game.face(outline);
     ++added;
   }
@@ -222,7 +243,9 @@ void coincident_faces(SceneGame& game) {
     const Vec3 at = game.point(0.6);
     const auto figure = star(game, game.some(3, 6), false);
     const int copies = game.some(1, 3);
-    for (int copy = 0; copy < copies; ++copy) game.face(placed(figure, at, axes.u, axes.v));
+    for (int copy = 0; copy < copies; ++copy) {
+      game.face(placed(figure, at, axes.u, axes.v));
+    }
     if (game.chance(0.6)) {
       const double x = game.uniform(-0.5, 0.5), y = game.uniform(-0.5, 0.5);
       game.face(placed(star(game, 4, false), at + x * axes.u + y * axes.v, axes.u, axes.v));
@@ -269,14 +292,16 @@ std::vector<Vec3> nasty_directions(SceneGame& game, const SceneDescription& desc
   std::vector<Vec3> directions;
   for (;;) {
     const double x = game.some(-1, 1), y = game.some(-1, 1), z = game.some(-1, 1);
-    if (x == 0 && y == 0 && z == 0) continue;
+    if (x == 0 && y == 0 && z == 0) {
+      continue;
+    }
     directions.push_back(normalized({x, y, z}));
     break;
   }
   const auto outline = description.outline(
       static_cast<std::size_t>(game.pick(static_cast<int>(description.face_count()))));
   const auto corner = [&](std::size_t k) {
-    return description.points[static_cast<std::size_t>(outline[k % outline.size()])];
+    return at(description.points, outline[k % outline.size()]);
   };
   const auto k = static_cast<std::size_t>(game.pick(static_cast<int>(outline.size())));
   const Vec3 edge = normalized(corner(k + 1) - corner(k));

@@ -42,7 +42,9 @@ Sketch& Sketch::box(const Vec3& a, const Vec3& b, bool inward, int material) {
       {{a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}},
       {{b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}};
   for (auto& outline : faces) {
-    if (inward) std::reverse(outline.begin(), outline.end());
+    if (inward) {
+      std::reverse(outline.begin(), outline.end());
+    }
     face(outline, material);
   }
   return *this;
@@ -71,10 +73,14 @@ Sketch& Sketch::tetrahedra(int count, double size, std::uint64_t seed, int mater
   for (int k = 0; k < count; ++k) {
     const Vec3 at = (1 - size) * point();
     std::array<Vec3, 4> corners;
-    for (Vec3& corner : corners) corner = at + size * point();
+    for (Vec3& corner : corners) {
+      corner = at + size * point();
+    }
     auto& [a, b, c, d] = corners;
     // d lies behind a, b, c.
-    if (dot(cross(b - a, c - a), d - a) > 0) std::swap(a, b);
+    if (dot(cross(b - a, c - a), d - a) > 0) {
+      std::swap(a, b);
+    }
     face({a, b, c}, material).face({a, c, d}, material);
     face({a, d, b}, material).face({b, d, c}, material);
   }
@@ -84,7 +90,9 @@ Sketch& Sketch::tetrahedra(int count, double size, std::uint64_t seed, int mater
 SceneDescription moved(const SceneDescription& description,
                        const std::function<Vec3(const Vec3&)>& move) {
   SceneDescription result = description;
-  for (Vec3& p : result.points) p = move(p);
+  for (Vec3& p : result.points) {
+    p = move(p);
+  }
   return result;
 }
 
@@ -111,7 +119,9 @@ std::function<Vec3(const Vec3&)> random_rotation(std::uint64_t seed) {
 std::vector<Vec3> test_directions(int count, std::uint64_t seed) {
   std::vector<Vec3> directions{{0, 0, 1}, {1, 0, 0},  {0, 1, 0}, {0, 0, -1},
                                {1, 1, 0}, {1, -1, 1}, {0, 1, 1}};
-  for (Vec3& d : directions) d = normalized(d);
+  for (Vec3& d : directions) {
+    d = normalized(d);
+  }
   directions.resize(static_cast<std::size_t>(std::min<int>(count, 7)));
   if (count > 7) {
     for (const auto& sample : make_directions(Sampling::random, count - 7, seed)) {

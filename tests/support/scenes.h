@@ -16,7 +16,7 @@ namespace transillum::testing {
 class Sketch {
  public:
   explicit Sketch(std::string name = "test") { description_.name = std::move(name); }
-  /// Materials are grey: reflectance and exitance.
+  /// Materials are gray: reflectance and exitance.
   int material(double reflectance, double exitance);
   Sketch& face(const std::vector<Vec3>& outline, int material);
   /// The box between two corners; seen from inside when `inward`.

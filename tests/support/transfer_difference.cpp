@@ -29,7 +29,9 @@ void take(TransferDifference& worst, double a, double b, double area, double rou
           const std::string& what) {
   const double found = std::max(std::abs(a - b) - rounding, 0.0) / area;
   // Also what is no number at all.
-  if (!(found <= worst.share)) worst = {found, fmt::format("{}: {} and {}", what, a, b)};
+  if (!(found <= worst.share)) {
+    worst = {found, fmt::format("{}: {} and {}", what, a, b)};
+  }
 }
 
 }  // namespace
@@ -37,8 +39,12 @@ void take(TransferDifference& worst, double a, double b, double area, double rou
 TransferDifference difference(const Scene& scene, const Transfers& a, const Transfers& b) {
   TransferDifference worst;
   std::map<std::pair<PatchId, PatchId>, std::array<double, 2>> exchanges;
-  for (const Transfer& t : a.exchanges) exchanges[{t.receiver, t.source}][0] += t.area;
-  for (const Transfer& t : b.exchanges) exchanges[{t.receiver, t.source}][1] += t.area;
+  for (const Transfer& t : a.exchanges) {
+    exchanges[{t.receiver, t.source}][0] += t.area;
+  }
+  for (const Transfer& t : b.exchanges) {
+    exchanges[{t.receiver, t.source}][1] += t.area;
+  }
   for (const auto& [pair, areas] : exchanges) {
     const auto [i, j] = pair;
     const PatchId smaller = scene.patch(i).area < scene.patch(j).area ? i : j;
@@ -63,7 +69,9 @@ TransferDifference difference(const Scene& scene, const Transfers& a, const Tran
 TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
                                              const Transfers& back) {
   Transfers turned = back;
-  for (Transfer& t : turned.exchanges) std::swap(t.receiver, t.source);
+  for (Transfer& t : turned.exchanges) {
+    std::swap(t.receiver, t.source);
+  }
   std::swap(turned.forward, turned.backward);
   return difference(scene, there, turned);
 }

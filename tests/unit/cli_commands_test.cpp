@@ -21,7 +21,9 @@ using ::testing::HasSubstr;
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream in(text);
-  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  for (std::string part; std::getline(in, part, separator);) {
+    parts.push_back(part);
+  }
   return parts;
 }
 
@@ -51,7 +53,9 @@ TEST(CliHelp, EveryCommandExplainsItself) {
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
     EXPECT_EQ(run_program({"help", command}).out, result.out);
-    for (const std::string& line : split(result.out, '\n')) EXPECT_LE(line.size(), 100U) << line;
+    for (const std::string& line : split(result.out, '\n')) {
+      EXPECT_LE(line.size(), 100U) << line;
+    }
   }
   EXPECT_THAT(run_program({"solve", "--help"}).out, HasSubstr("(default 1024)"));
 }
@@ -111,7 +115,9 @@ TEST(CliSolve, ThreadsAndMemoryDoNotChangeABit) {
   const auto kept = numbers(one), anew = numbers(solve("0.csv", {"--memory", "0"}));
   ASSERT_EQ(kept.size(), anew.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    for (std::size_t k = 9; k < 12; ++k) EXPECT_NEAR(kept[i][k], anew[i][k], 1e-5 * kept[i][k]);
+    for (std::size_t k = 9; k < 12; ++k) {
+      EXPECT_NEAR(kept[i][k], anew[i][k], 1e-5 * kept[i][k]);
+    }
   }
 }
 
@@ -180,7 +186,9 @@ TEST(CliSolve, RotationChangesTheErrorOnly) {
   }
   const auto a = numbers(read_file(folder / "1")), b = numbers(read_file(folder / "2"));
   EXPECT_NE(a, b);
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i][9], b[i][9], 0.1 * b[i][9] + 0.1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_NEAR(a[i][9], b[i][9], 0.1 * b[i][9] + 0.1);
+  }
 }
 
 TEST(CliSolve, TwoSidedFacesGiveTwoPatchesEach) {
@@ -225,7 +233,9 @@ TEST(CliTransfers, RowsOfAReceiverSumToItsProjectedArea) {
   for (const auto& [receiver, sum] : sums) {
     const double area = patches.at(static_cast<std::size_t>(receiver))[2];
     EXPECT_LE(sum, area * (1 + 1e-10));
-    if (std::abs(sum - area) < 1e-10 * area) upward += area;
+    if (std::abs(sum - area) < 1e-10 * area) {
+      upward += area;
+    }
   }
   EXPECT_NEAR(upward, 0.556 * 0.5592, 1e-12);
 }
@@ -268,7 +278,9 @@ TEST(CliMap, OfAReceiverIsItsRowOfTransfers) {
   };
   std::map<int, std::map<int, double>> transfers;
   for (const auto& row : numbers(run("transfers", {"--engine", "local"}))) {
-    if (row[1] >= 0) transfers[static_cast<int>(row[0])][static_cast<int>(row[1])] = row[2];
+    if (row[1] >= 0) {
+      transfers[static_cast<int>(row[0])][static_cast<int>(row[1])] = row[2];
+    }
   }
   ASSERT_FALSE(transfers.empty());
   const auto& [receiver, seen] = *transfers.begin();
@@ -277,11 +289,14 @@ TEST(CliMap, OfAReceiverIsItsRowOfTransfers) {
   const auto json = nlohmann::json::parse(read_file(folder / "m.json"));
   EXPECT_EQ(json.at("receiver").at("patch"), receiver);
   for (const auto& polygon : json.at("polygons")) {
-    if (polygon.at("facing") == "back")
+    if (polygon.at("facing") == "back") {
       areas[polygon.at("patch")] += polygon.at("area").get<double>();
+    }
   }
   EXPECT_EQ(areas.size(), seen.size());
-  for (const auto& [source, area] : seen) EXPECT_NEAR(areas[source], area, 1e-12);
+  for (const auto& [source, area] : seen) {
+    EXPECT_NEAR(areas[source], area, 1e-12);
+  }
 }
 
 TEST(CliMap, SaysWhyAMapIsEmpty) {
@@ -301,7 +316,9 @@ TEST(CliTransfers, RaysEstimateTheSameAreas) {
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.status, 0) << result.err;
     double sum = 0;
-    for (const auto& row : numbers(result.out)) sum += row[2];
+    for (const auto& row : numbers(result.out)) {
+      sum += row[2];
+    }
     return sum;
   };
   const double exact = total({"--engine", "local"});
@@ -330,18 +347,26 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
   }
   EXPECT_TRUE(std::is_sorted(passes.begin(), passes.end()));
   EXPECT_EQ(sums.size(), 12U);
-  for (const auto& [i, sum] : sums) EXPECT_NEAR(sum, 1, 1e-3) << i;
+  for (const auto& [i, sum] : sums) {
+    EXPECT_NEAR(sum, 1, 1e-3) << i;
+  }
   const auto rays = factors({"--engine", "rays", "--rays", "20000", "--seed", "3"});
   EXPECT_TRUE(std::is_sorted(rays.begin(), rays.end()));
-  for (const auto& row : rays) EXPECT_NEAR(row[2], (matrix[{row[0], row[1]}]), 0.01);
+  for (const auto& row : rays) {
+    EXPECT_NEAR(row[2], (matrix[{row[0], row[1]}]), 0.01);
+  }
   EXPECT_EQ(factors({"--engine", "rays", "--rays", "20000", "--seed", "3", "--threads", "1"}),
             rays);
   const auto hemicubes = factors({"--engine", "hemicube", "--resolution", "128"});
   EXPECT_TRUE(std::is_sorted(hemicubes.begin(), hemicubes.end()));
   // From the middles of such large patches much is seen otherwise, but as much.
   sums.clear();
-  for (const auto& row : hemicubes) sums[row[0]] += row[2];
-  for (const auto& [i, sum] : sums) EXPECT_NEAR(sum, 1, 1e-12) << i;
+  for (const auto& row : hemicubes) {
+    sums[row[0]] += row[2];
+  }
+  for (const auto& [i, sum] : sums) {
+    EXPECT_NEAR(sum, 1, 1e-12) << i;
+  }
 }
 
 TEST(CliSolve, HemicubesTakeThePlaceOfPasses) {
@@ -419,7 +444,9 @@ TEST(CliDirections, StatsTellDiscrepanciesAndErrors) {
   const auto& one_way = json.at("eps").at("one_way");
   EXPECT_EQ(one_way.at("patches").size(), 12U);
   double largest = 0;
-  for (const double e : one_way.at("patches")) largest = std::max(largest, std::abs(e));
+  for (const double e : one_way.at("patches")) {
+    largest = std::max(largest, std::abs(e));
+  }
   EXPECT_EQ(one_way.at("max"), largest);
   EXPECT_EQ(numbers(read_file(folder / "d.csv")).size(), 300U);
 }
@@ -499,9 +526,9 @@ TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
   EXPECT_THAT(closed.out, ::testing::ContainsRegex("seen from behind +no face"));
 
   const TemporaryFolder folder;
-  write_text(folder / "one.mtl", "newmtl grey\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+  write_text(folder / "one.mtl", "newmtl gray\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
   write_text(folder / "one.obj",
-             "mtllib one.mtl\nusemtl grey\n"
+             "mtllib one.mtl\nusemtl gray\n"
              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
              "f 1 2 3 4\nf 5 6 7 8\n");  // both look up
   const ProgramResult open = run_program({"info", folder / "one.obj"});

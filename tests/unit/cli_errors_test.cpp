@@ -128,7 +128,9 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"bounds", "--size-ratio", "nan"}, "--size-ratio"},
       {{"bounds", "--out", "b.txt"}, ".json"},
   };
-  for (const WrongCall& call : calls) expect_refused(call.arguments, call.complaint);
+  for (const WrongCall& call : calls) {
+    expect_refused(call.arguments, call.complaint);
+  }
 }
 
 TEST(CliErrors, BadScenesAreRefusedAndLeaveOutputsAlone) {

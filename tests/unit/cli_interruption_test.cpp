@@ -50,8 +50,9 @@ TEST(CliInterruption, SavesWhatThereIsAndExitsWith130) {
 TEST(CliInterruption, BeforeTheFirstPassNothingIsWritten) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=3", "--out", folder / "a.csv"});
-  for (int k = 0; k < 6000 && !program.catches(SIGINT); ++k)
+  for (int k = 0; k < 6000 && !program.catches(SIGINT); ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;

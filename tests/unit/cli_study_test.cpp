@@ -24,7 +24,9 @@ using ::testing::StartsWith;
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+  }
   return lines;
 }
 
@@ -154,7 +156,9 @@ TEST(CliStudy, InterruptedItSavesThePointsSoFar) {
                           "--sampling", "fibonacci", "--reference", "4", "--no-cache", "--out",
                           folder / "s.csv"});
   for (int k = 0; k < 600; ++k) {
-    if (program.err_so_far().find("fibonacci, 1000000 passes") != std::string::npos) break;
+    if (program.err_so_far().find("fibonacci, 1000000 passes") != std::string::npos) {
+      break;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   program.send(SIGINT);

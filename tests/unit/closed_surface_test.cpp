@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "scene/closed_surface.h"
+#include "scene/build/closed_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,9 @@ bool is_closed(const Outlines& faces, const SceneOptions& options = {}) {
 TEST(ClosedSurface, IsACube) {
   EXPECT_TRUE(is_closed(cube));
   Outlines inward = cube;
-  for (auto& outline : inward) std::reverse(outline.begin(), outline.end());
+  for (auto& outline : inward) {
+    std::reverse(outline.begin(), outline.end());
+  }
   EXPECT_TRUE(is_closed(inward));
 }
 
@@ -65,7 +67,7 @@ TEST(ClosedSurface, IsWhatMeetsAtACommonEdgeToo) {
 }
 
 TEST(ClosedSurface, IsNotWhatHasATJunction) {
-  // The bottom and its neighbour share an edge that one of them has in two parts: point 8.
+  // The bottom and its neighbor share an edge that one of them has in two parts: point 8.
   Outlines torn = cube;
   torn[0] = {0, 3, 2, 1, 8};
   EXPECT_FALSE(is_closed(torn));

@@ -22,13 +22,13 @@ std::vector<CoplanarOverlap> overlaps_in(Sketch& sketch, std::size_t most = 100)
 /// The lamp lies over the floor; a tile beside it touches, one turned over is another side.
 TEST(CoplanarOverlaps, AreWhatTwoFacesCoverOnOneSide) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
   std::vector<Vec3> turned = rectangle(0, 0, 4, 4);
   std::reverse(turned.begin(), turned.end());
-  sketch.face(rectangle(0, 0, 4, 4), grey)
+  sketch.face(rectangle(0, 0, 4, 4), gray)
       .face(rectangle(3, 1, 5, 2), lamp)
-      .face(rectangle(4, 0, 5, 1), grey)
-      .face(turned, grey);
+      .face(rectangle(4, 0, 5, 1), gray)
+      .face(turned, gray);
   const auto overlaps = overlaps_in(sketch);
   ASSERT_EQ(overlaps.size(), 1U);
   EXPECT_EQ(overlaps[0].upper, 1);
@@ -39,12 +39,12 @@ TEST(CoplanarOverlaps, AreWhatTwoFacesCoverOnOneSide) {
 /// A wall of many panels through both: cheaper to cut the two than the panels.
 TEST(CoplanarOverlaps, AddUpOverFragments) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0);
-  sketch.face(rectangle(0, 0, 3, 3), grey).face(rectangle(1, 1, 4, 4), grey);
+  const int gray = sketch.material(0.5, 0);
+  sketch.face(rectangle(0, 0, 3, 3), gray).face(rectangle(1, 1, 4, 4), gray);
   const auto at = [](double y, double z) { return Vec3{1.3 + 0.2 * y, y, z}; };
   for (int panel = 0; panel < 10; ++panel) {
     const double y = 0.5 * panel - 0.5;
-    sketch.face({at(y, -1), at(y + 0.5, -1), at(y + 0.5, 1), at(y, 1)}, grey);
+    sketch.face({at(y, -1), at(y + 0.5, -1), at(y + 0.5, 1), at(y, 1)}, gray);
   }
   const auto scene = sketch.scene();
   const BspTree tree(*scene);
@@ -58,8 +58,10 @@ TEST(CoplanarOverlaps, AddUpOverFragments) {
 /// Copies of one face, without end: no more pairs are kept than are asked for.
 TEST(CoplanarOverlaps, AreNoMoreThanAskedFor) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0);
-  for (int k = 0; k < 40; ++k) sketch.face(rectangle(0, 0, 1, 1), grey);
+  const int gray = sketch.material(0.5, 0);
+  for (int k = 0; k < 40; ++k) {
+    sketch.face(rectangle(0, 0, 1, 1), gray);
+  }
   EXPECT_EQ(overlaps_in(sketch, 1000).size(), 40U * 39 / 2);
   EXPECT_EQ(overlaps_in(sketch, 100).size(), 100U);
 }

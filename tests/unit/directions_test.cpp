@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "transillum/at.h"
 #include "transillum/directions.h"
 #include "transillum/errors.h"
 
@@ -18,7 +19,9 @@ double sky_error(Sampling sampling, int count) {
   double squares = 0;
   for (const auto& n : normals) {
     double sum = 0;
-    for (const auto& d : directions) sum += std::max(0.0, dot(n.direction, d.direction));
+    for (const auto& d : directions) {
+      sum += std::max(0.0, dot(n.direction, d.direction));
+    }
     const double error = 4 * sum / count - 1;
     squares += error * error;
   }
@@ -29,8 +32,8 @@ TEST(Directions, ErrorsAreThoseMeasuredElsewhere) {
   // The table of the method, with a tenth for the choice of normals.
   EXPECT_NEAR(sky_error(Sampling::hammersley, 256), 4.7e-3, 5e-4);
   EXPECT_NEAR(sky_error(Sampling::hammersley, 1024), 1.2e-3, 1.2e-4);
-  EXPECT_NEAR(sky_error(Sampling::centred_hammersley, 256), 1.3e-3, 1.3e-4);
-  EXPECT_NEAR(sky_error(Sampling::centred_hammersley, 1024), 2.1e-4, 2.5e-5);
+  EXPECT_NEAR(sky_error(Sampling::centered_hammersley, 256), 1.3e-3, 1.3e-4);
+  EXPECT_NEAR(sky_error(Sampling::centered_hammersley, 1024), 2.1e-4, 2.5e-5);
   EXPECT_NEAR(sky_error(Sampling::fibonacci, 256), 6.6e-4, 1e-4);
   EXPECT_NEAR(sky_error(Sampling::fibonacci, 1024), 1.1e-4, 2e-5);
   EXPECT_GT(sky_error(Sampling::random, 1024), 3e-3);
@@ -76,7 +79,9 @@ TEST(Directions, SeededOnesFollowTheSeed) {
     const auto a = make_directions(sampling, 10, 1);
     const auto b = make_directions(sampling, 10, 1);
     const auto c = make_directions(sampling, 10, 2);
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].direction, b[k].direction);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].direction, b[k].direction);
+    }
     EXPECT_EQ(a[3].direction != c[3].direction, is_seeded(sampling)) << name;
   }
 }
@@ -205,9 +210,10 @@ TEST(Directions, ProgressiveOrderIsAPermutationWithFairBeginnings) {
     for (const auto& n : normals) {
       double sum = 0;
       for (std::size_t done = 1; done <= 1024; ++done) {
-        sum += std::abs(
-            dot(n.direction, samples[static_cast<std::size_t>(order[done - 1])].direction));
-        if (done < 64) continue;
+        sum += std::abs(dot(n.direction, at(samples, order[done - 1]).direction));
+        if (done < 64) {
+          continue;
+        }
         const double error = 2 * sum / static_cast<double>(done) - 1;
         ASSERT_LT(std::abs(error), sampling == Sampling::random ? 0.5 : 0.2) << name << done;
       }
@@ -231,7 +237,7 @@ StepMeans means_over(const std::vector<DirectionSample>& set) {
   return means;
 }
 
-/// The left side of eq. 46 against its right one, for products of two and three neighbouring steps.
+/// The left side of eq. 46 against its right one, for products of two and three neighboring steps.
 double eq_46_defect(const std::vector<StepMeans>& steps) {
   double two = 0, three = 0;
   const auto count = static_cast<double>(steps.size() - 2);
@@ -251,7 +257,8 @@ TEST(DirectionsOfStep, MeetEquation46UnlessPlainHammersley) {
     for (int step = 0; step < steps; ++step) {
       means.push_back(means_over(directions_of_step(sampling, count, 5, step)));
     }
-    const bool fails = sampling == Sampling::hammersley || sampling == Sampling::centred_hammersley;
+    const bool fails =
+        sampling == Sampling::hammersley || sampling == Sampling::centered_hammersley;
     if (fails) {
       EXPECT_GT(eq_46_defect(means), 0.1) << name;
     } else {
@@ -280,9 +287,13 @@ TEST(DirectionsOfStep, SetsOfOneSequenceTakeEveryPointOnce) {
   for (const Sampling sampling : {Sampling::halton, Sampling::sobol}) {
     std::set<std::pair<double, double>> taken, wanted;
     for (int step = 0; step < 64; ++step) {
-      for (const auto& d : directions_of_step(sampling, 5, 9, step)) taken.emplace(d.u, d.v);
+      for (const auto& d : directions_of_step(sampling, 5, 9, step)) {
+        taken.emplace(d.u, d.v);
+      }
     }
-    for (const auto& d : make_directions(sampling, 64 * 5, 9)) wanted.emplace(d.u, d.v);
+    for (const auto& d : make_directions(sampling, 64 * 5, 9)) {
+      wanted.emplace(d.u, d.v);
+    }
     EXPECT_EQ(taken, wanted) << name_of(sampling);
   }
 }

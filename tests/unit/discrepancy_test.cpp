@@ -46,7 +46,9 @@ TEST(StarDiscrepancy, TakesPointsOnOneLineAndOnOneAnother) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     points[k].u = std::floor(4 * points[k].u) / 4;
     points[k].v = std::floor(5 * points[k].v) / 5;
-    if (k % 7 == 0) points[k].v = 1;
+    if (k % 7 == 0) {
+      points[k].v = 1;
+    }
   }
   EXPECT_NEAR(star_discrepancy(points), star_by_trying_all(points), 1e-14);
   const std::vector<DirectionSample> heap(9, {0.25, 0.5, {1, 0, 0}});
@@ -69,10 +71,12 @@ TEST(StarDiscrepancy, OfHammersleysPointsKeepsEquation20) {
 double cap_by_trying_all(const std::vector<DirectionSample>& set) {
   const auto count = static_cast<double>(set.size());
   double largest = 0;
-  const auto try_rim = [&](const Vec3& centre, double height) {
+  const auto try_rim = [&](const Vec3& center, double height) {
     for (const double side : {1.0, -1.0}) {
       int closed = 0;
-      for (const auto& s : set) closed += side * (dot(centre, s.direction) - height) >= -1e-13;
+      for (const auto& s : set) {
+        closed += side * (dot(center, s.direction) - height) >= -1e-13;
+      }
       largest = std::max(largest, closed / count - (1 - side * height) / 2);
     }
   };
@@ -105,7 +109,9 @@ TEST(CapDiscrepancy, OfFewDirectionsIsThatOfTryingAllCaps) {
 TEST(CapDiscrepancy, TakesOppositeAndEqualDirections) {
   std::vector<DirectionSample> axes;
   for (const double s : {1.0, -1.0}) {
-    for (const Vec3& d : {Vec3{s, 0, 0}, Vec3{0, s, 0}, Vec3{0, 0, s}}) axes.push_back({0, 0, d});
+    for (const Vec3& d : {Vec3{s, 0, 0}, Vec3{0, s, 0}, Vec3{0, 0, s}}) {
+      axes.push_back({0, 0, d});
+    }
   }
   // The closed hemisphere round an axis holds 5 of 6, half the sphere: 1/3. No cap is worse.
   EXPECT_NEAR(cap_discrepancy(axes).value, 5. / 6 - 1. / 2, 1e-12);
@@ -154,13 +160,13 @@ TEST(QuadratureError, IsThatOfEquation17) {
   EXPECT_EQ(summary_of(errors).max, largest);
 }
 
-TEST(Discrepancies, CanBeCancelled) {
+TEST(Discrepancies, CanBeCanceled) {
   const Cancellation cancellation;
   cancellation.cancel();
   const auto set = make_directions(Sampling::sobol, 500, 1);
-  EXPECT_THROW(star_discrepancy(set, cancellation), Cancelled);
-  EXPECT_THROW(cap_discrepancy(set, cancellation), Cancelled);
-  EXPECT_THROW(quadrature_errors(spread_normals(3), set, true, cancellation), Cancelled);
+  EXPECT_THROW(star_discrepancy(set, cancellation), Canceled);
+  EXPECT_THROW(cap_discrepancy(set, cancellation), Canceled);
+  EXPECT_THROW(quadrature_errors(spread_normals(3), set, true, cancellation), Canceled);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Sides of lines and meetings of lines on the grid, against fractions of whole numbers.
-#include "visibility/exact_side.h"
+#include "visibility/fast/exact_side.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,9 @@ class GridGame {
     for (;;) {
       const int bits = size();
       const GridLine made{point(bits), point(bits)};
-      if (made.a.x != made.b.x || made.a.y != made.b.y) return made;
+      if (made.a.x != made.b.x || made.a.y != made.b.y) {
+        return made;
+      }
     }
   }
   /// Next to `p`'s line: off it by what the grid cannot tell.
@@ -82,14 +84,18 @@ class GridGame {
   GridLine along(const GridLine& p) {
     for (;;) {
       const GridLine made{beside(p), beside(p)};
-      if (made.a.x != made.b.x || made.a.y != made.b.y) return made;
+      if (made.a.x != made.b.x || made.a.y != made.b.y) {
+        return made;
+      }
     }
   }
   /// Through a point where it is asked for: a line of three that meet there.
   GridLine through(const GridPoint& p) {
     for (;;) {
       const std::int64_t dx = number(28), dy = number(28), back = number(29), on = number(29);
-      if ((dx == 0 && dy == 0) || back == on) continue;
+      if ((dx == 0 && dy == 0) || back == on) {
+        continue;
+      }
       return {{p.x + back * dx, p.y + back * dy}, {p.x + on * dx, p.y + on * dy}};
     }
   }
@@ -160,7 +166,9 @@ TEST(ExactSide, TakesTheFarthestCornersOfTheGrid) {
       expect_rounded(exact_side(line, p), true_side(line, exact(p)));
     }
     for (const GridLine& p : {diagonal, other, nearly, top}) {
-      for (const GridLine& q : {diagonal, other, nearly, top}) expect_side_of_meeting(line, p, q);
+      for (const GridLine& q : {diagonal, other, nearly, top}) {
+        expect_side_of_meeting(line, p, q);
+      }
     }
   }
 }
@@ -168,7 +176,9 @@ TEST(ExactSide, TakesTheFarthestCornersOfTheGrid) {
 void expect_meeting(const GridLine& p, const GridLine& q, const GridPoint& origin) {
   const Meeting found = exact_meeting(p, q, origin);
   ASSERT_EQ(found.parallel, are_parallel(p, q));
-  if (found.parallel) return;
+  if (found.parallel) {
+    return;
+  }
   const FractionPoint truth = true_meeting(p, q) - exact(origin);
   expect_rounded(found.x, truth.x);
   expect_rounded(found.y, truth.y);
@@ -179,7 +189,9 @@ TEST(ExactMeeting, IsFoundHoweverFlatTheAngle) {
   for (int round = 0; round < rounds; ++round) {
     const GridLine p = game.line();
     for (const GridLine& q : {game.line(), game.along(p), GridLine{p.a, game.near(p.b)}}) {
-      if (q.a.x == q.b.x && q.a.y == q.b.y) continue;
+      if (q.a.x == q.b.x && q.a.y == q.b.y) {
+        continue;
+      }
       expect_meeting(p, q, game.point(game.size()));
       expect_meeting(p, q, p.a);
     }
@@ -190,7 +202,9 @@ TEST(ExactMeeting, KnowsParallelLines) {
   GridGame game;
   for (int round = 0; round < rounds; ++round) {
     const GridPoint origin = game.point(58), d = game.point(27);
-    if (d.x == 0 && d.y == 0) continue;
+    if (d.x == 0 && d.y == 0) {
+      continue;
+    }
     const auto made = [&] {
       const GridPoint a = game.point(58);
       const std::int64_t far = 1 + std::abs(game.number(30));

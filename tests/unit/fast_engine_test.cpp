@@ -11,7 +11,7 @@
 #include <numbers>
 #include <thread>
 
-#include "scene/closed_surface.h"
+#include "scene/build/closed_surface.h"
 #include "support/map_on_failure.h"
 #include "support/scenes.h"
 #include "support/transfer_difference.h"
@@ -48,12 +48,16 @@ void expect_as_local(const Fast& fast, const Vec3& omega) {
 
 void expect_as_local(const std::shared_ptr<const Scene>& scene, int directions = 20) {
   const Fast fast(scene);
-  for (const Vec3& omega : testing::test_directions(directions, 31)) expect_as_local(fast, omega);
+  for (const Vec3& omega : testing::test_directions(directions, 31)) {
+    expect_as_local(fast, omega);
+  }
 }
 
 double area_of(const Transfers& transfers, PatchId receiver, PatchId source) {
   for (const Transfer& t : transfers.exchanges) {
-    if (t.receiver == receiver && t.source == source) return t.area;
+    if (t.receiver == receiver && t.source == source) {
+      return t.area;
+    }
   }
   return 0;
 }
@@ -62,7 +66,9 @@ double area_of(const Transfers& transfers, PatchId receiver, PatchId source) {
 bool is_in_air(const Fast& fast) {
   for (const Vec3& omega : testing::test_directions(20, 32)) {
     for (const double seen : fast.run(omega, {}).back_seen) {
-      if (seen > 1e-6) return false;
+      if (seen > 1e-6) {
+        return false;
+      }
     }
   }
   return true;
@@ -79,19 +85,19 @@ void expect_closed(const Sketch& sketch, bool in_air, const SceneOptions& option
 
 TEST(FastEngineClosed, InterpenetratingBoxes) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.box({0, 0, 0}, {2, 2, 2}, false, grey).box({1, 1, 1}, {3, 3, 3}, false, grey);
-  sketch.box({0.5, 1.5, -1}, {1.5, 2.5, 2.5}, false, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {2, 2, 2}, false, gray).box({1, 1, 1}, {3, 3, 3}, false, gray);
+  sketch.box({0.5, 1.5, -1}, {1.5, 2.5, 2.5}, false, gray);
   expect_closed(sketch, false);
-  sketch.box({-4, -4, -4}, {4, 4, 4}, true, grey);
+  sketch.box({-4, -4, -4}, {4, 4, 4}, true, gray);
   expect_closed(sketch, false);
 }
 
 TEST(FastEngineClosed, InterpenetratingTetrahedraInARoom) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.tetrahedra(8, 0.7, seed, grey).box({-1, -1, -1}, {2, 2, 2}, true, grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.tetrahedra(8, 0.7, seed, gray).box({-1, -1, -1}, {2, 2, 2}, true, gray);
     expect_closed(sketch, false);
   }
 }
@@ -99,9 +105,9 @@ TEST(FastEngineClosed, InterpenetratingTetrahedraInARoom) {
 TEST(FastEngineClosed, NestedBoxes) {
   const auto nested = [](bool outer_inward, bool inner_inward) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.box({0, 0, 0}, {3, 3, 3}, outer_inward, grey);
-    sketch.box({1, 1, 1}, {2, 2.5, 2.25}, inner_inward, grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.box({0, 0, 0}, {3, 3, 3}, outer_inward, gray);
+    sketch.box({1, 1, 1}, {2, 2.5, 2.25}, inner_inward, gray);
     return sketch;
   };
   expect_closed(nested(true, false), true);    // a block in a room
@@ -113,27 +119,27 @@ TEST(FastEngineClosed, NestedBoxes) {
 TEST(FastEngineClosed, ASheetOfTwoSidesInABox) {
   for (const bool inward : {true, false}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.box({0, 0, 0}, {3, 3, 3}, inward, grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.box({0, 0, 0}, {3, 3, 3}, inward, gray);
     const std::vector<Vec3> sheet{{1, 1, 1}, {2, 1, 1.25}, {2, 2, 1.75}, {1, 2, 1.5}};
-    sketch.face(sheet, grey).face({sheet.rbegin(), sheet.rend()}, grey);
+    sketch.face(sheet, gray).face({sheet.rbegin(), sheet.rend()}, gray);
     expect_closed(sketch, inward);
   }
 }
 
 TEST(FastEngineClosed, EverythingFromBothSides) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.box({0, 0, 0}, {1, 1, 1}, false, grey).triangles(12, 1.5, 3, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {1, 1, 1}, false, gray).triangles(12, 1.5, 3, gray);
   expect_closed(sketch, true, {.two_sided = true});
 }
 
 /// Of one block standing on another, coincident opposite faces hide each other.
 TEST(FastEngineClosed, ABoxStandingExactlyOnAFloor) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.box({0, 0, 0}, {4, 4, 3}, true, grey).box({1, 1, 0}, {2, 3, 1}, false, grey);
-  sketch.box({2, 1, 0}, {3, 2, 1}, false, grey).box({1, 1, 1}, {2, 2, 2}, false, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {4, 4, 3}, true, gray).box({1, 1, 0}, {2, 3, 1}, false, gray);
+  sketch.box({2, 1, 0}, {3, 2, 1}, false, gray).box({1, 1, 1}, {2, 2, 2}, false, gray);
   const auto scene = sketch.scene();
   EXPECT_TRUE(is_closed_surface(*scene));
   expect_as_local(scene);
@@ -165,30 +171,32 @@ std::vector<Vec3> turned_over(std::vector<Vec3> outline) {
 TEST(FastEngineCorners, PolygonsOf3To100) {
   for (int corners = 3; corners <= 100; ++corners) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
+    const int gray = sketch.material(0.5, 1);
     const Vec3 apart{0.25, 0.125, 2};
-    sketch.face(regular(corners, 1, {}), grey);
-    sketch.face(turned_over(regular(corners, 1, apart)), grey);
+    sketch.face(regular(corners, 1, {}), gray);
+    sketch.face(turned_over(regular(corners, 1, apart)), gray);
     const Fast fast(sketch.scene());
     // Along what sets them apart they are one behind the other.
     const Vec3 along = normalized(apart);
     EXPECT_NEAR(area_of(fast.run(along, {}), 0, 1), along.z * area_of_regular(corners), 1e-13);
     EXPECT_NEAR(area_of(fast.run(-along, {}), 1, 0), along.z * area_of_regular(corners), 1e-13);
-    if (corners % 11 == 0) expect_as_local(fast.scene, 12);
+    if (corners % 11 == 0) {
+      expect_as_local(fast.scene, 12);
+    }
   }
 }
 
 TEST(FastEngineCorners, StacksOfPolygons) {
   for (const int corners : {7, 16, 17, 31, 100}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.face(regular(100, 2, {}), grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.face(regular(100, 2, {}), gray);
     for (int k = 1; k < 12; ++k) {
       const Vec3 center{std::cos(2.4 * k), std::sin(2.4 * k), 0.2 * k};
       const auto outline = regular(corners, 0.4 + 0.05 * k, center);
-      sketch.face(k % 3 == 0 ? outline : turned_over(outline), grey);
+      sketch.face(k % 3 == 0 ? outline : turned_over(outline), gray);
     }
-    sketch.face(turned_over(regular(100, 3, {0, 0, 3})), grey);
+    sketch.face(turned_over(regular(100, 3, {0, 0, 3})), gray);
     expect_as_local(sketch.scene(), 12);
   }
 }
@@ -197,16 +205,16 @@ TEST(FastEngineCorners, StacksOfPolygons) {
 /// 16 … corners, the later half of them cut by lines that cut nothing but them.
 Sketch polished_square(int corners) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face(square(1, 0), grey);
-  sketch.face(turned_over(square(4, 2)), grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face(square(1, 0), gray);
+  sketch.face(turned_over(square(4, 2)), gray);
   int made = 0;
   for (int n = 8; n <= corners; n *= 2) {
     for (int k = 1; k < n; k += 2) {
       const double angle = 2 * std::numbers::pi * k / n;
       const Vec3 out{std::cos(angle), std::sin(angle), 0}, along{-out.y, out.x, 0};
       const Vec3 up{0, 0, 0.01 * ++made};
-      sketch.face({up + out + 20.0 * along, up + out - 20.0 * along, up + 20.0 * out}, grey);
+      sketch.face({up + out + 20.0 * along, up + out - 20.0 * along, up + 20.0 * out}, gray);
     }
   }
   return sketch;
@@ -233,11 +241,11 @@ constexpr int tiles_across = 40;
 /// A floor of small squares, up, or a ceiling of them, down; patches 0 … tiles_across² - 1.
 Sketch tiles(bool up) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
+  const int gray = sketch.material(0.5, 1);
   for (int k = 0; k < tiles_across * tiles_across; ++k) {
     const double x = k % tiles_across, y = k / tiles_across, z = up ? 0 : 3;
     const std::vector<Vec3> tile{{x, y, z}, {x + 1, y, z}, {x + 1, y + 1, z}, {x, y + 1, z}};
-    sketch.face(up ? tile : turned_over(tile), grey);
+    sketch.face(up ? tile : turned_over(tile), gray);
   }
   return sketch;
 }
@@ -256,7 +264,9 @@ TEST(FastEngineBins, ALargeFaceOverManySmallOnes) {
   sketch.face({{0, 0, 3}, {0, far, 3}, {far, far, 3}, {far, 0, 3}}, 0);
   const Fast fast(sketch.scene());
   expect_all_tiles_seen(fast.run({0, 0, 1}, {}), true);
-  for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+  for (const Vec3& omega : testing::test_directions(10, 5)) {
+    expect_as_local(fast, omega);
+  }
 }
 
 TEST(FastEngineBins, ManySmallFacesOverALargeOne) {
@@ -265,7 +275,9 @@ TEST(FastEngineBins, ManySmallFacesOverALargeOne) {
   sketch.face({{0, 0, 0}, {far, 0, 0}, {far, far, 0}, {0, far, 0}}, 0);
   const Fast fast(sketch.scene());
   expect_all_tiles_seen(fast.run({0, 0, 1}, {}), false);
-  for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+  for (const Vec3& omega : testing::test_directions(10, 5)) {
+    expect_as_local(fast, omega);
+  }
 }
 
 /// A strip across all tiles: from bin to bin along a diagonal, and beside most of those that its
@@ -282,12 +294,16 @@ TEST(FastEngineBins, ALongThinDiagonalFace) {
       const Fast fast(sketch.scene());
       const Transfers transfers = fast.run({0, 0, 1}, {});
       double seen = 0;
-      for (const Transfer& t : transfers.exchanges) seen += t.area;
+      for (const Transfer& t : transfers.exchanges) {
+        seen += t.area;
+      }
       // The difference of what lies beyond its two long sides: triangles in the tiles' corner.
       const double outer = far - 0.25, inner = outer - std::numbers::sqrt2 * width;
       EXPECT_NEAR(seen, 0.5 * (outer * outer - inner * inner), 1e-11);
       EXPECT_GT(transfers.exchanges.size(), static_cast<std::size_t>(2 * tiles_across - 2));
-      for (const Vec3& omega : testing::test_directions(10, 5)) expect_as_local(fast, omega);
+      for (const Vec3& omega : testing::test_directions(10, 5)) {
+        expect_as_local(fast, omega);
+      }
     }
   }
 }
@@ -300,8 +316,8 @@ TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
     scenes.push_back(load_scene(spec));
   }
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  scenes.push_back(sketch.tetrahedra(12, 0.7, 4, grey).triangles(12, 1, 6, grey).scene());
+  const int gray = sketch.material(0.5, 1);
+  scenes.push_back(sketch.tetrahedra(12, 0.7, 4, gray).triangles(12, 1, 6, gray).scene());
   for (const auto& scene : scenes) {
     const Fast fast(scene);
     for (const Vec3& omega : testing::test_directions(12, 13)) {
@@ -339,8 +355,8 @@ TEST(FastEngine, LeavesNothingOpenWhereRoundingIsWorst) {
 
 TEST(FastEngine, SeesSmallFacesWholeFromAHugeOne) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.tetrahedra(20, 0.1, 23, grey).box({-50, -50, -50}, {50, 50, 50}, true, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.tetrahedra(20, 0.1, 23, gray).box({-50, -50, -50}, {50, 50, 50}, true, gray);
   EXPECT_LT(worst_closure(Fast(sketch.scene()), testing::test_directions(50, 16)), 1e-11);
 }
 
@@ -350,7 +366,9 @@ double exact_share(const char* spec) {
   PassCounts counts;
   std::vector<Vec3> directions = testing::test_directions(27, 14);
   directions.erase(directions.begin(), directions.begin() + 7);  // those that see edges end-on
-  for (const Vec3& omega : directions) counts += fast.run(omega, {}).counts;
+  for (const Vec3& omega : directions) {
+    counts += fast.run(omega, {}).counts;
+  }
   EXPECT_GT(counts.pairs, 0);
   EXPECT_GT(counts.cuts, 0);
   EXPECT_LT(static_cast<double>(counts.exact_decisions),
@@ -377,19 +395,19 @@ TEST(FastEngine, LooksByExactSignsWhereThereAreNeedlesAndSpecks) {
     return exact;
   };
   Sketch needles, specks;
-  const int grey = needles.material(0.5, 1);
+  const int gray = needles.material(0.5, 1);
   specks.material(0.5, 1);
-  needles.box({-1, -1, -1}, {2, 2, 2}, true, grey).box({0, 0, 0}, {1, 1e-5, 1}, false, grey);
-  specks.box({-1, -1, -1}, {2, 2, 2}, true, grey).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, grey);
+  needles.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1, 1e-5, 1}, false, gray);
+  specks.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, gray);
   EXPECT_GT(looks(Fast(needles.scene())), 0);
   EXPECT_GT(looks(Fast(specks.scene())), 0);
 }
 
-TEST(FastEngine, IsLeftWhenCancelled) {
+TEST(FastEngine, IsLeftWhenCanceled) {
   const Fast fast(load_scene("sphere-flake"));
   const Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Cancelled);
+  EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Canceled);
 }
 
 /// Of one thread, so that it does not matter what else a machine does.
@@ -399,7 +417,7 @@ double cpu_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(FastEngine, IsLeftSoonWhenCancelledMeanwhile) {
+TEST(FastEngine, IsLeftSoonWhenCanceledMeanwhile) {
   const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
   const Vec3 omega = normalized({1, 2, 3});
   clockid_t clock{};
@@ -410,19 +428,19 @@ TEST(FastEngine, IsLeftSoonWhenCancelledMeanwhile) {
   for (const double share : {0.02, 0.1, 0.25, 0.5, 0.7}) {
     const Cancellation cancellation;
     const double start = cpu_seconds(clock);
-    double cancelled = 0;
+    double canceled = 0;
     std::thread canceller([&] {
       while (cpu_seconds(clock) < start + share * pass) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
-      cancelled = cpu_seconds(clock);
+      canceled = cpu_seconds(clock);
       cancellation.cancel();
     });
-    EXPECT_THROW(fast.run(omega, cancellation), Cancelled);
+    EXPECT_THROW(fast.run(omega, cancellation), Canceled);
     const double stopped = cpu_seconds(clock);
     canceller.join();
     // 50 ms are promised; where sanitizers slow all down, in proportion.
-    EXPECT_LT(stopped - cancelled, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
+    EXPECT_LT(stopped - canceled, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
   }
 }
 
@@ -442,25 +460,33 @@ bool same(const Transfers& a, const Transfers& b) {
 
 TEST(FastEngine, GivesTheSameBitsAgainAndFromManyThreads) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  const auto nasty = sketch.tetrahedra(15, 0.7, 9, grey).triangles(15, 1, 2, grey).scene();
+  const int gray = sketch.material(0.5, 1);
+  const auto nasty = sketch.tetrahedra(15, 0.7, 9, gray).triangles(15, 1, 2, gray).scene();
   for (const auto& scene : {load_scene("sphere-flake:levels=1"), load_scene("rooms"), nasty}) {
     const Fast fast(scene), made_again(scene);
     const auto directions = testing::test_directions(12, 15);
     std::vector<Transfers> first;
-    for (const Vec3& omega : directions) first.push_back(fast.run(omega, {}));
+    for (const Vec3& omega : directions) {
+      first.push_back(fast.run(omega, {}));
+    }
     std::array<std::vector<Transfers>, 4> by_thread;
     std::vector<std::thread> threads;
     for (auto& found : by_thread) {
       threads.emplace_back([&] {
-        for (const Vec3& omega : directions) found.push_back(fast.run(omega, {}));
+        for (const Vec3& omega : directions) {
+          found.push_back(fast.run(omega, {}));
+        }
       });
     }
-    for (std::thread& thread : threads) thread.join();
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
     for (std::size_t k = 0; k < directions.size(); ++k) {
       EXPECT_TRUE(same(first[k], fast.run(directions[k], {})));
       EXPECT_TRUE(same(first[k], made_again.run(directions[k], {})));
-      for (const auto& found : by_thread) EXPECT_TRUE(same(first[k], found[k]));
+      for (const auto& found : by_thread) {
+        EXPECT_TRUE(same(first[k], found[k]));
+      }
     }
   }
 }

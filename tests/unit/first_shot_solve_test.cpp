@@ -17,7 +17,9 @@ using ::testing::HasSubstr;
 double error_of(const Solution& solution, const Solution& reference) {
   double error = 0, norm = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    if (max_abs(solution.scene->exitance(i)) > 0) continue;
+    if (max_abs(solution.scene->exitance(i)) > 0) {
+      continue;
+    }
     const auto k = static_cast<std::size_t>(i);
     error += std::pow(solution.radiosity[k].g - reference.radiosity[k].g, 2);
     norm += std::pow(reference.radiosity[k].g, 2);
@@ -94,7 +96,7 @@ TEST(FirstShot, IsThereBeforeTheFirstPass) {
   }
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(RadiositySolver(scene, options, nullptr, cancellation), Cancelled);
+  EXPECT_THROW(RadiositySolver(scene, options, nullptr, cancellation), Canceled);
 }
 
 TEST(FirstShot, OptionsAreReadAndChecked) {

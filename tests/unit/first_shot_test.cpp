@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 
 namespace transillum {
 namespace {
@@ -16,7 +17,7 @@ using testing::Sketch;
 double power_received(const Scene& scene, const DirectLight& light) {
   double power = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    power += scene.patch(i).area * light.irradiance[static_cast<std::size_t>(i)].g;
+    power += scene.patch(i).area * at(light.irradiance, i).g;
   }
   return power;
 }
@@ -24,7 +25,7 @@ double power_received(const Scene& scene, const DirectLight& light) {
 double power_sent(const Scene& scene, const DirectLight& light) {
   double power = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    power += scene.patch(i).area * light.exitance[static_cast<std::size_t>(i)].g;
+    power += scene.patch(i).area * at(light.exitance, i).g;
   }
   return power;
 }
@@ -62,8 +63,8 @@ TEST(Shoot, KeepsThePower) {
 
 TEST(Shoot, GivesTheFormulasIrradiance) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0), light = sketch.material(0.5, 7);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
+  const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 7);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
   sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, light);
   sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, light);
   const DirectLight shot = shoot(*sketch.scene(), {1});
@@ -93,7 +94,7 @@ TEST(Shoot, StopsAndTellsHowFarItIs) {
   EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
   EXPECT_EQ(heard.back(), 1);
   cancellation.cancel();
-  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), 0, cancellation), Cancelled);
+  EXPECT_THROW(shoot(*scene, find_small_sources(*scene), 0, cancellation), Canceled);
   EXPECT_THAT(shoot(*scene, {}).irradiance, SizeIs(scene->patches().size()));
 }
 

@@ -25,7 +25,7 @@ Polygon rectangle(const Vec3& corner, const Vec3& x, const Vec3& y) {
   return {corner, corner + x, corner + x + y, corner + y};
 }
 
-/// Catalogue (Howell C-11): equal rectangles x by y, `distance` apart.
+/// Catalog (Howell C-11): equal rectangles x by y, `distance` apart.
 double parallel_rectangles(long double x, long double y, long double distance) {
   x /= distance;
   y /= distance;
@@ -36,7 +36,7 @@ double parallel_rectangles(long double x, long double y, long double distance) {
                               x * std::atan(x) - y * std::atan(y)));
 }
 
-/// Catalogue (Howell C-14): from a rectangle `common` by w to one `common` by h, at right angles.
+/// Catalog (Howell C-14): from a rectangle `common` by w to one `common` by h, at right angles.
 double perpendicular_rectangles(long double common, long double w, long double h) {
   w /= common;
   h /= common;
@@ -51,7 +51,9 @@ double perpendicular_rectangles(long double common, long double w, long double h
 /// Sum of the form factors from the first of some polygons that close a convex room.
 double row_sum(const std::vector<Polygon>& room) {
   double sum = 0;
-  for (std::size_t j = 1; j < room.size(); ++j) sum += form_factor(room[0], room[j]);
+  for (std::size_t j = 1; j < room.size(); ++j) {
+    sum += form_factor(room[0], room[j]);
+  }
   return sum;
 }
 
@@ -59,7 +61,9 @@ double row_sum(const std::vector<Polygon>& room) {
 void split(std::vector<Polygon>& polygons, std::size_t k, const Vec3& normal) {
   const Polygon whole = polygons[k];
   Vec3 middle;
-  for (const Vec3& corner : whole) middle = middle + corner / static_cast<double>(whole.size());
+  for (const Vec3& corner : whole) {
+    middle = middle + corner / static_cast<double>(whole.size());
+  }
   const HalfSpace space{normal, dot(normal, middle)};
   const Corners front = clipped(whole, space), back = clipped(whole, {-normal, -space.offset});
   polygons[k].assign(front.begin(), front.end());
@@ -67,7 +71,7 @@ void split(std::vector<Polygon>& polygons, std::size_t k, const Vec3& normal) {
 }
 
 TEST(PointFormFactor, OfARectangleOverItsCorner) {
-  // Catalogue (Howell B-3).
+  // Catalog (Howell B-3).
   const double a = 0.7, b = 1.9, c = 1.3, x = a / c, y = b / c;
   const double expected = 1 / (2 * pi) *
                           (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
@@ -97,14 +101,16 @@ TEST(PointFormFactor, FromInsideAClosedBoxSumsToOneForAnyNormal) {
     double sum = 0;
     for (PatchId i = 0; i < box->patch_count(); ++i) {
       Polygon side;
-      for (const PointId p : box->outline(i)) side.push_back(box->point(p));
+      for (const PointId p : box->outline(i)) {
+        side.push_back(box->point(p));
+      }
       sum += point_form_factor(x, normal, side);
     }
     EXPECT_NEAR(sum, 1, 1e-13);
   }
 }
 
-TEST(PolygonExchange, MeetsTheCatalogue) {
+TEST(PolygonExchange, MeetsTheCatalog) {
   const Polygon floor = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   EXPECT_NEAR(form_factor(floor, rectangle({0, 0, 1}, {0, 1, 0}, {1, 0, 0})), 0.1998248957, 5e-11);
   EXPECT_NEAR(form_factor(floor, rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 1})), 0.2000437761, 5e-11);
@@ -142,7 +148,9 @@ TEST(PolygonExchange, RowsOfConvexRoomsSumToOne) {
     std::vector<Polygon> room = tetrahedron;
     const Vec3 stretch{1, trial % 3 ? 1 : 0.03, trial % 5 ? 1.0 : 20};
     for (Polygon& side : room) {
-      for (Vec3& x : side) x = {x.x * stretch.x, x.y * stretch.y, x.z * stretch.z};
+      for (Vec3& x : side) {
+        x = {x.x * stretch.x, x.y * stretch.y, x.z * stretch.z};
+      }
     }
     for (int cut = 0; cut < trial / 4; ++cut) {
       split(room, random() % room.size(),
@@ -155,7 +163,7 @@ TEST(PolygonExchange, RowsOfConvexRoomsSumToOne) {
 }
 
 /// Two sheets of a book that is all but shut or open, a common edge or a hinge with play.
-TEST(PolygonExchange, OfNearlyParallelNeighbours) {
+TEST(PolygonExchange, OfNearlyParallelNeighbors) {
   for (const double angle : {1e-9, 1e-6, 1e-3, 0.1, 3.0, 3.1415}) {
     const Vec3 leaf{std::cos(angle), 0, std::sin(angle)};
     const Polygon lying = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
@@ -174,9 +182,13 @@ TEST(PolygonExchange, OfNearlyParallelNeighbours) {
     const Vec3 aside = std::cos(turn) * y - std::sin(turn) * leaf;
     std::vector<Polygon> parts{rectangle({0, 0, 1e-5}, aside, along)};
     const double whole = form_factor(lying, parts[0]);
-    for (std::size_t k = 0; k < 3; ++k) split(parts, k, normalized({1, 0.3, 0.1}));
+    for (std::size_t k = 0; k < 3; ++k) {
+      split(parts, k, normalized({1, 0.3, 0.1}));
+    }
     double sum = 0;
-    for (const Polygon& part : parts) sum += form_factor(lying, part);
+    for (const Polygon& part : parts) {
+      sum += form_factor(lying, part);
+    }
     EXPECT_NEAR(sum, whole, 1e-12) << angle;
   }
 }
@@ -195,9 +207,13 @@ TEST(PolygonExchange, AddsUpOverPartsAndIsReciprocal) {
     const double whole = polygon_exchange(p, q);
     EXPECT_NEAR(whole, polygon_exchange(q, p), 5e-13);
     std::vector<Polygon> parts{q};
-    for (int cut = 0; cut < 3; ++cut) split(parts, random() % parts.size(), normalized(point()));
+    for (int cut = 0; cut < 3; ++cut) {
+      split(parts, random() % parts.size(), normalized(point()));
+    }
     double sum = 0;
-    for (const Polygon& part : parts) sum += part.empty() ? 0 : polygon_exchange(p, part);
+    for (const Polygon& part : parts) {
+      sum += part.empty() ? 0 : polygon_exchange(p, part);
+    }
     EXPECT_NEAR(sum, whole, 5e-13) << trial;
     seen += whole > 0;
   }

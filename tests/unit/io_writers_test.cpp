@@ -22,6 +22,7 @@
 
 #include "program_run.h"
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -37,10 +38,10 @@ constexpr double smallest = std::numeric_limits<double>::denorm_min();
 /// Three patches, one of them concave, with values that do not survive careless printing.
 Solution awkward_solution() {
   Sketch sketch("awkward");
-  const int grey = sketch.material(1.0 / 3, 0.1);
-  sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, grey);
-  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, grey);
-  sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, grey);
+  const int gray = sketch.material(1.0 / 3, 0.1);
+  sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, gray);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, gray);
+  sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, gray);
   Solution solution;
   solution.scene = sketch.scene();
   solution.radiosity = {{0.1 + 0.2, 1.0 / 3, 1e-17}, {smallest, 1e300, 0}, {M_PI, 2, 1e22}};
@@ -56,7 +57,9 @@ std::vector<std::vector<std::string>> cells(const std::string& text, char separa
   for (std::string line; std::getline(lines, line);) {
     rows.emplace_back();
     std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, separator);) rows.back().push_back(cell);
+    for (std::string cell; std::getline(in, cell, separator);) {
+      rows.back().push_back(cell);
+    }
   }
   return rows;
 }
@@ -74,9 +77,10 @@ void expect_patch_values(const std::vector<std::string>& row, std::size_t first,
   const Scene& scene = *solution.scene;
   expect_same_bits(row[first], scene.patch(i).area);
   std::size_t column = first + 1;
-  for (const Rgb& rgb :
-       {scene.exitance(i), scene.reflectance(i), solution.radiosity[static_cast<std::size_t>(i)]}) {
-    for (const double value : {rgb.r, rgb.g, rgb.b}) expect_same_bits(row[column++], value);
+  for (const Rgb& rgb : {scene.exitance(i), scene.reflectance(i), at(solution.radiosity, i)}) {
+    for (const double value : {rgb.r, rgb.g, rgb.b}) {
+      expect_same_bits(row[column++], value);
+    }
   }
 }
 
@@ -130,7 +134,7 @@ TEST_F(IoWriters, ObjCarriesRadiosityAtCornersOfItsOwn) {
   std::size_t row = 1;  // after the comment
   std::size_t corner = 0;
   for (PatchId i = 0; i < 3; ++i) {
-    const Rgb& b = solution_.radiosity[static_cast<std::size_t>(i)];
+    const Rgb& b = at(solution_.radiosity, i);
     for (const PointId p : solution_.scene->outline(i)) {
       ASSERT_EQ(rows[row].size(), 7U);
       EXPECT_EQ(rows[row][0], "v");
@@ -163,7 +167,7 @@ TEST_F(IoWriters, VtpReadsBackBitForBit) {
   EXPECT_EQ(fields.GetArray("B")->GetDataType(), VTK_DOUBLE);
   vtkNew<vtkIdList> corners;
   for (PatchId i = 0; i < 3; ++i) {
-    const Rgb& b = solution_.radiosity[static_cast<std::size_t>(i)];
+    const Rgb& b = at(solution_.radiosity, i);
     double read[3];
     fields.GetArray("B")->GetTuple(i, read);
     EXPECT_EQ(read[0], b.r);

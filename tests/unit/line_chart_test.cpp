@@ -82,7 +82,9 @@ TEST(LineChart, ZeroLeavesAGapAndTheAxisLogarithmic) {
 
 TEST(LineChart, OfManyPointsNoPeakIsLost) {
   std::vector<ChartPoint> points;
-  for (int k = 0; k < 100000; ++k) points.push_back({1 + 4 * k / 1e5, k == 50000 ? 0.9 : 0.01});
+  for (int k = 0; k < 100000; ++k) {
+    points.push_back({1 + 4 * k / 1e5, k == 50000 ? 0.9 : 0.01});
+  }
   const Picture picture = paint(decades(points));
   const ChartArea& area = picture.area;
   EXPECT_EQ(picture.at((area.left + area.right) / 2, (area.top + area.bottom) / 2), red);
@@ -98,7 +100,9 @@ TEST(LineChart, LinesStayInThePlot) {
     for (int x = 0; x < area.right + 2; ++x) {  // right of it is the legend
       const bool inside =
           x >= area.left - 1 && x <= area.right + 1 && y >= area.top - 1 && y <= area.bottom + 1;
-      if (!inside && picture.at(x, y) == red) ++outside;
+      if (!inside && picture.at(x, y) == red) {
+        ++outside;
+      }
     }
   }
   EXPECT_EQ(outside, 0);
@@ -132,7 +136,9 @@ TEST(LineChart, PngIsTheSameEachTime) {
   const TemporaryFolder folder;
   LineChart chart = decades({{1, 0.01}, {3, 0.1}, {5, 0.5}});
   chart.series[0].marker = ChartMarker::triangle;
-  for (const char* name : {"a.png", "b.png"}) write_charts(folder / name, {chart});
+  for (const char* name : {"a.png", "b.png"}) {
+    write_charts(folder / name, {chart});
+  }
   const std::string first = read_file(folder / "a.png");
   EXPECT_EQ(first, read_file(folder / "b.png"));
   chart.series[0].hollow = true;

@@ -24,6 +24,7 @@
 
 #include "program_run.h"
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 
 namespace transillum::testing {
@@ -48,7 +49,9 @@ double area_of(const std::vector<Vec2>& outline) {
 Areas without_specks(const Areas& areas, double speck = 1e-12) {
   Areas result;
   for (const auto& [key, area] : areas) {
-    if (area > speck) result[key] = area;
+    if (area > speck) {
+      result[key] = area;
+    }
   }
   return result;
 }
@@ -67,16 +70,18 @@ void expect_same_areas(const Areas& areas, const Areas& expected, double toleran
 /// both a red board of 1 m²; and close to the floor a shelf of 1 m² that turns its back on it.
 std::shared_ptr<const Scene> still_life(const std::string& name = "still life") {
   Sketch sketch(name);
-  const int grey = sketch.material(0.5, 0), lamp = sketch.material(0, 3);
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 3);
   const auto board = [&](double x0, double x1, double y0, double y1, double z, bool down, int m) {
     std::vector<Vec3> outline{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}};
-    if (down) std::reverse(outline.begin(), outline.end());
+    if (down) {
+      std::reverse(outline.begin(), outline.end());
+    }
     sketch.face(outline, m);
   };
-  board(0, 2, 0, 2, 0, false, grey);
+  board(0, 2, 0, 2, 0, false, gray);
   board(-0.5, 0.5, 0, 1, 1, true, lamp);
-  board(0.25, 1.25, 0.5, 1.5, 1.5, true, grey);
-  board(1.5, 2, 0, 2, 0.5, false, grey);
+  board(0.25, 1.25, 0.5, 1.5, 1.5, true, gray);
+  board(1.5, 2, 0, 2, 0.5, false, gray);
   return sketch.scene();
 }
 const Areas seen_by_floor{{{1, false}, 0.5}, {{2, false}, 0.875}, {{3, true}, 1}};
@@ -115,19 +120,24 @@ TEST(VisibilityMap, OfAReceiverAddsUpToItsTransfers) {
     const auto scene = load_scene(spec);
     const RecordedDirection direction = recorded(*scene, normalized(Vec3{0.3, -0.2, 0.8}));
     std::map<std::pair<PatchId, PatchId>, double> exchanged;
-    for (const Transfer& t : direction.transfers.exchanges)
+    for (const Transfer& t : direction.transfers.exchanges) {
       exchanged[{t.receiver, t.source}] = t.area;
+    }
     std::size_t looked = 0;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       const VisibilityMap map = map_of_receiver(direction, i);
-      const Coverage& coverage = direction.transfers.forward[static_cast<std::size_t>(i)];
+      const Coverage& coverage = at(direction.transfers.forward, i);
       double covered = 0, window = 0;
       for (const auto& [key, area] : areas_in(map)) {
         covered += area;
-        if (key.second) continue;
+        if (key.second) {
+          continue;
+        }
         EXPECT_NEAR(area, (exchanged[{i, key.first}]), 1e-12) << i;
       }
-      for (const auto& polygon : map.window) window += polygon.area;
+      for (const auto& polygon : map.window) {
+        window += polygon.area;
+      }
       EXPECT_NEAR(covered, coverage.covered, 1e-12);
       EXPECT_NEAR(window, coverage.projected, 1e-12);
       looked += map.polygons.empty() ? 0 : 1;
@@ -140,7 +150,9 @@ TEST(VisibilityMap, FromBelowCoversTheWholeShadowOfAClosedRoom) {
   const auto scene = load_scene("furnace");
   const Vec3 omega = normalized(Vec3{0.5, 0.7, -0.3});
   double area = 0;
-  for (const auto& [key, part] : areas_in(map_from_below(recorded(*scene, omega)))) area += part;
+  for (const auto& [key, part] : areas_in(map_from_below(recorded(*scene, omega)))) {
+    area += part;
+  }
   const Vec3 size = scene->bounds().high - scene->bounds().low;
   EXPECT_NEAR(area,
               std::abs(omega.x) * size.y * size.z + std::abs(omega.y) * size.z * size.x +
@@ -213,7 +225,9 @@ TEST_F(MapFiles, VtpKeepsPolygonsAndTheirPatches) {
   reader->Update();
   vtkPolyData& mesh = *reader->GetOutput();
   vtkCellData& cells = *mesh.GetCellData();
-  for (const char* name : {"patch", "front", "area"}) ASSERT_NE(cells.GetArray(name), nullptr);
+  for (const char* name : {"patch", "front", "area"}) {
+    ASSERT_NE(cells.GetArray(name), nullptr);
+  }
   ASSERT_EQ(mesh.GetNumberOfPolys(), static_cast<vtkIdType>(map.polygons.size()));
   Areas areas, by_array;
   vtkNew<vtkIdList> corners;
@@ -247,7 +261,9 @@ std::vector<vtkXMLDataElement*> elements(vtkXMLDataElement& element, const std::
   std::vector<vtkXMLDataElement*> found;
   for (int k = 0; k < element.GetNumberOfNestedElements(); ++k) {
     vtkXMLDataElement& child = *element.GetNestedElement(k);
-    if (child.GetName() == name) found.push_back(&child);
+    if (child.GetName() == name) {
+      found.push_back(&child);
+    }
     const auto below = elements(child, name);
     found.insert(found.end(), below.begin(), below.end());
   }
@@ -264,18 +280,22 @@ double area_of_path(const std::string& path) {
   double area = 0;
   std::istringstream polygons(path);
   for (std::string polygon; std::getline(polygons, polygon, 'Z');) {
-    for (char& c : polygon) c = c == 'M' || c == 'L' ? ' ' : c;
+    for (char& c : polygon) {
+      c = c == 'M' || c == 'L' ? ' ' : c;
+    }
     std::istringstream numbers(polygon);
     std::vector<Vec2> outline;
-    for (Vec2 p; numbers >> p.x >> p.y;) outline.push_back(p);
+    for (Vec2 p; numbers >> p.x >> p.y;) {
+      outline.push_back(p);
+    }
     area += std::abs(area_of(outline));
   }
   return area;
 }
 
-double pixels_a_metre(vtkXMLDataElement& svg) {
+double pixels_a_meter(vtkXMLDataElement& svg) {
   const std::string text = elements(svg, "desc").at(0)->GetCharacterData();
-  const std::size_t end = text.find(" pixels a metre");
+  const std::size_t end = text.find(" pixels a meter");
   return std::stod(text.substr(text.rfind(' ', end - 1)));
 }
 
@@ -285,13 +305,15 @@ TEST_F(MapFiles, SvgIsXmlWhosePathsHaveTheAreasOfThePatches) {
     write_map(folder / "m.svg", *scene_, map);
     const auto svg = parsed(read_file(folder / "m.svg"));
     ASSERT_NE(svg, nullptr);
-    const double scale = pixels_a_metre(*svg);
+    const double scale = pixels_a_meter(*svg);
     Areas drawn, told;
     for (vtkXMLDataElement* path : elements(*svg, "path")) {
       std::istringstream words(attribute(*path, "class"));
       std::string kind, patch, facing;
       words >> kind >> patch >> facing;
-      if (kind != "patch") continue;
+      if (kind != "patch") {
+        continue;
+      }
       const std::pair key{std::stoi(patch.substr(1)), facing == "front"};
       drawn[key] += area_of_path(attribute(*path, "d")) / (scale * scale);
       told[key] += std::stod(attribute(*path, "data-area"));
@@ -318,7 +340,7 @@ TEST_F(MapFiles, SvgHasTheColorsAsked) {
   options.patch_colors[1] = {0xab, 0xcd, 0xef};
   const std::string colored = written("m.svg", map_from_below(direction_), options);
   EXPECT_THAT(colored, HasSubstr("fill=\"#abcdef\""));
-  EXPECT_THAT(colored, ::testing::Not(HasSubstr(">emits<")));  // the colours do not tell that
+  EXPECT_THAT(colored, ::testing::Not(HasSubstr(">emits<")));  // the colors do not tell that
   EXPECT_THAT(colored, HasSubstr(">back side<"));
   EXPECT_THAT(written("m.svg", map_from_below(direction_)), HasSubstr(">emits<"));
 }
@@ -359,7 +381,7 @@ class Picture {
   std::array<int, 3> at(int x, int y) const {
     std::array<int, 3> rgb{};
     for (int c = 0; c < 3; ++c) {
-      rgb[static_cast<std::size_t>(c)] = static_cast<int>(
+      rgb.at(static_cast<std::size_t>(c)) = static_cast<int>(
           reader_->GetOutput()->GetScalarComponentAsDouble(x, height() - 1 - y, 0, c));
     }
     return rgb;
@@ -367,7 +389,9 @@ class Picture {
   std::map<std::array<int, 3>, int> counts() const {
     std::map<std::array<int, 3>, int> counts;
     for (int y = 0; y < height(); ++y) {
-      for (int x = 0; x < width(); ++x) ++counts[at(x, y)];
+      for (int x = 0; x < width(); ++x) {
+        ++counts[at(x, y)];
+      }
     }
     return counts;
   }
@@ -419,7 +443,9 @@ TEST(MapPng, HasNoSeams) {
   const Picture picture(folder / "m.png");
   // Of the edge only its line may darken the white, and never down to the ground below.
   int row_minimum = 255;
-  for (int x = 120; x < 200; ++x) row_minimum = std::min(row_minimum, picture.at(x, 150)[0]);
+  for (int x = 120; x < 200; ++x) {
+    row_minimum = std::min(row_minimum, picture.at(x, 150)[0]);
+  }
   EXPECT_GT(row_minimum, 100);
 }
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/merged_pieces.h"
+#include "visibility/pairs/merged_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,9 @@ using testing::Sketch;
 
 double area(const std::vector<Corners>& polygons) {
   double sum = 0;
-  for (const Corners& polygon : polygons) sum += norm(area_vector(polygon));
+  for (const Corners& polygon : polygons) {
+    sum += norm(area_vector(polygon));
+  }
   return sum;
 }
 
@@ -24,15 +26,17 @@ TEST(MergedPieces, OfARefinedBoxAreItsSides) {
         merged_pieces(*sketch.scene({.two_sided = two_sided, .max_patch_area = 0.01}));
     ASSERT_EQ(sides.size(), 6U);
     EXPECT_NEAR(area(sides), 22, 1e-12);
-    for (const Corners& side : sides) EXPECT_EQ(side.size(), 4U);
+    for (const Corners& side : sides) {
+      EXPECT_EQ(side.size(), 4U);
+    }
   }
 }
 
 TEST(MergedPieces, OfWhatIsNotConvexOrNotFlatAreThePieces) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0);
-  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}}, grey);
-  sketch.face({{0, 0, 1}, {1, 0, 1}, {1, 1, 1.5}, {0, 1, 1}}, grey);
+  const int gray = sketch.material(0.5, 0);
+  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}}, gray);
+  sketch.face({{0, 0, 1}, {1, 0, 1}, {1, 1, 1.5}, {0, 1, 1}}, gray);
   for (const double area_bound : {0.0, 0.1}) {
     const auto scene = sketch.scene({.max_patch_area = area_bound});
     EXPECT_EQ(merged_pieces(*scene).size(), scene->pieces().size());
@@ -43,7 +47,9 @@ TEST(MergedPieces, CoverWhatThePatchesDo) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec, {.max_patch_area = 0.05});
     double patches = 0;
-    for (const Patch& patch : scene->patches()) patches += patch.area;
+    for (const Patch& patch : scene->patches()) {
+      patches += patch.area;
+    }
     const auto merged = merged_pieces(*scene);
     EXPECT_LT(merged.size(), scene->pieces().size()) << spec;
     EXPECT_NEAR(area(merged), patches, 1e-9 * patches) << spec;

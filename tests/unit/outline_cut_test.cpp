@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The inner loop of the fast engine: known cuts, and all ways give the same bits.
-#include "visibility/outline_cut.h"
+#include "visibility/fast/outline_cut.h"
+#include "visibility/fast/simd_backend.h"
 
 #include <gmock/gmock.h>
 
@@ -26,9 +27,11 @@ void add(Outline& outline, const Points& polygon) {
 }
 
 /// From points of whole numbers.
-Cutter cutter_of(const OutlineWay& way, const Points& polygon, double tolerance = 0) {
+Cutter cutter_of(const SimdBackend& way, const Points& polygon, double tolerance = 0) {
   std::vector<GridPoint> corners;
-  for (const auto& [x, y] : polygon) corners.push_back({std::llrint(x), std::llrint(y)});
+  for (const auto& [x, y] : polygon) {
+    corners.push_back({std::llrint(x), std::llrint(y)});
+  }
   Cutter cutter;
   way.set(cutter, corners.data(), corners.size(), {0, 0}, HUGE_VAL);
   cutter.tolerance = tolerance;
@@ -49,7 +52,7 @@ Points square(double x, double y, double size) {
   return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
 }
 
-class OutlineCutWays : public ::testing::TestWithParam<OutlineWay> {
+class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
  protected:
   /// Cuts, and checks what does not depend on the case.
   bool cut(const Outline& outline, const Cutter& cutter) {
@@ -57,7 +60,9 @@ class OutlineCutWays : public ::testing::TestWithParam<OutlineWay> {
   }
   std::uint64_t all_in() const {
     std::uint64_t bits = 0;
-    for (std::size_t m = 0; m < 4; ++m) bits |= cut_.comes_in[m];
+    for (std::size_t m = 0; m < 4; ++m) {
+      bits |= cut_.comes_in[m];
+    }
     return bits;
   }
   OutlineCut cut_;
@@ -93,7 +98,9 @@ TEST_P(OutlineCutWays, ACutterWithin) {
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(1, 1, 1))));
   EXPECT_EQ(all_in(), 0U);
-  for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(cut_.winding[m], 1);
+  for (std::size_t m = 0; m < 4; ++m) {
+    EXPECT_EQ(cut_.winding[m], 1);
+  }
   EXPECT_EQ(outside_.count, 4U);
 }
 
@@ -101,7 +108,9 @@ TEST_P(OutlineCutWays, AnOutlineWithin) {
   Outline outline;
   add(outline, square(1, 1, 1));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(0, 0, 4))));
-  for (std::size_t m = 0; m < 4; ++m) EXPECT_EQ(cut_.winding[m], 0);
+  for (std::size_t m = 0; m < 4; ++m) {
+    EXPECT_EQ(cut_.winding[m], 0);
+  }
   EXPECT_EQ(cut_.twice_area, 2);
   EXPECT_EQ(outside_.count, 0U);
 }
@@ -113,7 +122,9 @@ TEST_P(OutlineCutWays, NothingInCommon) {
   // No line of the cutter tells them apart.
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), {{5, 2}, {20, 1}, {20, 3}})));
   EXPECT_EQ(all_in(), 0U);
-  for (std::size_t m = 0; m < 3; ++m) EXPECT_EQ(cut_.winding[m], 0);
+  for (std::size_t m = 0; m < 3; ++m) {
+    EXPECT_EQ(cut_.winding[m], 0);
+  }
 }
 
 /// What is within the tolerance of a line is on its inner side, and is cut where it ends.
@@ -129,7 +140,7 @@ TEST_P(OutlineCutWays, PointsOnLines) {
   EXPECT_EQ(outside_.count, 3U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OutlineCutWays, ::testing::ValuesIn(outline_ways()),
+INSTANTIATE_TEST_SUITE_P(All, OutlineCutWays, ::testing::ValuesIn(simd_backends()),
                          [](const auto& test) {
                            std::string name = test.param.name;
                            std::replace(name.begin(), name.end(), ' ', '_');
@@ -149,7 +160,7 @@ struct Result {
   Extent extent;
 };
 
-Result result_of(const OutlineWay& way, const Outline& outline, const Input& input) {
+Result result_of(const SimdBackend& way, const Outline& outline, const Input& input) {
   Result result;
   result.cutter = cutter_of(way, input.polygon, input.tolerance);
   result.cutter.pivot_x = input.pivot_x;
@@ -172,7 +183,9 @@ void expect_same(const Result& a, const Result& b) {
   ASSERT_EQ(a.cutter.perimeter, b.cutter.perimeter);
   ASSERT_EQ(a.extent, b.extent);
   ASSERT_EQ(a.cut, b.cut);
-  if (!a.cut) return;
+  if (!a.cut) {
+    return;
+  }
   ASSERT_EQ(a.found.twice_area, b.found.twice_area);
   for (std::size_t m = 0; m < lines; ++m) {
     ASSERT_EQ(a.found.comes_in[m], b.found.comes_in[m]);
@@ -200,8 +213,8 @@ void expect_same(const Result& a, const Result& b) {
 
 /// Polygons of up to 64 segments; every other time of small numbers, so that points lie on lines.
 TEST(OutlineCut, AllWaysGiveTheSameBits) {
-  const auto ways = outline_ways();
-  EXPECT_STREQ(ways.back().name, "one by one");
+  const auto ways = simd_backends();
+  EXPECT_STREQ(ways.back().name, "scalar");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
   int cuts = 0;
@@ -211,7 +224,9 @@ TEST(OutlineCut, AllWaysGiveTheSameBits) {
     const auto number = [&] { return std::round(size * place(random)); };
     Points star;
     const std::size_t corners = 3 + random() % 62;
-    for (std::size_t k = 0; k < corners; ++k) star.emplace_back(number(), number());
+    for (std::size_t k = 0; k < corners; ++k) {
+      star.emplace_back(number(), number());
+    }
     Outline outline;
     add(outline, star);
     const Input input{
@@ -220,10 +235,12 @@ TEST(OutlineCut, AllWaysGiveTheSameBits) {
         small ? 0.5 : 0.01 * size, number()};
     const Result expected = result_of(ways.back(), outline, input);
     cuts += expected.cut;
-    for (const OutlineWay& way : ways) {
+    for (const SimdBackend& way : ways) {
       SCOPED_TRACE(way.name);
       expect_same(expected, result_of(way, outline, input));
-      if (HasFatalFailure()) return;
+      if (HasFatalFailure()) {
+        return;
+      }
     }
   }
   EXPECT_GT(cuts, 10000);
@@ -233,7 +250,7 @@ TEST(OutlineCut, AllWaysGiveTheSameBits) {
 TEST(OutlineCut, FarLines) {
   constexpr std::int64_t far = std::int64_t{1} << 56;
   const std::vector<GridPoint> corners{{-far - 1, -far + 2}, {far - 3, far + 1}, {-far, far}};
-  for (const OutlineWay& way : outline_ways()) {
+  for (const SimdBackend& way : simd_backends()) {
     Cutter cutter;
     way.set(cutter, corners.data(), corners.size(), {0, 0}, 1000);
     // dy x - dx y, both of 113 bits, comes to 5 - 7 far.

@@ -8,15 +8,18 @@
 #include <cmath>
 
 #include "support/scenes.h"
-#include "visibility/patch_shaft.h"
+#include "visibility/fast/patch_shaft.h"
 
 namespace transillum {
 namespace {
 
 std::vector<Transfer> of_patch(const Transfers& transfers, PatchId patch) {
   std::vector<Transfer> own;
-  for (const Transfer& t : transfers.exchanges)
-    if (t.receiver == patch || t.source == patch) own.push_back(t);
+  for (const Transfer& t : transfers.exchanges) {
+    if (t.receiver == patch || t.source == patch) {
+      own.push_back(t);
+    }
+  }
   return own;
 }
 
@@ -24,14 +27,19 @@ std::vector<Transfer> of_patch(const Transfers& transfers, PatchId patch) {
 void expect_same(const std::vector<Transfer>& found, const std::vector<Transfer>& expected,
                  double rounding) {
   const auto area_in = [](const std::vector<Transfer>& list, const Transfer& wanted) {
-    for (const Transfer& t : list)
-      if (t.receiver == wanted.receiver && t.source == wanted.source) return t.area;
+    for (const Transfer& t : list) {
+      if (t.receiver == wanted.receiver && t.source == wanted.source) {
+        return t.area;
+      }
+    }
     return 0.0;
   };
-  for (const auto* list : {&found, &expected})
-    for (const Transfer& t : *list)
+  for (const auto* list : {&found, &expected}) {
+    for (const Transfer& t : *list) {
       EXPECT_NEAR(area_in(found, t), area_in(expected, t), rounding)
           << t.receiver << " from " << t.source;
+    }
+  }
 }
 
 class PatchEngine : public ::testing::TestWithParam<const char*> {};
@@ -63,7 +71,9 @@ TEST(PatchShaft, LeavesOutMostOfALargeScene) {
   const auto fragments = static_cast<FragmentId>(tree.fragments().size());
   for (const Vec3& omega : testing::test_directions(4, 5)) {
     FragmentId held = 0;
-    for (FragmentId f = 0; f < fragments; ++f) held += shaft.may_hold(f, omega);
+    for (FragmentId f = 0; f < fragments; ++f) {
+      held += shaft.may_hold(f, omega);
+    }
     EXPECT_GT(held, 0);
     EXPECT_LT(held, fragments / 20);
   }

@@ -1,11 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/patch_exchange.h"
+#include "visibility/pairs/patch_exchange.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/form_factors.h"
 
 namespace transillum {
@@ -14,7 +15,9 @@ namespace {
 using testing::Sketch;
 
 std::vector<Vec3> level_square(double z, bool up) {
-  if (up) return {{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}};
+  if (up) {
+    return {{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}};
+  }
   return {{0, 0, z}, {0, 1, z}, {1, 1, z}, {1, 0, z}};
 }
 
@@ -38,13 +41,13 @@ TEST(PatchExchange, InAConvexRoomAllIsSeenWhole) {
 
 TEST(PatchExchange, WhatTouchesTheShaftDoesNotBlock) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0);
-  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  const int gray = sketch.material(0.5, 0);
+  sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
   // Beside, beneath, behind; with an edge or a corner in common.
-  sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, grey);
-  sketch.face({{1, 1, 1}, {2, 1, 0.5}, {1, 2, 0.5}}, grey);
-  sketch.face({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, grey);
-  sketch.face(level_square(1.5, false), grey);
+  sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, gray);
+  sketch.face({{1, 1, 1}, {2, 1, 0.5}, {1, 2, 0.5}}, gray);
+  sketch.face({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, gray);
+  sketch.face(level_square(1.5, false), gray);
   const auto scene = sketch.scene({.two_sided = true});
   const PatchExchange e = ExchangeFinder(*scene)(0, 2);
   EXPECT_TRUE(e.whole);
@@ -53,11 +56,11 @@ TEST(PatchExchange, WhatTouchesTheShaftDoesNotBlock) {
 
 TEST(PatchExchange, AHiddenPatchGivesNothing) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0);
-  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  const int gray = sketch.material(0.5, 0);
+  sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
   // Two halves that share an edge; one looks up and one down.
-  sketch.face({{-9, -9, .5}, {9, -9, .5}, {9, .3, .5}, {-9, .3, .5}}, grey);
-  sketch.face({{-9, 9, .5}, {9, 9, .5}, {9, .3, .5}, {-9, .3, .5}}, grey);
+  sketch.face({{-9, -9, .5}, {9, -9, .5}, {9, .3, .5}, {-9, .3, .5}}, gray);
+  sketch.face({{-9, 9, .5}, {9, 9, .5}, {9, .3, .5}, {-9, .3, .5}}, gray);
   const PatchExchange e = ExchangeFinder(*sketch.scene())(0, 1);
   EXPECT_FALSE(e.whole);
   EXPECT_NEAR(e.area, 0, 1e-14);
@@ -67,9 +70,9 @@ TEST(PatchExchange, AHiddenPatchGivesNothing) {
 /// regard to where it stands.
 TEST(PatchExchange, BehindAPartitionConverges) {
   Sketch parted;
-  const int grey = parted.material(0.5, 0);
-  parted.face(level_square(0, true), grey).face(level_square(1, false), grey);
-  parted.face({{.3, 0, 0}, {.3, 1, 0}, {.3, 1, 1}, {.3, 0, 1}}, grey);
+  const int gray = parted.material(0.5, 0);
+  parted.face(level_square(0, true), gray).face(level_square(1, false), gray);
+  parted.face({{.3, 0, 0}, {.3, 1, 0}, {.3, 1, 1}, {.3, 0, 1}}, gray);
   double exact = 0;
   for (const auto& [x0, x1] : {std::pair{0.0, 0.3}, {0.3, 1.0}}) {
     const std::vector<Vec3> floor{{x0, 0, 0}, {x1, 0, 0}, {x1, 1, 0}, {x0, 1, 0}};
@@ -88,9 +91,9 @@ TEST(PatchExchange, BehindAPartitionConverges) {
 /// A plate floats in a room. What the floor does not see of the ceiling, it sees of the plate.
 TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistance) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.box({0, 0, 0}, {1, 1, 1}, true, grey);
-  sketch.face({{.3, .2, .5}, {.7, .3, .4}, {.6, .8, .55}, {.25, .6, .6}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, gray);
+  sketch.face({{.3, .2, .5}, {.7, .3, .4}, {.6, .8, .55}, {.25, .6, .6}}, gray);
   const auto scene = sketch.scene({.two_sided = true});
   double last = 1e-2;
   for (const double density : {2.0, 8.0, 32.0}) {
@@ -98,7 +101,9 @@ TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistanc
     double error = 0;
     for (PatchId i = 0; i < scene->patch_count(); i += 2) {
       double sum = 0;
-      for (PatchId j = 0; j < scene->patch_count(); ++j) sum += exchange(i, j).area;
+      for (PatchId j = 0; j < scene->patch_count(); ++j) {
+        sum += exchange(i, j).area;
+      }
       error = std::max(error, std::abs(sum / scene->patch(i).area - 1));
     }
     EXPECT_LT(error, last) << density;
@@ -109,8 +114,8 @@ TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistanc
 /// A lamp that lies in its ceiling, the same way up, covers it.
 TEST(PatchExchange, OfCoincidentPatchesTheBrighterIsSeen) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0), light = sketch.material(0.5, 9);
-  sketch.face(level_square(0, true), grey).face(level_square(1, false), grey);
+  const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 9);
+  sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
   sketch.face({{.5, 0, 1}, {.5, 1, 1}, {1, 1, 1}, {1, 0, 1}}, light);
   const ExchangeFinder exchange(*sketch.scene());
   EXPECT_NEAR(exchange(0, 1).area, parallel_unit_squares / 2, 1e-10);
@@ -122,9 +127,9 @@ TEST(PatchExchange, OfCoincidentPatchesTheBrighterIsSeen) {
 TEST(PatchExchange, AgreesWithRays) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
-    sketch.triangles(12, 0.8, seed, grey);
-    sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {.5, 1, 0}, {.5, .5, 0}, {0, .5, 0}}, grey);
+    const int gray = sketch.material(0.5, 1);
+    sketch.triangles(12, 0.8, seed, gray);
+    sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {.5, 1, 0}, {.5, .5, 0}, {0, .5, 0}}, gray);
     const auto scene = sketch.scene({.two_sided = true});
     constexpr int rays = 1 << 16;
     const FormFactors gathered = gather_form_factors(*scene, {.rays_per_patch = rays});
@@ -132,17 +137,17 @@ TEST(PatchExchange, AgreesWithRays) {
     int partial = 0;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       std::vector<double> row(static_cast<std::size_t>(scene->patch_count()));
-      const auto begin = gathered.row_begin[static_cast<std::size_t>(i)];
+      const auto begin = at(gathered.row_begin, i);
       const auto end = gathered.row_begin[static_cast<std::size_t>(i) + 1];
       for (std::size_t k = begin; k < end; ++k) {
-        row[static_cast<std::size_t>(gathered.source[k])] = gathered.value[k];
+        at(row, gathered.source[k]) = gathered.value[k];
       }
       for (PatchId j = 0; j < scene->patch_count(); ++j) {
         const PatchExchange e = exchange(i, j);
         const double f = e.area / scene->patch(i).area;
         // Four deviations of a count, and the quadrature's error where a blocker stands close.
         const double deviation = std::sqrt(f * (1 - std::min(f, 1.0)) / rays) + 1.0 / rays;
-        EXPECT_NEAR(row[static_cast<std::size_t>(j)], f, 4 * deviation + (e.whole ? 0 : 2e-3))
+        EXPECT_NEAR(at(row, j), f, 4 * deviation + (e.whole ? 0 : 2e-3))
             << seed << ": " << i << " " << j;
         partial += !e.whole && e.area > 0;
       }
@@ -158,7 +163,9 @@ TEST(PatchExchange, RowsOfClosedScenesSumToOne) {
     const ExchangeFinder exchange(*scene);
     for (PatchId i = 0; i < scene->patch_count(); i += 3) {
       double sum = 0;
-      for (PatchId j = 0; j < scene->patch_count(); ++j) sum += exchange(i, j).area;
+      for (PatchId j = 0; j < scene->patch_count(); ++j) {
+        sum += exchange(i, j).area;
+      }
       EXPECT_NEAR(sum / scene->patch(i).area, 1, accuracy) << spec << " " << i;
     }
   }

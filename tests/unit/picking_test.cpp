@@ -13,9 +13,9 @@ using testing::Sketch;
 std::shared_ptr<const Scene> two_squares(double size, const Vec3& shift,
                                          const SceneOptions& options = {}) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 1);
-  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
-  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, grey);
+  const int gray = sketch.material(0.5, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, gray);
   return std::make_shared<const Scene>(
       testing::moved(sketch.description(), [=](const Vec3& p) { return size * p + shift; }),
       options);
@@ -67,11 +67,11 @@ TEST(Picker, MeetsTwoSidedFacesOnTheSideOfTheRay) {
   }
 }
 
-TEST(Picker, IsLeftWhenCancelled) {
+TEST(Picker, IsLeftWhenCanceled) {
   const auto scene = load_scene("sphere-flake:levels=1");
   const Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(Picker(scene, cancellation), Cancelled);
+  EXPECT_THROW(Picker(scene, cancellation), Canceled);
 }
 
 TEST(Picker, AimsFromFarAway) {

@@ -23,12 +23,16 @@ struct Polygon {
   }
   PlaneRegion::Box box() const {
     PlaneRegion::Box box;
-    for (const PlaneRegion::Point& p : corners) box.add(p);
+    for (const PlaneRegion::Point& p : corners) {
+      box.add(p);
+    }
     return box;
   }
   bool holds(const PlaneRegion::Point& p) const {
     for (const PlaneRegion::Side& side : sides()) {
-      if (side.distance(p) <= 0) return false;
+      if (side.distance(p) <= 0) {
+        return false;
+      }
     }
     return true;
   }
@@ -60,7 +64,9 @@ Polygon random_polygon(std::mt19937_64& random) {
   const PlaneRegion::Point center{unit(random), unit(random)};
   const double a = 0.6 * unit(random), b = 0.6 * unit(random) * unit(random);
   std::vector<double> angles(3 + random() % 6);
-  for (double& angle : angles) angle = 6.28 * unit(random);
+  for (double& angle : angles) {
+    angle = 6.28 * unit(random);
+  }
   std::sort(angles.begin(), angles.end());
   Polygon polygon;
   for (const double angle : angles) {
@@ -98,12 +104,18 @@ TEST(PlaneRegion, HoldsThePointsThatNoneOfTheOthersHolds) {
     const Polygon whole = random_polygon(random);
     region.assign(whole.corners);
     std::vector<Polygon> taken;
-    for (int k = 0; k < 8; ++k) taken.push_back(random_polygon(random));
-    for (const Polygon& polygon : taken) region.subtract(polygon.sides(), polygon.box());
+    for (int k = 0; k < 8; ++k) {
+      taken.push_back(random_polygon(random));
+    }
+    for (const Polygon& polygon : taken) {
+      region.subtract(polygon.sides(), polygon.box());
+    }
     for (int k = 0; k < 200; ++k) {
       const PlaneRegion::Point p{unit(random), unit(random)};
       bool expected = whole.holds(p);
-      for (const Polygon& polygon : taken) expected = expected && !polygon.holds(p);
+      for (const Polygon& polygon : taken) {
+        expected = expected && !polygon.holds(p);
+      }
       int parts = 0;
       region.for_each([&](std::span<const PlaneRegion::Point> part) {
         parts += Polygon{{part.begin(), part.end()}}.holds(p);
@@ -122,13 +134,17 @@ TEST(PlaneRegion, IsTheSameForAnyOrder) {
   std::vector<Polygon> grid;
   for (int k = 0; k < 25; ++k) {
     grid.push_back(rectangle(0.1 * (k % 5), 0.1 * (k / 5), 0.1, 0.1));
-    for (PlaneRegion::Point& p : grid.back().corners) p.u += noise(random), p.v += noise(random);
+    for (PlaneRegion::Point& p : grid.back().corners) {
+      p.u += noise(random), p.v += noise(random);
+    }
   }
   for (int trial = 0; trial < 20; ++trial) {
     PlaneRegion region;
     region.assign(rectangle(0, 0, 1, 1).corners);
     std::shuffle(grid.begin(), grid.end(), random);
-    for (const Polygon& cell : grid) region.subtract(cell.sides(), cell.box());
+    for (const Polygon& cell : grid) {
+      region.subtract(cell.sides(), cell.box());
+    }
     EXPECT_NEAR(area(region), 0.75, 1e-13);
   }
 }

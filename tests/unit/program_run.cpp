@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "transillum-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw std::runtime_error("no temporary folder");
+  }
   path_ = name;
 }
 
@@ -49,7 +51,9 @@ void write_text(const std::string& path, const std::string& text) {
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& out) {
   std::vector<char*> argv{const_cast<char*>(TRANSILLUM_PROGRAM)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments) {
+    argv.push_back(const_cast<char*>(argument.c_str()));
+  }
   argv.push_back(nullptr);
   const std::string out_file = out.empty() ? streams_ / "out" : out;
   const std::string err_file = streams_ / "err";
@@ -61,7 +65,9 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
   posix_spawn_file_actions_addopen(&streams, 2, err_file.c_str(), writing, 0600);
   const int error = ::posix_spawn(&process_, argv[0], &streams, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&streams);
-  if (error != 0) throw std::runtime_error("transillum does not start");
+  if (error != 0) {
+    throw std::runtime_error("transillum does not start");
+  }
 }
 
 void RunningProgram::send(int signal) const { ::kill(process_, signal); }
@@ -70,7 +76,9 @@ bool RunningProgram::catches(int signal) const {
   const std::string status = read_file("/proc/" + std::to_string(process_) + "/status");
   const std::string key = "SigCgt:";
   const std::size_t at = status.find(key);
-  if (at == std::string::npos) return false;
+  if (at == std::string::npos) {
+    return false;
+  }
   return std::stoull(status.substr(at + key.size()), nullptr, 16) >> (signal - 1) & 1;
 }
 
@@ -78,7 +86,9 @@ std::string RunningProgram::err_so_far() const { return read_file(streams_ / "er
 
 ProgramResult RunningProgram::wait() {
   int status = 0;
-  if (::waitpid(process_, &status, 0) != process_) throw std::runtime_error("no such process");
+  if (::waitpid(process_, &status, 0) != process_) {
+    throw std::runtime_error("no such process");
+  }
   ProgramResult result;
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = read_file(streams_ / "out");

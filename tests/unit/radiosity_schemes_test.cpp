@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/refusal.h"
+#include "transillum/at.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -121,7 +122,9 @@ TEST(Schemes, TellTheDirectionOfAnyPass) {
     int seen = 0;
     solver.advance(Until::finished, [&](const RadiositySolver& s) {
       const SolveProgress now = s.progress();
-      if (now.direction == 0) return true;
+      if (now.direction == 0) {
+        return true;
+      }
       EXPECT_EQ(s.direction(now.iteration, now.direction - 1), now.last_direction);
       ++seen;
       return true;
@@ -142,7 +145,7 @@ TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
   for (std::size_t i = 0; i < dense.size(); ++i) {
     double sum = 0;
     for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {
-      dense[i][static_cast<std::size_t>(f.source[k])] = f.value[k];
+      at(dense[i], f.source[k]) = f.value[k];
       sum += f.value[k];
     }
     EXPECT_NEAR(sum, 1, 1e-8) << "patch " << i;
@@ -155,14 +158,18 @@ TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
   }
   // What is sent is received, and what is received is what was sent out and reflected.
   EXPECT_NEAR(solver.statistics().energy_balance, 1, 1e-8);
-  for (const double sum : solver.form_factor_sums()) EXPECT_NEAR(sum, 1, 1e-8);
+  for (const double sum : solver.form_factor_sums()) {
+    EXPECT_NEAR(sum, 1, 1e-8);
+  }
 }
 
 TEST(Normalize, SymmetricMakesTheFurnaceExact) {
   const Solution solution =
       solve(load_scene("furnace"),
             {.directions = 50, .normalize = Normalization::symmetric, .tolerance = 1e-13});
-  for (const Rgb& b : solution.radiosity) EXPECT_NEAR(max_abs(b), 2, 1e-8);
+  for (const Rgb& b : solution.radiosity) {
+    EXPECT_NEAR(max_abs(b), 2, 1e-8);
+  }
 }
 
 /// Before the rest of the passes is made.
@@ -197,7 +204,7 @@ Coverage coverage_of(int runs, int directions_a_replica) {
   Rgb true_mean;
   double area = 0;
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
-    true_mean += scene->patch(i).area * truth[static_cast<std::size_t>(i)];
+    true_mean += scene->patch(i).area * at(truth, i);
     area += scene->patch(i).area;
   }
   true_mean = (1 / area) * true_mean;
@@ -215,7 +222,9 @@ Coverage coverage_of(int runs, int directions_a_replica) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const Rgb off = solver.radiosity()[i] - truth[i];
       // A patch that reflects nothing is known.
-      if (error.standard_error[i].r == 0) continue;
+      if (error.standard_error[i].r == 0) {
+        continue;
+      }
       ++asked;
       held += std::abs(off.r) <= error.quantile * error.standard_error[i].r;
     }

@@ -59,12 +59,14 @@ TEST(RadiositySolver, PausesWhereTheObserverSays) {
   EXPECT_TRUE(solver.radiosity() == whole.radiosity);
 }
 
-TEST(RadiositySolver, ACancelledSolveReturnsWhatThereIs) {
+TEST(RadiositySolver, ACanceledSolveReturnsWhatThereIs) {
   const Cancellation cancellation;
   const Solution solution = solve(
       load_scene("rooms"), {.directions = 5000},
       [&](const RadiositySolver& s) {
-        if (s.progress().direction >= 20) cancellation.cancel();
+        if (s.progress().direction >= 20) {
+          cancellation.cancel();
+        }
         return true;
       },
       cancellation);
@@ -77,7 +79,7 @@ TEST(RadiositySolver, ACancelledSolveReturnsWhatThereIs) {
   EXPECT_GT(lit, 0);
 }
 
-TEST(RadiositySolver, CancellingIsQuick) {
+TEST(RadiositySolver, CancelingIsQuick) {
   const Cancellation cancellation;
   const auto scene = load_scene("sphere-flake");
   RadiositySolver solver(scene, {.directions = 100000}, nullptr, cancellation);
@@ -86,7 +88,7 @@ TEST(RadiositySolver, CancellingIsQuick) {
     cancellation.cancel();
   });
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_THROW(solver.advance(Until::finished), Cancelled);
+  EXPECT_THROW(solver.advance(Until::finished), Canceled);
   const std::chrono::duration<double> until_left = std::chrono::steady_clock::now() - start;
   later.join();
   // 0.3 s of solving, and at worst a pass each of whatever else the machine is busy with.
@@ -113,7 +115,9 @@ TEST(RadiositySolver, ADarkSceneIsDarkAtOnce) {
   const Solution solution = solve(sketch.scene(), {.directions = 8});
   EXPECT_TRUE(solution.complete);
   EXPECT_EQ(solution.statistics.iterations, 1);
-  for (const Rgb& b : solution.radiosity) EXPECT_EQ(max_abs(b), 0);
+  for (const Rgb& b : solution.radiosity) {
+    EXPECT_EQ(max_abs(b), 0);
+  }
 }
 
 /// Eq. 25: changes shrink by rho_max times the largest row sum at most.
@@ -140,8 +144,9 @@ TEST(RadiositySolver, TellsHowWellItsDirectionsIntegrateACosine) {
     for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
       for (const double sign : {1.0, -1.0}) {
         double sum = 0;
-        for (std::size_t d = 0; d < m; ++d)
+        for (std::size_t d = 0; d < m; ++d) {
           sum += std::max(0.0, sign * dot(n, solver.directions()[d]));
+        }
         worst = std::max(worst, std::abs(4 * std::numbers::pi / static_cast<double>(m) * sum -
                                          std::numbers::pi));
       }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/radiosity.h"
 
@@ -27,7 +28,9 @@ Solved solved(const SceneDescription& description, const SolveOptions& options,
               const std::vector<PatchId>* sources = nullptr) {
   Solved result;
   result.scene = std::make_shared<const Scene>(description);
-  if (sources) result.shot = std::make_shared<const DirectLight>(shoot(*result.scene, *sources));
+  if (sources) {
+    result.shot = std::make_shared<const DirectLight>(shoot(*result.scene, *sources));
+  }
   RadiositySolver solver(result.scene, options, nullptr, {}, result.shot);
   solver.keep_form_factors();
   solver.advance(RadiositySolver::Until::finished);
@@ -78,7 +81,9 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
     SCOPED_TRACE(spec);
     SceneDescription description = describe_scene(spec);
     // Sources of more than one material.
-    if (ratio == 0) description.materials.front().exitance = {0.5, 0.25, 0};
+    if (ratio == 0) {
+      description.materials.front().exitance = {0.5, 0.25, 0};
+    }
     SceneDescription changed = description;
     changed.materials = other(description.materials);
     for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
@@ -101,11 +106,17 @@ TEST(Relight, ShootsNothingWhereNothingEmits) {
   const Scene scene(describe_scene("cornell-box"));
   const DirectLight light = shoot(scene, find_small_sources(scene, 0));
   std::vector<Material> dark = scene.materials();
-  for (Material& material : dark) material.exitance = {};
+  for (Material& material : dark) {
+    material.exitance = {};
+  }
   const DirectLight none = with_materials(light, scene, dark);
   EXPECT_EQ(none.power_share, 0);
-  for (const Rgb& h : none.irradiance) EXPECT_EQ(max_abs(h), 0);
-  for (const Rgb& e : none.exitance) EXPECT_EQ(max_abs(e), 0);
+  for (const Rgb& h : none.irradiance) {
+    EXPECT_EQ(max_abs(h), 0);
+  }
+  for (const Rgb& e : none.exitance) {
+    EXPECT_EQ(max_abs(e), 0);
+  }
 }
 
 TEST(Relight, KeepsTheSourcesThatWereShot) {
@@ -152,16 +163,19 @@ std::vector<std::vector<double>> dense_form_factors(const RadiositySolver& solve
     for (int k = 0; k < solver.options().directions; ++k) {
       const Transfers transfers = engine(solver.direction(n, k), {});
       for (const Transfer& t : transfers.exchanges) {
-        f[static_cast<std::size_t>(t.receiver)][static_cast<std::size_t>(t.source)] += t.area;
-        f[static_cast<std::size_t>(t.source)][static_cast<std::size_t>(t.receiver)] += t.area;
+        at(at(f, t.receiver), t.source) += t.area;
+        at(at(f, t.source), t.receiver) += t.area;
       }
-      for (std::size_t i = 0; i < patches; ++i)
+      for (std::size_t i = 0; i < patches; ++i) {
         projected[i] += transfers.forward[i].projected + transfers.backward[i].projected;
+      }
     }
   }
   for (std::size_t i = 0; i < patches; ++i) {
     const double plain = steps * solver.options().directions * 2 * scene.patches()[i].area / 4;
-    for (double& value : f[i]) value /= by_rows ? projected[i] : plain;
+    for (double& value : f[i]) {
+      value /= by_rows ? projected[i] : plain;
+    }
   }
   return f;
 }
@@ -183,10 +197,12 @@ TEST(Relight, HasTheFormFactorsOfAllStepsOfTheSemiIterativeScheme) {
       const auto expected = dense_form_factors(solver, 5);
       for (std::size_t i = 0; i < expected.size(); ++i) {
         std::vector<double> row(expected.size());
-        for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k)
-          row[static_cast<std::size_t>(kept.source[k])] = kept.value[k];
-        for (std::size_t j = 0; j < row.size(); ++j)
+        for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) {
+          at(row, kept.source[k]) = kept.value[k];
+        }
+        for (std::size_t j = 0; j < row.size(); ++j) {
           EXPECT_NEAR(row[j], expected[i][j], 1e-14) << i << ' ' << j;
+        }
       }
     }
   }
@@ -239,7 +255,9 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
   const std::vector<double> sums = solver.form_factor_sums();  // of the newest step
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double sum = 0;
-    for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) sum += kept.value[k];
+    for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) {
+      sum += kept.value[k];
+    }
     EXPECT_NEAR(sum, sums[i], 1e-12) << i;
   }
 }
@@ -289,8 +307,7 @@ TEST(Relight, RefusesWhatIsNoMaterialOrOfAnotherScene) {
                InputError);
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {}, cancellation),
-               Cancelled);
+  EXPECT_THROW(relight(*s.scene, s.form_factors, s.scene->materials(), {}, cancellation), Canceled);
 }
 
 }  // namespace

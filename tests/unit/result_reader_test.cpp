@@ -14,7 +14,7 @@
 #include <limits>
 #include <random>
 
-#include "io/vtp_output.h"
+#include "io/results/vtp_output.h"
 #include "program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -40,8 +40,9 @@ void expect_same(const Solution& read, const Solution& written) {
     EXPECT_EQ(a.reflectance(i), b.reflectance(i));
     EXPECT_EQ(a.material(i).name, b.material(i).name);
     ASSERT_EQ(a.outline(i).size(), b.outline(i).size());
-    for (std::size_t k = 0; k < a.outline(i).size(); ++k)
+    for (std::size_t k = 0; k < a.outline(i).size(); ++k) {
       EXPECT_EQ(a.point(a.outline(i)[k]), b.point(b.outline(i)[k]));
+    }
   }
   EXPECT_EQ(read.radiosity, written.radiosity);
   EXPECT_EQ(read.irradiance, written.irradiance);
@@ -67,10 +68,10 @@ class ResultReader : public ::testing::Test {
   /// A solved scene of two triangles and a concave quadrilateral, written.
   ResultReader() {
     Sketch sketch("awkward");
-    const int grey = sketch.material(1.0 / 3, 0.1), bright = sketch.material(0.7, 5);
-    sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, grey);
+    const int gray = sketch.material(1.0 / 3, 0.1), bright = sketch.material(0.7, 5);
+    sketch.face({{0, 0, 0}, {1.0 / 3, 0, 0}, {0.1, 0.7, 0}}, gray);
     sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}}, bright);
-    sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, grey);
+    sketch.face({{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {1, 0.5, 2}}, gray);
     solution_ = solve(sketch.scene(), {.directions = 16});
     write_result(path_, solution_);
   }
@@ -134,7 +135,9 @@ TEST_F(ResultReader, NeedsNoMaterialsNorFigures) {
 TEST_F(ResultReader, TellsMaterialsApartByNumberAndValues) {
   // Patches 0 and 2 are of one material.
   change([](vtkPolyData& mesh) {
-    for (int c = 0; c < 3; ++c) mesh.GetCellData()->GetArray("rho")->SetComponent(2, c, 0.25);
+    for (int c = 0; c < 3; ++c) {
+      mesh.GetCellData()->GetArray("rho")->SetComponent(2, c, 0.25);
+    }
   });
   Solution read = read_result(path_);
   EXPECT_EQ(read.scene->reflectance(0), (Rgb{1.0 / 3, 1.0 / 3, 1.0 / 3}));
@@ -270,20 +273,23 @@ TEST_F(ResultReader, SurvivesDamage) {
     EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     return sentence;
   };
-  for (std::size_t size = 0; size < whole.find("AppendedData>\n</"); size += 397)
+  for (std::size_t size = 0; size < whole.find("AppendedData>\n</"); size += 397) {
     EXPECT_NE(take(whole.substr(0, size)), "") << size;
+  }
   std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same files each time
   for (int k = 0; k < 150; ++k) {
     std::string text = whole;
-    for (int n = 0; n <= k % 4; ++n) text[random() % text.size()] = "0AzM\"<=9"[random() % 8];
+    for (int n = 0; n <= k % 4; ++n) {
+      text[random() % text.size()] = "0AzM\"<=9"[random() % 8];
+    }
     take(text);
   }
 }
 
-TEST_F(ResultReader, CanBeCancelled) {
-  const Cancellation cancelled;
-  cancelled.cancel();
-  EXPECT_THROW(read_result(path_, cancelled), Cancelled);
+TEST_F(ResultReader, CanBeCanceled) {
+  const Cancellation canceled;
+  canceled.cancel();
+  EXPECT_THROW(read_result(path_, canceled), Canceled);
 }
 
 TEST(CliResult, IsNoSceneToSolve) {

@@ -10,20 +10,24 @@
 
 namespace transillum::test {
 
-/// A description of faces over points, of one grey material.
+/// A description of faces over points, of one gray material.
 inline SceneDescription polygons(const std::vector<Vec3>& points,
                                  const std::vector<std::vector<PointId>>& faces) {
   SceneDescription description;
   description.name = "test";
   description.points = points;
-  description.materials = {{"grey", {0.5, 0.5, 0.5}, {}}};
-  for (const auto& face : faces) description.add_face(face, 0);
+  description.materials = {{"gray", {0.5, 0.5, 0.5}, {}}};
+  for (const auto& face : faces) {
+    description.add_face(face, 0);
+  }
   return description;
 }
 /// One face over all points.
 inline SceneDescription polygon(const std::vector<Vec3>& points) {
   std::vector<PointId> outline;
-  for (std::size_t i = 0; i < points.size(); ++i) outline.push_back(static_cast<PointId>(i));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    outline.push_back(static_cast<PointId>(i));
+  }
   return polygons(points, {outline});
 }
 
@@ -40,7 +44,9 @@ inline Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
 
 inline double total_area(const Scene& scene) {
   double sum = 0;
-  for (const Patch& p : scene.patches()) sum += p.area;
+  for (const Patch& p : scene.patches()) {
+    sum += p.area;
+  }
   return sum;
 }
 

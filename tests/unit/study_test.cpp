@@ -58,7 +58,9 @@ TEST(Study, ErrorsAreRelativeAndOfAllPatchesAlike) {
   EXPECT_NEAR(error.rms, std::sqrt(0.25 / (3 * 27)), 1e-15);
   EXPECT_DOUBLE_EQ(error.max, 0.5);
   auto twice = off;
-  for (Rgb& b : twice) b = 2 * b;
+  for (Rgb& b : twice) {
+    b = 2 * b;
+  }
   EXPECT_NEAR(radiosity_error(twice, std::vector<Rgb>(one.size(), {2, 2, 2})).rms, error.rms,
               1e-15);
 }
@@ -143,7 +145,9 @@ TEST(Study, NamesTellOnlyWhatDiffers) {
 
 TEST(Study, FitsPowerLawsExactly) {
   std::vector<StudyPoint> points;
-  for (const int m : {10, 30, 200}) points.push_back(point(m, 3 * std::pow(m, -0.75)));
+  for (const int m : {10, 30, 200}) {
+    points.push_back(point(m, 3 * std::pow(m, -0.75)));
+  }
   points.push_back(point(100, std::nan("")));  // did not converge
   const auto law = fitted_power_law(points);
   ASSERT_TRUE(law);
@@ -177,7 +181,9 @@ TEST(Study, CostsAreReadBetweenPoints) {
 TEST(Study, TooFewDirectionsAreAResult) {
   // Mirrors, nearly: three directions make rows sum to far more than 1.
   SceneDescription description = describe_scene("furnace");
-  for (Material& material : description.materials) material.reflectance = {0.98, 0.98, 0.98};
+  for (Material& material : description.materials) {
+    material.reflectance = {0.98, 0.98, 0.98};
+  }
   const auto scene = std::make_shared<const Scene>(description);
   StudyOptions options;
   options.series = {{Sampling::random}};
@@ -218,7 +224,7 @@ TEST(Study, TooLittleMemoryIsAResultOfWhatWantsIt) {
   EXPECT_THAT(study.points[1].failure, HasSubstr("--memory"));
 }
 
-TEST(Study, CancelledItKeepsWhatIsDone) {
+TEST(Study, CanceledItKeepsWhatIsDone) {
   StudyOptions options;
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {64, 16};
@@ -231,7 +237,9 @@ TEST(Study, CancelledItKeepsWhatIsDone) {
         EXPECT_LE(now.share, 1);
         last_share = now.share;
         EXPECT_THAT(now.points, SizeIs((now.directions == 64 ? 2 : 0) + now.series));
-        if (now.series == 1 && now.directions == 64) cancellation.cancel();
+        if (now.series == 1 && now.directions == 64) {
+          cancellation.cancel();
+        }
       },
       cancellation);
   EXPECT_FALSE(study.complete);
@@ -316,7 +324,7 @@ TEST(ReferenceCache, WithoutAFolderThereIsNone) {
   EXPECT_TRUE(cache.file_of(*box().scene, reference_options(1)).empty());
 }
 
-// Plots. Cairo writes text as outlines, so that what a plot says is in its lines: colours, dashes.
+// Plots. Cairo writes text as outlines, so that what a plot says is in its lines: colors, dashes.
 
 Study two_ways(double factor) {
   Study study;
@@ -354,7 +362,7 @@ vtkSmartPointer<vtkImageData> read_png(const std::string& file) {
   return reader->GetOutput();
 }
 
-TEST(StudyPlot, PngShowsTheSeriesInTheirColours) {
+TEST(StudyPlot, PngShowsTheSeriesInTheirColors) {
   const TemporaryFolder folder;
   write_charts(folder / "p.png",
                {study_chart("a name \xff that is no UTF-8",
@@ -382,7 +390,9 @@ TEST(StudyPlot, LegendTellsSlopesWorstFirst) {
   const std::vector<StudySeries> series{{Sampling::random}, {Sampling::halton}};
   Study study = two_ways(1);
   for (StudyPoint& point : study.points) {
-    if (point.series == 1) point.rms_error *= 2;
+    if (point.series == 1) {
+      point.rms_error *= 2;
+    }
   }
   const LineChart chart = study_chart("box", series, study);
   ASSERT_EQ(chart.legend.size(), 3U);

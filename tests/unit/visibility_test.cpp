@@ -7,11 +7,12 @@
 #include <map>
 #include <random>
 
-#include "radiosity/exchange_sums.h"
+#include "radiosity/solver/exchange_sums.h"
 #include "support/scenes.h"
+#include "transillum/at.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
-#include "visibility/plane_index.h"
+#include "visibility/plane/plane_index.h"
 
 namespace transillum {
 namespace {
@@ -42,7 +43,9 @@ TEST(PlaneIndex, FindsWhatOverlapsWhileThingsComeAndGo) {
       index.insert(static_cast<std::int32_t>(id), boxes[id]);
     }
     present[id] = !present[id];
-    if (round % 10 != 0) continue;
+    if (round % 10 != 0) {
+      continue;
+    }
     const PlaneBox asked = random_box();
     std::vector<std::int32_t> found, expected;
     index.query(asked, found);
@@ -59,12 +62,10 @@ TEST(PlaneIndex, FindsWhatOverlapsWhileThingsComeAndGo) {
 /// Area of a fragment in space.
 double area_of(const BspTree& tree, const BspTree::Fragment& fragment) {
   const auto corners = tree.corners(fragment);
-  const auto at = [&](std::size_t k) {
-    return tree.points()[static_cast<std::size_t>(corners[k].point)];
-  };
+  const auto place = [&](std::size_t k) { return at(tree.points(), corners[k].point); };
   Vec3 twice;
   for (std::size_t k = 2; k < corners.size(); ++k) {
-    twice = twice + cross(at(k - 1) - at(0), at(k) - at(0));
+    twice = twice + cross(place(k - 1) - place(0), place(k) - place(0));
   }
   return norm(twice) / 2;
 }
@@ -72,26 +73,27 @@ double area_of(const BspTree& tree, const BspTree::Fragment& fragment) {
 void expect_sound(const Scene& scene, const BspTree& tree) {
   std::vector<double> areas(static_cast<std::size_t>(scene.patch_count()), 0.0);
   for (const auto& fragment : tree.fragments()) {
-    areas[static_cast<std::size_t>(fragment.patch)] += area_of(tree, fragment);
+    at(areas, fragment.patch) += area_of(tree, fragment);
     for (const auto& corner : tree.corners(fragment)) {
       // Every edge keeps a line that goes through both its ends.
-      const auto& line = tree.lines()[static_cast<std::size_t>(corner.line)];
-      const Vec3& a = tree.points()[static_cast<std::size_t>(line.a)];
-      const Vec3& b = tree.points()[static_cast<std::size_t>(line.b)];
-      const Vec3& p = tree.points()[static_cast<std::size_t>(corner.point)];
+      const auto& line = at(tree.lines(), corner.line);
+      const Vec3& a = at(tree.points(), line.a);
+      const Vec3& b = at(tree.points(), line.b);
+      const Vec3& p = at(tree.points(), corner.point);
       EXPECT_LE(norm(cross(normalized(b - a), p - a)), 1e-13 * scene.bounds().diagonal());
     }
   }
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    EXPECT_NEAR(areas[static_cast<std::size_t>(i)], scene.patch(i).area,
-                1e-12 * scene.patch(i).area);
+    EXPECT_NEAR(at(areas, i), scene.patch(i).area, 1e-12 * scene.patch(i).area);
   }
   // Each fragment comes once, from anywhere.
   for (const Vec3& omega : testing::test_directions(10, 1)) {
     auto order = tree.order(omega);
     std::sort(order.begin(), order.end());
     ASSERT_EQ(order.size(), tree.fragments().size());
-    for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(order[k], static_cast<FragmentId>(k));
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      EXPECT_EQ(order[k], static_cast<FragmentId>(k));
+    }
   }
 }
 
@@ -117,24 +119,24 @@ TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
   std::mt19937_64 generator(3);
   for (const double spread : {1e-13, 1e-12, 1e-11, 1e-9}) {
     Sketch sketch;
-    const int grey = sketch.material(0.5, 1);
+    const int gray = sketch.material(0.5, 1);
     for (int k = 0; k < 40; ++k) {
       std::vector<Vec3> outline;
       for (int corner = 0; corner < 3; ++corner) {
         outline.push_back(
             {uniform(generator), uniform(generator), 0.5 + spread * uniform(generator)});
       }
-      sketch.face(outline, grey);
+      sketch.face(outline, gray);
     }
-    sketch.box({-1, -1, -1}, {2, 2, 2}, true, grey);
+    sketch.box({-1, -1, -1}, {2, 2, 2}, true, gray);
     const auto scene = sketch.scene();
     const auto tree = std::make_shared<const BspTree>(*scene);
     std::vector<double> areas(static_cast<std::size_t>(scene->patch_count()), 0.0);
     for (const auto& fragment : tree->fragments()) {
-      areas[static_cast<std::size_t>(fragment.patch)] += area_of(*tree, fragment);
+      at(areas, fragment.patch) += area_of(*tree, fragment);
     }
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
-      EXPECT_NEAR(areas[static_cast<std::size_t>(i)], scene->patch(i).area, 1e-9) << spread;
+      EXPECT_NEAR(at(areas, i), scene->patch(i).area, 1e-9) << spread;
     }
     const TransferEngine engine = make_engine(Engine::local, scene, tree);
     for (const Vec3& omega : testing::test_directions(20, 2)) {
@@ -149,29 +151,33 @@ TEST(BspTree, HardlySplitsTheSphereFlake) {
   EXPECT_LE(static_cast<double>(tree.fragments().size()), 1.15 * scene->patch_count());
 }
 
-TEST(BspTree, IsLeftWhenCancelled) {
+TEST(BspTree, IsLeftWhenCanceled) {
   const auto scene = load_scene("furnace");
   const Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(BspTree(*scene, cancellation), Cancelled);
-  EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, cancellation), Cancelled);
+  EXPECT_THROW(BspTree(*scene, cancellation), Canceled);
+  EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, cancellation), Canceled);
 }
 
 /// Of coincident faces, the receiving comes first in the light's way; a lamp covers its ceiling.
 TEST(BspTree, OrdersCoincidentFaces) {
   Sketch sketch;
-  const int grey = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
+  const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
   const std::vector<Vec3> down{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
   std::vector<Vec3> up(down.rbegin(), down.rend());
-  sketch.face(down, grey).face(down, lamp).face(up, grey);
+  sketch.face(down, gray).face(down, lamp).face(up, gray);
   const auto scene = sketch.scene();
   const BspTree tree(*scene);
   std::vector<PatchId> patches;
-  for (const FragmentId f : tree.order({0, 0, 1})) patches.push_back(tree.fragment(f).patch);
+  for (const FragmentId f : tree.order({0, 0, 1})) {
+    patches.push_back(tree.fragment(f).patch);
+  }
   // From above: the upward face receives; then ceiling, then lamp emit downward, the lamp last.
   EXPECT_THAT(patches, ::testing::ElementsAre(2, 0, 1));
   patches.clear();
-  for (const FragmentId f : tree.order({0, 0, -1})) patches.push_back(tree.fragment(f).patch);
+  for (const FragmentId f : tree.order({0, 0, -1})) {
+    patches.push_back(tree.fragment(f).patch);
+  }
   // Light from below: the lamp meets it first.
   EXPECT_THAT(patches, ::testing::ElementsAre(1, 0, 2));
 }
@@ -186,22 +192,30 @@ TEST(ExchangeSums, AddUpAndGatherBothWays) {
       std::vector<Transfer> exchanges;
       for (PatchId i = 0; i < 12; ++i) {
         for (PatchId j = 0; j < 12; ++j) {
-          if (i == j || uniform(generator) > 0.2) continue;
+          if (i == j || uniform(generator) > 0.2) {
+            continue;
+          }
           const double area = uniform(generator);
           exchanges.push_back({i, j, area});
           dense[i][j] += area;
-          if (two_way) dense[j][i] += area;
+          if (two_way) {
+            dense[j][i] += area;
+          }
         }
       }
       sums.add(sums.make_run(exchanges));
     }
     sums.finish();
     std::vector<Rgb> b(n), gathered(n);
-    for (auto& value : b) value = {uniform(generator), uniform(generator), uniform(generator)};
+    for (auto& value : b) {
+      value = {uniform(generator), uniform(generator), uniform(generator)};
+    }
     sums.gather(b, gathered);
     for (std::size_t i = 0; i < n; ++i) {
       Rgb expected;
-      for (std::size_t j = 0; j < n; ++j) expected += dense[i][j] * b[j];
+      for (std::size_t j = 0; j < n; ++j) {
+        expected += dense[i][j] * b[j];
+      }
       EXPECT_LE(max_abs(gathered[i] - expected), 1e-12);
     }
     EXPECT_LE(sums.size(), n * (n - 1) / (two_way ? 2 : 1));
@@ -230,7 +244,9 @@ TEST(ExchangeSums, AreTheSameBitsWheneverTheyAreMerged) {
     std::vector<Transfer> exchanges;
     for (PatchId i = 0; i < n; ++i) {
       const auto j = static_cast<PatchId>(generator() % n);
-      if (i == j) continue;
+      if (i == j) {
+        continue;
+      }
       const double area = uniform(generator);
       exchanges.push_back({i, j, area});
       in_order_of_passes[std::minmax(i, j)] += area;
@@ -251,13 +267,13 @@ TEST(ExchangeSums, AreTheSameBitsWheneverTheyAreMerged) {
   }
 }
 
-TEST(ExchangeSums, StopWhenCancelled) {
+TEST(ExchangeSums, StopWhenCanceled) {
   const Cancellation cancellation;
   ExchangeSums sums(3, true, 1 << 20, cancellation);
   sums.add({{0, 1, 1.0}});
   cancellation.cancel();
-  EXPECT_THROW(sums.add({{0, 1, 1.0}, {0, 2, 1.0}}), Cancelled);
-  EXPECT_THROW(sums.finish(), Cancelled);
+  EXPECT_THROW(sums.add({{0, 1, 1.0}, {0, 2, 1.0}}), Canceled);
+  EXPECT_THROW(sums.finish(), Canceled);
 }
 
 }  // namespace

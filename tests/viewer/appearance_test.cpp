@@ -8,10 +8,10 @@
 #include <QMenuBar>
 #include <QTextBrowser>
 
-#include "full_screen.h"
-#include "key_list.h"
-#include "lesson_panel.h"
+#include "lessons/lesson_panel.h"
 #include "solved_window.h"
+#include "widgets/full_screen.h"
+#include "window/key_list.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -63,8 +63,11 @@ class AppearanceTest : public QObject {
       const QImage picture =
           solved.window->findChild<QDockWidget*>("settings_dock")->grab().toImage();
       qint64 sum = 0;
-      for (int y = 0; y < picture.height(); ++y)
-        for (int x = 0; x < picture.width(); ++x) sum += qGray(picture.pixel(x, y));
+      for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+          sum += qGray(picture.pixel(x, y));
+        }
+      }
       return static_cast<double>(sum) / (picture.width() * picture.height());
     };
     QVERIFY(lightness() > 200);
@@ -98,23 +101,28 @@ class AppearanceTest : public QObject {
   void all_keys_are_told_and_no_key_does_two_things() {
     const auto window = make_active_window();
     std::map<QString, QString> uses;
-    for (const KeyGroup& group : keys_of(*window))
-      for (const KeyUse& key : group.keys)
+    for (const KeyGroup& group : keys_of(*window)) {
+      for (const KeyUse& key : group.keys) {
         for (const QString& one : key.keys.split(' ')) {
           QVERIFY2(uses.emplace(one, key.text).second, qPrintable(one + ": " + key.text));
         }
+      }
+    }
     QVERIFY(uses.size() > 30);
     QTest::keyClick(window.get(), Qt::Key_Question);
     auto* dialog = window->findChild<QDialog*>("keys");
     QVERIFY(dialog && dialog->isVisible());
     const QString page = dialog->findChild<QTextBrowser*>()->toPlainText();
-    for (const auto& [key, text] : uses) QVERIFY2(page.contains(text), qPrintable(text));
+    for (const auto& [key, text] : uses) {
+      QVERIFY2(page.contains(text), qPrintable(text));
+    }
 
     QFile manual(QStringLiteral(TRANSILLUM_MANUAL));
     QVERIFY(manual.open(QIODevice::ReadOnly));
     const QString words = QString::fromUtf8(manual.readAll());
-    for (const auto& [key, text] : uses)
+    for (const auto& [key, text] : uses) {
       QVERIFY2(words.contains('`' + key + '`'), qPrintable(key + ": " + text));
+    }
   }
 
   void layouts_have_keys() {

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // Breakpoints, events and the state of the algorithm: what the debugger says, without a window.
-#include "breakpoints.h"
+#include "state/breakpoints.h"
 
 #include <QSettings>
 #include <QSignalSpy>
@@ -10,9 +10,9 @@
 #include <cmath>
 #include <map>
 
-#include "algorithm_state.h"
-#include "camera_views.h"
-#include "step_events.h"
+#include "state/algorithm_state.h"
+#include "state/camera_views.h"
+#include "state/step_events.h"
 #include "transillum/directions.h"
 #include "transillum/map_region.h"
 
@@ -65,10 +65,12 @@ class BreakpointsTest : public QObject {
       const auto steps = steps_where(d.history(), {Kind::patch, patch});
       QVERIFY(std::equal(steps.begin(), steps.end(), expected.begin(), expected.end()));
       std::vector<std::int32_t> cut;
-      for (const MapRecord::Row& row : d.history().record().rows)
+      for (const MapRecord::Row& row : d.history().record().rows) {
         if (row.patch == patch && row.made == row.consumed &&
-            (cut.empty() || cut.back() != row.made))
+            (cut.empty() || cut.back() != row.made)) {
           cut.push_back(row.made);
+        }
+      }
       QCOMPARE(steps_where(d.history(), {Kind::cut, patch}), cut);
     }
   }
@@ -80,7 +82,9 @@ class BreakpointsTest : public QObject {
       const auto steps = steps_where(d.history(), {Kind::pair, transfer.receiver, transfer.source});
       QVERIFY(!steps.empty());
       QCOMPARE(steps_where(d.history(), {Kind::pair, transfer.source, transfer.receiver}), steps);
-      for (const std::int32_t k : steps) QCOMPARE(d.history().step(k).patch, transfer.receiver);
+      for (const std::int32_t k : steps) {
+        QCOMPARE(d.history().step(k).patch, transfer.receiver);
+      }
     }
     QVERIFY(steps_where(d.history(), {Kind::pair, 0, 0}).empty());
   }
@@ -92,8 +96,9 @@ class BreakpointsTest : public QObject {
     double least = HUGE_VAL;
     for (std::int32_t k = 0; k < history.step_count(); ++k) {
       most = std::max(most, history.step(k).map_size);
-      if (history.step(k).row != MapRecord::no_row)
+      if (history.step(k).row != MapRecord::no_row) {
         least = std::min(least, history.step(k).smallest);
+      }
     }
     QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(most)}).empty());
     // Once for each time that V grows so large, not for as long as it is.
@@ -112,8 +117,11 @@ class BreakpointsTest : public QObject {
     // A bound below any share: every receiver.
     const Direction d("furnace");
     std::vector<std::int32_t> receivers;
-    for (std::int32_t k = 0; k < d.history().step_count(); ++k)
-      if (d.history().step(k).front_facing) receivers.push_back(k);
+    for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
+      if (d.history().step(k).front_facing) {
+        receivers.push_back(k);
+      }
+    }
     QCOMPARE(steps_where(d.history(), {Kind::open_receiver, 0, 0, -1}), receivers);
   }
 
@@ -144,8 +152,9 @@ class BreakpointsTest : public QObject {
     std::vector<std::int32_t> back;
     const StepFinder finder = breakpoints.finder();
     for (std::int32_t k = finder(d.history(), d.history().step_count(), Way::backward);
-         k != MapHistory::none; k = finder(d.history(), k, Way::backward))
+         k != MapHistory::none; k = finder(d.history(), k, Way::backward)) {
       back.insert(back.begin(), k);
+    }
     QCOMPARE(back, steps);
   }
 
@@ -179,26 +188,32 @@ class BreakpointsTest : public QObject {
       for (const StepEvent& event : events) {
         QCOMPARE(event.step, k);
         parts += static_cast<std::size_t>(event.parts);
-        if (event.kind == StepEvent::Kind::exchange)
+        if (event.kind == StepEvent::Kind::exchange) {
           exchanged[{event.below, event.above}] += event.area;
+        }
       }
       QCOMPARE(parts, d.history().outside_at(k).size());
     }
     QCOMPARE(exchanged.size(), d.transfers.exchanges.size());
-    for (const Transfer& transfer : d.transfers.exchanges)
+    for (const Transfer& transfer : d.transfers.exchanges) {
       QVERIFY(std::abs(exchanged[{transfer.receiver, transfer.source}] - transfer.area) < 1e-12);
+    }
   }
 
   void events_of_a_patch_are_those_of_all_steps_that_name_it() {
     const Direction d("cornell-box");
     for (const PatchId patch : {0, 5, 11}) {
       std::size_t expected = 0;
-      for (std::int32_t k = 0; k < d.history().step_count(); ++k)
-        for (const StepEvent& event : events_of_step(d.history(), k))
+      for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
+        for (const StepEvent& event : events_of_step(d.history(), k)) {
           expected += event.below == patch || event.above == patch;
+        }
+      }
       const auto events = events_of_patch(d.history(), patch);
       QCOMPARE(events.size(), expected);
-      for (std::size_t k = 1; k < events.size(); ++k) QVERIFY(events[k - 1].step <= events[k].step);
+      for (std::size_t k = 1; k < events.size(); ++k) {
+        QVERIFY(events[k - 1].step <= events[k].step);
+      }
     }
   }
 
@@ -219,7 +234,9 @@ class BreakpointsTest : public QObject {
   void a_line_tells_what_its_pairs_exchange_altogether() {
     const Direction d("cornell-box", {0.1, 0.2, 1});
     std::map<std::pair<PatchId, PatchId>, double> areas;
-    for (const Transfer& t : d.transfers.exchanges) areas[{t.receiver, t.source}] = t.area;
+    for (const Transfer& t : d.transfers.exchanges) {
+      areas[{t.receiver, t.source}] = t.area;
+    }
     int exchanges = 0;
     for (double x = -1; x < 1; x += 0.0437) {
       for (const StepEvent& event : events_at_point(d.history(), {x, 0.31 * x})) {
@@ -278,10 +295,11 @@ class BreakpointsTest : public QObject {
       exchanges += gathers;
       // As the line says: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
       QCOMPARE(state->gathered.has_value(), gathers);
-      if (!gathers) continue;
-      const Rgb expected =
-          (area * 4 / (scene.patch(state->i).area * 20)) *
-          (scene.reflectance(state->i) * radiosity[static_cast<std::size_t>(state->j)]);
+      if (!gathers) {
+        continue;
+      }
+      const Rgb expected = (area * 4 / (scene.patch(state->i).area * 20)) *
+                           (scene.reflectance(state->i) * at(radiosity, state->j));
       QVERIFY(max_abs(*state->gathered - expected) < 1e-12);
       QVERIFY(max_abs(expected) > 0);
     }
@@ -297,28 +315,33 @@ class BreakpointsTest : public QObject {
     snapshot.progress.passes = 10;
     snapshot.options.two_way = true;
     std::vector<Rgb> radiosity;
-    for (PatchId p = 0; p < scene.patch_count(); ++p)
+    for (PatchId p = 0; p < scene.patch_count(); ++p) {
       radiosity.push_back({1.0 + p, 2.0 + p, 0.5 * p});
+    }
     snapshot.kept_radiosity = {std::make_shared<const std::vector<Rgb>>(radiosity)};
 
     Focus focus;
     focus.begin_run(1);
     std::vector<Rgb> sums(radiosity.size());
-    const auto at = [&](std::int32_t k) {
+    const auto go_to = [&](std::int32_t k) {
       focus.go_to({0, 0, k});
-      if (!focus.map()) focus.show_map(d.map);
+      if (!focus.map()) {
+        focus.show_map(d.map);
+      }
     };
-    at(-1);
+    go_to(-1);
     QVERIFY(!algorithm_state(focus, snapshot, no_patch));
     QVERIFY(current_lines(focus, MapKind::local) == std::vector<CodeLine>{CodeLine::empty_map});
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
-      at(k);
+      go_to(k);
       const auto state = algorithm_state(focus, snapshot, no_patch);
       QVERIFY(state.has_value());
       QCOMPARE(state->directions, 20);
       QCOMPARE(state->map_after, state->map_before - state->inside + state->outside +
                                      (d.history().step(k).row != MapRecord::no_row));
-      if (state->gathered) sums[static_cast<std::size_t>(state->i)] += *state->gathered;
+      if (state->gathered) {
+        at(sums, state->i) += *state->gathered;
+      }
       QCOMPARE(current_lines(focus, MapKind::local).back() == CodeLine::leave_hole,
                state->front_facing);
     }
@@ -328,7 +351,9 @@ class BreakpointsTest : public QObject {
       expected[i] += (4 * t.area / (20 * scene.patch(t.receiver).area)) *
                      (scene.reflectance(t.receiver) * radiosity[j]);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) QVERIFY(max_abs(sums[i] - expected[i]) < 1e-12);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      QVERIFY(max_abs(sums[i] - expected[i]) < 1e-12);
+    }
   }
 
   void changes_are_undone_by_name() {
@@ -361,7 +386,9 @@ class BreakpointsTest : public QObject {
     views.set_undo_stack(&undo);
     const auto names = [&] {
       QStringList list;
-      for (const auto& view : views.all()) list << view.name;
+      for (const auto& view : views.all()) {
+        list << view.name;
+      }
       return list;
     };
     views.add({});
@@ -384,3 +411,4 @@ class BreakpointsTest : public QObject {
 
 QTEST_GUILESS_MAIN(BreakpointsTest)
 #include "breakpoints_test.moc"
+#include "transillum/at.h"

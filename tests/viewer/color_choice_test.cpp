@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "color_choice.h"
+#include "colors/color_choice.h"
 
 #include <QSignalSpy>
 #include <QTest>
 #include <cmath>
 
-#include "form_factor_views.h"
+#include "model/form_factor_views.h"
 #include "solved_snapshot.h"
 
 using namespace transillum;
@@ -19,7 +19,9 @@ std::shared_ptr<SolverSnapshot> solved(const char* spec, int replicas = 1) {
 
 std::shared_ptr<SolverSnapshot> times(const SolverSnapshot& snapshot, double factor) {
   auto scaled = std::make_shared<SolverSnapshot>(snapshot);
-  for (Rgb& b : scaled->radiosity) b = factor * b;
+  for (Rgb& b : scaled->radiosity) {
+    b = factor * b;
+  }
   return scaled;
 }
 
@@ -38,9 +40,12 @@ class ColorChoiceTest : public QObject {
       for (const PatchId selected : {no_patch, PatchId{3}}) {
         const PatchValues shown = values_of(traits.quantity, *snapshot, selected, nullptr);
         QVERIFY2(shown.values.empty() != shown.missing.isEmpty(), traits.name);
-        if (!shown.values.empty())
+        if (!shown.values.empty()) {
           QCOMPARE(shown.values.size(), std::size_t(snapshot->loaded->scene->patch_count()));
-        if (traits.of_selection) QCOMPARE(shown.values.empty(), selected == no_patch);
+        }
+        if (traits.of_selection) {
+          QCOMPARE(shown.values.empty(), selected == no_patch);
+        }
       }
     }
     QVERIFY(!values_of(Quantity::difference, *snapshot, 0, nullptr).missing.isEmpty());
@@ -63,7 +68,9 @@ class ColorChoiceTest : public QObject {
       QVERIFY(of(Quantity::fragments)[at].r >= 1);
     }
     double sum = 0;
-    for (const Rgb& f : of(Quantity::form_factor_from)) sum += f.r;
+    for (const Rgb& f : of(Quantity::form_factor_from)) {
+      sum += f.r;
+    }
     QVERIFY(std::abs(sum - snapshot->form_factor_sums[2]) < 1e-12);
     // Reciprocity: A_i F_ij = A_j F_ji.
     const auto from = of(Quantity::form_factor_from), to = of(Quantity::form_factor_to);
@@ -87,7 +94,9 @@ class ColorChoiceTest : public QObject {
     QCOMPARE(wanted.count(), 1);
     QVERIFY(colors.values().empty());
     QVERIFY(!colors.missing().isEmpty());
-    for (const Color8& color : colors.patch_colors()) QVERIFY(color[0] == color[2]);
+    for (const Color8& color : colors.patch_colors()) {
+      QVERIFY(color[0] == color[2]);
+    }
     QSignalSpy changed(&colors, &ColorChoice::changed);
     selection.select(2);
     QCOMPARE(changed.count(), 1);
@@ -146,8 +155,9 @@ class ColorChoiceTest : public QObject {
     QVERIFY(!colors.missing().isEmpty());
     colors.keep_run();
     QVERIFY(colors.missing().isEmpty());
-    for (const Color8& color : colors.patch_colors())
+    for (const Color8& color : colors.patch_colors()) {
       QCOMPARE(color, color_of(ColorMap::diverging, 0.5));
+    }
     colors.fit(times(*snapshot, 1.25));
     QCOMPARE(colors.scale().low, -colors.scale().high);
     bool any = false;
@@ -186,7 +196,9 @@ class ColorChoiceTest : public QObject {
     scale.mode = ColorMode::red;
     const std::vector<double> shares = histogram(scale, scene, values, 10);
     double rest = 0;
-    for (PatchId i = 2; i < scene.patch_count(); ++i) rest += scene.patch(i).area;
+    for (PatchId i = 2; i < scene.patch_count(); ++i) {
+      rest += scene.patch(i).area;
+    }
     QCOMPARE(shares[9], 1.0);
     QVERIFY(std::abs(shares[1] - scene.patch(0).area / rest) < 1e-12);
     QCOMPARE(shares[5], 0.0);

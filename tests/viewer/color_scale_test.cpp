@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "color_scale.h"
+#include "colors/color_scale.h"
 
 #include <QTest>
 #include <cmath>
 
-#include "log_chart.h"
-#include "number_text.h"
+#include "support/number_text.h"
+#include "widgets/log_chart.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -57,8 +57,9 @@ class ColorScaleTest : public QObject {
       scale.logarithmic = logarithmic;
       scale.low = 0.01;
       scale.high = 100;
-      for (const double t : {0.0, 0.3, 1.0})
+      for (const double t : {0.0, 0.3, 1.0}) {
         QVERIFY(std::abs(scale.position(scale.value_at(t)) - t) < 1e-12);
+      }
       const auto ticks = scale.ticks();
       QVERIFY(ticks.size() >= 3);
       QVERIFY(std::is_sorted(ticks.begin(), ticks.end()));
@@ -87,8 +88,9 @@ class ColorScaleTest : public QObject {
   void a_linear_range_ends_at_what_is_lit() {
     const auto scene = load_scene("cornell-box");
     std::vector<Rgb> radiosity;
-    for (PatchId i = 0; i < scene->patch_count(); ++i)
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
       radiosity.push_back(max_abs(scene->exitance(i)) > 0 ? Rgb{40, 40, 40} : Rgb{3, 3, 3});
+    }
     ColorScale scale;
     scale.mode = ColorMode::red;
     scale.fit_range(*scene, radiosity);
@@ -108,9 +110,10 @@ class ColorScaleTest : public QObject {
   void exposure_looks_at_what_does_not_emit() {
     const auto scene = load_scene("cornell-box");
     std::vector<Rgb> radiosity;
-    for (PatchId i = 0; i < scene->patch_count(); ++i)
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
       radiosity.push_back(max_abs(scene->exitance(i)) > 0 ? Rgb{1000, 1000, 1000}
                                                           : Rgb{0.25, 0.25, 0.25});
+    }
     ColorScale scale;
     scale.fit_exposure(*scene, radiosity);
     QVERIFY(std::abs(std::exp2(scale.exposure) * 0.25 - 0.85) < 1e-9);

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "command_line.h"
+#include "window/command_line.h"
 
 #include <QTest>
 #include <algorithm>
@@ -87,7 +87,7 @@ class CommandLineTest : public QObject {
 
   void wrong_calls_say_so_in_one_line_data() {
     QTest::addColumn<QStringList>("words");
-    QTest::newRow("unknown option") << QStringList{"furnace", "--colour"};
+    QTest::newRow("unknown option") << QStringList{"furnace", "--color"};
     QTest::newRow("no number") << QStringList{"furnace", "-m", "many"};
     QTest::newRow("too few directions") << QStringList{"furnace", "-m", "0"};
     QTest::newRow("unknown sampling") << QStringList{"furnace", "--sampling", "fibonaci"};
@@ -102,9 +102,13 @@ class CommandLineTest : public QObject {
   void wrong_calls_say_so_in_one_line() {
     QFETCH(QStringList, words);
     std::vector<std::string> kept;
-    for (const QString& word : words) kept.push_back(word.toStdString());
+    for (const QString& word : words) {
+      kept.push_back(word.toStdString());
+    }
     std::vector<const char*> arguments;
-    for (const std::string& word : kept) arguments.push_back(word.c_str());
+    for (const std::string& word : kept) {
+      arguments.push_back(word.c_str());
+    }
     const Outcome outcome = parse(arguments);
     QVERIFY(outcome.parsed.exit_now);
     QCOMPARE(outcome.parsed.exit_status, 2);

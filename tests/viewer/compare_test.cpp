@@ -4,13 +4,13 @@
 #include <QSpinBox>
 #include <QWheelEvent>
 
-#include "compare_view.h"
-#include "difference_picture.h"
-#include "engine_text.h"
-#include "hemicube_view.h"
-#include "pixel_view.h"
-#include "settings_panel.h"
+#include "map/compare_view.h"
+#include "map/difference_picture.h"
+#include "map/hemicube_view.h"
+#include "map/pixel_view.h"
+#include "solve/settings_panel.h"
 #include "solved_window.h"
+#include "widgets/engine_text.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -45,13 +45,16 @@ class CompareTest : public QObject {
       return QStringList{shown.text("first_figures"), shown.text("other_figures")};
     };
     const auto* picture = view->findChild<QWidget*>("difference_picture");
-    for (const QString& side : figures()) QVERIFY2(side.contains("pairs"), qPrintable(side));
+    for (const QString& side : figures()) {
+      QVERIFY2(side.contains("pairs"), qPrintable(side));
+    }
     // The room is closed.
     QVERIFY2(figures()[0].contains("100 % covered"), qPrintable(figures()[0]));
     const auto total = [&] {
       double sum = 0;
-      for (PatchId i = 0; i < 27; ++i)
+      for (PatchId i = 0; i < 27; ++i) {
         sum += static_cast<const DifferencePicture*>(picture)->share(i);
+      }
       return sum;
     };
     const double coarse = total();
@@ -129,8 +132,9 @@ class CompareTest : public QObject {
         static_cast<const DifferencePicture*>(view->findChild<QWidget*>("difference_picture"));
     const double wrong = picture->share(14);
     QVERIFY(wrong > 0.01 && wrong < 0.4);
-    for (PatchId j = 0; j < 27; ++j)
+    for (PatchId j = 0; j < 27; ++j) {
       QVERIFY(picture->share(j) >= 0 && picture->share(j) <= 1 + 1e-9);
+    }
     save_picture(*shown.window, "compare-hemicube");
     // The same by the same, whatever the direction.
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
@@ -152,7 +156,9 @@ class CompareTest : public QObject {
       QCOMPARE(order->isVisible(), wanted == Engine::painter);
     };
     for (const std::string& name : engine_names()) {
-      if (takes_directions(engine_from_name(name))) choose(engine_from_name(name));
+      if (takes_directions(engine_from_name(name))) {
+        choose(engine_from_name(name));
+      }
     }
     choose(Engine::painter);
     QVERIFY(resolution->text().contains(QStringLiteral("512 px")));  // the default

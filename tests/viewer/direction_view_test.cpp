@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "direction_view.h"
+#include "directions/direction_view.h"
 
 #include <QDockWidget>
 #include <QTableView>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "received_table.h"
+#include "directions/received_table.h"
 #include "solved_window.h"
-#include "step_events.h"
+#include "state/step_events.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -59,7 +59,7 @@ class DirectionViewTest : public QObject {
       const auto received = shown.view->received();
       QCOMPARE(received.size(), std::size_t{64});
       const double sum = std::accumulate(received.begin(), received.end(), 0.0);
-      const double irradiance = luminance(solution.irradiance[static_cast<std::size_t>(patch)]);
+      const double irradiance = luminance(at(solution.irradiance, patch));
       // The view takes the newest B, H is of the one before: as far apart as the tolerance says.
       QVERIFY2(std::abs(sum - irradiance) <= 1e-4 * irradiance,
                qPrintable(QString("patch %1: %2, not %3").arg(patch).arg(sum).arg(irradiance)));
@@ -74,7 +74,9 @@ class DirectionViewTest : public QObject {
     const auto received = shown.view->received();
     int lit = 0;
     for (std::size_t k = 0; k < received.size(); ++k) {
-      if (!(received[k] > 0)) continue;
+      if (!(received[k] > 0)) {
+        continue;
+      }
       ++lit;
       QVERIFY(dot(points[k].omega, normal) > 0);
     }
@@ -125,8 +127,9 @@ class DirectionViewTest : public QObject {
       return event.step == focus.moment().step && event.kind == StepEvent::Kind::exchange;
     }));
     table->sort(ReceivedTable::of_direction, Qt::AscendingOrder);
-    for (int row = 1; row < table->rowCount(); ++row)
+    for (int row = 1; row < table->rowCount(); ++row) {
       QVERIFY(table->light(row - 1).pass < table->light(row).pass);
+    }
     save_picture(*shown.window, "received");
   }
 
@@ -187,3 +190,4 @@ class DirectionViewTest : public QObject {
 
 TRANSILLUM_VIEWER_TEST_MAIN(DirectionViewTest)
 #include "direction_view_test.moc"
+#include "transillum/at.h"

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "focus.h"
+#include "state/focus.h"
 
 #include <QSignalSpy>
 #include <QTest>
@@ -28,7 +28,7 @@ struct Watched {
     const auto samples = make_directions(Sampling::random, passes, 3);
     for (int d = 0; d < passes; ++d) {
       auto map = std::make_shared<RecordedMap>();
-      const Vec3& omega = samples[static_cast<std::size_t>(d)].direction;
+      const Vec3& omega = at(samples, d).direction;
       map->history = MapHistory(record_local_map(*loaded->scene, *loaded->tree, omega).record);
       map->loaded = loaded;
       map->direction = d;
@@ -37,19 +37,21 @@ struct Watched {
     }
     QObject::connect(&focus, &Focus::map_wanted, &focus, [this](int iteration, int direction) {
       wanted.push_back(direction);
-      if (at_once) show(direction, iteration);
+      if (at_once) {
+        show(direction, iteration);
+      }
     });
     focus.begin_run(passes);
   }
   void show(int direction, int iteration = 0) {
-    auto map = std::make_shared<RecordedMap>(*maps[static_cast<std::size_t>(direction)]);
+    auto map = std::make_shared<RecordedMap>(*at(maps, direction));
     map->iteration = iteration;
     focus.show_map(map);
   }
   std::int32_t last_step(int direction) const {
-    return maps[static_cast<std::size_t>(direction)]->history.step_count() - 1;
+    return at(maps, direction)->history.step_count() - 1;
   }
-  bool at(const Moment& moment) const {
+  bool arrived_at(const Moment& moment) const {
     return focus.moment() == moment && focus.arrived() && focus.map() &&
            focus.map()->direction == moment.direction;
   }
@@ -72,14 +74,14 @@ class FocusTest : public QObject {
     w.focus.follow(0, 0);
     QCOMPARE(w.focus.moment().step, w.maps[0]->record().fullest_step());
     w.focus.follow(0, 2);
-    QVERIFY(w.at({0, 2, w.maps[2]->record().fullest_step()}));
+    QVERIFY(w.arrived_at({0, 2, w.maps[2]->record().fullest_step()}));
     w.focus.step_by(-1);
     QVERIFY(!w.focus.following());
     const Moment here = w.focus.moment();
     w.focus.follow(0, 3);
-    QVERIFY(w.at(here));
+    QVERIFY(w.arrived_at(here));
     w.focus.set_following(true);
-    QVERIFY(w.at({0, 3, w.maps[3]->record().fullest_step()}));
+    QVERIFY(w.arrived_at({0, 3, w.maps[3]->record().fullest_step()}));
   }
 
   /// A growing run: the first step had one direction, the second two, the third all four.
@@ -88,7 +90,7 @@ class FocusTest : public QObject {
     w.focus.set_passes_of_steps({1, 2, 4});
     w.focus.set_iterations(3);
     w.focus.go_to({0, 3, 1});
-    QVERIFY(w.at({0, 0, 1}));
+    QVERIFY(w.arrived_at({0, 0, 1}));
     std::vector<std::pair<int, int>> way;
     for (int k = 0; k < 8; ++k) {
       way.emplace_back(w.focus.moment().iteration, w.focus.moment().direction);
@@ -118,15 +120,18 @@ class FocusTest : public QObject {
     w.focus.go_to_first(0, 2, find_exchanges_of(patch));
     const MapHistory& history = w.maps[2]->history;
     std::int32_t expected = MapHistory::none;
-    for (std::int32_t k = history.step_count() - 1; k >= 0; --k)
-      for (const std::int32_t r : history.inside_at(k))
+    for (std::int32_t k = history.step_count() - 1; k >= 0; --k) {
+      for (const std::int32_t r : history.inside_at(k)) {
         if (history.exchanges(r) &&
-            (history.step(k).patch == patch || history.row(r).patch == patch))
+            (history.step(k).patch == patch || history.row(r).patch == patch)) {
           expected = k;
-    QVERIFY(w.at({0, 2, expected}));
+        }
+      }
+    }
+    QVERIFY(w.arrived_at({0, 2, expected}));
     QVERIFY(!w.focus.following());
     w.focus.go_to_first(0, 3, find_exchanges_of(100000));
-    QVERIFY(w.at({0, 3, -1}));
+    QVERIFY(w.arrived_at({0, 3, -1}));
   }
 
   void hears_of_the_same_newest_direction_once() {
@@ -141,17 +146,23 @@ class FocusTest : public QObject {
     Watched w;
     w.focus.go_to({0, 0, -1});
     std::vector<Moment> way{w.focus.moment()};
-    while (w.focus.step_by(1)) way.push_back(w.focus.moment());
+    while (w.focus.step_by(1)) {
+      way.push_back(w.focus.moment());
+    }
     std::size_t expected = 0;
-    for (int d = 0; d < passes; ++d) expected += static_cast<std::size_t>(w.last_step(d) + 2);
+    for (int d = 0; d < passes; ++d) {
+      expected += static_cast<std::size_t>(w.last_step(d) + 2);
+    }
     QCOMPARE(way.size(), expected);
-    QVERIFY(w.at({0, passes - 1, w.last_step(passes - 1)}));
-    for (std::size_t k = 1; k < way.size(); ++k) QVERIFY(way[k - 1] < way[k]);
+    QVERIFY(w.arrived_at({0, passes - 1, w.last_step(passes - 1)}));
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      QVERIFY(way[k - 1] < way[k]);
+    }
     for (std::size_t k = way.size(); k-- > 1;) {
-      QVERIFY(w.at(way[k]));
+      QVERIFY(w.arrived_at(way[k]));
       QVERIFY(w.focus.step_by(-1));
     }
-    QVERIFY(w.at({0, 0, -1}));
+    QVERIFY(w.arrived_at({0, 0, -1}));
     QVERIFY(!w.focus.step_by(-1));
   }
 
@@ -161,38 +172,38 @@ class FocusTest : public QObject {
     w.focus.phase_by(1);
     for (std::int32_t k = 0; k <= w.last_step(0); ++k) {
       for (const Phase phase : {Phase::before, Phase::split, Phase::after}) {
-        QVERIFY(w.at({0, 0, k}));
+        QVERIFY(w.arrived_at({0, 0, k}));
         QVERIFY(w.focus.phase() == phase);
         w.focus.phase_by(1);
       }
     }
-    QVERIFY(w.at({0, 1, -1}));
+    QVERIFY(w.arrived_at({0, 1, -1}));
     w.focus.phase_by(-1);
-    QVERIFY(w.at({0, 0, w.last_step(0)}));
+    QVERIFY(w.arrived_at({0, 0, w.last_step(0)}));
     QVERIFY(w.focus.phase() == Phase::after);
     w.focus.phase_by(-1);
     QVERIFY(w.focus.phase() == Phase::split);
     // There is nothing before the beginning.
     w.focus.go_to({0, 0, -1});
     w.focus.phase_by(-1);
-    QVERIFY(w.at({0, 0, -1}));
+    QVERIFY(w.arrived_at({0, 0, -1}));
   }
 
   void iterations_that_have_not_begun_are_out_of_reach() {
     Watched w;
     w.focus.go_to({0, 1, 2});
     w.focus.iteration_by(1);
-    QVERIFY(w.at({0, 1, 2}));
+    QVERIFY(w.arrived_at({0, 1, 2}));
     w.focus.set_iterations(3);
     w.focus.iteration_by(1);
-    QVERIFY(w.at({1, 1, 2}));
+    QVERIFY(w.arrived_at({1, 1, 2}));
     w.focus.go_to({1, passes - 1, 0});
     w.focus.direction_by(1);
-    QVERIFY(w.at({2, 0, 0}));
+    QVERIFY(w.arrived_at({2, 0, 0}));
     w.focus.go_to({9, 99, 1 << 30});
-    QVERIFY(w.at({2, passes - 1, w.last_step(passes - 1)}));
+    QVERIFY(w.arrived_at({2, passes - 1, w.last_step(passes - 1)}));
     w.focus.go_to({-9, -9, -9});
-    QVERIFY(w.at({0, 0, -1}));
+    QVERIFY(w.arrived_at({0, 0, -1}));
   }
 
   void steps_may_have_directions_of_their_own() {
@@ -200,10 +211,10 @@ class FocusTest : public QObject {
     w.focus.begin_run(passes, true);
     w.focus.set_iterations(3);
     w.focus.go_to({0, 2, 1});
-    QVERIFY(w.at({0, 2, 1}));
+    QVERIFY(w.arrived_at({0, 2, 1}));
     w.wanted.clear();
     w.focus.iteration_by(2);
-    QVERIFY(w.at({2, 2, 1}));
+    QVERIFY(w.arrived_at({2, 2, 1}));
     QCOMPARE(w.focus.map()->iteration, 2);
     QCOMPARE(w.wanted, std::vector<int>{2});  // not the map at hand
     w.focus.go_to({1, 2, 0});
@@ -212,7 +223,7 @@ class FocusTest : public QObject {
     w.wanted.clear();
     w.focus.go_to({0, 0, -1});
     w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
-    QVERIFY(w.at({0, 0, -1}));
+    QVERIFY(w.arrived_at({0, 0, -1}));
     QCOMPARE(w.wanted.size(), std::size_t{3 * passes});
     // One that comes late is shown as what it is.
     w.at_once = false;
@@ -222,7 +233,7 @@ class FocusTest : public QObject {
     QVERIFY(!w.focus.arrived());
     QCOMPARE(w.focus.moment().iteration, 1);
     w.show(1, 2);
-    QVERIFY(w.at({2, 1, 0}));
+    QVERIFY(w.arrived_at({2, 1, 0}));
   }
 
   void the_old_moment_stays_until_the_new_one_is_recorded() {
@@ -235,7 +246,7 @@ class FocusTest : public QObject {
     QCOMPARE(w.focus.map()->direction, 0);
     QCOMPARE(w.focus.wanted().direction, 2);
     w.show(2);
-    QVERIFY(w.at({0, 2, 3}));
+    QVERIFY(w.arrived_at({0, 2, 3}));
   }
 
   void the_newest_wish_wins() {
@@ -248,9 +259,9 @@ class FocusTest : public QObject {
     QVERIFY(!w.focus.arrived());
     QCOMPARE(w.focus.moment().direction, 1);
     w.show(3);
-    QVERIFY(w.at({0, 3, 0}));
+    QVERIFY(w.arrived_at({0, 3, 0}));
     w.show(1);  // nobody waits for it any more
-    QVERIFY(w.at({0, 3, 0}));
+    QVERIFY(w.arrived_at({0, 3, 0}));
   }
 
   void seeks_through_the_directions() {
@@ -258,21 +269,23 @@ class FocusTest : public QObject {
     w.focus.go_to({0, 0, -1});
     const PatchId patch = 2;
     std::vector<Moment> expected;
-    for (int d = 0; d < passes; ++d)
-      for (const std::int32_t k : w.maps[static_cast<std::size_t>(d)]->history.steps_of(patch))
+    for (int d = 0; d < passes; ++d) {
+      for (const std::int32_t k : at(w.maps, d)->history.steps_of(patch)) {
         expected.push_back({0, d, k});
+      }
+    }
     QVERIFY(expected.front().direction < expected.back().direction);
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
     for (const Moment& moment : expected) {
       w.focus.seek(find_events_of(patch), Way::forward);
-      QVERIFY(w.at(moment));
+      QVERIFY(w.arrived_at(moment));
     }
     w.focus.seek(find_events_of(patch), Way::forward);
-    QVERIFY(w.at(expected.back()));
+    QVERIFY(w.arrived_at(expected.back()));
     QCOMPARE(ended.back().front().toBool(), false);
     for (std::size_t k = expected.size() - 1; k-- > 0;) {
       w.focus.seek(find_events_of(patch), Way::backward);
-      QVERIFY(w.at(expected[k]));
+      QVERIFY(w.arrived_at(expected[k]));
     }
   }
 
@@ -284,7 +297,7 @@ class FocusTest : public QObject {
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
     for (const Way way : {Way::forward, Way::backward}) {
       w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), way);
-      QVERIFY(w.at({500, 1, 3}));
+      QVERIFY(w.arrived_at({500, 1, 3}));
     }
     QCOMPARE(ended.count(), 2);
     QVERIFY(w.wanted.size() <= 2 * passes);
@@ -300,12 +313,12 @@ class FocusTest : public QObject {
     const QSignalSpy stopped(&w.focus, &Focus::seek_stopped);
     w.focus.stop();
     QVERIFY(!w.focus.seeking());
-    QVERIFY(w.at({0, 0, 3}));
+    QVERIFY(w.arrived_at({0, 0, 3}));
     QCOMPARE(ended.count(), 0);
     QCOMPARE(stopped.count(), 1);
     QCOMPARE(stopped.back().front().toInt(), 1);
     w.show(1);
-    QVERIFY(w.at({0, 0, 3}));
+    QVERIFY(w.arrived_at({0, 0, 3}));
   }
 
   void finds_what_covers_a_point() {
@@ -320,8 +333,11 @@ class FocusTest : public QObject {
       p.y += corner.y / static_cast<double>(outline.size());
     }
     const auto top_after = [&](std::int32_t step) {
-      for (const std::int32_t r : record.map_after(step))
-        if (record.covers(history.row(r), p)) return history.row(r).patch;
+      for (const std::int32_t r : record.map_after(step)) {
+        if (record.covers(history.row(r), p)) {
+          return history.row(r).patch;
+        }
+      }
       return no_patch;
     };
     const StepFinder finder = find_changes_at(p);
@@ -337,3 +353,4 @@ class FocusTest : public QObject {
 
 QTEST_GUILESS_MAIN(FocusTest)
 #include "focus_test.moc"
+#include "transillum/at.h"

@@ -12,12 +12,12 @@
 #include <QTableView>
 #include <QTemporaryDir>
 
-#include "camera_views.h"
-#include "inspection.h"
-#include "patch_table.h"
-#include "patch_table_panel.h"
-#include "scene_page.h"
+#include "patches/patch_table.h"
+#include "patches/patch_table_panel.h"
+#include "scene/scene_page.h"
 #include "solved_window.h"
+#include "state/camera_views.h"
+#include "window/inspection_panels.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -125,15 +125,20 @@ class InspectTest : public QObject {
 
   void a_slider_changes_the_light_and_undo_brings_it_back_data() {
     QTest::addColumn<QString>("how");
-    for (const char* how : {"fixed", "first shot", "semi-iterative"})
+    for (const char* how : {"fixed", "first shot", "semi-iterative"}) {
       QTest::newRow(how) << QString::fromLatin1(how);
+    }
   }
 
   void a_slider_changes_the_light_and_undo_brings_it_back() {
     QFETCH(const QString, how);
     SolveOptions options{.directions = 32};
-    if (how == "first shot") options.first_shot = 0;
-    if (how == "semi-iterative") options.scheme = Scheme::semi_iterative;
+    if (how == "first shot") {
+      options.first_shot = 0;
+    }
+    if (how == "semi-iterative") {
+      options.scheme = Scheme::semi_iterative;
+    }
     const Inspected shown("cornell-box", options);
     QVERIFY(shown.ready);
     shown.raise("material_dock");
@@ -144,7 +149,9 @@ class InspectTest : public QObject {
     const auto before = shown.window->snapshot();
     const Scene& scene = *before->loaded->scene;
     PatchId light = 0;
-    while (max_abs(scene.exitance(light)) == 0) ++light;
+    while (max_abs(scene.exitance(light)) == 0) {
+      ++light;
+    }
     shown.window->selection().select(light);
     QCOMPARE(shown.part<QComboBox>("material")->currentIndex(), scene.patch(light).material);
 
@@ -199,7 +206,9 @@ class InspectTest : public QObject {
     edits.start_with(load_scene("cornell-box")->materials());
     const Rgb rho = edits.materials()[0].reflectance;
     edits.begin_drag();
-    for (const double r : {0.1, 0.2, 0.3}) edits.set(0, {}, {r, r, r});
+    for (const double r : {0.1, 0.2, 0.3}) {
+      edits.set(0, {}, {r, r, r});
+    }
     edits.begin_drag();
     edits.set(0, {}, {0.5, 0.5, 0.5});
     QCOMPARE(edits.undo_stack().count(), 2);

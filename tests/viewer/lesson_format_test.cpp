@@ -2,7 +2,7 @@
 #include <QTest>
 #include <nlohmann/json.hpp>
 
-#include "lesson.h"
+#include "lessons/lesson.h"
 #include "transillum/errors.h"
 
 using namespace transillum;
@@ -61,7 +61,7 @@ class LessonFormatTest : public QObject {
     QVERIFY(s.overlays == (std::vector{Overlay::cuts, Overlay::smooth}));
     QVERIFY(s.algorithm == MapKind::global);
     QVERIFY(s.logarithmic && s.labels && !s.direction_shown && s.outlines == true);
-    QVERIFY(s.layout == DockLayouts::Layout::debug);
+    QVERIFY(s.layout == Layout::debug);
     QCOMPARE(s.panels, std::vector<std::string>{"map"});
     // Written and read again it is the same.
     const auto written = to_json(s);
@@ -83,7 +83,7 @@ class LessonFormatTest : public QObject {
     // Another scene begins anew, but for the layout.
     const ViewState& third = l.pages[2].state;
     QCOMPARE(third.options.solve.directions, SolveOptions().directions);
-    QVERIFY(third.layout == DockLayouts::Layout::teach);
+    QVERIFY(third.layout == Layout::teach);
   }
 
   void a_text_may_be_a_list_of_lines() {
@@ -169,13 +169,20 @@ class LessonFormatTest : public QObject {
     for (const Setting& setting : settings()) {
       QVERIFY(*setting.type && *setting.sentence);
       QCOMPARE(defaults.contains(setting.name), setting.in_files);
-      if (!setting.in_files) continue;
+      if (!setting.in_files) {
+        continue;
+      }
       ++in_files;
       const nlohmann::json& value = defaults.at(setting.name);
-      if (value.is_string()) QCOMPARE(value.get<std::string>(), setting.default_value);
-      if (value.is_number_integer() && setting.name != std::string("resolution"))
+      if (value.is_string()) {
+        QCOMPARE(value.get<std::string>(), setting.default_value);
+      }
+      if (value.is_number_integer() && setting.name != std::string("resolution")) {
         QCOMPARE(value.dump(), setting.default_value);
-      if (value.is_boolean()) QCOMPARE(value.get<bool>(), setting.default_value == "yes");
+      }
+      if (value.is_boolean()) {
+        QCOMPARE(value.get<bool>(), setting.default_value == "yes");
+      }
     }
     QCOMPARE(in_files, defaults.size());
     QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "color_scale.h"
-#include "lesson.h"
-#include "recorded_map.h"
+#include "colors/color_scale.h"
+#include "lessons/lesson.h"
+#include "model/recorded_map.h"
 #include "transillum/bounds.h"
 #include "transillum/discrepancy.h"
 #include "transillum/engine.h"
@@ -27,8 +27,7 @@ struct Shown {
   std::vector<DirectionSample> samples;
 
   Shown(int lesson, int number)
-      : page(built_in_lessons()[static_cast<std::size_t>(lesson - 1)]
-                 .pages[static_cast<std::size_t>(number - 1)]),
+      : page(at(built_in_lessons(), lesson - 1).pages[static_cast<std::size_t>(number - 1)]),
         scene(load_scene(page.state.scene, page.state.options.scene)),
         tree(std::make_shared<const BspTree>(*scene)) {
     const SolveOptions& solve = page.state.options.solve;
@@ -49,8 +48,11 @@ struct Shown {
 // A step of the page's map, the first that is found.
 template <typename Holds>
 std::int32_t first_step(const MapHistory& history, const Holds& holds) {
-  for (std::int32_t k = 0; k < history.step_count(); ++k)
-    if (holds(history.step(k))) return k;
+  for (std::int32_t k = 0; k < history.step_count(); ++k) {
+    if (holds(history.step(k))) {
+      return k;
+    }
+  }
   return MapHistory::none;
 }
 
@@ -72,7 +74,9 @@ class LessonPagesTest : public QObject {
     QVERIFY(few.page.state.solve.kind == Goal::Kind::passes);
     QCOMPARE(few.page.state.solve.passes, 9);
     RadiositySolver solver(few.scene, few.page.state.options.solve);
-    for (int d = 0; d < 9; ++d) solver.advance(RadiositySolver::Until::direction);
+    for (int d = 0; d < 9; ++d) {
+      solver.advance(RadiositySolver::Until::direction);
+    }
     const std::vector<Rgb> running = solver.running_estimate();
     const auto black = std::count_if(running.begin(), running.end(),
                                      [](const Rgb& b) { return luminance(b) == 0; });
@@ -90,8 +94,9 @@ class LessonPagesTest : public QObject {
     QVERIFY(sides.page.state.labels && sides.page.state.selection == 16);
     const MapHistory history = sides.history();
     int backs = 0, fronts = 0;
-    for (const std::int32_t r : history.record().map_after(history.record().fullest_step()))
+    for (const std::int32_t r : history.record().map_after(history.record().fullest_step())) {
       ++(history.row(r).front_facing ? backs : fronts);
+    }
     QVERIFY2(backs > 1 && fronts > 5, qPrintable(QString("%1, %2").arg(backs).arg(fronts)));
   }
 
@@ -119,8 +124,11 @@ class LessonPagesTest : public QObject {
         first_step(history, [](const MapHistory::Step& step) { return step.exchanges > 0; });
     QVERIFY(history.step(k).front_facing);
     QVERIFY(!history.inside_at(k).empty() && !history.outside_at(k).empty());
-    for (std::int32_t s = 0; s < history.step_count(); ++s)  // page 6: covered wholly
-      if (history.step(s).front_facing) QVERIFY(history.step(s).open_share() < 1e-11);
+    for (std::int32_t s = 0; s < history.step_count(); ++s) {  // page 6: covered wholly
+      if (history.step(s).front_facing) {
+        QVERIFY(history.step(s).open_share() < 1e-11);
+      }
+    }
   }
 
   void cyclic_overlap() {
@@ -154,8 +162,9 @@ class LessonPagesTest : public QObject {
     QVERIFY(
         Shown(6, 5).says(QLocale(QLocale::English).toString(flake->patch_count()) + " patches"));
     double rho = 0;
-    for (const Material& material : flake->materials())
+    for (const Material& material : flake->materials()) {
       rho = std::max(rho, max_abs(material.reflectance));
+    }
     // The paper's table says 5,700 for rho = 0.6.
     QVERIFY(rho > 0.59 && rho < 0.61);
     QVERIFY(Shown(6, 5).says(
@@ -172,29 +181,33 @@ class LessonPagesTest : public QObject {
              qPrintable(QString::number(ratio)));
     const double asked = directions_if_heterogeneous(0.6, 0.01, 150);
     QVERIFY(theory.says("18 million") && std::round(asked / 1e6) == 18);
-    // The selected patch beside its neighbours in the wall.
+    // The selected patch beside its neighbors in the wall.
     const Shown few(7, 2);
     const PatchId selected = few.page.state.selection;
-    const auto beside_neighbours = [&](const Shown& shown) {
+    const auto beside_neighbors = [&](const Shown& shown) {
       const Solution solution = shown.solution();
       const Patch& patch = shown.scene->patch(selected);
       double sum = 0;
       int count = 0;
       for (PatchId i = 0; i < shown.scene->patch_count(); ++i) {
         const Patch& other = shown.scene->patch(i);
-        if (i == selected || other.material != patch.material) continue;
-        if (dot(other.normal, patch.normal) < 0.99 || norm(other.center - patch.center) > 1)
+        if (i == selected || other.material != patch.material) {
           continue;
-        sum += luminance(solution.radiosity[static_cast<std::size_t>(i)]);
+        }
+        if (dot(other.normal, patch.normal) < 0.99 || norm(other.center - patch.center) > 1) {
+          continue;
+        }
+        sum += luminance(at(solution.radiosity, i));
         ++count;
       }
-      return luminance(solution.radiosity[static_cast<std::size_t>(selected)]) * count / sum;
+      return luminance(at(solution.radiosity, selected)) * count / sum;
     };
-    QVERIFY(few.says("darker than its neighbours"));
-    const double before = beside_neighbours(few), after = beside_neighbours(Shown(7, 4));
+    QVERIFY(few.says("darker than its neighbors"));
+    const double before = beside_neighbors(few), after = beside_neighbors(Shown(7, 4));
     QVERIFY2(before < 0.85 && after > 0.93, qPrintable(QString("%1, %2").arg(before).arg(after)));
   }
 };
 
 QTEST_GUILESS_MAIN(LessonPagesTest)
 #include "lesson_pages_test.moc"
+#include "transillum/at.h"

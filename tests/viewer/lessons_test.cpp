@@ -5,9 +5,9 @@
 #include <QTemporaryDir>
 #include <QTextBrowser>
 
-#include "lesson_panel.h"
+#include "lessons/lesson_panel.h"
 #include "solved_window.h"
-#include "stage.h"
+#include "window/view_state_applier.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -60,7 +60,7 @@ class LessonsTest : public QObject {
     QCOMPARE(window.findChild<QTextBrowser*>("lesson_text")->toPlainText(), QString("first"));
     QCOMPARE(window.snapshot()->progress.direction, 5);
     QCOMPARE(window.selection().patch(), PatchId{4});
-    QVERIFY(window.docks().current() == DockLayouts::Layout::teach);
+    QVERIFY(window.docks().current() == Layout::teach);
 
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
@@ -195,8 +195,9 @@ class LessonsTest : public QObject {
     Taught taught;
     QVERIFY(!taught.panel->lessons().empty());
     const auto& first = taught.panel->lessons().front();
-    for (int page = 0; page < static_cast<int>(first.pages.size()); ++page)
+    for (int page = 0; page < static_cast<int>(first.pages.size()); ++page) {
       taught.panel->show_page(0, page);
+    }
     QVERIFY(taught.settles());
     const ViewState& last = first.pages.back().state;
     QCOMPARE(taught.window->spec(), last.scene);
@@ -205,18 +206,18 @@ class LessonsTest : public QObject {
 
   void every_page_that_comes_along_can_be_shown_data() {
     QTest::addColumn<int>("lesson");
-    for (int k = 0; k < static_cast<int>(built_in_lessons().size()); ++k)
-      QTest::newRow(built_in_lessons()[static_cast<std::size_t>(k)].title.c_str()) << k;
+    for (int k = 0; k < static_cast<int>(built_in_lessons().size()); ++k) {
+      QTest::newRow(at(built_in_lessons(), k).title.c_str()) << k;
+    }
   }
   void every_page_that_comes_along_can_be_shown() {
     QFETCH(int, lesson);
     Taught taught;
-    check_panels(built_in_lessons()[static_cast<std::size_t>(lesson)], "lesson",
-                 taught.window->docks().panels());
-    const auto& pages = built_in_lessons()[static_cast<std::size_t>(lesson)].pages;
+    check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->docks().panels());
+    const auto& pages = at(built_in_lessons(), lesson).pages;
     for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
       // What a page shows does not hang on how finely it is solved, but how long it takes does.
-      ViewState state = pages[static_cast<std::size_t>(k)].state;
+      ViewState state = at(pages, k).state;
       state.options.solve.directions = state.focus ? state.focus->direction + 1 : 4;
       state.options.solve.iterations = state.focus ? state.focus->iteration + 1 : 1;
       taught.window->stage().show(state);
@@ -224,11 +225,14 @@ class LessonsTest : public QObject {
       QCOMPARE(taught.window->banner_text(), QString());
       QCOMPARE(taught.window->selection().patch(), state.selection);
       QCOMPARE(!taught.focus().following(), state.focus.has_value());
-      if (state.focus) QCOMPARE(taught.focus().moment().direction, state.focus->direction);
-      QVERIFY(!pages[static_cast<std::size_t>(k)].text.empty());
+      if (state.focus) {
+        QCOMPARE(taught.focus().moment().direction, state.focus->direction);
+      }
+      QVERIFY(!at(pages, k).text.empty());
     }
   }
 };
 
 TRANSILLUM_VIEWER_TEST_MAIN(LessonsTest)
 #include "lessons_test.moc"
+#include "transillum/at.h"

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "patch_table.h"
+#include "patches/patch_table.h"
 
 #include <QElapsedTimer>
 #include <QTest>
@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "color_scale.h"
-#include "patch_columns.h"
+#include "colors/color_scale.h"
+#include "patches/patch_columns.h"
 #include "solved_snapshot.h"
 
 using namespace transillum;
@@ -32,14 +32,18 @@ struct Filled {
   }
   std::vector<PatchId> patches() const {
     std::vector<PatchId> patches;
-    for (int row = 0; row < table.rowCount(); ++row) patches.push_back(table.patch(row));
+    for (int row = 0; row < table.rowCount(); ++row) {
+      patches.push_back(table.patch(row));
+    }
     return patches;
   }
   std::vector<std::string> csv_lines() const {
     std::stringstream out;
     table.write_csv(out);
     std::vector<std::string> lines;
-    for (std::string line; std::getline(out, line);) lines.push_back(line);
+    for (std::string line; std::getline(out, line);) {
+      lines.push_back(line);
+    }
     return lines;
   }
 };
@@ -60,8 +64,9 @@ class PatchTableTest : public QObject {
     const Filled all(rows_of_all(*box_));
     QCOMPARE(all.table.rowCount(), int(box_->loaded->scene->patch_count()));
     for (const char* name : {"patch", "material", "B", "E", "rho", "H", "area", "face", "F_sum",
-                             "fragments", "SE", "change"})
+                             "fragments", "SE", "change"}) {
       QVERIFY2(all.column(name) >= 0, name);
+    }
     for (const PatchColumn& column : all.columns) {
       QVERIFY(!column.title.isEmpty() && !column.tip.isEmpty());
       QCOMPARE(column.values.size(), std::size_t(all.table.rowCount()));
@@ -71,9 +76,7 @@ class PatchTableTest : public QObject {
   void sorts_both_ways_and_keeps_equals_in_order() {
     Filled all(rows_of_all(*box_));
     const int by = all.column("B");
-    const auto key = [&](PatchId i) {
-      return luminance(box_->radiosity[static_cast<std::size_t>(i)]);
-    };
+    const auto key = [&](PatchId i) { return luminance(at(box_->radiosity, i)); };
     for (const Qt::SortOrder order : {Qt::AscendingOrder, Qt::DescendingOrder}) {
       all.table.sort(by, order);
       const auto patches = all.patches();
@@ -81,10 +84,13 @@ class PatchTableTest : public QObject {
       for (std::size_t k = 1; k < patches.size(); ++k) {
         const double before = key(patches[k - 1]), now = key(patches[k]);
         QVERIFY(order == Qt::AscendingOrder ? before <= now : before >= now);
-        if (before == now) QVERIFY(patches[k - 1] < patches[k]);
+        if (before == now) {
+          QVERIFY(patches[k - 1] < patches[k]);
+        }
       }
-      for (const PatchId patch : {0, 5, 9})
+      for (const PatchId patch : {0, 5, 9}) {
         QCOMPARE(all.table.patch(all.table.row_of(patch)), patch);
+      }
     }
   }
 
@@ -100,13 +106,16 @@ class PatchTableTest : public QObject {
     Filled all(rows_of_all(*box_));
     all.table.set_search("1");
     QVERIFY(all.table.rowCount() > 1);
-    for (const PatchId patch : all.patches()) QVERIFY(QString::number(patch).startsWith('1'));
+    for (const PatchId patch : all.patches()) {
+      QVERIFY(QString::number(patch).startsWith('1'));
+    }
     const Scene& scene = *box_->loaded->scene;
     const QString name = QString::fromStdString(scene.material(7).name);
     all.table.set_search(name.toUpper());
     QVERIFY(all.table.row_of(7) >= 0);
-    for (const PatchId patch : all.patches())
+    for (const PatchId patch : all.patches()) {
       QVERIFY(QString::fromStdString(scene.material(patch).name).contains(name));
+    }
     all.table.set_search("no such thing");
     QCOMPARE(all.table.rowCount(), 0);
     QCOMPARE(all.table.row_of(7), -1);
@@ -133,27 +142,33 @@ class PatchTableTest : public QObject {
     QVERIFY(!rows.patches.empty());
     QCOMPARE(std::count(rows.patches.begin(), rows.patches.end(), i), 0);
     const auto values = [&](const char* name) {
-      return partners.columns[static_cast<std::size_t>(partners.column(name))].values;
+      return at(partners.columns, partners.column(name)).values;
     };
     Rgb received;
     double share = 0, form_factors = 0;
-    for (const Rgb& value : values("received")) received += value;
-    for (const Rgb& value : values("share_percent")) share += value.r;
-    for (const Rgb& value : values("F_ij")) form_factors += value.r;
+    for (const Rgb& value : values("received")) {
+      received += value;
+    }
+    for (const Rgb& value : values("share_percent")) {
+      share += value.r;
+    }
+    for (const Rgb& value : values("F_ij")) {
+      form_factors += value.r;
+    }
     QVERIFY(std::abs(share - 100) < 1e-9);
     QVERIFY(std::abs(form_factors - box_->form_factor_sums[3]) < 1e-12);
     Rgb irradiance;
-    for (std::size_t k = 0; k < rows.patches.size(); ++k)
-      irradiance +=
-          values("F_ij")[k].r * box_->radiosity[static_cast<std::size_t>(rows.patches[k])];
+    for (std::size_t k = 0; k < rows.patches.size(); ++k) {
+      irradiance += values("F_ij")[k].r * at(box_->radiosity, rows.patches[k]);
+    }
     QVERIFY(max_abs((1 / scene.patch(i).area) * received - irradiance) < 1e-12);
     // What i sends to j is what j receives from i.
     const PatchId j = rows.patches.front();
     const Filled back(rows_of_partners(*box_, j));
     const int row = back.table.row_of(i);
     QVERIFY(row >= 0);
-    const Rgb there = back.columns[static_cast<std::size_t>(back.column("received"))]
-                          .values[static_cast<std::size_t>(row)];
+    const Rgb there =
+        at(back.columns, back.column("received")).values[static_cast<std::size_t>(row)];
     QVERIFY(max_abs(values("sent").front() - there) <= 1e-15 + 1e-12 * max_abs(there));
   }
 
@@ -165,7 +180,7 @@ class PatchTableTest : public QObject {
     QVERIFY2(lines[0].rfind("patch,material,B_r,B_g,B_b,E_r", 0) == 0, lines[0].c_str());
     const QStringList first = QString::fromStdString(lines[1]).split(',');
     QCOMPARE(first[0].toInt(), int(all.table.patch(0)));
-    QCOMPARE(first[2].toDouble(), box_->radiosity[static_cast<std::size_t>(all.table.patch(0))].r);
+    QCOMPARE(first[2].toDouble(), at(box_->radiosity, all.table.patch(0)).r);
     all.table.set_search("no such thing");
     QCOMPARE(all.csv_lines().size(), std::size_t{1});
   }
@@ -200,3 +215,4 @@ class PatchTableTest : public QObject {
 
 QTEST_APPLESS_MAIN(PatchTableTest)
 #include "patch_table_test.moc"
+#include "transillum/at.h"

@@ -11,11 +11,11 @@
 #include <QSpinBox>
 #include <QTabWidget>
 
-#include "compare_view.h"
-#include "lesson_panel.h"
+#include "lessons/lesson_panel.h"
+#include "map/compare_view.h"
+#include "solve/study_dialog.h"
 #include "solved_window.h"
-#include "stage.h"
-#include "study_dialog.h"
+#include "window/view_state_applier.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -31,14 +31,18 @@ QString folder() { return qEnvironmentVariable("TRANSILLUM_PICTURES"); }
 void keep(const QImage& picture, const QString& name, const QSize& size) {
   // A furnace has one radiosity: what is left are outlines.
   QVERIFY2(color_count(picture) > (name == "scene-furnace.png" ? 10 : 40), qPrintable(name));
-  if (folder().isEmpty()) return;
+  if (folder().isEmpty()) {
+    return;
+  }
   const QImage small = picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation);
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
 bool settles(MainWindow& window) {
   const auto still = [&] { return window.settled(); };
-  if (!wait_for(still, 120000)) return false;
+  if (!wait_for(still, 120000)) {
+    return false;
+  }
   QTest::qWait(150);  // views that are about to ask for a new picture
   return wait_for(still, 120000);
 }
@@ -169,7 +173,9 @@ class PicturesTest : public QObject {
     };
     window.focus().go_to({0, 9, 11});
     keep_panel("layout_teach", "tree", "tree");
-    if (folder().isEmpty()) return;
+    if (folder().isEmpty()) {
+      return;
+    }
     window.findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
     keep_panel("layout_teach", "tree", "whole-tree");
     keep_panel("layout_debug", "received", "received");
@@ -186,14 +192,20 @@ class PicturesTest : public QObject {
   void built_in_scenes_alone() {
     for (const BuiltInScene& scene : built_in_scenes()) {
       const QString name = QString::fromStdString(scene.name);
-      if (folder().isEmpty() && name != "boards") continue;
+      if (folder().isEmpty() && name != "boards") {
+        continue;
+      }
       PictureWindow window;
       SolveOptions options;
       options.directions = name == "sphere-flake" ? 16 : 128;
       options.first_shot = name == "stars" ? std::optional<double>(1000) : std::nullopt;
       SceneOptions refined;
-      if (name == "cornell-box") refined.max_patch_area = 0.0025;
-      if (name == "stars" || name == "rooms") refined.max_patch_area = 0.25;
+      if (name == "cornell-box") {
+        refined.max_patch_area = 0.0025;
+      }
+      if (name == "stars" || name == "rooms") {
+        refined.max_patch_area = 0.25;
+      }
       window.set_options(options, refined);
       // One iteration brings the light of a sky; a room wants them all.
       window.open(name, {name == "sphere-flake" ? Goal::Kind::iteration : Goal::Kind::finished});

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "inspection.h"
+#include "window/inspection_panels.h"
 #include "window_support.h"
 
 using namespace transillum;
@@ -87,7 +87,9 @@ class ResponsivenessTest : public QObject {
     limit.start(long_enough);
     connect(&limit, &QTimer::timeout, &loop, &QEventLoop::quit);
     connect(&tick, &QTimer::timeout, &loop, [&] {
-      if (since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100) loop.quit();
+      if (since_start.elapsed() > 6000 && passes() > 0 && gaps.size() > 100) {
+        loop.quit();
+      }
     });
     loop.exec();
     QVERIFY(limit.isActive() && passes() > 0);
@@ -128,7 +130,9 @@ class ResponsivenessTest : public QObject {
       for (int k = 0; k < count; ++k) {
         timings.measure([&] {
           focus.go_to(to(k));
-          while (!window->settled()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+          while (!window->settled()) {
+            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+          }
           window->repaint();
         });
       }

@@ -4,11 +4,11 @@
 #include <QLabel>
 #include <QTemporaryDir>
 
-#include "export_actions.h"
-#include "file_actions.h"
 #include "solved_window.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "window/export_actions.h"
+#include "window/file_actions.h"
 
 using namespace transillum;
 using namespace transillum::viewer;

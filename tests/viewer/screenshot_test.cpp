@@ -16,12 +16,16 @@ class ScreenshotTest : public QObject {
     QProcess process;
     process.start(TRANSILLUM_VIEWER, arguments);
     Outcome outcome;
-    if (!process.waitForFinished(90000) || process.exitStatus() != QProcess::NormalExit)
+    if (!process.waitForFinished(90000) || process.exitStatus() != QProcess::NormalExit) {
       return outcome;
+    }
     outcome.status = process.exitCode();
     // Qt's own remark about a missing run-time folder is none of ours.
-    for (const QByteArray& line : process.readAllStandardError().split('\n'))
-      if (!line.isEmpty() && !line.contains("XDG_RUNTIME_DIR")) outcome.error += line + '\n';
+    for (const QByteArray& line : process.readAllStandardError().split('\n')) {
+      if (!line.isEmpty() && !line.contains("XDG_RUNTIME_DIR")) {
+        outcome.error += line + '\n';
+      }
+    }
     return outcome;
   }
 
@@ -35,8 +39,11 @@ class ScreenshotTest : public QObject {
     const QImage picture(path);
     QCOMPARE(picture.size(), QSize(1600, 1000));
     QSet<QRgb> colors;
-    for (int y = 0; y < picture.height(); y += 4)
-      for (int x = 0; x < picture.width(); x += 4) colors.insert(picture.pixel(x, y));
+    for (int y = 0; y < picture.height(); y += 4) {
+      for (int x = 0; x < picture.width(); x += 4) {
+        colors.insert(picture.pixel(x, y));
+      }
+    }
     QVERIFY(colors.size() > 60);
     // Nothing else is left behind.
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"window.png"});
@@ -52,7 +59,7 @@ class ScreenshotTest : public QObject {
   }
 
   void a_wrong_call_exits_with_2() {
-    const Outcome outcome = run({"--colour", "red"});
+    const Outcome outcome = run({"--color", "red"});
     QCOMPARE(outcome.status, 2);
     QCOMPARE(outcome.error.count('\n'), 1);
   }

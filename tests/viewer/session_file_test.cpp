@@ -4,15 +4,15 @@
 #include <QPlainTextEdit>
 #include <QTemporaryDir>
 
-#include "algorithm_view.h"
-#include "export_actions.h"
-#include "file_actions.h"
-#include "inspection.h"
-#include "scene_page.h"
-#include "session_file.h"
-#include "show_menu.h"
+#include "lessons/session_file.h"
+#include "scene/scene_page.h"
+#include "scene/show_menu.h"
 #include "solved_window.h"
-#include "stage.h"
+#include "stepping/algorithm_view.h"
+#include "window/export_actions.h"
+#include "window/file_actions.h"
+#include "window/inspection_panels.h"
+#include "window/view_state_applier.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -101,9 +101,10 @@ class SessionFileTest : public QObject {
     QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
     QVERIFY((materials[0].reflectance == Rgb{0.1, 0.25, 0.625}));
     const ShowMenu& show = *window->findChild<ShowMenu*>();
-    for (const Overlay overlay : all_overlays)
+    for (const Overlay overlay : all_overlays) {
       QCOMPARE(show.overlay(overlay)->isChecked(),
                overlay == Overlay::normals || overlay == Overlay::wireframe);
+    }
     QVERIFY(window->algorithm()->kind() == MapKind::global);
     const auto& views = window->page()->bookmarks().all();
     QCOMPARE(views.size(), std::size_t{1});

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "solver_session.h"
+#include "model/solver_session.h"
 
 #include <QCoreApplication>
 #include <QElapsedTimer>
@@ -140,7 +140,9 @@ class SessionTest : public QObject {
     QTest::qWait(60);
     QVERIFY(w.snapshot->statistics.converged);
     QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the step with passes
-    for (const Rgb& b : w.snapshot->radiosity) QVERIFY(std::abs(b.g - 2) < 1e-5);
+    for (const Rgb& b : w.snapshot->radiosity) {
+      QVERIFY(std::abs(b.g - 2) < 1e-5);
+    }
   }
 
   void stop_goes_back_to_the_start() {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "snapshot.h"
+#include "model/snapshot.h"
 
 namespace transillum::viewer::test {
 

@@ -8,12 +8,12 @@
 #include <QTableView>
 #include <QToolButton>
 
-#include "hemicube_view.h"
-#include "log_chart.h"
-#include "pixel_view.h"
+#include "map/hemicube_view.h"
+#include "map/pixel_view.h"
 #include "solved_window.h"
-#include "timeline_lanes.h"
+#include "stepping/timeline_lanes.h"
 #include "transillum/errors.h"
+#include "widgets/log_chart.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -53,9 +53,11 @@ class SteppingTest : public QObject {
  private slots:
   void a_lane_knows_its_places() {
     const QRectF lane(80, 0, 500, 10);
-    for (const int count : {1, 7, 500, 499})
-      for (int k = 0; k < count; ++k)
+    for (const int count : {1, 7, 500, 499}) {
+      for (int k = 0; k < count; ++k) {
         QCOMPARE(TimelineLanes::index(lane, TimelineLanes::position(lane, k, count), count), k);
+      }
+    }
     QCOMPARE(TimelineLanes::index(lane, -1e9, 7), 0);
     QCOMPARE(TimelineLanes::index(lane, 1e9, 7), 6);
   }
@@ -105,7 +107,7 @@ class SteppingTest : public QObject {
     QVERIFY(of_zbuffer > 0.001 && of_zbuffer < 0.1);
     QVERIFY(s.text("map_text").contains("differ"));
     QVERIFY(choose("map_painter"));
-    QCOMPARE(wrong(), of_zbuffer);  // the same centres
+    QCOMPARE(wrong(), of_zbuffer);  // the same centers
     QVERIFY(choose("map_newell"));
     QCOMPARE(wrong(), of_zbuffer);
     QVERIFY(choose("map_rays"));
@@ -143,7 +145,7 @@ class SteppingTest : public QObject {
           std::optional(Engine::rays), std::optional(Engine::corrected)}) {
       request.pixels.engine = engine;
       QVERIFY(!paint_map(request).image.isNull());
-      QVERIFY_EXCEPTION_THROWN(paint_map(request, given_up), Cancelled);
+      QVERIFY_EXCEPTION_THROWN(paint_map(request, given_up), Canceled);
     }
   }
 
@@ -259,8 +261,9 @@ class SteppingTest : public QObject {
     const QImage before = picture_in("phase_before");
     const QImage split = picture_in("phase_split");
     const QImage after = picture_in("phase_after");
-    for (const QImage& picture : {before, split, after})
+    for (const QImage& picture : {before, split, after}) {
       QVERIFY(share_of(picture, theme::processed) > 0);
+    }
     QVERIFY(before != split && split != after && before != after);
     QVERIFY(share_of(split, theme::inside) > share_of(before, theme::inside));
     s.window->findChild<QToolButton*>("map_labels")->click();
@@ -356,7 +359,7 @@ class SteppingTest : public QObject {
     for (int k = 4; k >= 0; --k) {
       s.trigger("run_back");
       QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-      QVERIFY(s.focus.moment() == stops[static_cast<std::size_t>(k)]);
+      QVERIFY(s.focus.moment() == at(stops, k));
     }
     auto* list = s.window->findChild<QListWidget*>("breakpoint_list");
     list->item(0)->setCheckState(Qt::Unchecked);
@@ -439,3 +442,4 @@ class SteppingTest : public QObject {
 
 TRANSILLUM_VIEWER_TEST_MAIN(SteppingTest)
 #include "stepping_test.moc"
+#include "transillum/at.h"

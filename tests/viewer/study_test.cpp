@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "study_dialog.h"
+#include "solve/study_dialog.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -10,11 +10,11 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 
-#include "banner.h"
-#include "convergence_view.h"
-#include "number_text.h"
+#include "solve/convergence_view.h"
+#include "solve/study_chart.h"
 #include "solved_window.h"
-#include "study_chart.h"
+#include "support/number_text.h"
+#include "widgets/banner.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -29,7 +29,9 @@ struct Shown : SolvedWindow {
   explicit Shown(const char* scene) : SolvedWindow(scene) {
     trigger("study");
     dialog = window->findChild<StudyDialog*>();
-    for (const int m : {16, 32, 64, 128, 256, 512}) choose(QString::number(m), m <= 64);
+    for (const int m : {16, 32, 64, 128, 256, 512}) {
+      choose(QString::number(m), m <= 64);
+    }
     choose("hammersley", false);
   }
   void choose(const QString& name, bool on) const {
@@ -64,7 +66,7 @@ class StudyTest : public QObject {
     const QString rms_slope = shown.cell(0, 1);
     shown.dialog->findChild<QComboBox*>("study_error")->setCurrentIndex(1);
     QVERIFY(shown.cell(0, 1) != rms_slope);
-    // Lines in colour on a page.
+    // Lines in color on a page.
     auto* chart = shown.dialog->findChild<StudyChart*>();
     QVERIFY(color_count(chart->grab().toImage()) > 8);
   }
@@ -73,7 +75,9 @@ class StudyTest : public QObject {
     const Shown shown("furnace");
     shown.study();
     const QTemporaryDir folder;
-    for (const char* name : {"s.svg", "s.png", "s.csv"}) shown.dialog->save(folder.filePath(name));
+    for (const char* name : {"s.svg", "s.png", "s.csv"}) {
+      shown.dialog->save(folder.filePath(name));
+    }
     QCOMPARE(QImage(folder.filePath("s.png")).size(), QSize(1600, 960));
     QFile csv(folder.filePath("s.csv"));
     QVERIFY(csv.open(QIODevice::ReadOnly));
@@ -141,8 +145,9 @@ class StudyTest : public QObject {
     const auto& steps = snapshot->statistics.steps;
     const std::vector<double> predicted = predicted_changes(*snapshot);
     QVERIFY(predicted.size() >= steps.size());
-    for (std::size_t k = 0; k < steps.size(); ++k)
+    for (std::size_t k = 0; k < steps.size(); ++k) {
       QVERIFY(steps[k].change <= predicted[k] * (1 + 1e-12));
+    }
   }
 
   void another_scene_ends_it() {

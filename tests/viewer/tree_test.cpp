@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <set>
 
-#include "order_bar.h"
 #include "solved_window.h"
 #include "transillum/directions.h"
-#include "tree_model.h"
-#include "tree_outline.h"
-#include "tree_path_table.h"
-#include "tree_words.h"
+#include "tree/order_bar.h"
+#include "tree/tree_model.h"
+#include "tree/tree_outline.h"
+#include "tree/tree_path_table.h"
+#include "tree/tree_text.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -29,8 +29,9 @@ using Part = TreeVisit::Part;
 Vec3 middle(const BspTree& tree, FragmentId f) {
   Vec3 sum;
   const auto corners = tree.corners(tree.fragment(f));
-  for (const BspTree::Corner& corner : corners)
-    sum = sum + tree.points()[static_cast<std::size_t>(corner.point)];
+  for (const BspTree::Corner& corner : corners) {
+    sum = sum + at(tree.points(), corner.point);
+  }
   return sum / static_cast<double>(corners.size());
 }
 
@@ -56,7 +57,9 @@ class TreeTest : public QObject {
           for (std::size_t k = 0; k < path.size(); ++k) {
             QVERIFY(path[k].holds(step));
             QCOMPARE(path[k].part_of(step) == Part::plane, k + 1 == path.size());
-            if (k == 0) continue;
+            if (k == 0) {
+              continue;
+            }
             // A side of the plane above, all of it.
             const TreeVisit& above = path[k - 1];
             const bool near = above.part_of(step) == Part::near_side;
@@ -64,7 +67,7 @@ class TreeTest : public QObject {
             QCOMPARE(path[k].end, near ? above.plane_begin : above.end);
           }
           const BspTree::Node& node = outline.node(path.back().node);
-          const FragmentId f = order[static_cast<std::size_t>(step)];
+          const FragmentId f = at(order, step);
           QVERIFY(node.begin <= f && f < node.end);
         }
         QVERIFY(outline.path_to(-1, sample.direction).empty());
@@ -86,8 +89,7 @@ class TreeTest : public QObject {
           const BspTree::Plane& plane = outline.node(visit.node).plane;
           ++(visit.cosine > 0 ? fronts_first : backs_first);
           for (std::int32_t k = visit.begin; k < visit.end; ++k) {
-            const double height =
-                dot(plane.normal, middle(*tree, order[static_cast<std::size_t>(k)])) - plane.offset;
+            const double height = dot(plane.normal, middle(*tree, at(order, k))) - plane.offset;
             const double toward_omega = visit.cosine > 0 ? height : -height;
             const double tiny = 1e-9;
             switch (visit.part_of(k)) {
@@ -116,7 +118,7 @@ class TreeTest : public QObject {
       std::set<std::int32_t> met;
       for (std::int32_t step = 0; step < outline.size(0); ++step) {
         for (const TreeVisit& visit : outline.path_to(step, sample.direction)) {
-          QCOMPARE(visits[static_cast<std::size_t>(visit.node)], visit);
+          QCOMPARE(at(visits, visit.node), visit);
           met.insert(visit.node);
         }
       }
@@ -159,8 +161,9 @@ class TreeTest : public QObject {
   void a_bar_knows_its_places() {
     const QRectF bar(40, 0, 200, 10);
     const TreeVisit visit{0, 1, 100, 120, 121, 137};
-    for (std::int32_t step = visit.begin; step < visit.end; ++step)
+    for (std::int32_t step = visit.begin; step < visit.end; ++step) {
       QCOMPARE(OrderBar::step_at(visit, bar, OrderBar::left_of(visit, bar, step) + 0.1), step);
+    }
     QCOMPARE(OrderBar::step_at(visit, bar, -1e9), visit.begin);
     QCOMPARE(OrderBar::step_at(visit, bar, 1e9), visit.end - 1);
   }
@@ -225,7 +228,9 @@ class TreeTest : public QObject {
     auto* view = s.window->findChild<QTreeView*>("tree_browser");
     const auto* model = qobject_cast<const TreeModel*>(view->model());
     const auto shows_path = [&] {
-      if (!focus.arrived() || !focus.map() || model->path().empty()) return false;
+      if (!focus.arrived() || !focus.map() || model->path().empty()) {
+        return false;
+      }
       const QModelIndex last = model->index_of(model->path().back());
       return model->visit(last).holds(focus.moment().step) &&
              view->visualRect(last).intersects(view->viewport()->rect());
@@ -236,9 +241,11 @@ class TreeTest : public QObject {
       // What lies off the path is closed.
       const auto& path = model->path();
       for (std::int32_t n = 0;
-           n < static_cast<std::int32_t>(model->outline().tree().nodes().size()); ++n)
-        if (view->isExpanded(model->index_of(n)))
+           n < static_cast<std::int32_t>(model->outline().tree().nodes().size()); ++n) {
+        if (view->isExpanded(model->index_of(n))) {
           QVERIFY(std::find(path.begin(), path.end(), n) != path.end());
+        }
+      }
     }
     const QModelIndex root = model->index_of(0);
     view->scrollTo(root);
@@ -265,7 +272,9 @@ class TreeTest : public QObject {
     const auto directions = make_directions(Sampling::random, 10, 3);
     for (const auto& sample : directions) {
       model.show_moment(outline, sample.direction, outline->size(0) / 2);
-      for (const std::int32_t node : model.path()) view.expand(model.index_of(node));
+      for (const std::int32_t node : model.path()) {
+        view.expand(model.index_of(node));
+      }
       QCoreApplication::processEvents();
     }
     const double each =
@@ -276,4 +285,5 @@ class TreeTest : public QObject {
 };
 
 TRANSILLUM_VIEWER_TEST_MAIN(TreeTest)
+#include "transillum/at.h"
 #include "tree_test.moc"

@@ -11,11 +11,11 @@
 #include <QTest>
 #include <functional>
 
-#include "main_window.h"
-#include "map_canvas.h"
-#include "map_view.h"
-#include "scene_view.h"
-#include "theme.h"
+#include "map/map_canvas.h"
+#include "map/map_view.h"
+#include "scene/scene_view.h"
+#include "widgets/theme.h"
+#include "window/main_window.h"
 
 namespace transillum::viewer::test {
 
@@ -24,24 +24,28 @@ inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 
   return QTest::qWaitFor(condition, milliseconds);
 }
 
-/// How many clearly different colours a picture has, up to 16 levels a channel.
+/// How many clearly different colors a picture has, up to 16 levels a channel.
 inline int color_count(const QImage& image) {
   QSet<QRgb> colors;
-  for (int y = 0; y < image.height(); y += 2)
-    for (int x = 0; x < image.width(); x += 2) colors.insert(image.pixel(x, y) & 0xfff0f0f0);
+  for (int y = 0; y < image.height(); y += 2) {
+    for (int x = 0; x < image.width(); x += 2) {
+      colors.insert(image.pixel(x, y) & 0xfff0f0f0);
+    }
+  }
   return static_cast<int>(colors.size());
 }
 
 /// The share of pixels that are close to `color`.
 inline double share_of(const QImage& image, const QColor& color) {
   qint64 close = 0;
-  for (int y = 0; y < image.height(); ++y)
+  for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       const QColor pixel = image.pixelColor(x, y);
       close += std::abs(pixel.red() - color.red()) + std::abs(pixel.green() - color.green()) +
                    std::abs(pixel.blue() - color.blue()) <
                24;
     }
+  }
   return static_cast<double>(close) / (image.width() * image.height());
 }
 
@@ -60,7 +64,9 @@ inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
 /// To be looked at: TRANSILLUM_PICTURES names the folder.
 inline void save_picture(QWidget& window, const QString& name) {
   const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
-  if (!folder.isEmpty()) window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
+  if (!folder.isEmpty()) {
+    window.grab().save(QStringLiteral("%1/%2.png").arg(folder, name));
+  }
 }
 
 }  // namespace transillum::viewer::test

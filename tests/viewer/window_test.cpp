@@ -14,7 +14,7 @@
 #include <set>
 
 #include "solved_window.h"
-#include "stage.h"
+#include "window/view_state_applier.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -29,16 +29,21 @@ struct Solved : SolvedWindow {
     const Focus& focus = window->focus();
     const MapRecord& record = focus.map()->record();
     std::set<PatchId> patches;
-    for (const std::int32_t row : record.map_after(focus.moment().step))
-      patches.insert(record.rows[static_cast<std::size_t>(row)].patch);
+    for (const std::int32_t row : record.map_after(focus.moment().step)) {
+      patches.insert(at(record.rows, row).patch);
+    }
     return patches;
   }
   // A place in the scene's picture where a click hits one of `wanted`.
   QPoint place_of(const std::set<PatchId>& wanted) const {
     const QSize size = scene_view->canvas()->size();
-    for (int y = 10; y < size.height(); y += 7)
-      for (int x = 10; x < size.width(); x += 7)
-        if (wanted.count(scene_view->patch_at({x, y})) > 0) return {x, y};
+    for (int y = 10; y < size.height(); y += 7) {
+      for (int x = 10; x < size.width(); x += 7) {
+        if (wanted.count(scene_view->patch_at({x, y})) > 0) {
+          return {x, y};
+        }
+      }
+    }
     return {-1, -1};
   }
 };
@@ -187,7 +192,9 @@ class WindowTest : public QObject {
     const QPoint from = canvas->rect().center();
     const QImage before = picture_of(canvas);
     QTest::mousePress(canvas, Qt::LeftButton, {}, from);
-    for (int k = 1; k <= 10; ++k) QTest::mouseMove(canvas, from + QPoint(9 * k, 4 * k), 10);
+    for (int k = 1; k <= 10; ++k) {
+      QTest::mouseMove(canvas, from + QPoint(9 * k, 4 * k), 10);
+    }
     QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(90, 40));
     QVERIFY(wait_for([&] { return picture_of(canvas) != before; }));
     QCOMPARE(solved.window->selection().patch(), no_patch);
@@ -291,7 +298,9 @@ class WindowTest : public QObject {
         window->findChild<QAction*>(layout)->trigger();
         window->resize(size);
         QTest::qWait(20);
-        if (window->size() != size) return qInfo() << layout << window->size(), false;
+        if (window->size() != size) {
+          return qInfo() << layout << window->size(), false;
+        }
       }
       return true;
     };
@@ -333,7 +342,9 @@ class WindowTest : public QObject {
       const QFontMetrics type(table->horizontalHeader()->font());
       for (int k = 0; k + 1 < table->model()->columnCount(); ++k) {
         const QString name = table->model()->headerData(k, Qt::Horizontal).toString();
-        if (table->columnWidth(k) < type.horizontalAdvance(name)) return false;
+        if (table->columnWidth(k) < type.horizontalAdvance(name)) {
+          return false;
+        }
       }
       return table->verticalHeader()->defaultSectionSize() >= table->fontMetrics().height();
     };
@@ -362,4 +373,5 @@ class WindowTest : public QObject {
 };
 
 TRANSILLUM_VIEWER_TEST_MAIN(WindowTest)
+#include "transillum/at.h"
 #include "window_test.moc"

@@ -62,7 +62,7 @@ double measured_quadrature_error(const ActualSets& sets, int directions,
                                  const Cancellation& cancellation = {});
 /// The smallest M up to 65,536 for which eq. 24 holds with the measured eps; none if there is none.
 /// Beyond 256, found by doubling and halving: some smaller M may do by luck.
-/// @throws Cancelled
+/// @throws Canceled
 std::optional<int> actual_directions_to_contract(const ActualSets& sets, double rho,
                                                  const Cancellation& cancellation = {});
 /// The same for the bound of eq. 37.
@@ -72,7 +72,7 @@ std::optional<int> actual_directions_if_homogeneous(const ActualSets& sets, doub
 
 /// About as many as the bound of eq. 43 asks for with the sets' own D*, measured with 1,024 and
 /// 16,384 directions and continued as a power of M.
-/// @throws Cancelled
+/// @throws Canceled
 double estimated_directions_if_heterogeneous(const ActualSets& sets, double rho, double accuracy,
                                              double size_ratio,
                                              const Cancellation& cancellation = {});
@@ -91,8 +91,8 @@ SceneMeasures measure(const Scene& scene, const Cancellation& cancellation = {})
 /// an error of `error` (both in one norm): error falls as M^-1/2 at random, and else as M^-3/4,
 /// which is what integrands with kinks allow at worst.
 double estimated_passes(Sampling sampling, double passes, double error, double accuracy);
-/// The same from the error of a run of `passes` passes in `replicas` replicas, as they give it. What
-/// is estimated is without replicas, as one set.
+/// The same from the error of a run of `passes` passes in `replicas` replicas, as they give it.
+/// What is estimated is without replicas, as one set.
 double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
                                     double accuracy);
 

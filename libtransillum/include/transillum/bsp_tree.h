@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/cancellation.h"
 #include "transillum/scene.h"
 
@@ -62,18 +63,18 @@ class BspTree {
     FragmentId begin = 0, middle = 0, end = 0;
   };
 
-  /// Points nearer to a plane than this count as on it, metres: a little more than what the
+  /// Points nearer to a plane than this count as on it, meters: a little more than what the
   /// coordinates' own rounding can do, so that beyond it the side is certain
   /// (decisions/0001-sides-of-planes.md).
   static double thickness(const Scene& scene);
 
   /// Builds the tree. `progress`, if given, hears the share done, in [0,1], now and then.
-  /// @throws Cancelled
+  /// @throws Canceled
   explicit BspTree(const Scene& scene, const Cancellation& cancellation = {},
                    const std::function<void(double)>& progress = {});
 
   const std::vector<Fragment>& fragments() const { return fragments_; }
-  const Fragment& fragment(FragmentId f) const { return fragments_[static_cast<std::size_t>(f)]; }
+  const Fragment& fragment(FragmentId f) const { return at(fragments_, f); }
   std::span<const Corner> corners(const Fragment& f) const {
     return {corners_.data() + f.begin, f.end - f.begin};
   }
@@ -90,7 +91,7 @@ class BspTree {
   /// All fragments, those farthest toward `omega` first. Among coincident ones of one plane the
   /// receiving come before the emitting, and of those that face the same way the one with the
   /// larger exitance (then the smaller area, then the later number) covers the other.
-  /// @throws Cancelled
+  /// @throws Canceled
   std::vector<FragmentId> order(const Vec3& omega, const Cancellation& cancellation = {}) const;
 
  private:

@@ -12,13 +12,15 @@ namespace transillum {
 ///
 /// Threads: any thread may set or read any copy at any time. All that may take long, be it the
 /// reading of a file, the building of a tree, a pass or the sums over passes, looks at it at least
-/// every 50 ms and then throws Cancelled.
+/// every 50 ms and then throws Canceled.
 class Cancellation {
  public:
   void cancel() const { flag_->store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return flag_->load(std::memory_order_relaxed); }
-  void throw_if_cancelled() const {
-    if (cancelled()) throw Cancelled();
+  bool canceled() const { return flag_->load(std::memory_order_relaxed); }
+  void throw_if_canceled() const {
+    if (canceled()) {
+      throw Canceled();
+    }
   }
 
  private:

@@ -21,7 +21,7 @@ struct CoplanarOverlap {
 ///
 /// Strips narrower than BspTree::thickness() are patches that touch. Patches lit on opposite sides
 /// are the two sides of one surface and no overlap.
-/// @throws Cancelled
+/// @throws Canceled
 std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, const BspTree& tree,
                                                std::size_t most,
                                                const Cancellation& cancellation = {});

@@ -34,7 +34,7 @@ struct CorrectedMap {
 };
 
 /// After step `step` (-1: before the first) of a recorded direction.
-/// @throws Cancelled
+/// @throws Canceled
 CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
                                  const std::shared_ptr<const BspTree>& tree,
                                  const MapRecord& record, std::int32_t step,

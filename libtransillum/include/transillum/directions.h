@@ -13,7 +13,7 @@ namespace transillum {
 /// in base b; k counts from 0.
 enum class Sampling {
   hammersley,            ///< u = k/M, v = phi_2(k): the paper's
-  centred_hammersley,    ///< u = phi_2(k), v = (k+1/2)/M: up and down alike, so 6 times better one
+  centered_hammersley,   ///< u = phi_2(k), v = (k+1/2)/M: up and down alike, so 6 times better one
                          ///< way
   scrambled_hammersley,  ///< the paper's, both coordinates Owen-scrambled in base 2; seeded
   halton,                ///< u = phi_2(k), v = phi_3(k)
@@ -60,7 +60,7 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int e
 /// - halton, sobol: the next points of one sequence. Sets in their natural order would fail eq. 46,
 ///   for where the last set was tells where the next will be; so sets 2^p … 2^(p+1)-1 come in
 ///   random order. After 2^p steps the first 2^p sets have been used, each once;
-/// - hammersley, centred_hammersley: the same set again, which fails eq. 46.
+/// - hammersley, centered_hammersley: the same set again, which fails eq. 46.
 ///
 /// Costs O(count + step).
 /// @throws InputError unless 1 <= count <= max_directions and step >= 0.

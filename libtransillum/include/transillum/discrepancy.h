@@ -12,24 +12,24 @@ namespace transillum {
 /// How unevenly points of the unit square lie (eq. 3): the largest difference, over all boxes
 /// [0,u] x [0,v] with or without their upper sides, between the share of points in the box and its
 /// area. Exact; 0 without points. O(M^1.5): 0.1 s for 10,000 points.
-/// @throws Cancelled
+/// @throws Canceled
 double star_discrepancy(std::span<const DirectionSample> samples,
                         const Cancellation& cancellation = {});
 
 /// The spherical-cap discrepancy of a set, or what is known of it.
 struct CapDiscrepancy {
   double value = 0;    ///< largest difference, over caps, between share of directions and of area
-  bool exact = false;  ///< false: over caps of any size round some centres, so a lower bound
+  bool exact = false;  ///< false: over caps of any size round some centers, so a lower bound
 };
 
 /// The most directions whose cap discrepancy is found exactly.
 inline constexpr int max_exact_cap_directions = 200;
 
 /// Over all caps where there are few directions: the worst cap has two or three on its rim, and all
-/// circles through two are swept, O(M^3 log M). Else over caps round 2,048 centres spread over the
+/// circles through two are swept, O(M^3 log M). Else over caps round 2,048 centers spread over the
 /// sphere, and round as many of the directions and their opposites; fewer, at least 32, from 2,048
-/// directions on. O(M log M) a centre.
-/// @throws Cancelled
+/// directions on. O(M log M) a center.
+/// @throws Canceled
 CapDiscrepancy cap_discrepancy(std::span<const DirectionSample> samples,
                                const Cancellation& cancellation = {});
 
@@ -44,7 +44,7 @@ struct QuadratureErrors {
 QuadratureErrors summary_of(std::span<const double> errors);
 
 /// quadrature_error for each normal, in their order. O(normals x directions).
-/// @throws Cancelled
+/// @throws Canceled
 std::vector<double> quadrature_errors(std::span<const Vec3> normals,
                                       std::span<const DirectionSample> samples, bool two_way,
                                       const Cancellation& cancellation = {});

@@ -20,7 +20,7 @@ enum class Engine {
   local,      ///< the local visibility map of section 3.2, the one that can be watched
   global,     ///< the global visibility map of section 3.1, by CGAL's exact arrangement
   exact,      ///< the local map in exact numbers: an oracle for small scenes
-  zbuffer,    ///< the generalised z-buffer of section 2: a list of patches a pixel
+  zbuffer,    ///< the generalized z-buffer of section 2: a list of patches a pixel
   painter,    ///< the painter's algorithm of section 2: one item buffer, painted over and over
   rays,       ///< parallel lines through the scene by Embree: statistical
   corrected,  ///< no cutting: what is partly hidden stays whole and is corrected (section 8)
@@ -35,7 +35,7 @@ bool takes_directions(Engine engine);
 
 /// An engine at work: from a direction omega (unit) to its Transfers. Pure: no shared mutable
 /// state, so any number of threads may call one; the same omega gives the same bits.
-/// @throws Cancelled
+/// @throws Canceled
 using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancellation&)>;
 
 /// How the painter's algorithm comes by its order.

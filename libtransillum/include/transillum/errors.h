@@ -14,9 +14,9 @@ class InputError : public std::runtime_error {
 };
 
 /// Thrown out of long work whose Cancellation was set. Carries no message for the user.
-class Cancelled : public std::exception {
+class Canceled : public std::exception {
  public:
-  const char* what() const noexcept override { return "cancelled"; }
+  const char* what() const noexcept override { return "canceled"; }
 };
 
 }  // namespace transillum

@@ -14,7 +14,7 @@ namespace transillum {
 /// points, from each of which the other is seen exactly (first_shot.h). Sums to 1 in a closed scene
 /// but for those points. Takes N pairs; one partly hidden costs as what stands between.
 /// `progress`, if given, hears the share done, in [0,1], now and then on the calling thread.
-/// @throws Cancelled
+/// @throws Canceled
 std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const Cancellation& cancellation = {},
                                        const std::function<void(double)>& progress = {});

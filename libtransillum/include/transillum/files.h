@@ -18,7 +18,7 @@ namespace transillum {
 // All writers write beside the target and rename: a file is there whole or not at all. Numbers
 // read back bit for bit. They throw std::runtime_error naming the file when it cannot be written.
 
-/// Writes `path` by way of a temporary neighbour; `write` fills the stream. When `write` throws,
+/// Writes `path` by way of a temporary neighbor; `write` fills the stream. When `write` throws,
 /// nothing is left behind.
 void write_file_whole(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& write);
@@ -42,7 +42,7 @@ bool is_result_file(const std::filesystem::path& path);
 /// A solution as write_result() has written it to a .vtp file: the same patches with the same E,
 /// rho, B and H, to the bit. The patches are the faces of its scene; which were parts of one face
 /// is not told. Of the statistics and the error estimate it has what the file keeps.
-/// @throws InputError naming the file and what is wrong with it, Cancelled
+/// @throws InputError naming the file and what is wrong with it, Canceled
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});
 
 /// receiver,source,area; source -1: nothing above, or a back side. Only the forward direction.

@@ -45,7 +45,7 @@ struct DirectLight {
 /// sources times patches times what stands between. `progress`, if given, hears the share done, in
 /// [0,1], now and then on the calling thread.
 /// @param threads 0: all cores; the result does not depend on it.
-/// @throws Cancelled
+/// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});

@@ -34,7 +34,7 @@ struct GatherOptions {
 /// rays to what they meet first, by Embree. Unbiased; the error of F_ij is about that of a count
 /// F_ij N of N rays, less where sampling is even. Coincident patches are met on their lit side.
 /// `progress`, if given, hears the share done, in [0,1], now and then on the calling thread.
-/// @throws InputError, Cancelled
+/// @throws InputError, Canceled
 FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options,
                                 const Cancellation& cancellation = {},
                                 const std::function<void(double)>& progress = {});

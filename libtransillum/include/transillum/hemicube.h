@@ -29,7 +29,7 @@ struct HemicubeOptions {
 /// slips through between polygons; A_i F_ij = A_j F_ji does not hold. Time grows as the square of
 /// the number of patches.
 /// `progress`, if given, hears the share done, in [0,1], now and then on the calling thread.
-/// @throws InputError, Cancelled, std::runtime_error where they take more memory than allowed.
+/// @throws InputError, Canceled, std::runtime_error where they take more memory than allowed.
 FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& options,
                                   const Cancellation& cancellation = {},
                                   const std::function<void(double)>& progress = {});
@@ -43,7 +43,7 @@ void check_hemicube_options(const SolveOptions& options);
 /// and a direction one of its pixels; `escaped` is the share of all that patches see that is not
 /// another's lit side, and `energy_defect` what light gains or loses on its way for want of
 /// reciprocity.
-/// @throws InputError where an option wants directions; Cancelled; std::runtime_error where the
+/// @throws InputError where an option wants directions; Canceled; std::runtime_error where the
 /// iteration diverges.
 Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                             const Cancellation& cancellation = {},

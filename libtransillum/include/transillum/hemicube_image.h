@@ -29,7 +29,7 @@ struct HemicubeImage {
 };
 
 /// @param tree of `scene`.
-/// @throws InputError as hemicube_form_factors(), Cancelled
+/// @throws InputError as hemicube_form_factors(), Canceled
 HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
                              const std::shared_ptr<const BspTree>& tree, PatchId eye,
                              const HemicubeOptions& options, const Cancellation& cancellation = {});

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum {
@@ -41,10 +42,8 @@ class MapHistory {
 
   const MapRecord& record() const { return record_; }
   std::int32_t step_count() const { return record_.step_count(); }
-  const Step& step(std::int32_t k) const { return steps_[static_cast<std::size_t>(k)]; }
-  const MapRecord::Row& row(std::int32_t r) const {
-    return record_.rows[static_cast<std::size_t>(r)];
-  }
+  const Step& step(std::int32_t k) const { return at(steps_, k); }
+  const MapRecord::Row& row(std::int32_t r) const { return at(record_.rows, r); }
 
   /// Rows of V that step k consumed; the inside and outside lists are their parts.
   std::vector<std::int32_t> cut_at(std::int32_t k) const;
@@ -71,7 +70,7 @@ class MapHistory {
   void find_steps();
   void find_patches();
   /// First row made at step k or later.
-  std::int32_t first_row(std::int32_t k) const { return first_row_[static_cast<std::size_t>(k)]; }
+  std::int32_t first_row(std::int32_t k) const { return at(first_row_, k); }
 
   MapRecord record_;
   std::vector<Step> steps_;

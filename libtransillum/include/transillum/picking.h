@@ -12,7 +12,7 @@ namespace transillum {
 /// What a ray meets.
 struct PickedPoint {
   PatchId patch = no_patch;
-  double distance = 0;  ///< from the ray's origin, metres
+  double distance = 0;  ///< from the ray's origin, meters
   Vec3 point;
   bool lit_side = false;  ///< met on the side that lights and receives
 };
@@ -24,7 +24,7 @@ struct PickedPoint {
 /// with its logarithm. Threads: immutable, any number may ask.
 class Picker {
  public:
-  /// @throws Cancelled
+  /// @throws Canceled
   explicit Picker(std::shared_ptr<const Scene> scene, const Cancellation& cancellation = {});
   ~Picker();
   Picker(Picker&&) noexcept;

@@ -140,7 +140,7 @@ class RadiositySolver {
   /// @param tree of the scene; built here when null.
   /// @param shot light of the scene's small sources, where options.first_shot is set; shot here
   /// when null.
-  /// @throws InputError, Cancelled
+  /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   std::shared_ptr<const BspTree> tree = nullptr,
                   const Cancellation& cancellation = {},
@@ -158,7 +158,7 @@ class RadiositySolver {
 
   /// Goes on. Returns whether there is more to do. After a pause or an exception the solver
   /// stands where the last observed pass left it, and advance() goes on from there.
-  /// @throws Cancelled, std::runtime_error where the iteration diverges.
+  /// @throws Canceled, std::runtime_error where the iteration diverges.
   bool advance(Until until, const Observer& observer = {});
 
   const Scene& scene() const;
@@ -221,7 +221,7 @@ struct Solution {
 
 /// One call from a scene to its radiosity. When `cancellation` is set during the passes it
 /// returns what there is, with complete = false.
-/// @throws InputError, Cancelled (before the first pass), std::runtime_error
+/// @throws InputError, Canceled (before the first pass), std::runtime_error
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer = {},
                const Cancellation& cancellation = {});

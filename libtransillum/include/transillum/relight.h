@@ -38,7 +38,7 @@ struct Relit {
 /// @param materials as many as the scene has, in its order.
 /// @throws InputError where a material's E or rho is out of range, lists are of wrong lengths, or
 /// the shot's parts have been left out
-/// @throws Cancelled, std::runtime_error where 10,000 steps do not get there
+/// @throws Canceled, std::runtime_error where 10,000 steps do not get there
 Relit relight(const Scene& scene, const FormFactors& form_factors,
               const std::vector<Material>& materials, const RelightOptions& options = {},
               const Cancellation& cancellation = {});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/cancellation.h"
 #include "transillum/vec3.h"
 
@@ -92,17 +93,17 @@ class Scene {
  public:
   /// Checks `description` and makes patches of it.
   /// @throws InputError naming the scene, the line, the face and what is wrong.
-  /// @throws Cancelled
+  /// @throws Canceled
   Scene(const SceneDescription& description, const SceneOptions& options = {},
         const Cancellation& cancellation = {});
 
   const std::string& name() const { return name_; }
   PatchId patch_count() const { return static_cast<PatchId>(patches_.size()); }
   const std::vector<Patch>& patches() const { return patches_; }
-  const Patch& patch(PatchId i) const { return patches_[static_cast<std::size_t>(i)]; }
+  const Patch& patch(PatchId i) const { return at(patches_, i); }
   /// Distinct points: no two have the same coordinates.
   const std::vector<Vec3>& points() const { return points_; }
-  const Vec3& point(PointId p) const { return points_[static_cast<std::size_t>(p)]; }
+  const Vec3& point(PointId p) const { return at(points_, p); }
   /// Outline of patch i, counter-clockwise seen from its lit side; may be concave.
   std::span<const PointId> outline(PatchId i) const {
     const Patch& p = patch(i);
@@ -113,9 +114,7 @@ class Scene {
     return {piece_corners_.data() + piece.begin, piece.end - piece.begin};
   }
   const std::vector<Material>& materials() const { return materials_; }
-  const Material& material(PatchId i) const {
-    return materials_[static_cast<std::size_t>(patch(i).material)];
-  }
+  const Material& material(PatchId i) const { return at(materials_, patch(i).material); }
   /// E of patch i, W/m².
   const Rgb& exitance(PatchId i) const { return material(i).exitance; }
   /// rho of patch i.

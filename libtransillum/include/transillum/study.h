@@ -111,11 +111,11 @@ using StudyObserver = std::function<void(const StudyProgress&)>;
 
 struct Study {
   std::vector<StudyPoint> points;  ///< by series, then M
-  bool complete = false;           ///< false: cancelled; the points are those done by then
+  bool complete = false;           ///< false: canceled; the points are those done by then
 };
 
 /// B to compare with, W/m², one a patch.
-/// @throws InputError, Cancelled, std::runtime_error
+/// @throws InputError, Canceled, std::runtime_error
 std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::shared_ptr<const BspTree>& tree,
                                  const SolveOptions& options,

@@ -27,7 +27,7 @@ StudyAxis study_axis_from_name(const std::string& name);
 
 /// The errors, both axes logarithmic; against the passes with the bound of eq. 37 and fitted slopes
 /// in the legend, and without hemicubes, which take none; series differ in marker and dashes as
-/// well as in colour. Points without errors, or with none, are left out.
+/// well as in color. Points without errors, or with none, are left out.
 /// @param scene what the title calls it
 LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& series,
                       const Study& study, ErrorMeasure error = ErrorMeasure::rms,

@@ -6,7 +6,7 @@
 
 namespace transillum {
 
-/// A point or a vector of space, in metres where it is a point.
+/// A point or a vector of space, in meters where it is a point.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
@@ -33,7 +33,7 @@ inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// One value a colour channel: reflectance (1), exitance, radiosity or irradiance (W/m²).
+/// One value a color channel: reflectance (1), exitance, radiosity or irradiance (W/m²).
 struct Rgb {
   double r = 0, g = 0, b = 0;
 

@@ -10,7 +10,7 @@
 
 namespace transillum {
 
-/// A point of the transillumination plane, metres along PlaneFrame::u and v.
+/// A point of the transillumination plane, meters along PlaneFrame::u and v.
 struct Vec2 {
   double x = 0, y = 0;
 };
@@ -67,7 +67,7 @@ struct MapRecord {
 
 /// Runs the local map engine on one direction and keeps its history. The transfers are the same
 /// bits as the engine's.
-/// @throws Cancelled
+/// @throws Canceled
 struct RecordedDirection {
   Transfers transfers;
   MapRecord record;
@@ -94,7 +94,7 @@ struct VisibilityMap {
 
   /// Of a map drawn in pixels (pixel_map.h).
   struct Pixels {
-    double side = 0;                   ///< metres; 0: the map is exact, and nothing below
+    double side = 0;                   ///< meters; 0: the map is exact, and nothing below
     std::vector<Vec2> borders;         ///< between different patches: ends of lines, two by two
     std::vector<Polygon> differences;  ///< where not what is there is shown; corners in `corners`
   };

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <utility>
 
-#include "invariant.h"
+#include "base/invariant.h"
 
 namespace transillum {
 namespace {
@@ -34,7 +34,9 @@ Point to_point(const PlanePoint& p) { return {p[0], p[1]}; }
 std::vector<Point> to_points(std::span<const PlanePoint> outline) {
   std::vector<Point> points;
   points.reserve(outline.size());
-  for (const PlanePoint& p : outline) points.push_back(to_point(p));
+  for (const PlanePoint& p : outline) {
+    points.push_back(to_point(p));
+  }
   return points;
 }
 
@@ -76,7 +78,9 @@ class EdgeWalks {
 
 /// Gives each face the number of borders between it and the outside.
 void count_borders(Triangulation& triangulation, const EdgeWalks& walks) {
-  for (auto face : triangulation.all_face_handles()) face->info() = unreached;
+  for (auto face : triangulation.all_face_handles()) {
+    face->info() = unreached;
+  }
   std::vector<Triangulation::Face_handle> open{triangulation.infinite_face()};
   open.front()->info() = 0;
   while (!open.empty()) {
@@ -84,7 +88,9 @@ void count_borders(Triangulation& triangulation, const EdgeWalks& walks) {
     open.pop_back();
     for (int i = 0; i < 3; ++i) {
       const Triangulation::Face_handle next = face->neighbor(i);
-      if (next->info() != unreached) continue;
+      if (next->info() != unreached) {
+        continue;
+      }
       const auto a = face->vertex(Triangulation::cw(i));
       const auto b = face->vertex(Triangulation::ccw(i));
       const bool at_infinity = triangulation.is_infinite(a) || triangulation.is_infinite(b);
@@ -110,14 +116,18 @@ std::vector<Triangulation::Vertex_handle> insert_corners(Triangulation& triangul
   for (std::uint32_t i = 0; i < n; ++i) {
     const bool repeated = i > 0 && outline[sorted[i]] == outline[sorted[i - 1]];
     first_there[sorted[i]] = repeated ? first_there[sorted[i - 1]] : sorted[i];
-    if (!repeated) distinct.emplace_back(to_point(outline[sorted[i]]), sorted[i]);
+    if (!repeated) {
+      distinct.emplace_back(to_point(outline[sorted[i]]), sorted[i]);
+    }
   }
   triangulation.insert(distinct.begin(), distinct.end());
   std::vector<Triangulation::Vertex_handle> corners(n);
   for (const auto vertex : triangulation.finite_vertex_handles()) {
     corners[vertex->info()] = vertex;
   }
-  for (std::uint32_t i = 0; i < n; ++i) corners[i] = corners[first_there[i]];
+  for (std::uint32_t i = 0; i < n; ++i) {
+    corners[i] = corners[first_there[i]];
+  }
   return corners;
 }
 
@@ -142,13 +152,19 @@ class TriangleMerge {
     // diagonal through the notch of an L.
     for (const int least_turn : {1, 0}) {
       for (const auto& [a, b] : diagonals) {
-        if (edges_[a].gone) continue;
-        if (stays_convex(a, b, least_turn) && stays_convex(b, a, least_turn)) take_away(a, b);
+        if (edges_[a].gone) {
+          continue;
+        }
+        if (stays_convex(a, b, least_turn) && stays_convex(b, a, least_turn)) {
+          take_away(a, b);
+        }
       }
     }
     std::vector<CornerList> polygons;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      if (!edges_[e].gone) polygons.push_back(take_polygon(e));
+      if (!edges_[e].gone) {
+        polygons.push_back(take_polygon(e));
+      }
     }
     return polygons;
   }
@@ -175,7 +191,9 @@ class TriangleMerge {
     for (std::size_t i = 1; i < keyed.size(); ++i) {
       const auto& a = keyed[i - 1];
       const auto& b = keyed[i];
-      if (a[0] == b[0] && a[1] == b[1]) pairs.emplace_back(a[2], b[2]);
+      if (a[0] == b[0] && a[1] == b[1]) {
+        pairs.emplace_back(a[2], b[2]);
+      }
     }
     return pairs;
   }
@@ -222,7 +240,9 @@ int exact_turn(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
 
 bool is_convex(std::span<const PlanePoint> outline) {
   const std::size_t n = outline.size();
-  if (n < 3) return false;
+  if (n < 3) {
+    return false;
+  }
   bool any_turn = false;
   int reversals = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -230,11 +250,15 @@ bool is_convex(std::span<const PlanePoint> outline) {
     const PlanePoint& b = outline[(i + 1) % n];
     const PlanePoint& c = outline[(i + 2) % n];
     const int turn = exact_turn(a, b, c);
-    if (turn < 0) return false;
+    if (turn < 0) {
+      return false;
+    }
     any_turn |= turn > 0;
     // Seen along one axis a convex outline goes forth once and back once; a star, more often.
     const bool reversal = (a < b) != (b < c);
-    if (reversal && turn == 0) return false;
+    if (reversal && turn == 0) {
+      return false;
+    }
     reversals += reversal ? 1 : 0;
   }
   return any_turn && reversals == 2;
@@ -263,7 +287,9 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanePoint
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     return {};
   }
-  if (triangulation.dimension() < 2) return {};
+  if (triangulation.dimension() < 2) {
+    return {};
+  }
   for (std::size_t i = 0; i < n; ++i) {
     walks.walk(triangulation, corners[i], corners[(i + 1) % n]);
   }
@@ -276,7 +302,9 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanePoint
     }
   }
   // The triangulation's own order hangs on how it allocates; ours shall not.
-  for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  for (auto& t : triangles) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }

@@ -15,7 +15,9 @@ namespace {
 double log_integral(double u0, double u1, double h) {
   const auto primitive = [h](double u) {
     const double square = u * u + h * h;
-    if (square == 0) return 0.0;
+    if (square == 0) {
+      return 0.0;
+    }
     return u * (0.5 * std::log(square) - 1) + (h > 0 ? h * std::atan(u / h) : 0.0);
   };
   return primitive(u1) - primitive(u0);
@@ -31,7 +33,9 @@ double log_integral(const Vec3& point, const Edge& b) {
 /// A function whose second derivative is ln sqrt(u² + h²).
 double second_log_integral(double u, double h) {
   const double square = u * u + h * h;
-  if (square == 0) return 0;
+  if (square == 0) {
+    return 0;
+  }
   return 0.25 * (u * u - h * h) * std::log(square) - 0.75 * u * u +
          (h > 0 ? h * u * std::atan(u / h) : 0.0);
 }
@@ -98,11 +102,17 @@ double along_skew(const Edge& a, const Edge& b, const Crossing& c, double from, 
 
 double edge_pair_integral(const Edge& a, const Edge& b) {
   constexpr double negligible = 1e-15, parallel = 1e-12;
-  if (a.length == 0 || b.length == 0) return 0;
+  if (a.length == 0 || b.length == 0) {
+    return 0;
+  }
   const double cosine = dot(a.direction, b.direction);
-  if (std::abs(cosine) < negligible) return 0;
+  if (std::abs(cosine) < negligible) {
+    return 0;
+  }
   const double sine = norm(cross(a.direction, b.direction));
-  if (sine < parallel) return cosine * along_parallel(a, cosine > 0 ? b : Edge(b.end, b.begin));
+  if (sine < parallel) {
+    return cosine * along_parallel(a, cosine > 0 ? b : Edge(b.end, b.begin));
+  }
   const Crossing c(a, b, cosine, sine);
   // Far from where the lines meet the border's parts cancel.
   constexpr double loss = 1e3;

@@ -16,7 +16,9 @@ constexpr double pi = std::numbers::pi;
 /// No point of the polygon is nearer to x.
 double distance_bound(const Vec3& x, Outline polygon, const HalfSpace& before) {
   Bounds box;
-  for (const Vec3& corner : polygon) box.add(corner);
+  for (const Vec3& corner : polygon) {
+    box.add(corner);
+  }
   const auto outside = [](double low, double at, double high) {
     return std::max({low - at, at - high, 0.0});
   };
@@ -32,7 +34,9 @@ void for_gauss_points(Visit&& visit) {
   for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
     const double x = Rule::abscissa()[k], weight = Rule::weights()[k] / 2;
     visit((1 + x) / 2, weight);
-    if (x > 0) visit((1 - x) / 2, weight);
+    if (x > 0) {
+      visit((1 - x) / 2, weight);
+    }
   }
 }
 
@@ -79,13 +83,17 @@ double exchange_by_edges(Outline p, Outline q) {
 
 Vec3 middle_of(Outline polygon) {
   Vec3 sum;
-  for (const Vec3& corner : polygon) sum = sum + (corner - polygon[0]);
+  for (const Vec3& corner : polygon) {
+    sum = sum + (corner - polygon[0]);
+  }
   return polygon[0] + sum / static_cast<double>(polygon.size());
 }
 
 double radius_about(const Vec3& center, Outline polygon) {
   double radius = 0;
-  for (const Vec3& corner : polygon) radius = std::max(radius, norm(corner - center));
+  for (const Vec3& corner : polygon) {
+    radius = std::max(radius, norm(corner - center));
+  }
   return radius;
 }
 
@@ -104,7 +112,9 @@ HalfSpace lit_half_space(Outline polygon) {
 
 Corners clipped(Outline polygon, const HalfSpace& space, double tolerance) {
   Corners kept;
-  if (polygon.empty()) return kept;
+  if (polygon.empty()) {
+    return kept;
+  }
   const auto distance_to = [&](const Vec3& x) {
     const double distance = space.distance(x);
     return std::abs(distance) <= tolerance ? 0.0 : distance;
@@ -116,17 +126,23 @@ Corners clipped(Outline polygon, const HalfSpace& space, double tolerance) {
     if ((last_distance > 0 && distance < 0) || (last_distance < 0 && distance > 0)) {
       kept.push_back(last + last_distance / (last_distance - distance) * (corner - last));
     }
-    if (distance >= 0) kept.push_back(corner);
+    if (distance >= 0) {
+      kept.push_back(corner);
+    }
     last = corner;
     last_distance = distance;
   }
-  if (kept.size() < 3) kept.clear();
+  if (kept.size() < 3) {
+    kept.clear();
+  }
   return kept;
 }
 
 double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon) {
   Corners above;
-  for (const Vec3& corner : polygon) above.push_back(corner - x);
+  for (const Vec3& corner : polygon) {
+    above.push_back(corner - x);
+  }
   if (std::any_of(above.begin(), above.end(), [&](const Vec3& r) { return dot(normal, r) < 0; })) {
     above = clipped(above, {normal, 0});
   }
@@ -136,7 +152,9 @@ double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon) {
     const Vec3 across = cross(a, b);
     const double sine = norm(across);
     // Seen from x the edges of the lit side run clockwise.
-    if (sine > 0) sum -= std::atan2(sine, dot(a, b)) * dot(normal, across) / sine;
+    if (sine > 0) {
+      sum -= std::atan2(sine, dot(a, b)) * dot(normal, across) / sine;
+    }
   }
   return std::max(0.0, sum / (2 * pi));
 }
@@ -150,21 +168,29 @@ FacingPolygons::FacingPolygons(Outline whole_p, Outline whole_q, double toleranc
     return std::any_of(polygon.begin(), polygon.end(),
                        [&](const Vec3& x) { return space.distance(x) > tolerance; });
   };
-  if (!reaches_before(whole_p, before_q) || !reaches_before(whole_q, before_p)) return;
+  if (!reaches_before(whole_p, before_q) || !reaches_before(whole_q, before_p)) {
+    return;
+  }
   p = clipped(whole_p, before_q, tolerance);
   q = clipped(whole_q, before_p, tolerance);
 }
 
 double polygon_exchange(const FacingPolygons& facing) {
   constexpr double small = 1.0 / 25;
-  if (facing.empty()) return 0;
+  if (facing.empty()) {
+    return 0;
+  }
   const auto looks_small = [](Outline a, Outline b, const HalfSpace& before_b) {
     const Vec3 center = middle_of(a);
     return radius_about(center, a) <= small * distance_bound(center, b, before_b);
   };
   const auto& [before_p, before_q, p, q] = facing;
-  if (looks_small(p, q, before_q)) return exchange_of_small(p, before_p.normal, q);
-  if (looks_small(q, p, before_p)) return exchange_of_small(q, before_q.normal, p);
+  if (looks_small(p, q, before_q)) {
+    return exchange_of_small(p, before_p.normal, q);
+  }
+  if (looks_small(q, p, before_p)) {
+    return exchange_of_small(q, before_q.normal, p);
+  }
   return std::max(0.0, exchange_by_edges(p, q));
 }
 

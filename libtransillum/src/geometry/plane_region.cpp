@@ -9,7 +9,9 @@ void PlaneRegion::assign(std::span<const Point> polygon) {
   constexpr double rounding = 1e-14;
   corners_.assign(polygon.begin(), polygon.end());
   Part part{0, static_cast<std::uint32_t>(corners_.size()), {}};
-  for (const Point& p : polygon) part.box.add(p);
+  for (const Point& p : polygon) {
+    part.box.add(p);
+  }
   tolerance_ = rounding * std::max({-part.box.low.u, part.box.high.u, -part.box.low.v,
                                     part.box.high.v, part.box.high.u - part.box.low.u});
   parts_.assign(1, part);
@@ -42,10 +44,14 @@ void PlaneRegion::subtract_from(Part part, std::span<const Side> sides) {
   }
   for (const Side& side : sides) {
     const Side opposite{-side.a, -side.b, -side.c};
-    if (is_outside(part, opposite)) continue;
+    if (is_outside(part, opposite)) {
+      continue;
+    }
     left_.push_back(kept(part, opposite));
     part = kept(part, side);
-    if (is_outside(part, side)) return;
+    if (is_outside(part, side)) {
+      return;
+    }
   }
 }
 
@@ -69,7 +75,9 @@ PlaneRegion::Part PlaneRegion::kept(const Part& part, const Side& side) {
       const double t = last_distance / (last_distance - distance);
       keep({last.u + t * (point.u - last.u), last.v + t * (point.v - last.v)});
     }
-    if (distance >= 0) keep(point);
+    if (distance >= 0) {
+      keep(point);
+    }
     last = point;
     last_distance = distance;
   }

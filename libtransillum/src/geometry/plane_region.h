@@ -52,7 +52,9 @@ class PlaneRegion {
   /// visit(corners) for the convex parts that are left; they do not overlap.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (const Part& part : parts_) visit(corners(part));
+    for (const Part& part : parts_) {
+      visit(corners(part));
+    }
   }
 
  private:

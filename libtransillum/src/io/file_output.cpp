@@ -32,9 +32,9 @@ fs::path folder_of(const fs::path& path) {
 
 /// A file of its own in the folder of the target, so that the rename stays on one file system.
 /// Removed unless it was renamed.
-class TemporaryNeighbour {
+class TemporaryNeighbor {
  public:
-  explicit TemporaryNeighbour(const fs::path& target) : target_(target) {
+  explicit TemporaryNeighbor(const fs::path& target) : target_(target) {
     static std::atomic<unsigned> counter{0};
     int file = -1;
     do {
@@ -42,15 +42,19 @@ class TemporaryNeighbour {
       path_ = folder_of(target) / fmt::format(".transillum-{}-{}.tmp", ::getpid(), counter++);
       file = ::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     } while (file < 0 && errno == EEXIST);
-    if (file < 0) fail(target, errno);
+    if (file < 0) {
+      fail(target, errno);
+    }
     ::close(file);
   }
-  ~TemporaryNeighbour() {
+  ~TemporaryNeighbor() {
     std::error_code ignored;
-    if (!path_.empty()) fs::remove(path_, ignored);
+    if (!path_.empty()) {
+      fs::remove(path_, ignored);
+    }
   }
-  TemporaryNeighbour(const TemporaryNeighbour&) = delete;
-  TemporaryNeighbour& operator=(const TemporaryNeighbour&) = delete;
+  TemporaryNeighbor(const TemporaryNeighbor&) = delete;
+  TemporaryNeighbor& operator=(const TemporaryNeighbor&) = delete;
 
   const fs::path& path() const { return path_; }
 
@@ -58,10 +62,14 @@ class TemporaryNeighbour {
     synchronize();
     std::error_code ignored;
     const fs::file_status old = fs::status(target_, ignored);
-    if (fs::exists(old)) fs::permissions(path_, old.permissions(), ignored);
+    if (fs::exists(old)) {
+      fs::permissions(path_, old.permissions(), ignored);
+    }
     std::error_code error;
     fs::rename(path_, target_, error);
-    if (error) fail(target_, error.value());
+    if (error) {
+      fail(target_, error.value());
+    }
     path_.clear();
   }
 
@@ -69,11 +77,15 @@ class TemporaryNeighbour {
   /// Without it a crash of the machine could leave the new name with no content.
   void synchronize() const {
     const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) fail(target_, errno);
+    if (file < 0) {
+      fail(target_, errno);
+    }
     const int error = ::fsync(file) == 0 ? 0 : errno;
     ::close(file);
     // Some file systems cannot, which is no reason to lose the result.
-    if (error != 0 && error != EINVAL && error != ENOTSUP) fail(target_, error);
+    if (error != 0 && error != EINVAL && error != ENOTSUP) {
+      fail(target_, error);
+    }
   }
 
   fs::path target_, path_;
@@ -83,18 +95,26 @@ void fill(const fs::path& file, const fs::path& target,
           const std::function<void(std::ostream&)>& write) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (out) write(out);
+  if (out) {
+    write(out);
+  }
   out.flush();
   const int error = errno;
-  if (!out) fail(target, error);
+  if (!out) {
+    fail(target, error);
+  }
   out.close();
-  if (!out) fail(target, errno);
+  if (!out) {
+    fail(target, errno);
+  }
 }
 
 /// Where a chain of symbolic links leads, so that the link stays and its target is replaced.
 fs::path behind_links(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
+  if (!fs::is_symlink(path, error)) {
+    return path;
+  }
   fs::path resolved = fs::weakly_canonical(path, error);
   return error ? path : resolved;
 }
@@ -106,20 +126,24 @@ void write_file_whole(const std::filesystem::path& path,
   std::error_code ignored;
   const fs::path target = behind_links(path);
   const fs::file_status status = fs::status(target, ignored);
-  if (fs::is_directory(status)) fail(path, EISDIR);
+  if (fs::is_directory(status)) {
+    fail(path, EISDIR);
+  }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     fill(target, path, write);  // a device: nothing to rename
     return;
   }
-  TemporaryNeighbour neighbour(target);
-  fill(neighbour.path(), path, write);
-  neighbour.become_target();
+  TemporaryNeighbor neighbor(target);
+  fill(neighbor.path(), path, write);
+  neighbor.become_target();
 }
 
 void check_writable(const std::filesystem::path& path) {
   std::error_code ignored;
   const fs::path target = behind_links(path);
-  if (path.empty()) throw InputError("the name of an output file is empty");
+  if (path.empty()) {
+    throw InputError("the name of an output file is empty");
+  }
   if (fs::is_directory(target, ignored)) {
     throw InputError(fmt::format("{}: cannot be written: it is a folder", path.string()));
   }
@@ -127,7 +151,9 @@ void check_writable(const std::filesystem::path& path) {
   if (fs::is_fifo(target, ignored)) {
     throw InputError(fmt::format("{}: cannot be written: it is a pipe", path.string()));
   }
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return;
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
+    return;
+  }
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, ignored)) {
     throw InputError(fmt::format("{}: cannot be written: there is no folder {}", path.string(),

@@ -20,7 +20,9 @@ class TextBuffer {
   template <typename... Values>
   void add(fmt::format_string<Values...> format, Values&&... values) {
     fmt::format_to(std::back_inserter(buffer_), format, std::forward<Values>(values)...);
-    if (buffer_.size() > 1U << 16) hand_over();
+    if (buffer_.size() > 1U << 16) {
+      hand_over();
+    }
   }
 
  private:

@@ -4,7 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "radiosity/hand_over.h"
+#include "radiosity/tsan_scope.h"
 
 namespace transillum {
 
@@ -20,13 +20,13 @@ void for_each_index(oneapi::tbb::task_arena& arena, Index first, Index end, cons
     const void* place;
     ~AtEnd() { tell(place); }
   };
-  const AtEnd all{take_over_at, &done};
+  const AtEnd all{tsan_acquire, &done};
   const auto visit = [&](Index i) {
-    take_over_at(&start);
-    const AtEnd one{hand_over_at, &done};
+    tsan_acquire(&start);
+    const AtEnd one{tsan_release, &done};
     body(i);
   };
-  hand_over_at(&start);
+  tsan_release(&start);
   arena.execute([&] { oneapi::tbb::parallel_for(first, end, visit); });
 }
 

@@ -10,8 +10,8 @@ namespace transillum {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t most_centres = 2048, fewest_centres = 32;
-/// Directions times centres looked at, where that is between the most and the fewest centres.
+constexpr std::size_t most_centers = 2048, fewest_centers = 32;
+/// Directions times centers looked at, where that is between the most and the fewest centers.
 constexpr std::size_t looks = std::size_t{1} << 22;
 /// Directions this near a rim, in radians, lie on it.
 constexpr double on_rim = 1e-12;
@@ -19,11 +19,13 @@ constexpr double on_rim = 1e-12;
 // A cap with too few directions is the outside of one with too many. So it is enough to look for
 // closed caps {omega: n·omega >= height}, area (1 - height)/2, with too many.
 
-/// The largest excess among caps round a centre: those that end at a direction.
-double largest_excess_round(const Vec3& centre, std::span<const DirectionSample> samples,
+/// The largest excess among caps round a center: those that end at a direction.
+double largest_excess_round(const Vec3& center, std::span<const DirectionSample> samples,
                             std::vector<double>& heights) {
   heights.clear();
-  for (const DirectionSample& s : samples) heights.push_back(dot(centre, s.direction));
+  for (const DirectionSample& s : samples) {
+    heights.push_back(dot(center, s.direction));
+  }
   std::sort(heights.begin(), heights.end(), std::greater<>());
   const auto count = static_cast<double>(samples.size());
   double excess = 0;
@@ -33,7 +35,7 @@ double largest_excess_round(const Vec3& centre, std::span<const DirectionSample>
   return excess;
 }
 
-/// Caps with directions a and b on their rim: their centres lie on a great circle.
+/// Caps with directions a and b on their rim: their centers lie on a great circle.
 class Pencil {
  public:
   Pencil(const Vec3& a, const Vec3& b) {
@@ -46,14 +48,16 @@ class Pencil {
     height_ = opposite ? 0 : dot(a, x_);
   }
 
-  /// The largest excess of all these caps. Turning the centre, each direction is inside for half a
+  /// The largest excess of all these caps. Turning the center, each direction is inside for half a
   /// turn; the share of area changes between.
   double largest_excess(std::span<const DirectionSample> samples, std::size_t first,
                         std::size_t second, std::vector<std::pair<double, int>>& events) const {
     events.clear();
     int inside = 2;  // at the angle -pi
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      if (k == first || k == second) continue;
+      if (k == first || k == second) {
+        continue;
+      }
       const double x = dot(samples[k].direction, x_) - height_;
       const double y = dot(samples[k].direction, y_);
       if (std::hypot(x, y) < on_rim) {  // the same direction as one on the rim
@@ -63,7 +67,9 @@ class Pencil {
       const double middle = std::atan2(y, x);
       const double enters = wrapped(middle - pi / 2 - on_rim);
       const double leaves = wrapped(middle + pi / 2 + on_rim);
-      if (leaves < enters) ++inside;
+      if (leaves < enters) {
+        ++inside;
+      }
       events.emplace_back(enters, 1);
       events.emplace_back(leaves, -1);
     }
@@ -74,16 +80,22 @@ class Pencil {
     double excess = 0;
     for (const auto& [angle, change] : events) {
       // Before a direction leaves, after one enters: closed caps.
-      if (change > 0) ++inside;
+      if (change > 0) {
+        ++inside;
+      }
       excess = std::max(excess, inside / count - (1 - height_ * std::cos(angle)) / 2);
-      if (change < 0) --inside;
+      if (change < 0) {
+        --inside;
+      }
     }
     return excess;
   }
 
  private:
   static double wrapped(double angle) {
-    if (angle < -pi) return angle + 2 * pi;
+    if (angle < -pi) {
+      return angle + 2 * pi;
+    }
     return angle >= pi ? angle - 2 * pi : angle;
   }
 
@@ -97,9 +109,11 @@ double largest_excess_of_pencils(std::span<const DirectionSample> samples,
   std::vector<std::pair<double, int>> events;
   for (std::size_t b = 0; b < samples.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
-      cancellation.throw_if_cancelled();
+      cancellation.throw_if_canceled();
       const Vec3 &first = samples[a].direction, &second = samples[b].direction;
-      if (norm(second - first) < on_rim) continue;
+      if (norm(second - first) < on_rim) {
+        continue;
+      }
       excess = std::max(excess, Pencil(first, second).largest_excess(samples, a, b, events));
     }
   }
@@ -111,14 +125,16 @@ double largest_excess_of_pencils(std::span<const DirectionSample> samples,
 CapDiscrepancy cap_discrepancy(std::span<const DirectionSample> samples,
                                const Cancellation& cancellation) {
   CapDiscrepancy result;
-  if (samples.empty()) return result;
+  if (samples.empty()) {
+    return result;
+  }
   std::vector<double> heights;
-  const auto look_round = [&](const Vec3& centre) {
-    cancellation.throw_if_cancelled();
-    result.value = std::max(result.value, largest_excess_round(centre, samples, heights));
+  const auto look_round = [&](const Vec3& center) {
+    cancellation.throw_if_canceled();
+    result.value = std::max(result.value, largest_excess_round(center, samples, heights));
   };
-  const std::size_t centres = std::clamp(looks / samples.size(), fewest_centres, most_centres);
-  for (std::size_t k = 0; k < std::min(samples.size(), centres); ++k) {
+  const std::size_t centers = std::clamp(looks / samples.size(), fewest_centers, most_centers);
+  for (std::size_t k = 0; k < std::min(samples.size(), centers); ++k) {
     look_round(samples[k].direction);
     look_round(-samples[k].direction);
   }
@@ -126,7 +142,9 @@ CapDiscrepancy cap_discrepancy(std::span<const DirectionSample> samples,
   if (result.exact) {
     result.value = std::max(result.value, largest_excess_of_pencils(samples, cancellation));
   } else {
-    for (const Vec3& centre : spread_normals(static_cast<int>(centres))) look_round(centre);
+    for (const Vec3& center : spread_normals(static_cast<int>(centers))) {
+      look_round(center);
+    }
   }
   return result;
 }

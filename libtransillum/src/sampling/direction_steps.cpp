@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bit_mixing.h"
+#include "base/bit_mixing.h"
 #include "sampling/sequences.h"
 #include "transillum/errors.h"
 
@@ -14,13 +14,15 @@ namespace {
 /// Which set of a sequence `step` takes, when sets 2^p … 2^(p+1)-1 are shuffled among one another.
 std::uint32_t shuffled_set(std::uint32_t step, std::uint64_t seed) {
   std::uint32_t first = 1;
-  while (step >= 2 * std::uint64_t{first}) first *= 2;
+  while (step >= 2 * std::uint64_t{first}) {
+    first *= 2;
+  }
   std::vector<std::uint32_t> sets(first);
   std::iota(sets.begin(), sets.end(), first);
   std::uint64_t random = mixed(seed + first);
   for (std::uint32_t left = first; left > 1; --left) {
     random += golden_step;
-    // Below 2^32 the remainder favours no set by more than 2^-32.
+    // Below 2^32 the remainder favors no set by more than 2^-32.
     std::swap(sets[left - 1], sets[mixed(random) % left]);
   }
   return sets[step - first];
@@ -30,8 +32,12 @@ std::uint32_t shuffled_set(std::uint32_t step, std::uint64_t seed) {
 
 std::vector<DirectionSample> directions_of_step(Sampling sampling, int count, std::uint64_t seed,
                                                 int step) {
-  if (step < 0) throw InputError(fmt::format("step {}: steps count from 0", step));
-  if (step == 0) return make_directions(sampling, count, seed);
+  if (step < 0) {
+    throw InputError(fmt::format("step {}: steps count from 0", step));
+  }
+  if (step == 0) {
+    return make_directions(sampling, count, seed);
+  }
   const std::uint64_t step_seed = mixed(seed + static_cast<std::uint64_t>(step) * golden_step);
   switch (sampling) {
     case Sampling::random:
@@ -46,7 +52,7 @@ std::vector<DirectionSample> directions_of_step(Sampling sampling, int count, st
       return extensible_points(sampling, set * static_cast<std::uint32_t>(count), count, seed);
     }
     case Sampling::hammersley:
-    case Sampling::centred_hammersley:
+    case Sampling::centered_hammersley:
       break;
   }
   return make_directions(sampling, count, seed);

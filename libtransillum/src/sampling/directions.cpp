@@ -5,25 +5,26 @@
 #include <numeric>
 #include <utility>
 
-#include "choice.h"
+#include "base/choice.h"
 #include "sampling/sequences.h"
+#include "transillum/at.h"
 
 namespace transillum {
 
 const std::vector<std::string>& sampling_names() {
   static const std::vector<std::string> names{
-      "hammersley", "centred-hammersley", "scrambled-hammersley", "halton", "sobol", "fibonacci",
+      "hammersley", "centered-hammersley", "scrambled-hammersley", "halton", "sobol", "fibonacci",
       "random"};
   return names;
 }
 
 Sampling sampling_from_name(const std::string& name) {
-  return choice_from_name<Sampling>(sampling_names(), "sampling", name);
+  // The British spelling was the only one before version 0.2.
+  const std::string& current = name == "centred-hammersley" ? sampling_names()[1] : name;
+  return choice_from_name<Sampling>(sampling_names(), "sampling", current);
 }
 
-const std::string& name_of(Sampling sampling) {
-  return sampling_names()[static_cast<std::size_t>(sampling)];
-}
+const std::string& name_of(Sampling sampling) { return at(sampling_names(), sampling); }
 
 bool is_seeded(Sampling sampling) {
   return sampling == Sampling::scrambled_hammersley || sampling == Sampling::sobol ||
@@ -38,7 +39,9 @@ bool is_extensible(Sampling sampling) {
 std::vector<int> progressive_order(Sampling sampling, int count) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
-  if (is_extensible(sampling)) return order;
+  if (is_extensible(sampling)) {
+    return order;
+  }
   // Ranks of the radical inverses: the order in which van der Corput's points fill the interval,
   // stretched over 0 … count-1 whatever the count. In a base in which nothing else is counted, or
   // beginnings would lie in a corner of the square.
@@ -50,7 +53,7 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
   }
   std::sort(keyed.begin(), keyed.end());
   for (int rank = 0; rank < count; ++rank) {
-    order[static_cast<std::size_t>(keyed[static_cast<std::size_t>(rank)].second)] = rank;
+    at(order, at(keyed, rank).second) = rank;
   }
   return order;
 }

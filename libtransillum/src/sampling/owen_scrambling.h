@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bit_mixing.h"
+#include "base/bit_mixing.h"
 
 namespace transillum {
 

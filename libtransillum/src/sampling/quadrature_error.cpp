@@ -35,7 +35,7 @@ std::vector<double> quadrature_errors(std::span<const Vec3> normals,
   std::vector<double> errors;
   errors.reserve(normals.size());
   for (const Vec3& n : normals) {
-    cancellation.throw_if_cancelled();
+    cancellation.throw_if_canceled();
     errors.push_back(quadrature_error(n, samples, two_way));
   }
   return errors;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bit_mixing.h"
+#include "base/bit_mixing.h"
 #include "sampling/sphere_map.h"
 
 namespace transillum {

@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-#include "bit_mixing.h"
+#include "base/bit_mixing.h"
 #include "sampling/owen_scrambling.h"
 #include "sampling/sphere_map.h"
 #include "transillum/errors.h"
@@ -25,7 +25,9 @@ double uniform(std::mt19937_64& generator) {
 
 std::uint32_t bit_reversed(std::uint32_t k) {
   std::uint32_t reversed = 0;
-  for (int bit = 0; bit < 32; ++bit, k >>= 1) reversed = (reversed << 1) | (k & 1u);
+  for (int bit = 0; bit < 32; ++bit, k >>= 1) {
+    reversed = (reversed << 1) | (k & 1u);
+  }
   return reversed;
 }
 
@@ -50,7 +52,9 @@ class SobolDigits {
       digits.first = static_cast<std::uint32_t>(points_() >> 32);
       digits.second = static_cast<std::uint32_t>(points_() >> 32);
     }
-    if (++next_ == 0) skip_to_next();
+    if (++next_ == 0) {
+      skip_to_next();
+    }
     return digits;
   }
 
@@ -65,7 +69,7 @@ DirectionSample hammersley_point(std::uint32_t k, int count) {
   return sample_at(static_cast<double>(k) / count, radical_inverse(k, 2));
 }
 
-DirectionSample centred_hammersley_point(std::uint32_t k, int count) {
+DirectionSample centered_hammersley_point(std::uint32_t k, int count) {
   return sample_at(radical_inverse(k, 2), (k + 0.5) / count);
 }
 
@@ -90,7 +94,9 @@ void check_direction_count(int count) {
 
 double radical_inverse(std::uint32_t k, std::uint32_t base) {
   std::uint64_t mirrored = 0, power = 1;
-  for (; k != 0; k /= base, power *= base) mirrored = mirrored * base + k % base;
+  for (; k != 0; k /= base, power *= base) {
+    mirrored = mirrored * base + k % base;
+  }
   return static_cast<double>(mirrored) / static_cast<double>(power);
 }
 
@@ -100,7 +106,9 @@ std::vector<DirectionSample> extensible_points(Sampling sampling, std::uint32_t 
   samples.reserve(static_cast<std::size_t>(count));
   SobolDigits sobol(begin);
   std::mt19937_64 generator(seed);
-  if (sampling == Sampling::random) generator.discard(2 * std::uint64_t{begin});
+  if (sampling == Sampling::random) {
+    generator.discard(2 * std::uint64_t{begin});
+  }
   for (std::uint32_t k = begin; samples.size() < static_cast<std::size_t>(count); ++k) {
     if (sampling == Sampling::halton) {
       samples.push_back(sample_at(radical_inverse(k, 2), radical_inverse(k, 3)));
@@ -117,13 +125,15 @@ std::vector<DirectionSample> extensible_points(Sampling sampling, std::uint32_t 
 
 std::vector<DirectionSample> make_directions(Sampling sampling, int count, std::uint64_t seed) {
   check_direction_count(count);
-  if (is_extensible(sampling)) return extensible_points(sampling, 0, count, seed);
+  if (is_extensible(sampling)) {
+    return extensible_points(sampling, 0, count, seed);
+  }
   std::vector<DirectionSample> samples;
   samples.reserve(static_cast<std::size_t>(count));
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
     switch (sampling) {
-      case Sampling::centred_hammersley:
-        samples.push_back(centred_hammersley_point(k, count));
+      case Sampling::centered_hammersley:
+        samples.push_back(centered_hammersley_point(k, count));
         break;
       case Sampling::scrambled_hammersley:
         samples.push_back(scrambled_hammersley_point(k, count, seed));

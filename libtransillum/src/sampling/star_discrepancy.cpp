@@ -35,7 +35,9 @@ class LiftedLines {
         continue;
       }
       const std::size_t last = std::min(end, block.end);
-      for (std::size_t k = std::max(begin, block.begin); k < last; ++k) height_[k] += height;
+      for (std::size_t k = std::max(begin, block.begin); k < last; ++k) {
+        height_[k] += height;
+      }
       make_hull(block);
     }
   }
@@ -68,7 +70,9 @@ class LiftedLines {
     block.hull.clear();
     block.at = 0;
     for (std::size_t k = block.begin; k < block.end; ++k) {
-      while (!block.hull.empty() && hides_last(block.hull, k)) block.hull.pop_back();
+      while (!block.hull.empty() && hides_last(block.hull, k)) {
+        block.hull.pop_back();
+      }
       block.hull.push_back(k);
     }
   }
@@ -76,8 +80,12 @@ class LiftedLines {
   /// Whether the hull's last line is nowhere above both its forerunner and the steeper line k.
   bool hides_last(const std::vector<std::size_t>& hull, std::size_t k) const {
     const std::size_t b = hull.back();
-    if (slope_[k] == slope_[b]) return height_[k] >= height_[b];
-    if (hull.size() < 2) return false;
+    if (slope_[k] == slope_[b]) {
+      return height_[k] >= height_[b];
+    }
+    if (hull.size() < 2) {
+      return false;
+    }
     const std::size_t a = hull[hull.size() - 2];
     return (height_[a] - height_[b]) * (slope_[k] - slope_[b]) >=
            (height_[b] - height_[k]) * (slope_[b] - slope_[a]);
@@ -98,12 +106,16 @@ std::vector<double> distinct_sorted(std::vector<double> values) {
 
 double star_discrepancy(std::span<const DirectionSample> samples,
                         const Cancellation& cancellation) {
-  if (samples.empty()) return 0;
+  if (samples.empty()) {
+    return 0;
+  }
   const auto count = static_cast<double>(samples.size());
   std::vector<DirectionSample> points(samples.begin(), samples.end());
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
   std::vector<double> tops;  // v where a box may end
-  for (const DirectionSample& p : points) tops.push_back(p.v);
+  for (const DirectionSample& p : points) {
+    tops.push_back(p.v);
+  }
   tops.push_back(1);
   tops = distinct_sorted(std::move(tops));
 
@@ -111,13 +123,17 @@ double star_discrepancy(std::span<const DirectionSample> samples,
   // its upper sides belong to it, or M v u - (points in it) too few, if they do not. Slopes must
   // ascend, so the boxes with too many are counted from the highest down.
   std::vector<double> few_slopes, many_slopes;
-  for (const double v : tops) few_slopes.push_back(count * v);
-  for (auto v = tops.rbegin(); v != tops.rend(); ++v) many_slopes.push_back(-count * *v);
+  for (const double v : tops) {
+    few_slopes.push_back(count * v);
+  }
+  for (auto v = tops.rbegin(); v != tops.rend(); ++v) {
+    many_slopes.push_back(-count * *v);
+  }
   LiftedLines too_few(std::move(few_slopes)), too_many(std::move(many_slopes));
 
   double largest = 0;
   for (auto next = points.begin(); next != points.end();) {
-    cancellation.throw_if_cancelled();
+    cancellation.throw_if_canceled();
     const double u = next->u;
     largest = std::max(largest, too_few.max_at(u));
     for (; next != points.end() && next->u == u; ++next) {

@@ -5,9 +5,12 @@
 
 #include <utility>
 
-#include "choice.h"
+#include "base/choice.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
-#include "visibility/engines.h"
+#include "visibility/fast/fast_engine.h"
+#include "visibility/map/map_engines.h"
+#include "visibility/pixels/pixel_engines.h"
 
 namespace transillum {
 
@@ -21,9 +24,7 @@ Engine engine_from_name(const std::string& name) {
   return choice_from_name<Engine>(engine_names(), "engine", name);
 }
 
-const std::string& name_of(Engine engine) {
-  return engine_names()[static_cast<std::size_t>(engine)];
-}
+const std::string& name_of(Engine engine) { return at(engine_names(), engine); }
 
 bool takes_directions(Engine engine) { return engine != Engine::hemicube; }
 
@@ -36,9 +37,7 @@ PaintersOrder painters_order_from_name(const std::string& name) {
   return choice_from_name<PaintersOrder>(painters_order_names(), "painter's order", name);
 }
 
-const std::string& name_of(PaintersOrder order) {
-  return painters_order_names()[static_cast<std::size_t>(order)];
-}
+const std::string& name_of(PaintersOrder order) { return at(painters_order_names(), order); }
 
 namespace {
 

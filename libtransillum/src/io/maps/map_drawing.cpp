@@ -1,0 +1,112 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "io/maps/map_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+/// The sRGB transfer function; `linear` is clamped to [0,1].
+std::uint8_t encoded(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * s));
+}
+
+Color8 encoded(const Rgb& linear) {
+  return {encoded(linear.r), encoded(linear.g), encoded(linear.b)};
+}
+
+struct Box {
+  double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
+
+  void add(const Vec2& p) {
+    x0 = std::min(x0, p.x);
+    y0 = std::min(y0, p.y);
+    x1 = std::max(x1, p.x);
+    y1 = std::max(y1, p.y);
+  }
+};
+
+}  // namespace
+
+PatchLook look_of(const Scene& scene, const VisibilityMap::Polygon& polygon) {
+  if (polygon.front_facing) {
+    return PatchLook::back_side;
+  }
+  return max_abs(scene.exitance(polygon.patch)) > 0 ? PatchLook::emits : PatchLook::reflects;
+}
+
+Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
+                const MapPictureOptions& options) {
+  if (!polygon.front_facing && !options.patch_colors.empty()) {
+    const auto& color = at(options.patch_colors, polygon.patch);
+    return {color[0], color[1], color[2]};
+  }
+  const Rgb& exitance = scene.exitance(polygon.patch);
+  const Rgb& reflectance = scene.reflectance(polygon.patch);
+  switch (look_of(scene, polygon)) {
+    case PatchLook::emits:
+      return encoded({exitance.r / max_abs(exitance), exitance.g / max_abs(exitance),
+                      exitance.b / max_abs(exitance)});
+    case PatchLook::reflects:
+      return encoded(Rgb{0.02, 0.02, 0.02} + 0.5 * reflectance);
+    case PatchLook::back_side:
+      break;
+  }
+  // A trace of the surface's own hue keeps neighbors apart.
+  return encoded(Rgb{0.05, 0.062, 0.08} + 0.04 * reflectance);
+}
+
+MapPlate fit_map(const VisibilityMap& map, double width, double height) {
+  constexpr double margin = 0.03, least_share = 0.3;
+  Box box;
+  for (const Vec2& p : map.corners) {
+    box.add(p);
+  }
+  if (map.corners.empty()) {
+    box.add({0, 0});
+  }
+  const double size = std::max(box.x1 - box.x0, box.y1 - box.y0);
+  // Whatever the map is, even nothing, the plate is no thread.
+  const double wide = size > 0 ? std::max(box.x1 - box.x0, least_share * size) : 1;
+  const double high = size > 0 ? std::max(box.y1 - box.y0, least_share * size) : least_share;
+  const double border = margin * std::max(width, height);
+  MapPlate plate;
+  plate.transform.scale = std::min((width - 2 * border) / wide, (height - 2 * border) / high);
+  plate.transform.center = {box.x0 + (box.x1 - box.x0) / 2, box.y0 + (box.y1 - box.y0) / 2};
+  plate.width = wide * plate.transform.scale + 2 * border;
+  plate.height = high * plate.transform.scale + 2 * border;
+  plate.transform.middle = {plate.width / 2, plate.height / 2};
+  return plate;
+}
+
+double total_area(const std::vector<VisibilityMap::Polygon>& polygons) {
+  double sum = 0;
+  for (const VisibilityMap::Polygon& polygon : polygons) {
+    sum += polygon.area;
+  }
+  return sum;
+}
+
+double line_width(const VisibilityMap& map, double scale) {
+  if (map.pixels.side > 0) {
+    return std::clamp(0.15 * scale * map.pixels.side, 0.3, 1.0);
+  }
+  if (map.polygons.empty()) {
+    return 0;
+  }
+  const double side =
+      scale * std::sqrt(total_area(map.polygons) / static_cast<double>(map.polygons.size()));
+  return std::clamp(0.02 * side, 0.1, 0.8);
+}
+
+double difference_share(const VisibilityMap& map) {
+  const double shown = total_area(map.window.empty() ? map.polygons : map.window);
+  return shown > 0 ? total_area(map.pixels.differences) / shown : 0;
+}
+
+}  // namespace transillum

@@ -1,0 +1,66 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/map_files.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <ostream>
+
+#include "io/file_ending.h"
+#include "io/maps/map_writers.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using MapWriter = std::function<void(std::ostream&, const Scene&, const VisibilityMap&)>;
+
+MapWriter writer_for(const std::filesystem::path& path, const MapPictureOptions& options) {
+  using namespace std::placeholders;
+  const std::string ending = lower_case_ending(path);
+  if (ending == ".svg") {
+    return std::bind(write_map_svg, _1, _2, _3, options);
+  }
+  if (ending == ".png") {
+    return std::bind(write_map_png, _1, _2, _3, options);
+  }
+  if (ending == ".vtp") {
+    return write_map_vtp;
+  }
+  if (ending == ".json") {
+    return write_map_json;
+  }
+  throw InputError(fmt::format("{}: a map ends in .svg, .vtp, .png or .json", path.string()));
+}
+
+}  // namespace
+
+std::string why_empty(const Scene& scene, const VisibilityMap& map) {
+  if (!map.polygons.empty()) {
+    return {};
+  }
+  if (map.receiver == no_patch) {
+    return "every patch is edge-on to the direction";
+  }
+  if (!map.window.empty()) {
+    return fmt::format("nothing is above patch {}", map.receiver);
+  }
+  const double cosine = dot(scene.patch(map.receiver).normal, map.frame.omega);
+  return fmt::format(
+      "patch {} {}: it sees nothing", map.receiver,
+      cosine < -1e-9 ? "turns its back on the direction" : "is edge-on to the direction");
+}
+
+void check_map_path(const std::filesystem::path& path) {
+  writer_for(path, {});
+  check_writable(path);
+}
+
+void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
+               const MapPictureOptions& options) {
+  const MapWriter write = writer_for(path, options);
+  write_file_whole(path, [&](std::ostream& out) { write(out, scene, map); });
+}
+
+}  // namespace transillum

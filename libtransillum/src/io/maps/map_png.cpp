@@ -1,0 +1,229 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ostream>
+#include <stdexcept>
+
+#include "io/maps/map_drawing.h"
+#include "io/maps/map_writers.h"
+
+namespace transillum {
+namespace {
+
+/// A picture under way: how much of each pixel is covered, and by what color.
+///
+/// The polygons of a map do not overlap, so coverage times color may simply be added up, and no
+/// seam shows the ground where two of them meet.
+class Canvas {
+ public:
+  Canvas(int width, int height)
+      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
+
+  void fill(std::span<const Vec2> outline, const Color8& color) {
+    cover(outline, [&](std::size_t at, float share) {
+      Pixel& pixel = pixels_[at];
+      pixel.covered += share;
+      pixel.r += share * static_cast<float>(color.r);
+      pixel.g += share * static_cast<float>(color.g);
+      pixel.b += share * static_cast<float>(color.b);
+    });
+  }
+
+  /// Takes the place of the ground, under all that fill() puts in.
+  void lay_under(std::span<const Vec2> outline) {
+    cover(outline, [&](std::size_t at, float share) { pixels_[at].window += share; });
+  }
+
+  /// Lies over all but lines.
+  void lay_over(std::span<const Vec2> outline) {
+    cover(outline, [&](std::size_t at, float share) { pixels_[at].difference += share; });
+  }
+
+  void draw_edges(std::span<const Vec2> outline, double line_width) {
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      draw_line(outline[k], outline[(k + 1) % outline.size()], line_width);
+    }
+  }
+
+  void draw_line(const Vec2& a, const Vec2& b, double line_width) {
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) {
+      return;
+    }
+    const double share = line_width / 2 / length;
+    const Vec2 aside{share * (a.y - b.y), share * (b.x - a.x)};
+    const std::array<Vec2, 4> bar{
+        Vec2{a.x + aside.x, a.y + aside.y}, Vec2{b.x + aside.x, b.y + aside.y},
+        Vec2{b.x - aside.x, b.y - aside.y}, Vec2{a.x - aside.x, a.y - aside.y}};
+    cover(bar, [&](std::size_t at, float part) { pixels_[at].line += part; });
+  }
+
+  /// VTK's pictures begin at the bottom.
+  void copy_to(vtkImageData& image) const {
+    image.SetDimensions(width_, height_, 1);
+    image.AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* byte = static_cast<unsigned char*>(image.GetScalarPointer());
+    for (int y = height_ - 1; y >= 0; --y) {
+      for (int x = 0; x < width_; ++x) {
+        for (const float channel : finished(pixels_[index(x, y)])) {
+          *byte++ = static_cast<unsigned char>(std::clamp(std::lround(channel), 0L, 255L));
+        }
+      }
+    }
+  }
+
+ private:
+  struct Pixel {
+    float covered = 0, r = 0, g = 0, b = 0;
+    float window = 0, difference = 0, line = 0;
+  };
+  /// Lines of sampling a pixel; along them, coverage is exact.
+  static constexpr int scan_lines = 8;
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  /// Tells `take` the pixels that a convex polygon touches, and the share of each.
+  template <typename Take>
+  void cover(std::span<const Vec2> outline, Take take) const {
+    double top = HUGE_VAL, bottom = -HUGE_VAL;
+    for (const Vec2& p : outline) {
+      top = std::min(top, p.y);
+      bottom = std::max(bottom, p.y);
+    }
+    const auto first = static_cast<int>(std::ceil(std::max(top, 0.0) * scan_lines - 0.5));
+    const int end = height_ * scan_lines;
+    for (int line = first; line < end && line + 0.5 < bottom * scan_lines; ++line) {
+      const auto [left, right] = crossing(outline, (line + 0.5) / scan_lines);
+      cover_span(line / scan_lines, std::max(left, 0.0),
+                 std::min(right, static_cast<double>(width_)), take);
+    }
+  }
+
+  /// Where the line at height y enters and leaves a convex polygon.
+  static std::pair<double, double> crossing(std::span<const Vec2> outline, double y) {
+    double left = HUGE_VAL, right = -HUGE_VAL;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
+      if ((a.y > y) == (b.y > y)) {
+        continue;
+      }
+      // From the upper end, whichever neighbor the edge is seen from: the same crossing.
+      const Vec2 &upper = a.y < b.y ? a : b, &lower = a.y < b.y ? b : a;
+      const double x = upper.x + (y - upper.y) / (lower.y - upper.y) * (lower.x - upper.x);
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+    return {left, right};
+  }
+
+  template <typename Take>
+  void cover_span(int y, double left, double right, Take take) const {
+    for (int x = static_cast<int>(left); x < width_ && x < right; ++x) {
+      const double part = std::min(right, x + 1.0) - std::max(left, static_cast<double>(x));
+      take(index(x, y), static_cast<float>(part / scan_lines));
+    }
+  }
+
+  static std::array<float, 3> finished(const Pixel& pixel) {
+    constexpr float line_opacity = 0.6F;
+    const float ground = std::max(1 - pixel.covered, 0.0F);
+    const float line = line_opacity * std::min(pixel.line, 1.0F);
+    const float window = std::min(pixel.window, 1.0F);
+    const float difference =
+        static_cast<float>(map_colors::difference_opacity) * std::min(pixel.difference, 1.0F);
+    const auto mixed = [&](float Pixel::*sum, std::uint8_t Color8::*channel) {
+      const auto of = [&](const Color8& color) { return static_cast<float>(color.*channel); };
+      const float under = (1 - window) * of(map_colors::ground) + window * of(map_colors::nothing);
+      const float drawn = pixel.*sum + ground * under;
+      const float filled = drawn + difference * (of(map_colors::difference) - drawn);
+      return filled + line * (of(map_colors::edge) - filled);
+    };
+    return {mixed(&Pixel::r, &Color8::r), mixed(&Pixel::g, &Color8::g),
+            mixed(&Pixel::b, &Color8::b)};
+  }
+
+  int width_, height_;
+  std::vector<Pixel> pixels_;
+};
+
+/// What the picture shows, for those who look into the file.
+void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map, double scale) {
+  const Vec3& omega = map.frame.omega;
+  writer.AddText("Software", "transillum " TRANSILLUM_VERSION);
+  writer.AddText("Title", ("Visibility map of " + scene.name()).c_str());
+  writer.AddText(
+      "Description",
+      fmt::format("direction omega = {}, {}, {}; seen along omega{}; {} pixels a meter{}", omega.x,
+                  omega.y, omega.z,
+                  map.receiver == no_patch ? std::string(" from below")
+                                           : fmt::format(" by patch {}", map.receiver),
+                  scale,
+                  map.pixels.side > 0
+                      ? fmt::format("; the engine's pixels are {} m wide", map.pixels.side)
+                      : std::string())
+          .c_str());
+}
+
+}  // namespace
+
+void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+                   const MapPictureOptions& options) {
+  const MapPlate plate = fit_map(map, options.size, options.size);
+  Canvas canvas(static_cast<int>(std::lround(plate.width)),
+                static_cast<int>(std::lround(plate.height)));
+  std::vector<Vec2> outline;
+  const auto projected = [&](const VisibilityMap::Polygon& polygon) -> std::span<const Vec2> {
+    outline.clear();
+    for (const Vec2& p : map.outline(polygon)) {
+      outline.push_back(plate.transform.to_pixels(p));
+    }
+    return outline;
+  };
+  for (const auto& polygon : map.window) {
+    canvas.lay_under(projected(polygon));
+  }
+  for (const auto& polygon : map.polygons) {
+    canvas.fill(projected(polygon), color_of(scene, polygon, options));
+  }
+  for (const auto& polygon : map.pixels.differences) {
+    canvas.lay_over(projected(polygon));
+  }
+  const double width = line_width(map, plate.transform.scale);
+  if (map.pixels.side > 0) {
+    const std::vector<Vec2>& ends = map.pixels.borders;
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      canvas.draw_line(plate.transform.to_pixels(ends[k]), plate.transform.to_pixels(ends[k + 1]),
+                       width);
+    }
+  } else {
+    for (const auto& polygon : map.polygons) {
+      canvas.draw_edges(projected(polygon), width);
+    }
+  }
+
+  vtkNew<vtkImageData> image;
+  canvas.copy_to(*image);
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  describe(*writer, scene, map, plate.transform.scale);
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
+    throw std::runtime_error("VTK could not write the picture");
+  }
+  out.write(reinterpret_cast<const char*>(bytes->GetPointer(0)),
+            static_cast<std::streamsize>(bytes->GetNumberOfValues()));
+}
+
+}  // namespace transillum

@@ -1,0 +1,336 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "io/clean_text.h"
+#include "io/maps/map_drawing.h"
+#include "io/maps/map_writers.h"
+#include "io/text_buffer.h"
+
+namespace transillum {
+namespace {
+
+constexpr const char* style = R"(  <style>
+    text { font-family: "DejaVu Sans", "Helvetica Neue", Arial, sans-serif; fill: #5a6472; font-size: 13px; }
+    .page { fill: #ffffff; }
+    .title { fill: #1b212a; font-size: 20px; font-weight: bold; }
+    .note { fill: #a4adb8; font-size: 15px; text-anchor: middle; }
+    .rule { stroke: #1b212a; stroke-width: 1.5; fill: none; stroke-linecap: square; }
+    .end { text-anchor: end; }
+    .swatch { stroke: #0a0c0f; stroke-width: 0.5; }
+    .patch { stroke: #0a0c0f; stroke-linejoin: round; }
+    .pixel { stroke: none; }
+    .border { stroke: #0a0c0f; fill: none; stroke-linecap: square; }
+    .patch:hover { stroke: #ff3e9e; stroke-width: 2; }
+  </style>
+)";
+
+std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
+
+/// The end of a name that is too long for its place, after an ellipsis: of a path that is what
+/// tells it apart.
+std::string shortened(const std::string& text, std::size_t most) {
+  const std::string clean = clean_text(text);
+  if (clean.size() <= most) {
+    return clean;
+  }
+  std::size_t begin = clean.size() - most;
+  while (begin < clean.size() && (clean[begin] & 0xc0) == 0x80) {
+    ++begin;  // inside a character
+  }
+  return "\u2026" + clean.substr(begin);
+}
+
+class SvgFigure {
+ public:
+  SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+            const MapPictureOptions& options)
+      : text_(out), scene_(scene), map_(map), options_(options) {
+    plate_ = fit_map(map, options.size - 2 * padding, options.size - header - footer);
+    width_ = std::max(plate_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
+    height_ = plate_.height + header + footer;
+    left_ = (width_ - plate_.width) / 2;
+    plate_.transform.middle.x += left_;
+    plate_.transform.middle.y += header;
+  }
+
+  void write() {
+    begin();
+    add_header();
+    add_plate();
+    if (!map_.corners.empty()) {
+      add_scale_bar();
+    }
+    add_axes();
+    add_legend();
+    text_.add("</svg>\n");
+  }
+
+ private:
+  static constexpr double padding = 24, header = 104, footer = 92, least_width = 470;
+  /// Of the bold letters of the title, at most, on average.
+  static constexpr double title_letter = 13;
+
+  std::string heading(const std::string& scene_name) const {
+    return map_.receiver == no_patch
+               ? fmt::format("Visibility map of {}", scene_name)
+               : fmt::format("What patch {} of {} sees", map_.receiver, scene_name);
+  }
+
+  void begin() {
+    text_.add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    text_.add(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{0:.0f}\" "
+        "height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
+        width_, height_);
+    text_.add("  <title>{}</title>\n", xml_text(heading(scene_.name())));
+    const Vec3& omega = map_.frame.omega;
+    text_.add("  <desc>transillum " TRANSILLUM_VERSION
+              "; direction omega = {}, {}, {}; seen along omega; {} pixels a meter</desc>\n",
+              omega.x, omega.y, omega.z, plate_.transform.scale);
+    text_.add("{}", style);
+    text_.add("  <rect class=\"page\" width=\"100%\" height=\"100%\"/>\n");
+  }
+
+  void add_header() {
+    const auto room = static_cast<std::size_t>((width_ - 2 * padding) / title_letter);
+    const std::size_t words = heading({}).size();
+    const std::string name = shortened(scene_.name(), room > words + 8 ? room - words : 8);
+    text_.add("  <text class=\"title\" x=\"{}\" y=\"42\">{}</text>\n", padding,
+              xml_text(heading(name)));
+    const Vec3& omega = map_.frame.omega;
+    text_.add(
+        "  <text x=\"{}\" y=\"66\">Seen along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the "
+        "light</text>\n",
+        padding, omega.x, omega.y, omega.z);
+    double area = 0;
+    int patches = 0;
+    PatchId last = no_patch;
+    for (const VisibilityMap::Polygon& polygon : map_.polygons) {
+      area += polygon.area;
+      patches += polygon.patch != last ? 1 : 0;
+      last = polygon.patch;
+    }
+    const std::string parts =
+        in_pixels()
+            ? fmt::format("pixels of {:.3g} m, together {:.4g} m\u00b2", map_.pixels.side, area)
+            : fmt::format("{} polygons of together {:.4g} m\u00b2", map_.polygons.size(), area);
+    text_.add("  <text x=\"{}\" y=\"86\">{} of {} patches, in {}</text>\n", padding, patches,
+              scene_.patch_count(), parts);
+  }
+
+  void add_plate() {
+    text_.add(
+        "  <rect class=\"ground\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+        "rx=\"4\" fill=\"{}\"/>\n",
+        left_, header, plate_.width, plate_.height, hex(map_colors::ground));
+    add_window();
+    // Crisp: rectangles that meet leave no seam between them.
+    text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\"{}>\n",
+              line_width(map_, plate_.transform.scale),
+              in_pixels() ? " shape-rendering=\"crispEdges\"" : "");
+    auto first = map_.polygons.begin();
+    while (first != map_.polygons.end()) {
+      const auto last = std::find_if(first, map_.polygons.end(), [&](const auto& polygon) {
+        return polygon.patch != first->patch || polygon.front_facing != first->front_facing;
+      });
+      add_patch({&*first, static_cast<std::size_t>(last - first)});
+      first = last;
+    }
+    text_.add("  </g>\n");
+    if (in_pixels()) {
+      add_pixel_marks();
+    }
+    const std::string reason = why_empty(scene_, map_);
+    if (reason.empty()) {
+      return;
+    }
+    text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", width_ / 2,
+              header + plate_.height / 2, xml_text(reason));
+  }
+
+  void add_outlines(std::span<const VisibilityMap::Polygon> polygons) {
+    for (const VisibilityMap::Polygon& polygon : polygons) {
+      char command = 'M';
+      for (const Vec2& p : map_.outline(polygon)) {
+        const Vec2 at = plate_.transform.to_pixels(p);
+        text_.add("{}{:.7g} {:.7g}", command, at.x, at.y);
+        command = 'L';
+      }
+      text_.add("Z");
+    }
+  }
+
+  bool in_pixels() const { return map_.pixels.side > 0; }
+
+  void add_pixel_marks() {
+    for (const VisibilityMap::Polygon& polygon : map_.pixels.differences) {
+      text_.add("    <path class=\"difference\" fill=\"{}\" fill-opacity=\"{}\" d=\"",
+                hex(map_colors::difference), map_colors::difference_opacity);
+      add_outlines({&polygon, 1});
+      text_.add("\"><title>{} is seen here</title></path>\n",
+                polygon.patch == no_patch ? std::string("nothing")
+                                          : fmt::format("patch {}", polygon.patch));
+    }
+    const std::vector<Vec2>& ends = map_.pixels.borders;
+    text_.add("  <path class=\"border\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\" d=\"",
+              line_width(map_, plate_.transform.scale));
+    for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+      const Vec2 a = plate_.transform.to_pixels(ends[k]),
+                 b = plate_.transform.to_pixels(ends[k + 1]);
+      text_.add("M{:.7g} {:.7g}L{:.7g} {:.7g}", a.x, a.y, b.x, b.y);
+    }
+    text_.add("\"/>\n");
+  }
+
+  void add_window() {
+    if (map_.window.empty()) {
+      return;
+    }
+    text_.add("  <path class=\"receiver p{}\" fill=\"{}\" d=\"", map_.receiver,
+              hex(map_colors::nothing));
+    add_outlines(map_.window);
+    text_.add("\"><title>patch {} sees nothing here</title></path>\n", map_.receiver);
+  }
+
+  /// All polygons of one patch as one path.
+  void add_patch(std::span<const VisibilityMap::Polygon> polygons) {
+    const VisibilityMap::Polygon& any = polygons.front();
+    double area = 0;
+    for (const VisibilityMap::Polygon& polygon : polygons) {
+      area += polygon.area;
+    }
+    text_.add("    <path class=\"{} p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"",
+              in_pixels() ? "patch pixel" : "patch", any.patch, any.front_facing ? "front" : "back",
+              look_of(scene_, any) == PatchLook::emits ? " emits" : "", area,
+              hex(color_of(scene_, any, options_)));
+    add_outlines(polygons);
+    text_.add("\"><title>patch {} ({}), {}, area {:.4g} m\u00b2</title></path>\n", any.patch,
+              xml_text(scene_.material(any.patch).name), description(any), area);
+  }
+
+  std::string description(const VisibilityMap::Polygon& polygon) const {
+    const Rgb& exitance = scene_.exitance(polygon.patch);
+    switch (look_of(scene_, polygon)) {
+      case PatchLook::emits:
+        return fmt::format("shines down: emits {:.4g}, {:.4g}, {:.4g} W/m\u00b2", exitance.r,
+                           exitance.g, exitance.b);
+      case PatchLook::reflects:
+        return "shines down";
+      case PatchLook::back_side:
+        break;
+    }
+    return "turns its back, " + what_it_sees(polygon.patch);
+  }
+
+  /// The sources of most area first.
+  std::string what_it_sees(PatchId patch) const {
+    constexpr std::size_t most = 6;
+    const auto [first, last] =
+        std::equal_range(map_.exchanges.begin(), map_.exchanges.end(), Transfer{patch, 0, 0},
+                         [](const auto& a, const auto& b) { return a.receiver < b.receiver; });
+    if (first == last) {
+      return "sees no patch above";
+    }
+    std::vector<Transfer> seen(first, last);
+    std::stable_sort(seen.begin(), seen.end(),
+                     [](const auto& a, const auto& b) { return a.area > b.area; });
+    std::string words = seen.size() == 1 ? "sees patch " : "sees patches ";
+    for (std::size_t k = 0; k < std::min(most, seen.size()); ++k) {
+      words += fmt::format("{}{}", k > 0 ? ", " : "", seen[k].source);
+    }
+    if (seen.size() > most) {
+      words += fmt::format(" and {} more", seen.size() - most);
+    }
+    return words;
+  }
+
+  void add_scale_bar() {
+    // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
+    const double most = width_ / 4 / plate_.transform.scale;
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    const double lead = most / power;
+    const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+    const double length = meters * plate_.transform.scale;
+    const double y = height_ - 62;
+    text_.add("  <path class=\"rule\" d=\"M{0} {2}v8M{0} {3}H{1:.2f}M{1:.2f} {2}v8\"/>\n", padding,
+              padding + length, y - 4, y);
+    text_.add("  <text x=\"{:.2f}\" y=\"{}\">{:g} m</text>\n", padding + length + 10, y + 4.5,
+              meters);
+  }
+
+  void add_axes() {
+    const double x = width_ - padding - 18, y = height_ - 56;
+    text_.add(
+        "  <path class=\"rule\" d=\"M{0} {1}h-22m5 -4l-5 4l5 4M{0} {1}v-22m-4 5l4 -5l4 5\"/>\n", x,
+        y);
+    text_.add("  <text class=\"end\" x=\"{}\" y=\"{}\">u</text>\n", x - 28, y + 4);
+    text_.add("  <text x=\"{}\" y=\"{}\">v</text>\n", x + 7, y - 13);
+  }
+
+  /// Whether the receiver sees nothing in a part of its window.
+  bool leaves_a_gap() const {
+    double area = 0;
+    for (const VisibilityMap::Polygon& polygon : map_.window) {
+      area += polygon.area;
+    }
+    double open = area;
+    for (const VisibilityMap::Polygon& polygon : map_.polygons) {
+      open -= polygon.area;
+    }
+    return open > 1e-6 * area;
+  }
+
+  void add_legend() {
+    double x = padding;
+    const auto entry = [&](const Color8& color, const char* words, double width) {
+      text_.add(
+          "  <rect class=\"swatch\" x=\"{}\" y=\"{}\" width=\"16\" height=\"12\" rx=\"2\" "
+          "fill=\"{}\"/>\n",
+          x, height_ - 32, hex(color));
+      text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", x + 22, height_ - 21.5, words);
+      x += width;
+    };
+    const auto add = [&](PatchLook look, const char* words, double width) {
+      const auto found =
+          std::find_if(map_.polygons.begin(), map_.polygons.end(), [&](const auto& polygon) {
+            // Not what no eye can see, such as what rounding leaves over.
+            const double pixels = polygon.area * std::pow(plate_.transform.scale, 2);
+            return pixels > 0.1 && look_of(scene_, polygon) == look;
+          });
+      if (found != map_.polygons.end()) {
+        entry(color_of(scene_, *found, options_), words, width);
+      }
+    };
+    // Colors of the caller's mean what the caller says.
+    if (options_.patch_colors.empty()) {
+      add(PatchLook::emits, "emits", 84);
+      add(PatchLook::reflects, "reflects", 102);
+    }
+    add(PatchLook::back_side, "back side", 112);
+    if (leaves_a_gap()) {
+      entry(map_colors::nothing, "nothing above", 132);
+    }
+    if (!map_.pixels.differences.empty()) {
+      entry(map_colors::difference,
+            fmt::format("differs ({:.2g} %)", 100 * difference_share(map_)).c_str(), 0);
+    }
+  }
+
+  TextBuffer text_;
+  const Scene& scene_;
+  const VisibilityMap& map_;
+  const MapPictureOptions& options_;
+  MapPlate plate_;
+  double width_ = 0, height_ = 0, left_ = 0;
+};
+
+}  // namespace
+
+void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+                   const MapPictureOptions& options) {
+  SvgFigure(out, scene, map, options).write();
+}
+
+}  // namespace transillum

@@ -1,0 +1,222 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <tuple>
+#include <type_traits>
+
+#include "io/clean_text.h"
+#include "io/file_ending.h"
+#include "io/results/result_figures.h"
+#include "io/results/vtp_file.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+/// What a .vtp file holds, checked as it is asked for.
+class ResultReader {
+ public:
+  ResultReader(const std::filesystem::path& path, const Cancellation& cancellation)
+      : file_(path, cancellation), cancellation_(cancellation) {}
+
+  Solution read() {
+    Solution solution;
+    visit_figures(solution, [this](const char* name, auto& value) { read_figure(name, value); });
+    solution.scene = make_scene();
+    solution.statistics.patches = solution.scene->patch_count();
+    solution.radiosity = colors("B");
+    solution.irradiance = colors("H");
+    if (solution.error.replicas > 0) {
+      solution.error.standard_error = colors("standard_error");
+    }
+    read_steps(solution.statistics.steps);
+    return solution;
+  }
+
+ private:
+  template <class Number>
+  void read_figure(const char* name, Number& value) const {
+    if (!file_.has("FieldData", name)) {
+      return;
+    }
+    const double number = file_.numbers("FieldData", name, 1, 1).front();
+    if constexpr (std::is_integral_v<Number>) {
+      const double most = std::is_same_v<Number, bool>  ? 1
+                          : std::is_same_v<Number, int> ? 0x1p30
+                                                        : 0x1p53;
+      if (!(number >= 0 && number <= most && number == std::floor(number))) {
+        file_.fail(fmt::format("{} is {}, which cannot be", name, number));
+      }
+    }
+    value = static_cast<Number>(number);
+  }
+
+  void read_steps(std::vector<IterationRecord>& steps) const {
+    if (!file_.has("FieldData", "change")) {
+      return;
+    }
+    const std::size_t count = file_.size_of_field("change");
+    const std::vector<double> changes = file_.numbers("FieldData", "change", 1, count);
+    const std::vector<double> contractions = file_.numbers("FieldData", "contraction", 1, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      steps.push_back({changes[k], contractions[k], 0});
+    }
+  }
+
+  std::vector<Rgb> colors(const char* name) const {
+    const std::vector<double> numbers = file_.numbers("CellData", name, 3, file_.polygons());
+    std::vector<Rgb> colors(file_.polygons());
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const double* rgb = &numbers[3 * i];
+      if (!std::isfinite(rgb[0]) || !std::isfinite(rgb[1]) || !std::isfinite(rgb[2])) {
+        file_.fail(fmt::format("{} of patch {} is not a finite number", name, i));
+      }
+      colors[i] = {rgb[0], rgb[1], rgb[2]};
+    }
+    return colors;
+  }
+
+  std::vector<std::string> words(const char* name) const {
+    if (!file_.has("FieldData", name)) {
+      return {};
+    }
+    std::vector<std::string> words = file_.words(name);
+    for (std::string& word : words) {
+      word = clean_text(word);
+    }
+    return words;
+  }
+
+  /// Patches with the same number, E and rho are of one material.
+  void add_materials(SceneDescription& description, std::vector<std::int32_t>& of_patch) const {
+    const std::vector<Rgb> exitance = colors("E"), reflectance = colors("rho");
+    const std::vector<std::string> names = words("materials");
+    std::vector<std::int64_t> numbers(file_.polygons());
+    if (file_.has("CellData", "material")) {
+      numbers = file_.whole_numbers("CellData", "material", numbers.size());
+    }
+    const auto channels = [](const Rgb& c) { return std::array{c.r, c.g, c.b}; };
+    using Channels = std::array<double, 3>;
+    std::map<std::tuple<std::int64_t, Channels, Channels>, std::int32_t> known;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const auto next = static_cast<std::int32_t>(description.materials.size());
+      const auto [entry, is_new] =
+          known.try_emplace({numbers[i], channels(exitance[i]), channels(reflectance[i])}, next);
+      of_patch.push_back(entry->second);
+      if (!is_new) {
+        continue;
+      }
+      const bool named = numbers[i] >= 0 && numbers[i] < static_cast<std::int64_t>(names.size());
+      description.materials.push_back(
+          {named ? at(names, numbers[i]) : fmt::format("material {}", next + 1), reflectance[i],
+           exitance[i]});
+    }
+  }
+
+  void add_points(SceneDescription& description) const {
+    const std::vector<double> numbers = file_.numbers("Points", "Points", 3, file_.points());
+    for (std::size_t p = 0; p < numbers.size(); p += 3) {
+      description.points.push_back({numbers[p], numbers[p + 1], numbers[p + 2]});
+    }
+  }
+
+  /// The outlines of all polygons, one after the other, and where each ends.
+  struct Outlines {
+    std::vector<PointId> corners;
+    std::vector<std::int64_t> end;
+
+    std::span<const PointId> operator[](std::size_t i) const {
+      const auto from = static_cast<std::size_t>(i > 0 ? end[i - 1] : 0);
+      return {corners.data() + from, static_cast<std::size_t>(end[i]) - from};
+    }
+  };
+
+  Outlines read_outlines() const {
+    Outlines outlines;
+    outlines.end = file_.whole_numbers("Polys", "offsets", file_.polygons());
+    std::int64_t before = 0;
+    for (const std::int64_t end : outlines.end) {
+      if (end < before || end > std::numeric_limits<std::int32_t>::max()) {
+        file_.fail("its polygons have no sensible lists of corners");
+      }
+      before = end;
+    }
+    const auto count = static_cast<std::size_t>(outlines.end.back());
+    const auto points = static_cast<std::int64_t>(file_.points());
+    for (const std::int64_t p : file_.whole_numbers("Polys", "connectivity", count)) {
+      if (p < 0 || p >= points) {
+        file_.fail(fmt::format("a polygon's corner is point {}, but there are {}", p, points));
+      }
+      outlines.corners.push_back(static_cast<PointId>(p));
+    }
+    return outlines;
+  }
+
+  /// One patch a polygon; where both sides count, two polygons make one face.
+  std::shared_ptr<const Scene> make_scene() const {
+    SceneDescription description;
+    const std::vector<std::string> names = words("scene");
+    description.name = names.size() == 1 && !names.front().empty() ? names.front() : file_.name();
+    add_points(description);
+    std::vector<std::int32_t> materials;
+    add_materials(description, materials);
+    bool two_sided = false;
+    read_figure("two_sided", two_sided);
+    const Outlines outlines = read_outlines();
+    for (std::size_t i = 0; i < file_.polygons(); ++i) {
+      if (i % 4096 == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      const auto outline = outlines[i];
+      description.add_face(outline, materials[i]);
+      if (!two_sided) {
+        continue;
+      }
+      ++i;
+      if (i == file_.polygons() || materials[i] != materials[i - 1] ||
+          !std::equal(outline.rbegin(), outline.rend(), outlines[i].begin(), outlines[i].end())) {
+        file_.fail(fmt::format("is two-sided, but patch {} has no other side next to it", i - 1));
+      }
+    }
+    return checked(description, {.two_sided = two_sided});
+  }
+
+  std::shared_ptr<const Scene> checked(const SceneDescription& description,
+                                       const SceneOptions& options) const {
+    std::shared_ptr<const Scene> scene;
+    try {
+      scene = std::make_shared<const Scene>(description, options, cancellation_);
+    } catch (const InputError& error) {
+      if (description.name == file_.name()) {
+        throw;
+      }
+      file_.fail(error.what());
+    }
+    if (static_cast<std::size_t>(scene->patch_count()) != file_.polygons()) {
+      const auto& warnings = scene->report().warnings;
+      file_.fail(warnings.empty() ? "its polygons are no patches" : warnings.front());
+    }
+    return scene;
+  }
+
+  const VtpFile file_;
+  const Cancellation& cancellation_;
+};
+
+}  // namespace
+
+bool is_result_file(const std::filesystem::path& path) { return lower_case_ending(path) == ".vtp"; }
+
+Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation) {
+  return ResultReader(path, cancellation).read();
+}
+
+}  // namespace transillum

@@ -1,0 +1,111 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include "io/results/result_figures.h"
+#include "io/results/result_writers.h"
+#include "io/results/vtp_output.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+template <typename ValueOf>
+void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf value_of) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(count);
+  const char* const channels[] = {"r", "g", "b"};
+  for (int c = 0; c < 3; ++c) {
+    array->SetComponentName(c, channels[c]);
+  }
+  for (PatchId i = 0; i < count; ++i) {
+    const Rgb rgb = value_of(i);
+    array->SetTuple3(i, rgb.r, rgb.g, rgb.b);
+  }
+  fields.AddArray(array);
+}
+
+void add_geometry(vtkPolyData& mesh, const Scene& scene) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(scene.points().size()));
+  for (std::size_t p = 0; p < scene.points().size(); ++p) {
+    const Vec3& point = scene.points()[p];
+    points->SetPoint(static_cast<vtkIdType>(p), point.x, point.y, point.z);
+  }
+  vtkNew<vtkCellArray> polygons;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto outline = scene.outline(i);
+    polygons->InsertNextCell(static_cast<int>(outline.size()));
+    for (const PointId p : outline) {
+      polygons->InsertCellPoint(p);
+    }
+  }
+  mesh.SetPoints(points);
+  mesh.SetPolys(polygons);
+}
+
+void add_patch_values(vtkFieldData& fields, const Solution& solution) {
+  const Scene& scene = *solution.scene;
+  const PatchId count = scene.patch_count();
+  add_integers(fields, "face", count, [&](PatchId i) { return scene.patch(i).face; });
+  add_integers(fields, "patch", count, [](PatchId i) { return i; });
+  add_numbers(fields, "area", count, [&](PatchId i) { return scene.patch(i).area; });
+  add_integers(fields, "material", count, [&](PatchId i) { return scene.patch(i).material; });
+  add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
+  add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
+  add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
+  if (!solution.error.standard_error.empty()) {
+    add_colors(fields, "standard_error", count,
+               [&](PatchId i) { return at(solution.error.standard_error, i); });
+  }
+  add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
+}
+
+void add_words(vtkFieldData& fields, const char* name, const std::vector<Material>& materials) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const Material& material : materials) {
+    array->InsertNextValue(material.name);
+  }
+  fields.AddArray(array);
+}
+
+/// What the viewer needs to say what it shows.
+void add_solve_values(vtkFieldData& fields, const Solution& solution) {
+  const Scene& scene = *solution.scene;
+  add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
+  add_field(fields, "scene", scene.name());
+  add_words(fields, "materials", scene.materials());
+  add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
+  add_field(fields, "max_patch_area", scene.options().max_patch_area);
+  visit_figures(solution, [&](const char* name, const auto& value) {
+    add_field(fields, name, static_cast<double>(value));
+  });
+  const auto& steps = solution.statistics.steps;
+  const int count = static_cast<int>(steps.size());
+  add_numbers(fields, "change", count, [&](int k) { return steps[std::size_t(k)].change; });
+  add_numbers(fields, "contraction", count,
+              [&](int k) { return steps[std::size_t(k)].contraction; });
+}
+
+}  // namespace
+
+void write_result_vtp(std::ostream& out, const Solution& solution) {
+  vtkNew<vtkPolyData> mesh;
+  add_geometry(*mesh, *solution.scene);
+  add_patch_values(*mesh->GetCellData(), solution);
+  mesh->GetCellData()->SetActiveScalars("B");
+  add_solve_values(*mesh->GetFieldData(), solution);
+
+  write_polygons(out, *mesh);
+}
+
+}  // namespace transillum

@@ -1,0 +1,128 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json options_json(const SolveOptions& options, const SceneOptions& scene_options) {
+  Json json;
+  json["directions"] = options.directions;
+  json["sampling"] = name_of(options.sampling);
+  json["seed"] = options.seed;
+  json["rotation"] = options.rotation ? Json(*options.rotation) : Json();
+  json["engine"] = name_of(options.engine);
+  const int resolution = options.engine_options.resolution;
+  json["resolution"] = resolution > 0 ? Json(resolution) : Json();
+  json["two_way"] = options.two_way;
+  json["normalize"] = name_of(options.normalize);
+  json["scheme"] = name_of(options.scheme);
+  json["burn_in"] = options.scheme == Scheme::semi_iterative ? Json(options.burn_in) : Json();
+  json["replicas"] = options.replicas;
+  json["first_shot"] = options.first_shot ? Json(*options.first_shot) : Json();
+  // One of them rules; the other is null.
+  json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
+  json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
+  json["memory"] = options.memory > 0 ? Json(options.memory) : Json();
+  json["threads"] = options.threads > 0 ? Json(options.threads) : Json();
+  json["two_sided"] = scene_options.two_sided;
+  json["max_patch_area"] =
+      scene_options.max_patch_area > 0 ? Json(scene_options.max_patch_area) : Json();
+  return json;
+}
+
+template <typename ValueOf>
+Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
+  Json list = Json::array();
+  for (const IterationRecord& step : steps) {
+    list.push_back(value_of(step));
+  }
+  return list;
+}
+
+Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
+
+/// Null without replicas.
+Json error_json(const ErrorEstimate& error) {
+  if (error.replicas == 0) {
+    return {};
+  }
+  return {{"replicas", error.replicas},
+          {"rms", error.rms},
+          {"confidence", 0.95},
+          {"quantile", error.quantile},
+          {"mean_B", list_of(error.mean_radiosity)},
+          {"mean_B_standard_error", list_of(error.mean_standard_error)}};
+}
+
+/// The names of cli.md; what was never measured, for want of a finished step, is null.
+Json statistics_json(const SolveStatistics& statistics) {
+  const bool stepped = statistics.iterations > 0;
+  Json json;
+  json["patches"] = statistics.patches;
+  json["fragments"] = statistics.fragments;
+  json["directions"] = statistics.directions;
+  json["passes"] = statistics.passes;
+  json["passes_made"] = statistics.passes_made;
+  json["iterations"] = statistics.iterations;
+  json["threads"] = statistics.threads;
+  json["transfers"] = statistics.transfers;
+  json["form_factors"] = statistics.form_factors;
+  json["kept_form_factors"] = statistics.kept_form_factors;
+  json["first_shot"] = {{"sources", statistics.shot_sources},
+                        {"power_share", statistics.shot_power_share}};
+  json["converged"] = statistics.converged;
+  json["closure_defect_max"] = statistics.closure_defect_max;
+  json["closure_defect_grazing"] = statistics.closure_defect_grazing;
+  json["escaped"] = statistics.escaped;
+  json["energy_defect"] = stepped ? Json(statistics.energy_defect) : Json();
+  json["energy_balance"] = stepped ? Json(statistics.energy_balance) : Json();
+  json["rho_max"] = statistics.rho_max;
+  json["predicted_contraction"] = statistics.predicted_contraction;
+  const auto& steps = statistics.steps;
+  json["change"] = list_of(steps, [](const IterationRecord& s) { return s.change; });
+  json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
+  json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
+  const PassCounts& counts = statistics.counts;
+  json["counters"] = {{"pairs", counts.pairs},
+                      {"cuts", counts.cuts},
+                      {"decisions", counts.decisions},
+                      {"exact_decisions", counts.exact_decisions},
+                      {"exact_looks", counts.exact_looks},
+                      {"pixels", counts.pixels},
+                      {"missed_patches", counts.missed}};
+  json["thread_seconds"] = {{"order", counts.seconds_order},
+                            {"bins", counts.seconds_bins},
+                            {"clip", counts.seconds_clip}};
+  json["seconds"] = {{"load", statistics.seconds_load},
+                     {"bsp", statistics.seconds_bsp},
+                     {"first_shot", statistics.seconds_first_shot},
+                     {"transfers", statistics.seconds_transfers},
+                     {"iterate", statistics.seconds_iterate},
+                     {"total", statistics.seconds_total}};
+  return json;
+}
+
+}  // namespace
+
+void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
+                      const Solution& solution) {
+  Json json;
+  json["program"] = "transillum " TRANSILLUM_VERSION;
+  json["scene"] = solution.scene->name();
+  json["complete"] = solution.complete;
+  json["options"] = options_json(options, solution.scene->options());
+  json.update(statistics_json(solution.statistics));
+  json["error_estimate"] = error_json(solution.error);
+  // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
+  // A file name need not be UTF-8, but JSON must be.
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
+}
+
+}  // namespace transillum

@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/ostream.h>
+
+#include <ostream>
+
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+/// What is left of a projected area within this share of it is rounding (method, oracle 1).
+constexpr double rounding_share = 1e-12;
+
+}  // namespace
+
+void write_transfers_csv(std::ostream& out, const Transfers& transfers) {
+  out << "receiver,source,area\n";
+  auto next = transfers.exchanges.begin();
+  for (std::size_t i = 0; i < transfers.forward.size(); ++i) {
+    const auto receiver = static_cast<PatchId>(i);
+    const auto first = next;
+    double received = 0;
+    for (; next != transfers.exchanges.end() && next->receiver == receiver; ++next) {
+      received += next->area;
+    }
+    const double projected = transfers.forward[i].projected;
+    const double rest = projected - received;
+    if (rest > rounding_share * projected) {
+      fmt::print(out, "{},-1,{}\n", receiver, rest);
+    }
+    for (auto t = first; t != next; ++t) {
+      fmt::print(out, "{},{},{}\n", t->receiver, t->source, t->area);
+    }
+  }
+}
+
+void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers) {
+  write_file_whole(path, [&](std::ostream& out) { write_transfers_csv(out, transfers); });
+}
+
+void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors) {
+  out << "i,j,F\n";
+  for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
+    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+      fmt::print(out, "{},{},{}\n", i, form_factors.source[k], form_factors.value[k]);
+    }
+  }
+}
+
+void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors) {
+  write_file_whole(path, [&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
+}
+
+void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions) {
+  out << "u,v,x,y,z\n";
+  for (const DirectionSample& sample : directions) {
+    const Vec3& d = sample.direction;
+    fmt::print(out, "{},{},{},{},{}\n", sample.u, sample.v, d.x, d.y, d.z);
+  }
+}
+
+void write_directions_csv(const std::filesystem::path& path,
+                          const std::vector<DirectionSample>& directions) {
+  write_file_whole(path, [&](std::ostream& out) { write_directions_csv(out, directions); });
+}
+
+}  // namespace transillum

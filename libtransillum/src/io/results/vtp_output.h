@@ -1,0 +1,47 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+
+#include <iosfwd>
+#include <string>
+
+class vtkPolyData;
+
+namespace transillum {
+
+// What the VTK files have in common.
+
+/// An array of `count` whole numbers, value_of(0) first.
+template <typename ValueOf>
+void add_integers(vtkFieldData& fields, const char* name, int count, ValueOf value_of) {
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  for (int i = 0; i < count; ++i) {
+    array->SetValue(i, value_of(i));
+  }
+  fields.AddArray(array);
+}
+
+template <typename ValueOf>
+void add_numbers(vtkFieldData& fields, const char* name, int count, ValueOf value_of) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(count);
+  for (int i = 0; i < count; ++i) {
+    array->SetValue(i, value_of(i));
+  }
+  fields.AddArray(array);
+}
+
+void add_field(vtkFieldData& fields, const char* name, double value);
+void add_field(vtkFieldData& fields, const char* name, const std::string& value);
+
+/// As a .vtp file: well-formed XML that keeps every bit of the doubles.
+void write_polygons(std::ostream& out, vtkPolyData& mesh);
+
+}  // namespace transillum

@@ -1,0 +1,424 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "base/bit_mixing.h"
+#include "base/choice.h"
+#include "transillum/at.h"
+#include "transillum/bounds.h"
+#include "transillum/errors.h"
+#include "transillum/hemicube.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Nobody's favorite, so that no --rotate gives the reference's directions.
+constexpr std::uint64_t reference_rotation = 0xf3a9c51e0b7d2648U;
+constexpr double reference_tolerance = 1e-10;
+
+double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
+
+/// Of all threads of this process: what others do on the machine does not count.
+double processor_seconds() {
+  std::timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& values) {
+  std::vector<Rgb> dark;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (max_abs(scene.exitance(i)) == 0) {
+      dark.push_back(at(values, i));
+    }
+  }
+  return dark;
+}
+
+/// `zbuffer:256`, or `fast`.
+std::string engine_text(Engine engine, int resolution) {
+  return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
+}
+
+/// All passes of a solve that keeps its form factors.
+std::int64_t passes_of(const SolveOptions& options) {
+  return std::int64_t{options.directions} *
+         (options.scheme == Scheme::semi_iterative ? options.iterations : 1);
+}
+
+/// One solve after the other, with an eye on the time.
+class StudyRun {
+ public:
+  StudyRun(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+           const StudyOptions& options, const std::vector<Rgb>& reference,
+           const StudyObserver& observer, const Cancellation& cancellation)
+      : scene_(std::move(scene)),
+        tree_(std::move(tree)),
+        options_(options),
+        reference_(compared(reference)),
+        observer_(observer),
+        cancellation_(cancellation),
+        rho_max_(measure(*scene_, cancellation).rho_max) {
+    for (const StudySeries& series : options.series) {
+      if (!takes_directions(series.engine)) {
+        all_passes_ += scene_->patch_count();
+        continue;
+      }
+      for (const int m : options.directions) {
+        all_passes_ +=
+            static_cast<double>(passes_of(options.solve_options(series, m))) * options.rotations;
+      }
+    }
+    if (std::all_of(reference_.begin(), reference_.end(),
+                    [](const Rgb& b) { return max_abs(b) == 0; })) {
+      throw InputError(fmt::format("{}: there is no light{}, and no error of it", scene_->name(),
+                                   reference_.empty() ? " but on sources" : ""));
+    }
+  }
+
+  const std::vector<StudyPoint>& points() const { return points_; }
+  void add_point(std::size_t series, int m) { points_.push_back(point(series, m)); }
+  void add_hemicubes(std::size_t series) { points_.push_back(hemicubes(series)); }
+
+ private:
+  /// What of B of all patches errors are of.
+  std::vector<Rgb> compared(const std::vector<Rgb>& b) const {
+    return options_.without_sources ? of_dark_patches(*scene_, b) : b;
+  }
+
+  StudyPoint point(std::size_t series, int m) {
+    const SolveOptions solve = options_.solve_options(options_.series[series], m);
+    StudyPoint point;
+    point.series = series;
+    point.passes = passes_of(solve);
+    point.directions = point.passes * (solve.two_way ? 2 : 1);
+    point.bound = homogeneous_error_bound(
+        rho_max_, quadrature_error_bound(static_cast<double>(point.passes)));
+    try {
+      for (int rotation = 0; rotation < options_.rotations; ++rotation) {
+        add_solve(point, m, rotation);
+      }
+      point.rms_error = std::sqrt(point.rms_error);
+      if (!std::isfinite(point.rms_error)) {
+        throw std::runtime_error("B outgrows all numbers");
+      }
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
+      point.failure = error.what();
+    }
+    return point;
+  }
+
+  /// There are no rotations of hemicubes either.
+  StudyPoint hemicubes(std::size_t series) {
+    const double start = processor_seconds(), before = done_passes_;
+    StudyPoint point;
+    point.series = series;
+    point.passes = scene_->patch_count();
+    point.bound = std::numeric_limits<double>::quiet_NaN();
+    SolveOptions solve = options_.solve_options(options_.series[series], 1);
+    solve.rotation = std::nullopt;
+    const Solution solution = solve_by_hemicubes(scene_, solve, cancellation_, [&](double share) {
+      done_passes_ = before + share * static_cast<double>(point.passes);
+      tell(series, static_cast<int>(point.passes));
+    });
+    point.directions = solution.statistics.directions;
+    const RadiosityError error = radiosity_error(compared(solution.radiosity), reference_);
+    point.rms_error = error.rms;
+    point.max_error = error.max;
+    point.seconds = processor_seconds() - start;
+    return point;
+  }
+
+  /// Adds one solve's share to the sums in `point`.
+  void add_solve(StudyPoint& point, int m, int rotation) {
+    const double start = processor_seconds();
+    const auto options = options_.solve_options(options_.series[point.series], m, rotation);
+    RadiositySolver solver(scene_, options, tree_, cancellation_);
+    const double before = done_passes_;
+    solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+      tell(point, m, before, watched.progress());
+      return true;
+    });
+    done_passes_ = before + static_cast<double>(point.passes);
+    const RadiosityError error = radiosity_error(compared(solver.radiosity()), reference_);
+    const double share = 1.0 / options_.rotations;
+    point.rms_error += share * error.rms * error.rms;
+    point.max_error = std::max(point.max_error, error.max);
+    point.seconds += share * (processor_seconds() - start);
+  }
+
+  void tell(const StudyPoint& point, int m, double before, const SolveProgress& progress) {
+    const bool renews = options_.series[point.series].scheme == Scheme::semi_iterative;
+    const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
+    done_passes_ = std::max(done_passes_, before + std::min(in_solve, double(point.passes)));
+    tell(point.series, m);
+  }
+
+  void tell(std::size_t series, int m) const {
+    if (!observer_) {
+      return;
+    }
+    StudyProgress now;
+    now.series = series;
+    now.directions = m;
+    now.share = done_passes_ / all_passes_;
+    now.points = points_;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (seconds > 0 && done_passes_ > 0) {
+      now.passes_per_second = done_passes_ / seconds;
+      now.seconds_left = (all_passes_ - done_passes_) / now.passes_per_second;
+    }
+    observer_(now);
+  }
+
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const BspTree> tree_;
+  const StudyOptions& options_;
+  std::vector<Rgb> reference_;
+  const StudyObserver& observer_;
+  Cancellation cancellation_;
+  double rho_max_;
+  std::vector<StudyPoint> points_;
+  double all_passes_ = 0, done_passes_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference) {
+  double squares = 0, reference_squares = 0, largest = 0, reference_largest = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Rgb difference = b[i] - reference[i];
+    squares += sum_of_squares(difference);
+    reference_squares += sum_of_squares(reference[i]);
+    largest = std::max(largest, max_abs(difference));
+    reference_largest = std::max(reference_largest, max_abs(reference[i]));
+  }
+  return {std::sqrt(squares / reference_squares), largest / reference_largest};
+}
+
+const std::vector<std::string>& error_measure_names() {
+  static const std::vector<std::string> names{"rms", "max"};
+  return names;
+}
+
+ErrorMeasure error_measure_from_name(const std::string& name) {
+  return choice_from_name<ErrorMeasure>(error_measure_names(), "error", name);
+}
+
+SolveOptions reference_options(int passes) {
+  SolveOptions options;
+  options.directions = passes;
+  options.rotation = reference_rotation;
+  options.tolerance = reference_tolerance;
+  return options;
+}
+
+std::vector<std::string> names_of(std::span<const StudySeries> series) {
+  std::vector<std::string> names;
+  for (const StudySeries& s : series) {
+    names.push_back(name_of(s.sampling));
+  }
+  const auto tell_apart = [&](auto value_of, auto text_of) {
+    const auto differs = [&](const StudySeries& s) { return value_of(s) != value_of(series[0]); };
+    if (std::none_of(series.begin(), series.end(), differs)) {
+      return;
+    }
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      names[k] += "/" + std::string(text_of(value_of(series[k])));
+    }
+  };
+  tell_apart([](const StudySeries& s) { return s.two_way; },
+             [](bool two_way) { return two_way ? "two-way" : "one-way"; });
+  tell_apart([](const StudySeries& s) { return s.normalize; },
+             [](Normalization n) { return name_of(n); });
+  tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
+  tell_apart([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
+             [](const auto& how) { return engine_text(how.first, how.second); });
+  tell_apart([](const StudySeries& s) { return s.first_shot; },
+             [](const std::optional<double>& ratio) {
+               return ratio ? fmt::format("first-shot {:g}", *ratio) : std::string("no-shot");
+             });
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    // Nothing of the above makes a difference to them.
+    if (!takes_directions(series[k].engine)) {
+      names[k] = engine_text(series[k].engine, series[k].resolution);
+    }
+  }
+  return names;
+}
+
+SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int rotation) const {
+  SolveOptions options = solve;
+  options.directions = passes;
+  options.sampling = of.sampling;
+  options.two_way = of.two_way;
+  options.normalize = of.normalize;
+  options.scheme = of.scheme;
+  options.first_shot = of.first_shot;
+  options.engine = of.engine;
+  options.engine_options.resolution = of.resolution;
+  if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
+    options.iterations = options.burn_in + averaged_steps_by_default;
+  }
+  if (rotations > 1) {
+    options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));
+    options.engine_options.seed = options.seed;
+    options.rotation = mixed(options.seed);
+  }
+  return options;
+}
+
+SolveOptions StudyOptions::reference(int passes) const {
+  if (passes == 0) {
+    const int most = *std::max_element(directions.begin(), directions.end());
+    passes = most > max_directions / 4 ? max_directions : 4 * most;
+  }
+  SolveOptions options = reference_options(passes);
+  options.memory = solve.memory;
+  options.threads = solve.threads;
+  for (const StudySeries& one : series) {
+    if (!one.first_shot) {
+      continue;
+    }
+    options.first_shot = std::min(*one.first_shot, options.first_shot.value_or(*one.first_shot));
+  }
+  return options;
+}
+
+void StudyOptions::validate() const {
+  if (series.empty()) {
+    throw InputError("study: there is no series");
+  }
+  if (directions.empty()) {
+    throw InputError("study: there is no number of directions");
+  }
+  if (rotations < 1 || rotations > 1000) {
+    throw InputError(fmt::format("rotations: {} is not from 1 to 1000", rotations));
+  }
+  for (const StudySeries& one : series) {
+    for (const int m : directions) {
+      solve_options(one, m).validate();
+    }
+    if (!takes_directions(one.engine)) {
+      check_hemicube_options(solve_options(one, 1));
+    }
+  }
+}
+
+std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
+                                 const std::shared_ptr<const BspTree>& tree,
+                                 const SolveOptions& options,
+                                 const std::function<void(const SolveProgress&)>& observer,
+                                 const Cancellation& cancellation) {
+  RadiositySolver solver(scene, options, tree, cancellation);
+  solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
+    if (observer) {
+      observer(watched.progress());
+    }
+    return true;
+  });
+  return solver.radiosity();
+}
+
+Study run_study(const std::shared_ptr<const Scene>& scene,
+                const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
+                const std::vector<Rgb>& reference, const StudyObserver& observer,
+                const Cancellation& cancellation) {
+  options.validate();
+  if (reference.size() != static_cast<std::size_t>(scene->patch_count())) {
+    throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
+                                 reference.size(), scene->patch_count()));
+  }
+  std::vector<int> ascending = options.directions;
+  std::sort(ascending.begin(), ascending.end());
+  Study study;
+  StudyRun run(scene, tree, options, reference, observer, cancellation);
+  try {
+    for (const int m : ascending) {
+      for (std::size_t series = 0; series < options.series.size(); ++series) {
+        if (takes_directions(options.series[series].engine)) {
+          run.add_point(series, m);
+        }
+      }
+    }
+    for (std::size_t series = 0; series < options.series.size(); ++series) {
+      if (!takes_directions(options.series[series].engine)) {
+        run.add_hemicubes(series);
+      }
+    }
+    study.complete = true;
+  } catch (const Canceled&) {
+  }
+  study.points = run.points();
+  std::stable_sort(study.points.begin(), study.points.end(),
+                   [](const StudyPoint& a, const StudyPoint& b) { return a.series < b.series; });
+  return study;
+}
+
+std::vector<StudyPoint> points_of(const Study& study, std::size_t series) {
+  std::vector<StudyPoint> points;
+  std::copy_if(study.points.begin(), study.points.end(), std::back_inserter(points),
+               [series](const StudyPoint& point) { return point.series == series; });
+  return points;
+}
+
+std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points, ErrorMeasure measure) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const StudyPoint& point : points) {
+    const double error = point.error(measure);
+    if (!(error > 0 && std::isfinite(error))) {
+      continue;
+    }
+    const double u = std::log(static_cast<double>(point.passes)), v = std::log(error);
+    n += 1;
+    x += u;
+    y += v;
+    xx += u * u;
+    xy += u * v;
+  }
+  const double determinant = n * xx - x * x;
+  if (n < 2 || !(determinant > 1e-12 * n * xx)) {
+    return std::nullopt;
+  }
+  const double slope = (n * xy - x * y) / determinant;
+  return PowerLaw{slope, std::exp((y - slope * x) / n)};
+}
+
+std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
+                                 ErrorMeasure measure) {
+  // Backwards over all that are good enough.
+  auto first = points.end();
+  while (first != points.begin() && (first - 1)->error(measure) <= accuracy) {
+    --first;
+  }
+  if (first == points.end()) {
+    return std::nullopt;
+  }
+  const auto passes = static_cast<double>(first->passes);
+  if (first == points.begin() || !std::isfinite((first - 1)->error(measure))) {
+    return StudyCost{passes, first->seconds, true};
+  }
+  const StudyPoint& worse = *(first - 1);
+  const double high = worse.error(measure), low = first->error(measure);
+  const double t = low > 0 ? std::log(high / accuracy) / std::log(high / low) : 1.0;
+  const auto between = [t](double a, double b) { return a * std::pow(b / a, t); };
+  return StudyCost{between(static_cast<double>(worse.passes), passes),
+                   between(worse.seconds, first->seconds), false};
+}
+
+}  // namespace transillum

@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/exact_form_factors.h"
+
+#include "transillum/at.h"
+#include "visibility/pairs/patch_exchange.h"
+
+namespace transillum {
+
+std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
+                                       const Cancellation& cancellation,
+                                       const std::function<void(double)>& progress) {
+  const ExchangeFinder exchange(scene, cancellation);
+  const double area = scene.patch(i).area;
+  std::vector<double> factors(static_cast<std::size_t>(scene.patch_count()));
+  for (PatchId j = 0; j < scene.patch_count(); ++j) {
+    cancellation.throw_if_canceled();
+    if (j != i) {
+      at(factors, j) = exchange(i, j).area / area;
+    }
+    if (progress && j % 64 == 0) {
+      progress(static_cast<double>(j) / scene.patch_count());
+    }
+  }
+  return factors;
+}
+
+}  // namespace transillum

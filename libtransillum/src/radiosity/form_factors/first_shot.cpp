@@ -1,0 +1,220 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/first_shot.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "radiosity/for_each_index.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "visibility/pairs/patch_exchange.h"
+
+namespace transillum {
+namespace {
+
+/// Patches shot at between two looks at the clock and the user.
+constexpr PatchId batch = 64;
+
+double sum(const Rgb& value) { return value.r + value.g + value.b; }
+
+double power(const Scene& scene, PatchId i) { return scene.patch(i).area * sum(scene.exitance(i)); }
+
+/// Gives every emitting patch the number of a point that all patches of its source share.
+class SourceNumbers {
+ public:
+  explicit SourceNumbers(const Scene& scene) : parents_(scene.points().size()) {
+    std::iota(parents_.begin(), parents_.end(), PointId{0});
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      if (power(scene, i) == 0) {
+        continue;
+      }
+      const auto outline = scene.outline(i);
+      for (const PointId p : outline) {
+        parents_[index(root(p))] = root(outline.front());
+      }
+    }
+  }
+
+  PointId root(PointId p) {
+    while (parents_[index(p)] != p) {
+      PointId& parent = parents_[index(p)];
+      p = parent = parents_[index(parent)];
+    }
+    return p;
+  }
+
+ private:
+  static std::size_t index(PointId p) { return static_cast<std::size_t>(p); }
+
+  std::vector<PointId> parents_;
+};
+
+/// One part a material of the sources, zeros yet; none where they would take too much memory.
+std::vector<DirectLight::Part> empty_parts(const Scene& scene,
+                                           const std::vector<PatchId>& sources) {
+  constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  std::set<int> materials;
+  for (const PatchId j : sources) {
+    materials.insert(scene.patch(j).material);
+  }
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  std::vector<DirectLight::Part> parts;
+  if (materials.size() * patches * sizeof(double) > most_bytes) {
+    return parts;
+  }
+  for (const int m : materials) {
+    parts.push_back({m, std::vector<double>(patches)});
+  }
+  return parts;
+}
+
+auto part_of(std::vector<DirectLight::Part>& parts, int material) {
+  return std::lower_bound(parts.begin(), parts.end(), material,
+                          [](const DirectLight::Part& part, int m) { return part.material < m; });
+}
+
+/// Fills in what patch i receives of the sources' light.
+void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
+             const Cancellation& cancellation, DirectLight& light) {
+  const auto row = static_cast<std::size_t>(i);
+  const double unit = 1 / scene.patch(i).area;
+  Rgb power;
+  for (const PatchId j : light.sources) {
+    cancellation.throw_if_canceled();
+    if (j == i) {
+      continue;
+    }
+    const double area = exchange(i, j).area;
+    power += area * scene.exitance(j);
+    const auto part = part_of(light.parts, scene.patch(j).material);
+    if (part != light.parts.end()) {
+      part->irradiance[row] += unit * area;
+    }
+  }
+  light.irradiance[row] = unit * power;
+}
+
+/// What the sources emit, and their share of all power.
+void count_power(const Scene& scene, const std::vector<Material>& materials, DirectLight& light) {
+  const auto exitance = [&](PatchId i) { return at(materials, scene.patch(i).material).exitance; };
+  double shot = 0, total = 0;
+  for (const PatchId j : light.sources) {
+    at(light.exitance, j) = exitance(j);
+    shot += scene.patch(j).area * sum(exitance(j));
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    total += scene.patch(i).area * sum(exitance(i));
+  }
+  light.power_share = total > 0 ? shot / total : 0;
+}
+
+}  // namespace
+
+std::optional<double> first_shot_from_name(const std::string& name) {
+  if (name == "none") {
+    return {};
+  }
+  if (name == "auto") {
+    return small_source_ratio;
+  }
+  double ratio = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), ratio);
+  if (error != std::errc() || end != name.data() + name.size() || !(ratio >= 0) ||
+      !std::isfinite(ratio)) {
+    throw InputError(fmt::format("first shot: \"{}\" is not none, auto or a number from 0", name));
+  }
+  return ratio;
+}
+
+std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
+  constexpr double least_share = 1e-4;
+  struct Source {
+    double area = 0, power = 0;
+  };
+  SourceNumbers numbers(scene);
+  std::vector<Source> by_number(scene.points().size());
+  const auto source_of = [&](PatchId i) -> Source& {
+    return at(by_number, numbers.root(scene.outline(i).front()));
+  };
+  double total = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (power(scene, i) == 0) {
+      continue;
+    }
+    source_of(i).area += scene.patch(i).area;
+    source_of(i).power += power(scene, i);
+    total += power(scene, i);
+  }
+  const double square = scene.bounds().diagonal() * scene.bounds().diagonal();
+  std::vector<PatchId> small;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (power(scene, i) == 0) {
+      continue;
+    }
+    const Source& source = source_of(i);
+    if (square >= ratio * source.area && source.power >= least_share * total) {
+      small.push_back(i);
+    }
+  }
+  return small;
+}
+
+DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
+                  const Cancellation& cancellation, const std::function<void(double)>& progress) {
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  DirectLight light{std::vector<Rgb>(patches), std::vector<Rgb>(patches), sources, 0,
+                    empty_parts(scene, sources)};
+  if (sources.empty()) {
+    return light;
+  }
+  const ExchangeFinder exchange(scene, cancellation);
+  if (threads == 0) {
+    threads = tbb::info::default_concurrency();
+  }
+  const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
+                                       static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
+    const PatchId end = std::min(first + batch * threads, scene.patch_count());
+    for_each_index(arena, first, end,
+                   [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
+    if (progress) {
+      progress(static_cast<double>(end) / scene.patch_count());
+    }
+  }
+  count_power(scene, scene.materials(), light);
+  return light;
+}
+
+DirectLight with_materials(const DirectLight& light, const Scene& scene,
+                           const std::vector<Material>& materials) {
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  if (light.irradiance.size() != patches || light.exitance.size() != patches) {
+    throw InputError("the light shot is of another scene: it has other patches");
+  }
+  if (materials.size() != scene.materials().size()) {
+    throw InputError("the materials are of another scene: there are more or fewer");
+  }
+  if (light.parts.empty() && !light.sources.empty()) {
+    throw InputError("the light shot is not kept by materials: it would take too much memory");
+  }
+  DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
+  for (const DirectLight::Part& part : light.parts) {
+    const Rgb exitance = materials.at(static_cast<std::size_t>(part.material)).exitance;
+    for (std::size_t i = 0; i < patches; ++i) {
+      other.irradiance[i] += part.irradiance[i] * exitance;
+    }
+  }
+  count_power(scene, materials, other);
+  return other;
+}
+
+}  // namespace transillum

@@ -1,0 +1,66 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "radiosity/for_each_index.h"
+#include "transillum/at.h"
+#include "transillum/form_factors.h"
+
+namespace transillum {
+
+/// j and F_ij > 0, by j.
+using FormFactorRow = std::vector<std::pair<PatchId, double>>;
+
+/// The matrix row by row, `batch` rows a thread between two looks at the user.
+/// @param make_worker called once a thread; a worker's gather(i) gives row i, a pure function of i.
+/// @param memory bytes that the matrix may take.
+/// @throws Canceled, std::runtime_error where it takes more.
+template <class MakeWorker>
+FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64_t memory,
+                        MakeWorker make_worker, const Cancellation& cancellation,
+                        const std::function<void(double)>& progress) {
+  if (threads == 0) {
+    threads = oneapi::tbb::info::default_concurrency();
+  }
+  const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(threads));
+  oneapi::tbb::task_arena arena(threads);
+  oneapi::tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
+  FormFactors form_factors;
+  form_factors.row_begin.push_back(0);
+  std::vector<FormFactorRow> rows(static_cast<std::size_t>(batch * threads));
+  for (PatchId first = 0; first < patches; first += batch * threads) {
+    const PatchId end = std::min(first + batch * threads, patches);
+    for_each_index(arena, first, end, [&](PatchId i) {
+      cancellation.throw_if_canceled();
+      at(rows, i - first) = workers.local().gather(i);
+    });
+    for (PatchId i = first; i < end; ++i) {
+      for (const auto& [source, value] : at(rows, i - first)) {
+        form_factors.source.push_back(source);
+        form_factors.value.push_back(value);
+      }
+      form_factors.row_begin.push_back(form_factors.size());
+    }
+    if (form_factors.size() * (sizeof(PatchId) + sizeof(double)) > memory) {
+      throw std::runtime_error("form factors take more memory than --memory allows");
+    }
+    if (progress) {
+      progress(static_cast<double>(end) / patches);
+    }
+  }
+  return form_factors;
+}
+
+}  // namespace transillum

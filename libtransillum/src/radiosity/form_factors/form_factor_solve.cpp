@@ -1,0 +1,110 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "radiosity/for_each_index.h"
+#include "radiosity/form_factors/jacobi.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+constexpr const char* divergent =
+    "the iteration does not converge: rows of form factors sum to too much";
+
+/// sum_j F_ij B_j
+Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<Rgb>& b) {
+  Rgb gathered;
+  for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
+    gathered += form_factors.value[k] * at(b, form_factors.source[k]);
+  }
+  return gathered;
+}
+
+}  // namespace
+
+JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_factors,
+                                 std::span<const Material> materials, int threads)
+    : scene_(scene),
+      form_factors_(form_factors),
+      materials_(materials),
+      threads_(threads > 0 ? threads : oneapi::tbb::info::default_concurrency()) {
+  for (const Patch& patch : scene.patches()) {
+    b.push_back(at(materials, patch.material).exitance);
+  }
+  h.resize(b.size());
+}
+
+template <class Visit>
+void JacobiIteration::for_each_row(const Cancellation& cancellation, Visit visit) const {
+  const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(threads_));
+  oneapi::tbb::task_arena arena(threads_);
+  for_each_index(arena, std::size_t{0}, b.size(), [&](std::size_t i) {
+    cancellation.throw_if_canceled();
+    visit(i);
+  });
+}
+
+void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& cancellation) {
+  correction_.resize(b.size());
+  for_each_row(cancellation, [&](std::size_t i) {
+    correction_[i] = shot.irradiance[i] - gather(form_factors_, i, shot.exitance);
+  });
+}
+
+void JacobiIteration::run(int most, double tolerance, const Cancellation& cancellation) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Rgb> next(b.size());
+  double last_change = 0;
+  while (!converged && static_cast<int>(steps.size()) < most) {
+    const auto start = Clock::now();
+    for_each_row(cancellation, [&](std::size_t i) {
+      const Material& material = at(materials_, scene_.patches()[i].material);
+      h[i] = gather(form_factors_, i, b);
+      if (!correction_.empty()) {
+        h[i] += correction_[i];
+      }
+      next[i] = material.exitance + material.reflectance * h[i];
+    });
+    double change = 0, largest = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      change = std::max(change, max_abs(next[i] - b[i]));
+      largest = std::max(largest, max_abs(next[i]));
+    }
+    b.swap(next);
+    if (!std::isfinite(largest)) {
+      throw std::runtime_error(divergent);
+    }
+    IterationRecord record;
+    record.change = largest > 0 ? change / largest : 0;
+    record.contraction = steps.empty() || last_change == 0 ? 0 : change / last_change;
+    record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    steps.push_back(record);
+    last_change = change;
+    converged = change <= tolerance * largest;
+  }
+}
+
+void JacobiIteration::run_to(double tolerance, const Cancellation& cancellation) {
+  run(most_steps, tolerance, cancellation);
+  if (!converged) {
+    throw std::runtime_error(divergent);
+  }
+}
+
+std::vector<Rgb> solve_radiosity(const Scene& scene, const FormFactors& form_factors,
+                                 double tolerance) {
+  JacobiIteration iteration(scene, form_factors, scene.materials(), 1);
+  iteration.run_to(tolerance, {});
+  return std::move(iteration.b);
+}
+
+}  // namespace transillum

@@ -1,0 +1,277 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "radiosity/form_factors/form_factor_rows.h"
+#include "radiosity/memory_limit.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/hemicube_image.h"
+#include "visibility/fast/fast_engine.h"
+#include "visibility/pixels/hemicube.h"
+
+namespace transillum {
+namespace {
+
+/// A point nearer to a plane than this, over the scene's size, is in it.
+constexpr double thin = 1e-12;
+/// Hemicubes drawn between two looks at the clock and the user.
+constexpr PatchId batch = 4;
+
+/// A piece of the scene, to be drawn.
+struct DrawnPiece {
+  PatchId patch;
+  std::uint32_t begin, end;  ///< in HemicubeScene::corners
+  Vec3 normal, center;
+  double offset, radius;
+};
+
+/// What all hemicubes see: immutable.
+struct HemicubeScene {
+  const Scene& scene;
+  const Cancellation& cancellation;
+  int resolution;
+  double nothing;  ///< distance from a plane that counts as none
+  bool in_air;     ///< no lit side sees a back
+  std::vector<Vec3> corners;
+  std::vector<DrawnPiece> pieces;   ///< what covers what it coincides with comes after it
+  std::vector<std::size_t> eye_of;  ///< a patch: its largest piece
+
+  /// Keeps references, but to the tree.
+  HemicubeScene(const std::shared_ptr<const Scene>& seen,
+                const std::shared_ptr<const BspTree>& tree, int pixels, const Cancellation& stop)
+      : scene(*seen),
+        cancellation(stop),
+        resolution(pixels),
+        nothing(thin * seen->bounds().diagonal()),
+        in_air(fronts_see_no_backs(seen, tree)) {
+    for (const Piece& piece : scene.pieces()) {
+      add(piece);
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [this](const auto& a, const auto& b) {
+      return rank(a.patch) < rank(b.patch);
+    });
+    std::vector<double> largest(static_cast<std::size_t>(scene.patch_count()));
+    eye_of.resize(largest.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      const auto i = static_cast<std::size_t>(pieces[p].patch);
+      const double area = area_of(pieces[p]);
+      if (area > largest[i]) {
+        largest[i] = area;
+        eye_of[i] = p;
+      }
+    }
+  }
+
+  /// Center of gravity of a piece.
+  Vec3 middle_of(const DrawnPiece& piece) const {
+    Vec3 sum;
+    double areas = 0;
+    const Vec3& a = corners[piece.begin];
+    for (std::uint32_t k = piece.begin + 2; k < piece.end; ++k) {
+      const double area = norm(cross(corners[k - 1] - a, corners[k] - a));
+      sum = sum + (area / 3) * (corners[k - 1] - a + (corners[k] - a));
+      areas += area;
+    }
+    return areas > 0 ? a + (1 / areas) * sum : piece.center;
+  }
+
+ private:
+  std::tuple<double, double, PatchId> rank(PatchId patch) const {
+    return {max_abs(scene.exitance(patch)), -scene.patch(patch).area, patch};
+  }
+  double area_of(const DrawnPiece& piece) const {
+    double area = 0;
+    const Vec3& a = corners[piece.begin];
+    for (std::uint32_t k = piece.begin + 2; k < piece.end; ++k) {
+      area += norm(cross(corners[k - 1] - a, corners[k] - a));
+    }
+    return area / 2;
+  }
+  void add(const Piece& piece) {
+    DrawnPiece drawn{piece.patch, static_cast<std::uint32_t>(corners.size()), 0, {}, {}, 0, 0};
+    for (const PointId p : scene.corners(piece)) {
+      corners.push_back(scene.point(p));
+    }
+    drawn.end = static_cast<std::uint32_t>(corners.size());
+    drawn.normal = scene.patch(piece.patch).normal;
+    for (std::uint32_t k = drawn.begin; k < drawn.end; ++k) {
+      drawn.center = drawn.center + corners[k];
+    }
+    drawn.center = (1.0 / (drawn.end - drawn.begin)) * drawn.center;
+    for (std::uint32_t k = drawn.begin; k < drawn.end; ++k) {
+      drawn.radius = std::max(drawn.radius, norm(corners[k] - drawn.center));
+    }
+    drawn.offset = dot(drawn.normal, drawn.center);
+    pieces.push_back(drawn);
+  }
+};
+
+/// Draws one hemicube after the other; one a thread.
+class HemicubeRows {
+ public:
+  explicit HemicubeRows(const HemicubeScene& shared)
+      : shared_(shared),
+        cube_(shared.resolution),
+        sums_(static_cast<std::size_t>(shared.scene.patch_count())) {}
+
+  FormFactorRow gather(PatchId i) {
+    stand_on(i);
+    cube_.clear();
+    if (!shared_.in_air) {
+      for (const DrawnPiece& piece : shared_.pieces) {
+        draw(i, piece, false);
+      }
+    }
+    for (const DrawnPiece& piece : shared_.pieces) {
+      draw(i, piece, true);
+    }
+    return add_up();
+  }
+  /// What it saw last.
+  const Hemicube& cube() const { return cube_; }
+
+ private:
+  /// The frame of a patch, turned about its normal by an angle of its own: pixels that err alike
+  /// from patch to patch would show.
+  void stand_on(PatchId i) {
+    const DrawnPiece& own = shared_.pieces[at(shared_.eye_of, i)];
+    eye_ = shared_.middle_of(own);
+    up_ = own.normal;
+    const Vec3 u = normalized(cross(std::abs(up_.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up_));
+    const Vec3 v = cross(up_, u);
+    const double turns = 0.6180339887498949 * (i + 1);
+    const double angle = 2 * std::numbers::pi * (turns - std::floor(turns));
+    u_ = std::cos(angle) * u + std::sin(angle) * v;
+    v_ = cross(up_, u_);
+  }
+
+  Vec3 turned(const Vec3& d) const { return {dot(u_, d), dot(v_, d), dot(up_, d)}; }
+
+  /// Where the eye is on its lit side, or else on its back.
+  void draw(PatchId own, const DrawnPiece& piece, bool lit) {
+    const double offset = piece.offset - dot(piece.normal, eye_);
+    if ((lit ? -offset : offset) <= shared_.nothing || piece.patch == own) {
+      return;
+    }
+    const Vec3 to_center = piece.center - eye_;
+    if (dot(up_, to_center) <= -piece.radius) {
+      return;
+    }
+    // At high resolutions a cube takes seconds.
+    shared_.cancellation.throw_if_canceled();
+    corners_.clear();
+    for (std::uint32_t k = piece.begin; k < piece.end; ++k) {
+      corners_.push_back(turned(shared_.corners[k] - eye_));
+    }
+    cube_.draw({corners_, turned(piece.normal), offset, turned(to_center), piece.radius,
+                lit ? piece.patch : no_patch});
+  }
+
+  FormFactorRow add_up() {
+    const std::vector<PatchId>& patches = cube_.patches();
+    const std::vector<double>& delta = cube_.delta_form_factors();
+    seen_.clear();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      if (patches[k] == no_patch) {
+        continue;
+      }
+      double& sum = at(sums_, patches[k]);
+      if (sum == 0) {
+        seen_.push_back(patches[k]);
+      }
+      sum += delta[k];
+    }
+    std::sort(seen_.begin(), seen_.end());
+    FormFactorRow row;
+    row.reserve(seen_.size());
+    for (const PatchId j : seen_) {
+      row.emplace_back(j, std::exchange(at(sums_, j), 0.0));
+    }
+    return row;
+  }
+
+  const HemicubeScene& shared_;
+  Hemicube cube_;
+  std::vector<double> sums_;  ///< by patch, of the row at hand
+  std::vector<PatchId> seen_;
+  Vec3 eye_, up_, u_, v_;
+  std::vector<Vec3> corners_;
+};
+
+}  // namespace
+
+void HemicubeOptions::validate() const {
+  if (resolution < 2 || resolution > 2048 || resolution % 2 != 0) {
+    throw InputError(
+        fmt::format("resolution: {} is not an even number from 2 to 2048", resolution));
+  }
+  if (threads < 0 || threads > 4096) {
+    throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
+  }
+}
+
+FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& options,
+                                  const Cancellation& cancellation,
+                                  const std::function<void(double)>& progress) {
+  options.validate();
+  // The scene outlives this.
+  const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
+  const HemicubeScene shared(borrowed, std::make_shared<const BspTree>(scene, cancellation),
+                             options.resolution, cancellation);
+  return gather_rows(
+      scene.patch_count(), options.threads, batch, memory_limit(options.memory),
+      [&shared] { return HemicubeRows(shared); }, cancellation, progress);
+}
+
+HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
+                             const std::shared_ptr<const BspTree>& tree, PatchId eye,
+                             const HemicubeOptions& options, const Cancellation& cancellation) {
+  options.validate();
+  const HemicubeScene shared(scene, tree, options.resolution, cancellation);
+  HemicubeRows rows(shared);
+  HemicubeImage image{eye, options.resolution, {}, {}, {}};
+  image.form_factors.resize(static_cast<std::size_t>(scene->patch_count()));
+  for (const auto& [j, value] : rows.gather(eye)) {
+    at(image.form_factors, j) = value;
+  }
+  image.items = rows.cube().patches();
+  image.delta = rows.cube().delta_form_factors();
+  return image;
+}
+
+std::optional<std::size_t> HemicubeImage::pixel_at(int column, int row) const {
+  const int half = resolution / 2;
+  // From the top's first pixel, and how far out of the top.
+  const int x = column - half, y = row - half;
+  const bool in_x = x >= 0 && x < resolution, in_y = y >= 0 && y < resolution;
+  const auto pixel = [this](int side, int a, int b) {
+    const int before = side == 0 ? 0 : resolution * resolution * (side + 1) / 2;
+    return static_cast<std::size_t>(before + b * resolution + a);
+  };
+  if (in_x && in_y) {
+    return pixel(0, x, y);
+  }
+  // Rows of a side go upward: from its base, which is outermost, to the fold.
+  if (in_y && x >= resolution) {
+    return pixel(1, y, half - 1 - (x - resolution));
+  }
+  if (in_x && y >= resolution) {
+    return pixel(2, resolution - 1 - x, half - 1 - (y - resolution));
+  }
+  if (in_y) {
+    return pixel(3, resolution - 1 - y, column);
+  }
+  if (in_x) {
+    return pixel(4, x, row);
+  }
+  return std::nullopt;
+}
+
+}  // namespace transillum

@@ -1,0 +1,46 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/relight.h"
+
+#include <utility>
+
+#include "radiosity/form_factors/jacobi.h"
+#include "scene/build/description_check.h"
+
+namespace transillum {
+namespace {
+
+void check(const Scene& scene, const FormFactors& form_factors,
+           const std::vector<Material>& materials, std::span<const Rgb> start) {
+  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  if (form_factors.row_begin.size() != patches + 1) {
+    throw InputError("the form factors are of another scene: they have other patches");
+  }
+  if (materials.size() != scene.materials().size()) {
+    throw InputError("the materials are of another scene: there are more or fewer");
+  }
+  if (!start.empty() && start.size() != patches) {
+    throw InputError("the radiosity to start from is of another scene: it has other patches");
+  }
+  for (const Material& material : materials) {
+    check_material(material, "");
+  }
+}
+
+}  // namespace
+
+Relit relight(const Scene& scene, const FormFactors& form_factors,
+              const std::vector<Material>& materials, const RelightOptions& options,
+              const Cancellation& cancellation) {
+  check(scene, form_factors, materials, options.start);
+  JacobiIteration iteration(scene, form_factors, materials, options.threads);
+  if (options.shot && !options.shot->sources.empty()) {
+    iteration.shoot_first(with_materials(*options.shot, scene, materials), cancellation);
+  }
+  if (!options.start.empty()) {
+    iteration.b.assign(options.start.begin(), options.start.end());
+  }
+  iteration.run_to(options.tolerance, cancellation);
+  return {std::move(iteration.b), std::move(iteration.h), static_cast<int>(iteration.steps.size())};
+}
+
+}  // namespace transillum

@@ -1,0 +1,93 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/conjugate_gradients.h"
+
+#include <Eigen/Core>
+#include <Eigen/IterativeLinearSolvers>
+
+#include "transillum/not_convergent.h"
+
+namespace {
+
+/// A matrix that Eigen knows by its product only.
+class ProductMatrix;
+
+}  // namespace
+
+namespace Eigen::internal {
+template <>
+struct traits<ProductMatrix> : traits<SparseMatrix<double>> {};
+}  // namespace Eigen::internal
+
+namespace {
+
+class ProductMatrix : public Eigen::EigenBase<ProductMatrix> {
+ public:
+  using Scalar = double;
+  using RealScalar = double;
+  using StorageIndex = int;
+  enum {
+    ColsAtCompileTime = Eigen::Dynamic,
+    MaxColsAtCompileTime = Eigen::Dynamic,
+    IsRowMajor = 0
+  };
+  using Function = std::function<void(const double*, double*)>;
+
+  ProductMatrix(const Function& product, Eigen::Index size) : product_(product), size_(size) {}
+  Eigen::Index rows() const { return size_; }
+  Eigen::Index cols() const { return size_; }
+  template <class Right>
+  Eigen::Product<ProductMatrix, Right, Eigen::AliasFreeProduct> operator*(
+      const Eigen::MatrixBase<Right>& right) const {
+    return {*this, right.derived()};
+  }
+  void apply(const double* x, double* y) const { product_(x, y); }
+
+ private:
+  const Function& product_;
+  Eigen::Index size_;
+};
+
+}  // namespace
+
+namespace Eigen::internal {
+
+template <class Right>
+struct generic_product_impl<ProductMatrix, Right, SparseShape, DenseShape, GemvProduct>
+    : generic_product_impl_base<ProductMatrix, Right, generic_product_impl<ProductMatrix, Right>> {
+  using Scalar = double;
+  template <class Destination>
+  static void scaleAndAddTo(Destination& destination, const ProductMatrix& matrix,
+                            const Right& right, const Scalar& alpha) {
+    const VectorXd x = right;
+    VectorXd y(x.size());
+    matrix.apply(x.data(), y.data());
+    destination += alpha * y;
+  }
+};
+
+}  // namespace Eigen::internal
+
+namespace transillum {
+
+void solve_by_conjugate_gradients(const std::function<void(const double* x, double* y)>& product,
+                                  const std::vector<double>& right, double tolerance,
+                                  std::vector<double>& x) {
+  const auto size = static_cast<Eigen::Index>(right.size());
+  const ProductMatrix matrix(product, size);
+  Eigen::ConjugateGradient<ProductMatrix, Eigen::Lower | Eigen::Upper,
+                           Eigen::IdentityPreconditioner>
+      solver;
+  solver.setTolerance(tolerance);
+  solver.setMaxIterations(1000);
+  solver.compute(matrix);
+  const Eigen::VectorXd solution =
+      solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), size));
+  if (solver.info() != Eigen::Success || !solution.allFinite()) {
+    throw NotConvergent(
+        "conjugate gradients do not converge: rows of form factors sum to too much; take more "
+        "directions, or --normalize symmetric");
+  }
+  x.assign(solution.data(), solution.data() + size);
+}
+
+}  // namespace transillum

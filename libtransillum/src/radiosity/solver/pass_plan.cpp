@@ -1,0 +1,49 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/pass_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "transillum/at.h"
+#include "transillum/directions.h"
+
+namespace transillum {
+namespace {
+
+/// Fewer directions than this, a replica, are not worth a step.
+constexpr int fewest_directions = 16;
+
+}  // namespace
+
+int PassPlan::passes(int step) const {
+  if (options_.scheme != Scheme::growing) {
+    return options_.directions;
+  }
+  int doublings = 0;
+  while (options_.directions >> (doublings + 1) >= fewest_directions * options_.replicas) {
+    ++doublings;
+  }
+  return options_.directions >> std::max(doublings - step, 0);
+}
+
+std::vector<Vec3> PassPlan::directions(int step) const {
+  const int replicas = options_.replicas;
+  std::vector<Vec3> directions(static_cast<std::size_t>(options_.directions));
+  for (int r = 0; r < replicas; ++r) {
+    const int count = (options_.directions - r + replicas - 1) / replicas;
+    auto set = renews() ? directions_of_step(options_.sampling, count, options_.seed, step)
+                        : make_directions(options_.sampling, count, options_.seed);
+    if (options_.rotation || replicas > 1) {
+      set = rotated(std::move(set),
+                    options_.rotation.value_or(options_.seed) + static_cast<std::uint64_t>(r));
+    }
+    auto place = static_cast<std::size_t>(r);
+    for (const int k : progressive_order(options_.sampling, count)) {
+      directions[place] = at(set, k).direction;
+      place += static_cast<std::size_t>(replicas);
+    }
+  }
+  return directions;
+}
+
+}  // namespace transillum

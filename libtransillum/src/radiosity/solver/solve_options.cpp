@@ -1,0 +1,86 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/choice.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/radiosity.h"
+
+namespace transillum {
+
+const std::vector<std::string>& normalization_names() {
+  static const std::vector<std::string> names{"none", "rows", "symmetric"};
+  return names;
+}
+
+Normalization normalization_from_name(const std::string& name) {
+  return choice_from_name<Normalization>(normalization_names(), "normalization", name);
+}
+
+const std::string& name_of(Normalization normalization) {
+  return at(normalization_names(), normalization);
+}
+
+const std::vector<std::string>& scheme_names() {
+  static const std::vector<std::string> names{"fixed", "growing", "semi-iterative",
+                                              "conjugate-gradients"};
+  return names;
+}
+
+Scheme scheme_from_name(const std::string& name) {
+  return choice_from_name<Scheme>(scheme_names(), "scheme", name);
+}
+
+const std::string& name_of(Scheme scheme) { return at(scheme_names(), scheme); }
+
+void SolveOptions::validate() const {
+  if (directions < 1 || directions > (1 << 24)) {
+    throw InputError(fmt::format("directions: {} is not from 1 to {}", directions, 1 << 24));
+  }
+  if (iterations < 0) {
+    throw InputError(fmt::format("iterations: {} is less than 0", iterations));
+  }
+  if (!(tolerance > 0) || !(tolerance < 1)) {
+    throw InputError(fmt::format("tolerance: {} is not between 0 and 1", tolerance));
+  }
+  if (burn_in < 0 || burn_in > 1'000'000) {
+    throw InputError(fmt::format("burn-in: {} is not from 0 to 1000000", burn_in));
+  }
+  if (scheme == Scheme::semi_iterative && iterations > 0 && burn_in >= iterations) {
+    throw InputError(
+        fmt::format("burn-in: {} of {} iterations leave none for the mean", burn_in, iterations));
+  }
+  if (replicas < 1 || replicas > 64) {
+    throw InputError(fmt::format("replicas: {} is not from 1 to 64", replicas));
+  }
+  if (replicas > directions) {
+    throw InputError(
+        fmt::format("replicas: {} are more than the {} directions", replicas, directions));
+  }
+  if (normalize == Normalization::symmetric) {
+    if (!two_way) {
+      throw InputError("normalize: symmetric wants directions used both ways");
+    }
+    if (scheme == Scheme::semi_iterative) {
+      throw InputError("normalize: symmetric does not go with the semi-iterative scheme");
+    }
+  }
+  if (scheme == Scheme::conjugate_gradients) {
+    if (!two_way) {
+      throw InputError("scheme: conjugate-gradients wants directions used both ways");
+    }
+    if (normalize == Normalization::rows) {
+      throw InputError("scheme: conjugate-gradients wants a symmetric matrix; rows makes it none");
+    }
+  }
+  if (first_shot && !(*first_shot >= 0 && std::isfinite(*first_shot))) {
+    throw InputError(fmt::format("first shot: {} is not a number from 0", *first_shot));
+  }
+  if (threads < 0 || threads > 4096) {
+    throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
+  }
+}
+
+}  // namespace transillum

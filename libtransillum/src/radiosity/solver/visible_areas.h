@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "transillum/transfers.h"
+
+namespace transillum {
+
+/// What is known of the passes that a step rests on.
+struct SeenAreas {
+  std::vector<double> rows;       ///< sum_d sum_j A(i,j,omega_d)
+  std::vector<double> columns;    ///< the same over i; two-way, these are the rows'
+  std::vector<double> projected;  ///< sum_d A_i max(n_i·omega_d, 0)
+  int passes = 0;
+
+  explicit SeenAreas(std::size_t patches) : rows(patches), columns(patches), projected(patches) {}
+  void add(const Transfers& transfers, bool two_way) {
+    for (std::size_t i = 0; i < projected.size(); ++i) {
+      projected[i] += transfers.forward[i].projected;
+      if (two_way) {
+        projected[i] += transfers.backward[i].projected;
+      }
+    }
+    for (const Transfer& t : transfers.exchanges) {
+      const auto i = static_cast<std::size_t>(t.receiver);
+      const auto j = static_cast<std::size_t>(t.source);
+      rows[i] += t.area;
+      (two_way ? rows : columns)[j] += t.area;
+    }
+    ++passes;
+  }
+};
+
+}  // namespace transillum

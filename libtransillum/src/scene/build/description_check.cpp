@@ -1,0 +1,105 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/build/description_check.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+using Channels = std::array<std::pair<const char*, double>, 3>;
+
+Channels channels(const Rgb& value) {
+  return {{{"red", value.r}, {"green", value.g}, {"blue", value.b}}};
+}
+
+void check_points(const SceneDescription& description) {
+  for (std::size_t i = 0; i < description.points.size(); ++i) {
+    const Vec3& p = description.points[i];
+    if (!is_finite(p)) {
+      throw InputError(
+          fmt::format("{}: vertex {}: a coordinate is not a finite number", description.name, i));
+    }
+    if (max_abs(p) > largest_coordinate) {
+      throw InputError(fmt::format("{}: vertex {}: coordinate {} is beyond {}", description.name, i,
+                                   max_abs(p), largest_coordinate));
+    }
+  }
+}
+
+void check_faces(const SceneDescription& description) {
+  const auto point_count = static_cast<std::int64_t>(description.points.size());
+  const auto material_count = static_cast<std::int32_t>(description.materials.size());
+  for (std::size_t f = 0; f < description.face_count(); ++f) {
+    for (const PointId p : description.outline(f)) {
+      if (p < 0 || p >= point_count) {
+        throw InputError(fmt::format("{}vertex index {} is out of range, there are {} vertices",
+                                     face_place(description, f), p, point_count));
+      }
+    }
+    const std::int32_t material = description.face_material[f];
+    if (material < 0 || material >= material_count) {
+      throw InputError(fmt::format("{}material {} is out of range, there are {}",
+                                   face_place(description, f), material, material_count));
+    }
+  }
+}
+
+/// Only those in use: a library of materials may hold others.
+void check_used_materials(const SceneDescription& description) {
+  std::vector<bool> used(description.materials.size());
+  for (const std::int32_t m : description.face_material) {
+    at(used, m) = true;
+  }
+  for (std::size_t m = 0; m < used.size(); ++m) {
+    if (used[m]) {
+      check_material(description.materials[m], description.name + ": ");
+    }
+  }
+}
+
+}  // namespace
+
+std::string face_place(const SceneDescription& description, std::size_t face) {
+  const std::int32_t line = description.face_line[face];
+  if (line > 0) {
+    return fmt::format("{}:{}: face {}: ", description.name, line, face);
+  }
+  return fmt::format("{}: face {}: ", description.name, face);
+}
+
+void check_material(const Material& material, const std::string& place) {
+  for (const auto& [channel, rho] : channels(material.reflectance)) {
+    if (!(rho >= 0 && rho < 1)) {
+      throw InputError(
+          fmt::format("{}material `{}`: {} reflectance rho (Kd) is {}, but must be >= 0 and < 1",
+                      place, material.name, channel, rho));
+    }
+  }
+  for (const auto& [channel, e] : channels(material.exitance)) {
+    if (!(e >= 0 && std::isfinite(e))) {
+      throw InputError(
+          fmt::format("{}material `{}`: {} exitance E (Ke) is {}, but must be >= 0 and finite",
+                      place, material.name, channel, e));
+    }
+  }
+}
+
+void check_description(const SceneDescription& description) {
+  if (description.points.empty()) {
+    throw InputError(description.name + ": no vertices");
+  }
+  if (description.face_count() == 0) {
+    throw InputError(description.name + ": no faces");
+  }
+  check_points(description);
+  check_faces(description);
+  check_used_materials(description);
+}
+
+}  // namespace transillum

@@ -1,0 +1,341 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/build/patch_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/invariant.h"
+#include "scene/build/coincidence.h"
+#include "scene/build/description_check.h"
+#include "scene/build/refinement.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+constexpr double epsilon = 0x1p-52;
+/// Shares of a face's size, and of its width, beyond which it is not one planar polygon any more.
+constexpr double largest_deviation_by_diameter = 1e-6;
+constexpr double largest_deviation_by_width = 1e-3;
+constexpr std::size_t faces_between_looks = 256;
+
+double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::uint32_t> corners) {
+  const PlanePoint& o = plane[corners[0]];
+  double doubled = 0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const PlanePoint& a = plane[corners[i]];
+    const PlanePoint& b = plane[corners[i + 1]];
+    doubled += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  }
+  return 0.5 * doubled;
+}
+
+/// An outline that touches itself may turn both ways round, as an 8 does. Then the parts by the
+/// even-odd rule are more than what the outline goes round.
+bool same_area(const std::vector<PlanePoint>& plane, const std::vector<CornerList>& parts) {
+  CornerList whole(plane.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    whole[i] = static_cast<std::uint32_t>(i);
+  }
+  double sum = 0, reach = 0;
+  for (const CornerList& part : parts) {
+    sum += signed_area(plane, part);
+  }
+  for (const PlanePoint& p : plane) {
+    reach = std::max({reach, std::abs(p[0] - plane[0][0]), std::abs(p[1] - plane[0][1])});
+  }
+  // A sliver's area is little of the products that it is the difference of.
+  const double rounding = 0x1p-50 * static_cast<double>(plane.size()) * reach * reach;
+  return std::abs(signed_area(plane, whole) - sum) <= 1e-9 * sum + rounding;
+}
+
+std::vector<PointId> pick(const std::vector<PointId>& outline, const CornerList& corners) {
+  std::vector<PointId> picked;
+  for (const std::uint32_t c : corners) {
+    picked.push_back(outline[c]);
+  }
+  return picked;
+}
+
+CornerList all_corners(std::size_t n) {
+  CornerList all(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    all[i] = static_cast<std::uint32_t>(i);
+  }
+  return all;
+}
+
+}  // namespace
+
+PatchBuilder::PatchBuilder(const SceneDescription& description, const SceneOptions& options,
+                           const Cancellation& cancellation)
+    : description_(description),
+      options_(options),
+      cancellation_(cancellation),
+      welded_(description.points.size(), -1) {}
+
+void PatchBuilder::build() {
+  double largest = 0;
+  for (const PointId p : description_.corners) {
+    largest = std::max(largest, max_abs(at(description_.points, p)));
+  }
+  flatness_ = 64 * epsilon * largest;
+  report.faces = static_cast<std::int64_t>(description_.face_count());
+  report.warnings = description_.notes;
+  for (std::size_t f = 0; f < description_.face_count(); ++f) {
+    if (f % faces_between_looks == 0) {
+      cancellation_.throw_if_canceled();
+    }
+    add_face(f);
+  }
+  if (patches.empty()) {
+    throw InputError(face_place(description_, 0) + lack_of_area(0) +
+                     (description_.face_count() > 1 ? ", nor has any other face an area" : "") +
+                     "; there is nothing to light");
+  }
+  count_coincident();
+  count_unused();
+  const std::vector<std::string> sentences = warnings_.sentences();
+  report.warnings.insert(report.warnings.end(), sentences.begin(), sentences.end());
+}
+
+void PatchBuilder::add_face(std::size_t face) {
+  const Outline outline = welded_outline(face);
+  const PolygonShape shape = measure(table.points(), outline);
+  if (shape.degenerate) {
+    if (is_bow_tie(table.points(), outline)) {
+      refuse_crossing(face);
+    }
+    drop(face);
+  } else if (!is_planar(shape)) {
+    add_triangles(face, outline, shape);
+  } else {
+    add_part(face, outline, shape);
+  }
+}
+
+PatchBuilder::Outline PatchBuilder::welded_outline(std::size_t face) {
+  Outline outline;
+  for (const PointId p : description_.outline(face)) {
+    const auto i = static_cast<std::size_t>(p);
+    if (welded_[i] < 0) {
+      welded_[i] = table.id_of(description_.points[i]);
+    }
+    if (outline.empty() || outline.back() != welded_[i]) {
+      outline.push_back(welded_[i]);
+    }
+  }
+  while (outline.size() > 1 && outline.front() == outline.back()) {
+    outline.pop_back();
+  }
+  return outline;
+}
+
+void PatchBuilder::drop(std::size_t face) {
+  ++report.dropped_degenerate;
+  warnings_.add("faces without area, left out",
+                face_place(description_, face) + lack_of_area(face) + "; it is left out");
+}
+
+std::string PatchBuilder::lack_of_area(std::size_t face) const {
+  const std::size_t corners = description_.outline(face).size();
+  if (corners >= 3) {
+    return "it has no area";
+  }
+  return fmt::format("it has {} corner{}, but needs at least 3", corners, corners == 1 ? "" : "s");
+}
+
+void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
+                                 const PolygonShape& shape) {
+  ++report.cut_non_planar;
+  warnings_.add("faces that are not planar, cut into triangles",
+                fmt::format("{}it is not planar: a corner is {:.3g} m off; cut into triangles",
+                            face_place(description_, face), shape.deviation));
+  const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
+  std::vector<CornerList> triangles;
+  if (outline.size() == 4 && !is_simple(plane)) {
+    // A quadrilateral so bent that it crosses itself when flattened is still two triangles.
+    triangles = {{0, 1, 2}, {0, 2, 3}};
+  } else {
+    triangles = triangles_of(face, plane);
+  }
+  for (const CornerList& triangle : triangles) {
+    const Outline part = pick(outline, triangle);
+    const PolygonShape part_shape = measure(table.points(), part);
+    if (!part_shape.degenerate) {
+      add_part(face, part, part_shape);
+    }
+  }
+}
+
+void PatchBuilder::add_part(std::size_t face, const Outline& outline, const PolygonShape& shape) {
+  if (options_.max_patch_area > 0 && shape.area * (1 - 1e-9) > options_.max_patch_area) {
+    if (last_refined_ != face) {
+      ++report.refined;
+    }
+    last_refined_ = face;
+    refine(face, outline, shape);
+  } else {
+    add_patch(face, outline, shape, convex_pieces(face, outline, shape));
+  }
+}
+
+void PatchBuilder::refine(std::size_t face, const Outline& outline, const PolygonShape& shape) {
+  std::vector<CornerList> parts;
+  for (const CornerList& piece : convex_pieces(face, outline, shape)) {
+    if (piece.size() <= 3 || (piece.size() == 4 && outline.size() == 4)) {
+      parts.push_back(piece);
+      continue;
+    }
+    const Outline corners = pick(outline, piece);
+    for (const CornerList& part :
+         triangles_of(face, drop_axis(table.points(), corners, shape.normal))) {
+      CornerList& global = parts.emplace_back();
+      for (const std::uint32_t c : part) {
+        global.push_back(piece[c]);
+      }
+    }
+  }
+  for (const CornerList& part : parts) {
+    const Outline corners = pick(outline, part);
+    const double area = measure(table.points(), corners).area;
+    const CellGrid grid = choose_grid(table.points(), corners, area, options_.max_patch_area);
+    check_room(face, grid.cell_count());
+    for (const Outline& cell : make_cells(table, grid)) {
+      cancellation_.throw_if_canceled();
+      const PolygonShape cell_shape = measure(table.points(), cell);
+      if (cell_shape.degenerate) {
+        throw InputError(face_place(description_, face) +
+                         "max-patch-area is too small for the precision of its coordinates");
+      }
+      add_patch(face, cell, cell_shape, convex_pieces(face, cell, cell_shape));
+    }
+  }
+}
+
+void PatchBuilder::check_room(std::size_t face, std::int64_t more) const {
+  const std::int64_t sides = options_.two_sided ? 2 : 1;
+  if (static_cast<std::int64_t>(patches.size()) + sides * more > most_patches) {
+    throw InputError(fmt::format("{}more than {} patches; is max-patch-area {} m² too small?",
+                                 face_place(description_, face), most_patches,
+                                 options_.max_patch_area));
+  }
+}
+
+void PatchBuilder::add_patch(std::size_t face, const Outline& outline, const PolygonShape& shape,
+                             const std::vector<CornerList>& parts) {
+  check_room(face, 1);
+  const auto id = static_cast<PatchId>(patches.size());
+  Patch& patch = patches.emplace_back();
+  patch.normal = shape.normal;
+  patch.area = shape.area;
+  patch.center = shape.center;
+  patch.face = static_cast<std::int32_t>(face);
+  patch.material = description_.face_material[face];
+  patch.outline_begin = static_cast<std::uint32_t>(outline_corners.size());
+  outline_corners.insert(outline_corners.end(), outline.begin(), outline.end());
+  patch.outline_end = static_cast<std::uint32_t>(outline_corners.size());
+  for (const CornerList& part : parts) {
+    Piece piece{id, static_cast<std::uint32_t>(piece_corners.size()), 0};
+    for (const std::uint32_t c : part) {
+      piece_corners.push_back(outline[c]);
+    }
+    piece.end = static_cast<std::uint32_t>(piece_corners.size());
+    pieces.push_back(piece);
+  }
+  if (options_.two_sided) {
+    add_opposite();
+  }
+}
+
+void PatchBuilder::add_opposite() {
+  const PatchId front = static_cast<PatchId>(patches.size()) - 1;
+  Patch patch = patches.back();
+  patch.normal = -patch.normal;
+  const std::vector<PointId> outline(outline_corners.begin() + patch.outline_begin,
+                                     outline_corners.begin() + patch.outline_end);
+  patch.outline_begin = static_cast<std::uint32_t>(outline_corners.size());
+  outline_corners.insert(outline_corners.end(), outline.rbegin(), outline.rend());
+  patch.outline_end = static_cast<std::uint32_t>(outline_corners.size());
+  patches.push_back(patch);
+  std::size_t first = pieces.size();
+  while (first > 0 && pieces[first - 1].patch == front) {
+    --first;
+  }
+  const std::size_t last = pieces.size();
+  for (std::size_t p = first; p < last; ++p) {
+    const Piece piece = pieces[p];
+    const auto begin = static_cast<std::uint32_t>(piece_corners.size());
+    for (std::uint32_t c = piece.end; c > piece.begin; --c) {
+      piece_corners.push_back(PointId{piece_corners[c - 1]});
+    }
+    pieces.push_back({front + 1, begin, static_cast<std::uint32_t>(piece_corners.size())});
+  }
+}
+
+/// Rounding alone makes no face crooked, however thin it is.
+bool PatchBuilder::is_planar(const PolygonShape& shape) const {
+  const double width = shape.area / shape.diameter;
+  return is_flat(shape) || (shape.deviation <= largest_deviation_by_diameter * shape.diameter &&
+                            shape.deviation <= largest_deviation_by_width * width);
+}
+
+bool PatchBuilder::is_flat(const PolygonShape& shape) const { return shape.deviation <= flatness_; }
+
+std::vector<CornerList> PatchBuilder::convex_pieces(std::size_t face, const Outline& outline,
+                                                    const PolygonShape& shape) const {
+  if (outline.size() == 3) {
+    return {{0, 1, 2}};
+  }
+  const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
+  if (!is_flat(shape)) {
+    return triangles_of(face, plane);
+  }
+  if (is_convex(plane)) {
+    return {all_corners(outline.size())};
+  }
+  return checked(face, plane, convex_partition(plane));
+}
+
+std::vector<CornerList> PatchBuilder::triangles_of(std::size_t face,
+                                                   const std::vector<PlanePoint>& plane) const {
+  std::vector<CornerList> triangles;
+  for (const auto& t : triangulate(plane)) {
+    triangles.emplace_back(t.begin(), t.end());
+  }
+  return checked(face, plane, std::move(triangles));
+}
+
+std::vector<CornerList> PatchBuilder::checked(std::size_t face,
+                                              const std::vector<PlanePoint>& plane,
+                                              std::vector<CornerList> parts) const {
+  if (parts.empty() || !same_area(plane, parts)) {
+    refuse_crossing(face);
+  }
+  return parts;
+}
+
+void PatchBuilder::refuse_crossing(std::size_t face) const {
+  throw InputError(face_place(description_, face) + "its outline crosses itself");
+}
+
+void PatchBuilder::count_coincident() {
+  for (const auto& [later, earlier] : coincident_faces(description_, welded_)) {
+    ++report.coincident_faces;
+    warnings_.add("faces on the points of an earlier one",
+                  fmt::format("{}it has the same points as face {}",
+                              face_place(description_, later), earlier));
+  }
+}
+
+void PatchBuilder::count_unused() {
+  report.unused_points = std::count(welded_.begin(), welded_.end(), PointId{-1});
+  if (report.unused_points > 0) {
+    warnings_.add("notes", fmt::format("{}: {} of {} vertices are not used by any face",
+                                       description_.name, report.unused_points, welded_.size()));
+  }
+}
+
+}  // namespace transillum

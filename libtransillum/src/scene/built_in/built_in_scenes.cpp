@@ -1,0 +1,135 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scene/built_in/built_in_makers.h"
+#include "scene/read/obj_reader.h"
+#include "transillum/did_you_mean.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+namespace {
+
+struct BuiltIn {
+  const char* name;
+  const char* summary;
+  std::vector<SceneParameter> parameters;
+  void (*make)(SceneMaker&, const ParameterValues&, const Cancellation&);
+};
+
+const std::vector<BuiltIn>& registry() {
+  static const std::vector<BuiltIn> all{
+      {"sphere-flake",
+       "Spheres on a sphere, a third of its size each, inside a sky of two colors.",
+       {{"levels", 2, 0, 5}, {"slices", 17, 3, 4096}, {"stacks", 8, 2, 4096}},
+       make_sphere_flake},
+      {"cornell-box",
+       "The measured room with a red and a green wall, two blocks and a light in the ceiling; "
+       "its open side is a black wall, or missing with open=1.",
+       {{"open", 0, 0, 1}},
+       make_cornell_box},
+      {"furnace",
+       "A box in a closed box, all E = 1 and rho = 0.5, so that B = 2 everywhere.",
+       {},
+       make_furnace},
+      {"boards",
+       "A ring of n boards in a room, each over the next and under the one before.",
+       {{"n", 5, 3, 24}},
+       make_boards},
+      {"rooms",
+       "A row of rooms joined by doorways, with n boxes among them.",
+       {{"n", 24, 0, 2'000'000}, {"rooms", 3, 1, 1000}, {"seed", 1, 0, 1'000'000'000}},
+       make_rooms},
+      {"stars",
+       "A room with n small, bright, separated sources.",
+       {{"n", 12, 1, 1000}},
+       make_stars},
+  };
+  return all;
+}
+
+/// The ending in lower case, where the name ends like a file's: ".obj", but not "=2.5".
+std::string file_ending(const std::string& spec) {
+  std::string ending = std::filesystem::path(spec).extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') {
+      c = static_cast<char>(c - 'A' + 'a');
+    }
+    if (c != '.' && (c < 'a' || c > 'z')) {
+      return {};
+    }
+  }
+  return ending.size() > 1 ? ending : std::string();
+}
+
+/// A path, rather than the name of a built-in.
+bool names_a_file(const std::string& spec) {
+  std::error_code ignored;
+  return spec.find('/') != std::string::npos || !file_ending(spec).empty() ||
+         std::filesystem::exists(spec, ignored);
+}
+
+SceneDescription read_file(const std::string& spec, const Cancellation& cancellation) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(spec, ignored)) {
+    throw InputError(spec + ": no such file");
+  }
+  if (file_ending(spec) == ".vtp") {
+    throw InputError(spec + ": is a result, which transillum-viewer opens; a scene ends in .obj");
+  }
+  if (file_ending(spec) != ".obj") {
+    throw InputError(spec + ": only files that end in .obj can be read");
+  }
+  return read_obj(spec, cancellation);
+}
+
+std::vector<std::string> built_in_names() {
+  std::vector<std::string> names;
+  for (const BuiltIn& b : registry()) {
+    names.emplace_back(b.name);
+  }
+  return names;
+}
+
+SceneDescription make(const BuiltIn& built_in, const std::string& spec,
+                      const std::string& parameters, const Cancellation& cancellation) {
+  const ParameterValues values(built_in.name, parameters, built_in.parameters);
+  SceneMaker maker;
+  built_in.make(maker, values, cancellation);
+  return maker.take(spec);
+}
+
+}  // namespace
+
+const std::vector<BuiltInScene>& built_in_scenes() {
+  static const std::vector<BuiltInScene> all = [] {
+    std::vector<BuiltInScene> list;
+    for (const BuiltIn& b : registry()) {
+      list.push_back({b.name, b.summary, describe(b.parameters)});
+    }
+    return list;
+  }();
+  return all;
+}
+
+SceneDescription describe_scene(const std::string& spec, const Cancellation& cancellation) {
+  const std::size_t colon = std::min(spec.find(':'), spec.size());
+  const std::string name = spec.substr(0, colon);
+  for (const BuiltIn& b : registry()) {
+    if (b.name != name) {
+      continue;
+    }
+    return make(b, spec, colon < spec.size() ? spec.substr(colon + 1) : "", cancellation);
+  }
+  if (names_a_file(spec)) {
+    return read_file(spec, cancellation);
+  }
+  const std::vector<std::string> names = built_in_names();
+  throw InputError(fmt::format(
+      "{}: no such file, and no such built-in scene{} Built-in are {}.", spec,
+      nearest_name(name, names).empty() ? "." : did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace transillum

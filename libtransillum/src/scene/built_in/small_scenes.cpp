@@ -1,0 +1,102 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/built_in/built_in_makers.h"
+
+namespace transillum {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+SceneMaker::Block upright(const Vec3& corner, const Vec3& size) {
+  return {corner, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
+}
+
+/// One of the ring: its middle is `radius` from the ring's axis; it rises along its length.
+SceneMaker::Block board(int k, int n, const Vec3& middle) {
+  constexpr double radius = 0.8, rise = 0.12, thickness = 0.04;
+  const double angle = 2 * pi * k / n;
+  const double crossing = radius * std::tan(pi / n);  // from its middle to where it meets the next
+  const double half_length = 1.5 * crossing;
+  const double width = std::min(0.35 * crossing, 0.3);
+  const Vec3 out{std::cos(angle), std::sin(angle), 0};
+  const Vec3 along = normalized(Vec3{-std::sin(angle), std::cos(angle), rise / crossing});
+  const Vec3 up = cross(out, along);
+  const Vec3 corner =
+      middle + (radius - width / 2) * out - half_length * along - (thickness / 2) * up;
+  return {corner, width * out, 2 * half_length * along, thickness * up};
+}
+
+void add_octahedron(SceneMaker& maker, const Vec3& center, double radius, int material) {
+  const auto tip = [&](int axis, int sign) {
+    Vec3 p = center;
+    (axis == 0 ? p.x : axis == 1 ? p.y : p.z) += sign * radius;
+    return maker.point(p);
+  };
+  for (const int x : {1, -1}) {
+    for (const int y : {1, -1}) {
+      for (const int z : {1, -1}) {
+        std::vector<PointId> outline{tip(0, x), tip(1, y), tip(2, z)};
+        if (x * y * z < 0) {
+          std::swap(outline[0], outline[1]);
+        }
+        maker.face(outline, material);
+      }
+    }
+  }
+}
+
+/// The part of x after the point: multiples of irrational steps spread evenly (Kronecker).
+double fraction(double x) { return x - std::floor(x); }
+
+}  // namespace
+
+void make_furnace(SceneMaker& maker, const ParameterValues&, const Cancellation&) {
+  const int glowing = maker.material("glowing", {0.5, 0.5, 0.5}, {1, 1, 1});
+  maker.block(upright({0, 0, 0}, {2, 2, 2}), SceneMaker::Facing::inward, glowing);
+  maker.block(upright({0.5, 0.75, 0.625}, {0.75, 0.5, 1}), SceneMaker::Facing::outward, glowing);
+}
+
+void make_boards(SceneMaker& maker, const ParameterValues& values, const Cancellation&) {
+  const int white = maker.material("white", {0.7, 0.7, 0.7});
+  const int wood = maker.material("wood", {0.55, 0.4, 0.25});
+  const int light = maker.material("light", {0.5, 0.5, 0.5}, {20, 18, 15});
+  const SceneMaker::Block room = upright({-2.5, -2.5, 0}, {5, 5, 3});
+  maker.walls(room, SceneMaker::Facing::inward, white);
+  maker.face(std::vector<Vec3>{{-2.5, -2.5, 0}, {2.5, -2.5, 0}, {2.5, 2.5, 0}, {-2.5, 2.5, 0}},
+             white);
+  maker.lit_ceiling({-2.5, 2.5, -2.5, 2.5}, {-0.5, 0.5, -0.5, 0.5}, 3, white, light);
+  const int n = values["n"];
+  for (int k = 0; k < n; ++k) {
+    maker.block(board(k, n, {0, 0, 1.25}), SceneMaker::Facing::outward, wood);
+  }
+}
+
+void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancellation&) {
+  const int white = maker.material("white", {0.6, 0.6, 0.6});
+  const int blue = maker.material("blue", {0.2, 0.3, 0.5});
+  const int star = maker.material("star", {0.1, 0.1, 0.1}, {400, 380, 320});
+  const std::vector<SceneMaker::Block> blocks{upright({0.75, 0.875, 0}, {0.5, 0.625, 1.25}),
+                                              upright({2.5, 0.625, 0}, {0.875, 0.5, 0.75}),
+                                              upright({1.875, 2.375, 0}, {0.625, 0.75, 1})};
+  maker.walls(upright({0, 0, 0}, {4, 4, 3}), SceneMaker::Facing::inward, white);
+  maker.face(std::vector<Vec3>{{0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3}}, white);
+  maker.floor({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, blocks, white);
+  for (const SceneMaker::Block& block : blocks) {
+    maker.standing_block(block, blue);
+  }
+  const int n = values["n"];
+  const double radius = std::min(0.02, 0.1 / std::cbrt(n));
+  for (int i = 0; i < n; ++i) {
+    // Above the blocks; by the three-dimensional relative of the golden ratio no two are near.
+    const double step = 1.22074408460575947536;
+    const Vec3 p{0.25 + 3.5 * fraction((i + 0.5) / step),
+                 0.25 + 3.5 * fraction((i + 0.5) / (step * step)),
+                 1.5 + 1.25 * fraction((i + 0.5) / (step * step * step))};
+    add_octahedron(maker, p, radius, star);
+  }
+}
+
+}  // namespace transillum

@@ -1,0 +1,310 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/read/obj_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <new>
+
+#include "base/invariant.h"
+#include "base/text_file.h"
+#include "scene/build/description_check.h"
+#include "scene/read/mtl_reader.h"
+#include "scene/read/tinyobj_parser.h"
+#include "transillum/did_you_mean.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t most_vertices = 100'000'000;
+constexpr std::size_t most_corners = 400'000'000;
+constexpr std::size_t most_face_corners = 1'000'000;
+constexpr Rgb default_reflectance{0.5, 0.5, 0.5};
+
+/// What is left out without a word, or with a count where it could matter.
+bool harmless(std::string_view keyword) {
+  constexpr std::string_view known[] = {
+      "vt",       "vn",  "vp",         "g",         "o",      "s",      "mg", "bevel", "c_interp",
+      "d_interp", "lod", "shadow_obj", "trace_obj", "maplib", "usemap", "vw", "t"};
+  return std::find(std::begin(known), std::end(known), keyword) != std::end(known);
+}
+
+/// The checks on one file. tinyobjloader takes the lines apart, but it reads what is no number
+/// as 0, wraps large indices round, and rounds its own way: so each line is looked at before it
+/// gets it, and coordinates, Kd and Ke come from std::from_chars, as the nearest doubles.
+class ObjReading {
+ public:
+  ObjReading(const std::filesystem::path& path, const Cancellation& cancellation)
+      : path_(path), cancellation_(cancellation) {
+    made_.name = path.string();
+  }
+
+  SceneDescription read() {
+    const std::string text = read_text_file(path_, largest_scene_file);
+    LineFeed feed(
+        text, [this](const TextLine& line) { return look(line); }, cancellation_);
+    std::istream stream(&feed);
+    // Otherwise the stream would swallow what the look throws.
+    stream.exceptions(std::ios::badbit);
+    parse_obj(stream, {[this] { add_vertex(); },
+                       [this](std::span<const int> corners) { add_face(corners); },
+                       [this](const std::string& name) { use_material(name); }});
+    finish();
+    return std::move(made_);
+  }
+
+ private:
+  bool look(const TextLine& line) {
+    line_ = line.number;
+    if (line.keyword == "v") {
+      return look_at_vertex(line);
+    }
+    if (line.keyword == "f") {
+      return look_at_face(line);
+    }
+    if (line.keyword == "usemtl") {
+      if (line.rest.empty()) {
+        fail("usemtl has no name");
+      }
+      return true;
+    }
+    if (line.keyword == "mtllib") {
+      read_libraries(line.rest);
+    } else if (!harmless(line.keyword)) {
+      notes_.add(
+          "lines of a kind that is left out",
+          fmt::format("{}lines of the kind {} are left out", place(), in_quotes(line.keyword)));
+    }
+    return false;
+  }
+
+  bool look_at_vertex(const TextLine& line) {
+    split_words(line.rest, words_);
+    const std::size_t number = made_.points.size() + 1;
+    if (number > most_vertices) {
+      fail(fmt::format("more than {} vertices", most_vertices));
+    }
+    if (words_.size() < 3) {
+      fail(fmt::format("vertex {}: needs three coordinates", number));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<double> value = parse_number(words_[i]);
+      if (!value) {
+        fail(fmt::format("vertex {}: {} is not a number", number, in_quotes(words_[i])));
+      }
+      if (!(std::abs(*value) <= largest_coordinate)) {
+        fail(fmt::format("vertex {}: {} is not a finite coordinate of at most {}", number,
+                         in_quotes(words_[i]), largest_coordinate));
+      }
+      (i == 0 ? vertex_.x : i == 1 ? vertex_.y : vertex_.z) = *value;
+    }
+    return true;
+  }
+
+  bool look_at_face(const TextLine& line) {
+    split_words(line.rest, words_);
+    if (words_.size() > most_face_corners) {
+      fail_face(fmt::format("more than {} corners", most_face_corners));
+    }
+    if (made_.corners.size() + words_.size() > most_corners) {
+      fail(fmt::format("more than {} corners of faces", most_corners));
+    }
+    for (const std::string_view word : words_) {
+      check_corner(word);
+    }
+    // tinyobjloader does not call back about a face without corners.
+    if (words_.empty()) {
+      add_face({});
+    }
+    return !words_.empty();
+  }
+
+  /// v, v/vt, v//vn or v/vt/vn; only v counts, but the others must be numbers too.
+  void check_corner(std::string_view word) {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    int index = 0;
+    const char* const last = word.data() + slash;
+    const auto [end, error] = std::from_chars(word.data(), last, index);
+    const bool well_formed =
+        end == last && slash > 0 &&
+        word.find_first_not_of("0123456789-/", slash) == std::string_view::npos &&
+        std::count(word.begin(), word.end(), '/') <= 2;
+    if (error == std::errc::result_out_of_range) {
+      fail_index(word.substr(0, slash));
+    }
+    if (!well_formed || error != std::errc()) {
+      fail_face(in_quotes(word) + " is not a corner (v, v/vt, v//vn or v/vt/vn)");
+    }
+    const auto count = static_cast<std::int64_t>(made_.points.size());
+    if (index == 0 || index < -count) {
+      fail_index(word.substr(0, slash));
+    }
+  }
+
+  void add_vertex() { made_.points.push_back(vertex_); }
+
+  void add_face(std::span<const int> indices) {
+    TRANSILLUM_INVARIANT(indices.size() == words_.size(),
+                         "tinyobjloader sees the corners that the look saw");
+    outline_.clear();
+    const auto count = static_cast<PointId>(made_.points.size());
+    for (const int index : indices) {
+      outline_.push_back(index > 0 ? index - 1 : count + index);
+    }
+    made_.add_face(outline_, name_in_use_, line_);
+  }
+
+  /// Materials may be defined further down: names are looked up at the end.
+  void use_material(const std::string& name) {
+    const auto [found, is_new] =
+        name_numbers_.try_emplace(name, static_cast<std::int32_t>(used_names_.size()));
+    if (is_new) {
+      used_names_.push_back({name, line_});
+    }
+    name_in_use_ = found->second;
+  }
+
+  void read_libraries(std::string_view rest) {
+    if (rest.empty()) {
+      fail("mtllib has no file name");
+    }
+    // A name with blanks, or several names: the file system knows.
+    if (is_there(library_path(rest))) {
+      library_.read(library_path(rest), notes_, cancellation_);
+      return;
+    }
+    split_words(rest, words_);
+    for (const std::string_view word : words_) {
+      const std::filesystem::path path = library_path(word);
+      if (!is_there(path)) {
+        fail(fmt::format("the MTL file {} is missing", in_quotes(word)));
+      }
+      library_.read(path, notes_, cancellation_);
+    }
+  }
+  std::filesystem::path library_path(std::string_view name) const {
+    std::filesystem::path path = path_.parent_path() / name;
+    if (is_there(path)) {
+      return path;
+    }
+    // Written on another system.
+    std::string slashes(name);
+    std::replace(slashes.begin(), slashes.end(), '\\', '/');
+    return path_.parent_path() / slashes;
+  }
+  static bool is_there(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  }
+
+  void finish() {
+    check_indices();
+    resolve_materials();
+    made_.notes = notes_.sentences();
+  }
+
+  /// Vertices may be defined further down, so indices are compared with their final number.
+  void check_indices() {
+    const auto count = static_cast<PointId>(made_.points.size());
+    if (count == 0) {
+      throw InputError(made_.name + ": no vertices; is it an OBJ file?");
+    }
+    for (std::size_t f = 0; f < made_.face_count(); ++f) {
+      for (const PointId p : made_.outline(f)) {
+        if (p < count) {
+          continue;
+        }
+        throw InputError(fmt::format("{}vertex index {} is out of range, there are {} vertices",
+                                     face_place(made_, f), p + 1, count));
+      }
+    }
+  }
+
+  void resolve_materials() {
+    made_.materials = library_.materials();
+    std::vector<std::int32_t> resolved(used_names_.size(), -1);
+    std::int64_t without = 0;
+    for (std::int32_t& material : made_.face_material) {
+      if (material == no_name) {
+        ++without;
+        material = static_cast<std::int32_t>(library_.materials().size());
+        continue;
+      }
+      std::int32_t& known = at(resolved, material);
+      if (known < 0) {
+        known = resolve(at(used_names_, material));
+      }
+      material = known;
+    }
+    if (without == 0) {
+      return;
+    }
+    std::string name = "no-material";
+    while (library_.find(name) >= 0) {
+      name += "-";
+    }
+    made_.materials.push_back({name, default_reflectance, {}});
+    notes_.add("notes",
+               fmt::format("{}: {} faces have no material (usemtl); they get rho = {}, E = 0",
+                           made_.name, without, default_reflectance.r));
+  }
+
+  struct UsedName {
+    std::string name;
+    std::int32_t line;
+  };
+  std::int32_t resolve(const UsedName& used) {
+    const std::int32_t material = library_.find(used.name);
+    line_ = used.line;
+    if (material < 0) {
+      fail(fmt::format("material {} is not defined{}", in_quotes(used.name),
+                       library_.materials().empty()
+                           ? ": there is no MTL file (mtllib) with materials"
+                           : did_you_mean(used.name, library_.names())));
+    }
+    const auto m = static_cast<std::size_t>(material);
+    check_material(library_.materials()[m], library_.place(m));
+    return material;
+  }
+
+  std::string place() const { return fmt::format("{}:{}: ", made_.name, line_); }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(place() + what); }
+  [[noreturn]] void fail_face(const std::string& what) const {
+    fail(fmt::format("face {}: {}", made_.face_count(), what));
+  }
+  [[noreturn]] void fail_index(std::string_view index) const {
+    fail_face(fmt::format("vertex index {} is out of range, there are {} vertices", index,
+                          made_.points.size()));
+  }
+
+  static constexpr std::int32_t no_name = -1;
+
+  const std::filesystem::path& path_;
+  const Cancellation& cancellation_;
+  SceneDescription made_;
+  MaterialLibrary library_;
+  Warnings notes_;
+  std::int32_t line_ = 0;
+  Vec3 vertex_;
+  std::vector<std::string_view> words_;
+  std::vector<PointId> outline_;
+  std::map<std::string, std::int32_t> name_numbers_;
+  std::vector<UsedName> used_names_;
+  std::int32_t name_in_use_ = no_name;
+};
+
+}  // namespace
+
+SceneDescription read_obj(const std::filesystem::path& path, const Cancellation& cancellation) {
+  try {
+    return ObjReading(path, cancellation).read();
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string() + ": does not fit into the memory");
+  }
+}
+
+}  // namespace transillum

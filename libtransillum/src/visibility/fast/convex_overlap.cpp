@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/fast/convex_overlap.h"
+
+#include <algorithm>
+
+namespace transillum {
+
+void ConvexOverlap::look_from(const ProjectedFragments::Face& face) {
+  origin_ = faces_.corners[face.begin];
+  area_ = face.area;
+  edges_.clear();
+  for (std::uint32_t k = face.begin; k < face.end; ++k) {
+    const GridPoint& a = faces_.corners[k];
+    const GridPoint& b = faces_.corners[k + 1 < face.end ? k + 1 : face.begin];
+    edges_.push_back({{static_cast<double>(a.x - origin_.x), static_cast<double>(a.y - origin_.y)},
+                      {static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y)}});
+  }
+}
+
+double ConvexOverlap::with(const ProjectedFragments::Face& other) const {
+  Polygon polygon, left;
+  std::size_t count = other.end - other.begin;
+  for (std::size_t k = 0; k < count; ++k) {
+    const GridPoint& p = faces_.corners[other.begin + k];
+    polygon[k] = {static_cast<double>(p.x - origin_.x), static_cast<double>(p.y - origin_.y)};
+  }
+  for (const Edge& edge : edges_) {
+    count = cut(polygon, count, edge, left);
+    if (count < 3) {
+      return 0;
+    }
+    std::swap(polygon, left);
+  }
+  double twice_area = 0;
+  for (std::size_t k = 2; k < count; ++k) {
+    const Point &o = polygon[0], &a = polygon[k - 1], &b = polygon[k];
+    twice_area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+  }
+  return std::clamp(0.5 * twice_area, 0.0, std::min(area_, other.area));
+}
+
+/// What of a polygon lies to the left of an edge.
+std::size_t ConvexOverlap::cut(const Polygon& polygon, std::size_t count, const Edge& edge,
+                               Polygon& left) {
+  const auto side = [&edge](const Point& p) {
+    return edge.along.x * (p.y - edge.from.y) - edge.along.y * (p.x - edge.from.x);
+  };
+  std::size_t kept = 0;
+  Point before = polygon[count - 1];
+  double side_before = side(before);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point& here = polygon[k];
+    const double side_here = side(here);
+    if ((side_before < 0 && side_here > 0) || (side_before > 0 && side_here < 0)) {
+      const double t = side_before / (side_before - side_here);
+      if (kept == left.size()) {
+        return 0;  // rounding alone makes so many corners
+      }
+      left[kept++] = {before.x + t * (here.x - before.x), before.y + t * (here.y - before.y)};
+    }
+    if (side_here >= 0) {
+      if (kept == left.size()) {
+        return 0;
+      }
+      left[kept++] = here;
+    }
+    before = here;
+    side_before = side_here;
+  }
+  return kept;
+}
+
+}  // namespace transillum

@@ -1,0 +1,533 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/fast/exact_view.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+/// Bounds the error of a determinant of differences of numbers of this size, over the size.
+constexpr long double rounding = 8 * std::numeric_limits<long double>::epsilon();
+
+/// Corners of cut faces lie up to so many steps off the lines that they are on.
+constexpr long double off_line = 2;
+
+/// Largest |x| + |y| of some corners.
+template <class Polygon>
+auto reach_of(const Polygon& polygon) {
+  auto reach = std::abs(polygon.x[0]) + std::abs(polygon.y[0]);
+  for (std::size_t k = 1; k < polygon.count; ++k) {
+    reach = std::max(reach, std::abs(polygon.x[k]) + std::abs(polygon.y[k]));
+  }
+  return reach;
+}
+
+}  // namespace
+
+ExactView::Piece& ExactView::Piece::operator=(const Piece& other) {
+  count = other.count;
+  error = other.error;
+  window = other.window;
+  const auto filled = static_cast<std::ptrdiff_t>(count);
+  std::copy(other.x.begin(), other.x.begin() + filled, x.begin());
+  std::copy(other.y.begin(), other.y.begin() + filled, y.begin());
+  std::copy(other.edge.begin(), other.edge.begin() + filled, edge.begin());
+  std::copy(other.point.begin(), other.point.begin() + filled, point.begin());
+  return *this;
+}
+
+void ExactView::find_window(Piece& piece) const {
+  Real x0 = piece.x[0], x1 = x0, y0 = piece.y[0], y1 = y0;
+  Real s0 = x0 + y0, s1 = s0, d0 = x0 - y0, d1 = d0;
+  for (std::size_t k = 1; k < piece.count; ++k) {
+    const Real x = piece.x[k], y = piece.y[k], s = x + y, d = x - y;
+    x0 = std::min(x0, x);
+    x1 = std::max(x1, x);
+    y0 = std::min(y0, y);
+    y1 = std::max(y1, y);
+    s0 = std::min(s0, s);
+    s1 = std::max(s1, s);
+    d0 = std::min(d0, d);
+    d1 = std::max(d1, d);
+  }
+  const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
+  const std::array<double, 4> low{x + static_cast<double>(x0), y + static_cast<double>(y0),
+                                  x + y + static_cast<double>(s0), x - y + static_cast<double>(d0)};
+  const std::array<double, 4> high{x + static_cast<double>(x1), y + static_cast<double>(y1),
+                                   x + y + static_cast<double>(s1),
+                                   x - y + static_cast<double>(d1)};
+  for (std::size_t d = 0; d < 4; ++d) {
+    piece.window.ends[d] = -rounded_down(-high[d]);
+    piece.window.ends[d + 4] = -rounded_down(low[d]);
+  }
+}
+
+void ExactView::look_from(std::int32_t face) {
+  start(face, faces_.corners[at(faces_.faces, face).begin]);
+}
+
+void ExactView::start(std::int32_t face, const GridPoint& origin) {
+  const ProjectedFragments::Face& own = at(faces_.faces, face);
+  origin_ = origin;
+  edge_count_ = 0;
+  unused_.insert(unused_.end(), left_.begin(), left_.end());
+  left_.assign(1, new_piece());
+  Piece& piece = pieces_[left_[0]];
+  load_corners(own, piece);
+  reach_ = reach_of(piece);
+  load_edges(own, piece);
+  kept_edges_ = edge_count_;
+  most_ = own.cut_needle ? static_cast<Real>(own.area) : std::numeric_limits<Real>::infinity();
+  left_area_ = area_ = static_cast<Real>(own.area);
+  find_window(piece);
+  window_ = piece.window;
+}
+
+void ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
+  // What is seen in the bin may be small beside the face.
+  start(face, {bin.x + bin.size / 2, bin.y + bin.size / 2});
+  bin_ = bin;
+  Piece& piece = pieces_[left_[0]];
+  for (const LineId line : {low_x, low_y, high_x, high_y}) {
+    const EdgeRef ref = add_edge(bin_line(line), line, made_by_cut, made_by_cut);
+    const Sides sides = measure(piece, ref);
+    if (sides.left == 0) {
+      unused_.push_back(left_[0]);
+      left_.clear();
+      return;
+    }
+    if (sides.right == 0) {
+      continue;
+    }
+    split(piece, ref, sides, rest_[0], rest_[1]);
+    piece = rest_[0];
+  }
+  kept_edges_ = edge_count_;
+  reach_ = reach_of(piece);
+  left_area_ = area_ = std::min(area_of(piece), most_);
+  find_window(piece);
+  window_ = piece.window;
+}
+
+/// A place for one more piece.
+std::uint32_t ExactView::new_piece() {
+  if (unused_.empty()) {
+    pieces_.emplace_back();
+    return static_cast<std::uint32_t>(pieces_.size() - 1);
+  }
+  const std::uint32_t place = unused_.back();
+  unused_.pop_back();
+  return place;
+}
+
+void ExactView::load_corners(const ProjectedFragments::Face& face, Piece& piece) const {
+  piece.count = 0;
+  piece.error = 0;
+  for (std::uint32_t k = 0; k < face.end - face.begin; ++k) {
+    const ProjectedFragments::Place at = faces_.place_of(outlines_, face, k, origin_);
+    const FastOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, face, k);
+    piece.add(at.x, at.y, 0, corner.exact ? corner.point : made_by_cut);
+  }
+}
+
+void ExactView::load_edges(const ProjectedFragments::Face& face, Piece& piece) {
+  const bool plain = outlines_.outlines[face.outline].plain;
+  for (std::uint32_t k = 0; k < piece.count; ++k) {
+    const FastOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, face, k);
+    if (plain) {
+      // From whole numbers: differences of far corners have lost digits.
+      const std::uint32_t next = k + 1 < piece.count ? k + 1 : 0;
+      const GridPoint &from = faces_.corners[face.begin + k],
+                      &to = faces_.corners[face.begin + next];
+      piece.edge[k] =
+          add_edge(piece.x[k], piece.y[k], static_cast<Real>(to.x - from.x),
+                   static_cast<Real>(to.y - from.y), corner.line, corner.point, piece.point[next]);
+    } else {
+      const BspTree::Line& points = at(outlines_.lines, corner.line);
+      piece.edge[k] =
+          add_edge(faces_.line_of(outlines_, corner), corner.line,
+                   corner.forward ? points.a : points.b, corner.forward ? points.b : points.a);
+    }
+  }
+}
+
+ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
+                                       PointId to) {
+  const Real length = std::abs(dx) + std::abs(dy);
+  const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + off_line;
+  // Not shrunk between faces, so that nothing is made anew.
+  if (edges_.size() <= edge_count_) {
+    edges_.resize(2 * edge_count_ + 16);
+  }
+  edges_[edge_count_] = {dx, dy, dy * x - dx * y, length, slack, line, from, to};
+  return static_cast<EdgeRef>(2 * edge_count_++);
+}
+
+ExactView::EdgeRef ExactView::add_edge(const GridLine& through, LineId line, PointId from,
+                                       PointId to) {
+  return add_edge(static_cast<Real>(through.a.x - origin_.x),
+                  static_cast<Real>(through.a.y - origin_.y),
+                  static_cast<Real>(through.b.x - through.a.x),
+                  static_cast<Real>(through.b.y - through.a.y), line, from, to);
+}
+
+/// An edge of a bin's square, the square on its left.
+GridLine ExactView::bin_line(LineId line) const {
+  const std::int64_t x1 = bin_.x + bin_.size, y1 = bin_.y + bin_.size;
+  switch (line) {
+    case low_x:
+      return {{bin_.x, y1}, {bin_.x, bin_.y}};
+    case low_y:
+      return {{bin_.x, bin_.y}, {x1, bin_.y}};
+    case high_x:
+      return {{x1, bin_.y}, {x1, y1}};
+    default:
+      return {{x1, y1}, {bin_.x, y1}};
+  }
+}
+
+GridLine ExactView::grid_line(const Edge& edge) const {
+  if (edge.line < 0) {
+    return bin_line(edge.line);
+  }
+  return {at(faces_.grid.points, edge.from), at(faces_.grid.points, edge.to)};
+}
+
+/// Sides of the corners of `piece` with what is not sure settled; what is on the line is on
+/// neither.
+ExactView::Sides ExactView::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
+  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+  for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
+       unsure &= unsure - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
+    const Real side = exact_side_of(piece, k, ref);
+    sides.left |= static_cast<std::uint64_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint64_t>(side < 0) << k;
+  }
+  return sides;
+}
+
+/// The sides of the corners of `piece` as far as they are sure.
+ExactView::Sides ExactView::sure_sides(const Piece& piece, EdgeRef ref, Real error) const {
+  const Edge& edge = edge_of(ref);
+  const Real limit = edge.length * (edge.slack + error);
+  Sides sides;
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    const Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+    sides.left |= static_cast<std::uint64_t>(side > limit) << k;
+    sides.right |= static_cast<std::uint64_t>(side < -limit) << k;
+  }
+  if (ref & 1) {
+    std::swap(sides.left, sides.right);
+  }
+  return sides;
+}
+
+/// Finds the edges of `by` that have corners of `piece` on their right, as bits of `cuts`. Returns
+/// false where one has none on its left: they share no area.
+bool ExactView::find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts) {
+  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+  for (std::size_t k = 0; k < by.count; ++k) {
+    sides_of_edges_[k] = sure_sides(piece, by.edge[k], error);
+    counts_.decisions += static_cast<std::int64_t>(piece.count);
+    if (sides_of_edges_[k].right == all) {
+      return false;
+    }
+  }
+  cuts = 0;
+  for (std::size_t k = 0; k < by.count; ++k) {
+    Sides sides = sides_of_edges_[k];
+    // What is not sure matters only where it may be all that lies on a side.
+    if ((sides.left == 0 || sides.right == 0) && (sides.left | sides.right) != all) {
+      sides = settled(piece, by.edge[k], sides);
+    }
+    if (sides.left == 0) {
+      return false;
+    }
+    cuts |= static_cast<std::uint64_t>(sides.right != 0) << k;
+  }
+  return true;
+}
+
+/// The sides of the corners of `piece`; leaves the determinants in sides_, their signs right.
+ExactView::Sides ExactView::measure(const Piece& piece, EdgeRef ref) {
+  Sides sides;
+  const Edge& edge = edge_of(ref);
+  const Real sign = ref & 1 ? -1 : 1;
+  const Real bound = edge.length * (edge.slack + piece.error);
+  counts_.decisions += static_cast<std::int64_t>(piece.count);
+  for (std::size_t k = 0; k < piece.count; ++k) {
+    Real side = sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
+    if (std::abs(side) <= bound) {
+      side = exact_side_of(piece, k, ref);
+    }
+    sides_[k] = side;
+    sides.left |= static_cast<std::uint64_t>(side > 0) << k;
+    sides.right |= static_cast<std::uint64_t>(side < 0) << k;
+  }
+  return sides;
+}
+
+/// The determinant of corner k of `piece` and an edge's line where it is too small for Real: its
+/// sign right, and its value too, which says where a cut goes.
+ExactView::Real ExactView::exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const {
+  const Edge& edge = edge_of(ref);
+  const Edge& leaving = edge_of(piece.edge[k]);
+  const Edge& arriving = edge_of(piece.edge[k > 0 ? k - 1 : piece.count - 1]);
+  const PointId point = piece.point[k];
+  // A corner of an edge on that very line is on it, whatever rounding has done to it.
+  if (leaving.line == edge.line || arriving.line == edge.line) {
+    return 0;
+  }
+  if (point != made_by_cut && (point == edge.from || point == edge.to)) {
+    return 0;
+  }
+  const Real sign = ref & 1 ? -1 : 1;
+  if (edge.line == halving ||
+      (point == made_by_cut && (leaving.line == halving || arriving.line == halving))) {
+    return sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
+  }
+  ++counts_.exact_decisions;
+  const GridLine line = grid_line(edge);
+  return sign * static_cast<Real>(point == made_by_cut
+                                      ? exact_side(line, grid_line(arriving), grid_line(leaving))
+                                      : exact_side(line, at(faces_.grid.points, point)));
+}
+
+double ExactView::subtract(std::int32_t face) {
+  const FaceBox& box = at(faces_.boxes, face);
+  const ProjectedFragments::Face& shown = at(faces_.faces, face);
+  bool loaded = false;
+  Real area = 0;
+  parts_.clear();
+  for (std::size_t p = 0; p < left_.size();) {
+    const std::uint32_t place = left_[p];
+    if (!pieces_[place].window.overlaps(box)) {
+      ++p;
+      continue;
+    }
+    if (!loaded) {
+      edge_count_ = kept_edges_;
+      load_corners(shown, shown_);
+      load_edges(shown, shown_);
+      shown_reach_ = reach_of(shown_);
+      loaded = true;
+    }
+    ++counts_.pairs;
+    if (!subtract_from_piece(place, area)) {
+      ++p;
+      continue;
+    }
+    unused_.push_back(place);
+    left_[p] = left_.back();
+    left_.pop_back();
+  }
+  if (area > 0 || !parts_.empty()) {
+    left_.insert(left_.end(), parts_.begin(), parts_.end());
+    left_area_ -= area;
+    find_whole_window();
+  }
+  // A needle's lines may meet anywhere, and what is cut by them reach there.
+  area = std::min(area, most_);
+  most_ -= area;
+  return static_cast<double>(area);
+}
+
+void ExactView::find_whole_window() {
+  if (left_.empty()) {
+    return;
+  }
+  FaceWindow whole = pieces_[left_[0]].window;
+  for (std::size_t p = 1; p < left_.size(); ++p) {
+    whole.add(pieces_[left_[p]].window);
+  }
+  window_ = whole;
+}
+
+/// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside into
+/// parts_. Returns false where they share nothing.
+bool ExactView::subtract_from_piece(std::uint32_t place, Real& area) {
+  std::uint64_t cuts = 0, cuts_of_shown = 0;
+  if (!find_cuts(pieces_[place], shown_, pieces_[place].error, cuts)) {
+    return false;
+  }
+  if (cuts == 0) {
+    area += area_of(pieces_[place]);
+    return true;
+  }
+  if (!find_cuts(shown_, pieces_[place], rounding * shown_reach_, cuts_of_shown)) {
+    return false;
+  }
+  const std::size_t parts = parts_.size();
+  std::size_t used = 0;
+  const Piece* rest = &pieces_[place];
+  for (; cuts != 0; cuts &= cuts - 1) {
+    const EdgeRef ref = at(shown_.edge, std::countr_zero(cuts));
+    const Sides sides = measure(*rest, ref);
+    if (sides.left == 0) {
+      // They share nothing: take the cuts back.
+      unused_.insert(unused_.end(), parts_.begin() + static_cast<std::ptrdiff_t>(parts),
+                     parts_.end());
+      parts_.resize(parts);
+      return false;
+    }
+    if (sides.right == 0) {
+      continue;
+    }
+    const bool from_place = rest == &pieces_[place];
+    const std::uint32_t part = new_piece();
+    if (from_place) {
+      rest = &pieces_[place];
+    }
+    split(*rest, ref, sides, rest_[used], pieces_[part]);
+    parts_.push_back(part);
+    if (pieces_[part].count > many_corners) {
+      halve(part);
+    }
+    find_window(pieces_[part]);
+    rest = &rest_[used];
+    used = 1 - used;
+  }
+  kept_edges_ = edge_count_;
+  area += area_of(*rest);
+  return true;
+}
+
+/// Cuts a piece with many corners from one to another, and adds the other half to parts_.
+void ExactView::halve(std::uint32_t place) {
+  const std::uint32_t other = new_piece();
+  const Piece whole = pieces_[place];
+  Piece &first = pieces_[place], &second = pieces_[other];
+  const std::size_t middle = whole.count / 2;
+  const EdgeRef chord = add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
+                                 whole.y[0] - whole.y[middle], halving, made_by_cut, made_by_cut);
+  first.count = middle + 1;
+  first.edge[middle] = chord;
+  second.count = 0;
+  second.error = whole.error;
+  second.add(whole.x[0], whole.y[0], chord ^ 1, whole.point[0]);
+  for (std::size_t k = middle; k < whole.count; ++k) {
+    second.add(whole.x[k], whole.y[k], whole.edge[k], whole.point[k]);
+  }
+  find_window(second);
+  parts_.push_back(other);
+}
+
+/// Splits a piece along a line that has corners on both sides, as measure() has just found.
+///
+///            F ── … ── L        F … L: corners on the left, which is inside
+///           /           \\.
+///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; of both parts
+///           \\           /
+///            … ─── … ──        outside
+void ExactView::split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside) {
+  ++counts_.cuts;
+  const std::size_t count = piece.count;
+  const auto after = [count](std::size_t k) { return k + 1 < count ? k + 1 : 0; };
+  const auto before = [count](std::size_t k) { return k > 0 ? k - 1 : count - 1; };
+  const auto is_left = [&](std::size_t k) { return (sides.left >> k & 1) != 0; };
+  // Find a run of corners on the left; in a convex piece there is but one.
+  auto first = static_cast<std::size_t>(std::countr_zero(sides.left));
+  if (first == 0) {
+    while (is_left(before(first))) {
+      first = before(first);
+    }
+  }
+  inside.count = outside.count = 0;
+  inside.error = outside.error = piece.error;
+  std::size_t last = first;
+  for (std::size_t k = first; is_left(k); k = after(k)) {
+    inside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+    last = k;
+  }
+  // X, where the outline leaves the left side.
+  std::size_t k = after(last);
+  if (sides_[k] == 0) {
+    inside.add(piece.x[k], piece.y[k], by, piece.point[k]);
+    outside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+    k = after(k);
+  } else {
+    add_crossing(piece, last, k, by, inside, outside);
+  }
+  // Y, where it comes back.
+  const std::size_t back = before(first);
+  const std::size_t end = sides_[back] == 0 ? back : first;
+  for (; k != end; k = after(k)) {
+    outside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+  }
+  if (end == back) {
+    inside.add(piece.x[back], piece.y[back], piece.edge[back], piece.point[back]);
+    outside.add(piece.x[back], piece.y[back], by ^ 1, piece.point[back]);
+  } else {
+    add_crossing(piece, back, first, by, inside, outside);
+  }
+}
+
+/// The point of the grid through which two lines both run by their making, if any.
+PointId ExactView::common_point(const Edge& p, const Edge& q) {
+  if (p.from == q.from || p.from == q.to) {
+    return p.from;
+  }
+  return p.to == q.from || p.to == q.to ? p.to : made_by_cut;
+}
+
+/// Adds the point where the edge from corner `from` to corner `to` crosses the line `by` to both
+/// parts.
+void ExactView::add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by,
+                             Piece& inside, Piece& outside) {
+  const Real here = sides_[from], there = sides_[to];
+  const Real across = 1 / (here - there);
+  const Real dx = piece.x[to] - piece.x[from], dy = piece.y[to] - piece.y[from];
+  const Real t = here * across;
+  Real x = piece.x[from] + t * dx, y = piece.y[from] + t * dy;
+  const Edge& edge = edge_of(piece.edge[from]);
+  const Edge& cutting = edge_of(by);
+  // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
+  // farther from where they meet.
+  const Real nearness = edge.slack + cutting.slack + rounding * (std::abs(x) + std::abs(y));
+  const Real flatness =
+      edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
+  Real error = nearness * flatness;
+  const PointId common = common_point(edge, cutting);
+  if (common != made_by_cut) {
+    const GridPoint& p = at(faces_.grid.points, common);
+    x = static_cast<Real>(p.x - origin_.x);
+    y = static_cast<Real>(p.y - origin_.y);
+    error = 0;
+  } else if (!(flatness < 0x1p6) && edge.line != halving && cutting.line != halving) {
+    // The lines meet at a flat angle.
+    ++counts_.exact_decisions;
+    const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);
+    if (!meeting.parallel) {
+      // Corners of cut faces lie a little off their lines: no farther than the edge goes.
+      const auto [x0, x1] = std::minmax(piece.x[from], piece.x[to]);
+      const auto [y0, y1] = std::minmax(piece.y[from], piece.y[to]);
+      x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
+      y = std::clamp(static_cast<Real>(meeting.y), y0, y1);
+      error = nearness;
+    }
+  }
+  // The outline goes on along the line where it leaves a part's own side.
+  const bool leaves_inside = here > 0;
+  inside.add(x, y, leaves_inside ? by : piece.edge[from], common);
+  outside.add(x, y, leaves_inside ? piece.edge[from] : by ^ 1, common);
+  inside.error = std::max(inside.error, error);
+  outside.error = std::max(outside.error, error);
+}
+
+ExactView::Real ExactView::area_of(const Piece& piece) {
+  Real twice = 0;
+  const Real x0 = piece.x[0], y0 = piece.y[0];
+  for (std::size_t k = 2; k < piece.count; ++k) {
+    twice += (piece.x[k - 1] - x0) * (piece.y[k] - y0) - (piece.y[k - 1] - y0) * (piece.x[k] - x0);
+  }
+  return std::max(0.0L, twice / 2);
+}
+
+}  // namespace transillum

@@ -1,0 +1,30 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/visibility_map.h"
+
+namespace transillum {
+
+/// A point of the transillumination plane in whole steps of a grid, |x|, |y| < 2^60: differences
+/// are exact, and so are determinants of them in 128 bits.
+struct GridPoint {
+  std::int64_t x = 0, y = 0;
+};
+
+/// All points of a tree, projected along one direction and rounded to a grid 2^-60 as wide as the
+/// scene (decisions/0013-predicates.md).
+struct GridProjection {
+  PlaneFrame frame;
+  double step = 1;  ///< meters, a power of two
+  std::vector<GridPoint> points;
+
+  /// @throws Canceled
+  void project(const Scene& scene, const BspTree& tree, const Vec3& omega,
+               const Cancellation& cancellation);
+};
+
+}  // namespace transillum

@@ -1,0 +1,252 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/fast/outline_view.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+/// Bounds the rounding of what is made of a polygon's coordinates, over the largest.
+constexpr double rounding = 0x1p-49;
+
+/// Where as many times what rounding does to an area is more than a face's, it may show.
+constexpr double too_much = 0x1p36;
+
+/// A point relative to a bin's center.
+struct WidePoint {
+  long double x, y;
+};
+using WidePolygon = std::array<WidePoint, FastOutlines::most_corners + 4>;
+
+/// Keeps what lies on the inner side of one side of a square about the origin.
+std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long double half,
+                 WidePolygon& clipped) {
+  const bool along_x = side % 2 == 0;
+  const long double limit = side < 2 ? half : -half;
+  const auto depth = [&](const WidePoint& p) {
+    const long double at = along_x ? p.x : p.y;
+    return side < 2 ? half - at : half + at;
+  };
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const WidePoint &p = polygon[k], &q = polygon[k + 1 < count ? k + 1 : 0];
+    const long double here = depth(p), there = depth(q);
+    if (here >= 0) {
+      clipped[n++] = p;
+    }
+    if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+      const long double t = here / (here - there);
+      clipped[n++] = along_x ? WidePoint{limit, p.y + t * (q.y - p.y)}
+                             : WidePoint{p.x + t * (q.x - p.x), limit};
+    }
+  }
+  return n;
+}
+
+/// What a box reaches.
+FaceWindow window_of(const FaceBox& box) {
+  FaceWindow window;
+  for (std::size_t d = 0; d < 4; ++d) {
+    window.ends[d] = -box.ends[d + 4];
+    window.ends[d + 4] = -box.ends[d];
+  }
+  return window;
+}
+
+}  // namespace
+
+void OutlineView::look_from(std::int32_t face) {
+  own_ = &at(faces_.faces, face);
+  bin_ = nullptr;
+  outlined_ = failed_ = false;
+  window_ = window_of(at(faces_.boxes, face));
+}
+
+void OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
+  look_from(face);
+  bin_ = &bin;
+  const auto x = static_cast<double>(bin.x), y = static_cast<double>(bin.y);
+  const auto size = static_cast<double>(bin.size);
+  const auto limit = [&](std::size_t d, double end) {
+    window_.ends[d] = std::min(window_.ends[d], rounded_up(end));
+  };
+  limit(0, x + size);
+  limit(1, y + size);
+  limit(4, -x);
+  limit(5, -y);
+}
+
+/// A region of this area is what looks.
+void OutlineView::begin(double area, double reach) {
+  const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
+  far_ends_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
+  area_ = left_area_ = area;
+  cutter_.tolerance = rounding * reach;
+  reach_ = reach;
+  failed_ = own_->cut_needle || too_much * (cutter_.tolerance * reach) > own_->area;
+  find_window();
+}
+
+void OutlineView::outline_whole() {
+  const GridPoint* const corners = faces_.corners.data() + own_->begin;
+  const std::size_t count = own_->end - own_->begin;
+  origin_ = corners[0];
+  left_->count = 0;
+  double reach = 0, from_x = 0, from_y = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    const auto x = static_cast<double>(corners[k].x - origin_.x);
+    const auto y = static_cast<double>(corners[k].y - origin_.y);
+    left_->add(from_x, from_y, x, y);
+    reach = std::max(reach, std::abs(x) + std::abs(y));
+    from_x = x;
+    from_y = y;
+  }
+  left_->add(from_x, from_y, 0, 0);
+  begin(own_->area, reach);
+}
+
+void OutlineView::outline_in_bin() {
+  const std::int64_t half = bin_->size / 2;
+  origin_ = {bin_->x + half, bin_->y + half};
+  WidePolygon polygon, clipped;
+  std::size_t count = own_->end - own_->begin;
+  for (std::size_t k = 0; k < count; ++k) {
+    const GridPoint& p = faces_.corners[own_->begin + k];
+    polygon[k] = {static_cast<long double>(p.x - origin_.x),
+                  static_cast<long double>(p.y - origin_.y)};
+  }
+  for (int side = 0; side < 4 && count > 0; ++side) {
+    count = clip(polygon, count, side, static_cast<long double>(half), clipped);
+    polygon = clipped;
+  }
+  left_->count = 0;
+  long double twice_area = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const WidePoint &p = polygon[k], &q = polygon[k + 1 < count ? k + 1 : 0];
+    left_->add(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(q.x),
+               static_cast<double>(q.y));
+    twice_area +=
+        (p.x - polygon[0].x) * (q.y - polygon[0].y) - (p.y - polygon[0].y) * (q.x - polygon[0].x);
+  }
+  begin(static_cast<double>(twice_area / 2), static_cast<double>(bin_->size));
+}
+
+void OutlineView::find_window() {
+  if (left_->count == 0) {
+    return;
+  }
+  extent_ = extent_of(*left_);
+  for (std::size_t d = 0; d < 8; ++d) {
+    window_.ends[d] = rounded_up(far_ends_[d] + extent_[d]);
+  }
+}
+
+double OutlineView::subtract(std::int32_t face) {
+  const ProjectedFragments::Face& shown = at(faces_.faces, face);
+  if (!outlined_) {
+    outlined_ = true;
+    if (bin_) {
+      outline_in_bin();
+    } else {
+      outline_whole();
+    }
+    if (failed_ || left_->count == 0) {
+      return 0;
+    }
+  }
+  set_cutter(cutter_, faces_.corners.data() + shown.begin, shown.end - shown.begin, origin_,
+             4 * reach_);
+  // A point that is near to what both polygons share.
+  cutter_.pivot_x = std::clamp(cutter_.x[0], -extent_[4], extent_[0]);
+  cutter_.pivot_y = std::clamp(cutter_.y[0], -extent_[5], extent_[1]);
+  ++counts_.pairs;
+  counts_.decisions += static_cast<std::int64_t>(left_->count * cutter_.count);
+  if (!cut_outline(*left_, cutter_, cut_, *rest_)) {
+    return 0;
+  }
+  double twice_area = cut_.twice_area;
+  const double noise = 0.25 * cutter_.tolerance * cutter_.perimeter;
+  failed_ = shown.cut_needle || too_much * noise > shown.area || !add_edges(twice_area) ||
+            rest_->count > Outline::most;
+  const double area = 0.5 * twice_area;
+  if (failed_ || area <= noise) {
+    return 0;
+  }
+  counts_.cuts += static_cast<std::int64_t>(cutter_.count);
+  std::swap(left_, rest_);
+  left_area_ -= area;
+  if (!done()) {
+    find_window();
+  }
+  return area;
+}
+
+/// Adds the parts of the cutter's edges that lie in the region: to twice_area, and, turned round,
+/// to what is left. Returns false where rounding has made the ends of such parts inconsistent.
+bool OutlineView::add_edges(double& twice_area) {
+  struct Crossing {
+    double along, x, y;
+    int step;  ///< the region begins, 1, or ends, -1
+  };
+  std::array<Crossing, 2 * Outline::most> crossings;
+  int winding = cut_.winding[0];
+  for (std::size_t m = 0; m < cutter_.count; ++m) {
+    if (winding != cut_.winding[m] || winding < 0 || winding > 1) {
+      return false;
+    }
+    const std::size_t next = m + 1 < cutter_.count ? m + 1 : 0;
+    const std::uint64_t in = cut_.comes_in[m], out = cut_.goes_out[m];
+    if (winding == 0 && (in | out) == 0) {
+      continue;
+    }
+    std::size_t count = 0;
+    const auto insert = [&](double x, double y, int step) {
+      const double along = cutter_.dx[m] * (x - cutter_.x[m]) + cutter_.dy[m] * (y - cutter_.y[m]);
+      std::size_t k = count++;
+      for (; k > 0 && crossings[k - 1].along > along; --k) {
+        crossings[k] = crossings[k - 1];
+      }
+      crossings[k] = {along, x, y, step};
+    };
+    for (std::uint64_t bits = in; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+      insert(cut_.in_x[k], cut_.in_y[k], -1);
+    }
+    for (std::uint64_t bits = out; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+      insert(cut_.out_x[k], cut_.out_y[k], 1);
+    }
+    double from_x = cutter_.x[m], from_y = cutter_.y[m];
+    const auto go_to = [&](double x, double y) {
+      const bool moved = x != from_x || y != from_y;
+      if (moved && winding != 0) {
+        if (winding != 1 || rest_->count == Outline::room) {
+          return false;
+        }
+        twice_area += (from_x - cutter_.pivot_x) * (y - cutter_.pivot_y) -
+                      (from_y - cutter_.pivot_y) * (x - cutter_.pivot_x);
+        rest_->add(x, y, from_x, from_y);
+      }
+      from_x = x;
+      from_y = y;
+      return true;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!go_to(crossings[k].x, crossings[k].y)) {
+        return false;
+      }
+      winding += crossings[k].step;
+    }
+    if (!go_to(cutter_.x[next], cutter_.y[next])) {
+      return false;
+    }
+  }
+  return winding == cut_.winding[0];
+}
+
+}  // namespace transillum

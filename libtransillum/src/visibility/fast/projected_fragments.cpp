@@ -1,0 +1,253 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/fast/projected_fragments.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "transillum/at.h"
+#include "visibility/fast/exact_side.h"
+
+namespace transillum {
+namespace {
+
+constexpr double thinnest = 2;                                ///< steps
+constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
+
+/// Whether the outline turns left everywhere but for rounding: one seen within rounding of
+/// edge-on may not, and takes no part (as SeenFragment has it).
+bool is_convex(const GridPoint* outline, std::size_t count, double area) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const GridPoint& a = outline[k];
+    const GridPoint& b = outline[(k + 1) % count];
+    const GridPoint& c = outline[(k + 2) % count];
+    const WideInteger turn = exact_turn(a, b, c);
+    if (turn >= 0) {
+      continue;
+    }
+    const auto square = [](std::int64_t v) {
+      return static_cast<long double>(v) * static_cast<long double>(v);
+    };
+    const long double size =
+        square(b.x - a.x) + square(b.y - a.y) + square(c.x - b.x) + square(c.y - b.y);
+    if (static_cast<long double>(turn) < -1e-14L * size &&
+        -64 * static_cast<long double>(turn) > static_cast<long double>(area)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Twice the area, > 0 where the outline turns left; exact where little of the products is left.
+double twice_area_of(const GridPoint* outline, std::size_t count) {
+  double sum = 0, size = 0;
+  for (std::size_t k = 2; k < count; ++k) {
+    const auto ax = static_cast<double>(outline[k - 1].x - outline[0].x);
+    const auto ay = static_cast<double>(outline[k - 1].y - outline[0].y);
+    const auto bx = static_cast<double>(outline[k].x - outline[0].x);
+    const auto by = static_cast<double>(outline[k].y - outline[0].y);
+    sum += ax * by - ay * bx;
+    size += std::abs(ax * by) + std::abs(ay * bx);
+  }
+  if (std::abs(sum) > 0x1p-5 * size) {
+    return sum;
+  }
+  WideInteger exact = 0;
+  for (std::size_t k = 2; k < count; ++k) {
+    exact += exact_turn(outline[0], outline[k - 1], outline[k]);
+  }
+  return static_cast<double>(exact);
+}
+
+FaceBox box_of(const GridPoint* outline, std::size_t count) {
+  std::array<double, 8> ends;
+  ends.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto x = static_cast<double>(outline[k].x), y = static_cast<double>(outline[k].y);
+    const std::array<double, 8> along{x, y, x + y, x - y, -x, -y, -x - y, y - x};
+    for (std::size_t d = 0; d < 8; ++d) {
+      ends[d] = std::min(ends[d], along[d]);
+    }
+  }
+  FaceBox box;
+  for (std::size_t d = 0; d < 8; ++d) {
+    box.ends[d] = rounded_down(ends[d]);
+  }
+  return box;
+}
+
+}  // namespace
+
+FastOutlines::FastOutlines(const BspTree& tree) : lines(tree.lines()) {
+  for (const BspTree::Fragment& fragment : tree.fragments()) {
+    first.push_back(static_cast<std::uint32_t>(outlines.size()));
+    const auto all = tree.corners(fragment);
+    std::vector<BspTree::Corner> rest(all.begin(), all.end());
+    while (rest.size() > most_corners) {
+      // The diagonal from the last corner of the part to the first of all closes the part, and
+      // opens what is left.
+      std::vector<BspTree::Corner> part(rest.begin(), rest.begin() + most_corners);
+      const PointId a = part.front().point, b = part.back().point;
+      const auto line = static_cast<LineId>(lines.size());
+      lines.push_back({std::min(a, b), std::max(a, b)});
+      rest.erase(rest.begin() + 1, rest.begin() + most_corners - 1);
+      rest.front() = {a, line, a < b};
+      part.back() = {b, line, b < a};
+      add(fragment.patch, part);
+    }
+    add(fragment.patch, rest);
+  }
+  first.push_back(static_cast<std::uint32_t>(outlines.size()));
+}
+
+void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) {
+  Outline outline{patch, static_cast<std::uint32_t>(corners.size()), 0, true};
+  const auto runs_through = [this](LineId line, PointId point) {
+    const BspTree::Line& points = at(lines, line);
+    return points.a == point || points.b == point;
+  };
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    const BspTree::Corner& corner = part[k];
+    const BspTree::Corner& before = part[k > 0 ? k - 1 : part.size() - 1];
+    const bool exact =
+        runs_through(corner.line, corner.point) && runs_through(before.line, corner.point);
+    outline.plain = outline.plain && exact && corner.line != before.line;
+    corners.push_back({corner.point, corner.line, corner.forward, exact});
+  }
+  outline.end = static_cast<std::uint32_t>(corners.size());
+  outlines.push_back(outline);
+}
+
+void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
+                                 const FastOutlines& outlines, const Vec3& omega,
+                                 const Cancellation& cancellation, const PatchShaft* shaft) {
+  grid.project(scene, tree, omega, cancellation);
+  boxes.clear();
+  faces.clear();
+  corners.clear();
+  boxes.reserve(outlines.outlines.size());
+  faces.reserve(outlines.outlines.size());
+  corners.reserve(outlines.corners.size());
+  std::vector<FragmentId> order = tree.order(omega, cancellation);
+  if (shaft != nullptr) {
+    std::erase_if(order, [&](FragmentId f) { return !shaft->may_hold(f, omega); });
+  }
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    if (place % 4096 == 0) {
+      cancellation.throw_if_canceled();
+    }
+    fetch(outlines, order, place);
+    const auto fragment = static_cast<std::size_t>(order[place]);
+    for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
+      if (!add(outlines, k)) {
+        corners.resize(faces.empty() ? 0 : faces.back().end);
+      }
+    }
+  }
+}
+
+/// The order jumps about in the outlines and the points: what will be wanted soon is asked for.
+void ProjectedFragments::fetch(const FastOutlines& outlines, const std::vector<FragmentId>& order,
+                               std::size_t place) const {
+  constexpr std::size_t soon = 8;
+  const auto corners_at = [&](std::size_t later) {
+    const auto fragment = static_cast<std::size_t>(order[std::min(later, order.size() - 1)]);
+    return outlines.corners.data() + outlines.outlines[outlines.first[fragment]].begin;
+  };
+  __builtin_prefetch(corners_at(place + 2 * soon));
+  const FastOutlines::Corner* const next = corners_at(place + soon);
+  for (std::size_t k = 0; k < 3; ++k) {
+    __builtin_prefetch(grid.points.data() + static_cast<std::size_t>(next[k].point));
+  }
+}
+
+/// Returns false, and leaves corners behind, where the outline is seen edge-on.
+bool ProjectedFragments::add(const FastOutlines& outlines, std::uint32_t which) {
+  const FastOutlines::Outline& outline = outlines.outlines[which];
+  const auto begin = static_cast<std::uint32_t>(corners.size());
+  for (std::uint32_t k = outline.begin; k < outline.end; ++k) {
+    corners.push_back(at(grid.points, outlines.corners[k].point));
+  }
+  GridPoint* const first = corners.data() + begin;
+  const std::size_t count = corners.size() - begin;
+  const double twice_area = twice_area_of(first, count);
+  const bool front = twice_area > 0;
+  if (!front) {
+    std::reverse(first, first + count);
+  }
+  const FaceBox box = box_of(first, count);
+  const double area = 0.5 * std::abs(twice_area);
+  const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
+  const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
+  const double size = width * width + height * height;
+  // What is thinner than the steps that corners are rounded to is seen edge-on.
+  if (area < thinnest * std::sqrt(size)) {
+    return false;
+  }
+  const bool needle = area < 0x1p-11 * size;
+  if (needle && !is_convex(first, count, area)) {
+    return false;
+  }
+  boxes.push_back(box);
+  faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front,
+                   needle && !outline.plain, area});
+  if (faces.back().cut_needle) {
+    faces.back().area = cut_needle_area(outlines, faces.back());
+  }
+  return true;
+}
+
+FastOutlines::Corner ProjectedFragments::corner_of(const FastOutlines& outlines, const Face& face,
+                                                   std::uint32_t k) {
+  const FastOutlines::Corner* const corners =
+      outlines.corners.data() + outlines.outlines[face.outline].begin;
+  if (face.front) {
+    return corners[k];
+  }
+  const std::uint32_t count = face.end - face.begin;
+  FastOutlines::Corner corner = corners[count - 1 - k];
+  const FastOutlines::Corner& next = corners[k + 1 < count ? count - 2 - k : count - 1];
+  corner.line = next.line;
+  corner.forward = !next.forward;
+  return corner;
+}
+
+ProjectedFragments::Place ProjectedFragments::place_of(const FastOutlines& outlines,
+                                                       const Face& face, std::uint32_t k,
+                                                       const GridPoint& origin) const {
+  const GridPoint& at = corners[face.begin + k];
+  const Place rounded{static_cast<long double>(at.x - origin.x),
+                      static_cast<long double>(at.y - origin.y)};
+  if (!face.cut_needle) {
+    return rounded;
+  }
+  const FastOutlines::Corner leaving = corner_of(outlines, face, k);
+  if (leaving.exact) {
+    return rounded;
+  }
+  const FastOutlines::Corner arriving =
+      corner_of(outlines, face, k > 0 ? k - 1 : face.end - face.begin - 1);
+  const Meeting meeting =
+      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), at);
+  // Lines that all but coincide may meet anywhere.
+  const auto most = static_cast<long double>(farthest_off);
+  if (meeting.parallel || std::abs(meeting.x) > most || std::abs(meeting.y) > most) {
+    return rounded;
+  }
+  return {rounded.x + meeting.x, rounded.y + meeting.y};
+}
+
+double ProjectedFragments::cut_needle_area(const FastOutlines& outlines, const Face& face) const {
+  const GridPoint& origin = corners[face.begin];
+  const Place first = place_of(outlines, face, 0, origin);
+  Place before = place_of(outlines, face, 1, origin);
+  long double twice = 0;
+  for (std::uint32_t k = 2; k < face.end - face.begin; ++k) {
+    const Place place = place_of(outlines, face, k, origin);
+    twice +=
+        (before.x - first.x) * (place.y - first.y) - (before.y - first.y) * (place.x - first.x);
+    before = place;
+  }
+  return static_cast<double>(twice / 2);
+}
+
+}  // namespace transillum

@@ -1,0 +1,21 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The local map in exact numbers: what it says of the scene's double coordinates, seen along the
+// frame's double axes, is true; areas are rounded when all is summed.
+#include <memory>
+#include <utility>
+
+#include "visibility/map/local_map.h"
+#include "visibility/map/map_engines.h"
+#include "visibility/plane/exact_number.h"
+
+namespace transillum {
+
+TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
+                            std::shared_ptr<const BspTree> tree) {
+  return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
+                                                            const Cancellation& cancellation) {
+    return LocalMap<Rational, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+  };
+}
+
+}  // namespace transillum

@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/map/local_map.h"
+
+#include <memory>
+#include <utility>
+
+#include "visibility/map/map_engines.h"
+
+namespace transillum {
+
+TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
+                                std::shared_ptr<const BspTree> tree) {
+  return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
+                                                            const Cancellation& cancellation) {
+    return LocalMap<Real, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+  };
+}
+
+RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
+                                   const Cancellation& cancellation) {
+  RecordedDirection result;
+  result.transfers =
+      LocalMap<Real, Recorder>(scene, tree, omega, cancellation, {result.record}).run();
+  return result;
+}
+
+}  // namespace transillum

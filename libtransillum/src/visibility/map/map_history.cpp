@@ -1,0 +1,177 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/map_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "transillum/at.h"
+
+namespace transillum {
+
+namespace {
+
+bool is_inside_part(const MapRecord::Row& row) { return row.made == row.consumed; }
+
+bool is_outside_part(const MapRecord::Row& row) {
+  return row.parent != MapRecord::no_row && row.made != row.consumed;
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+double MapHistory::Step::open_share() const {
+  return area > 0 ? std::abs(area - covered) / area : 0;
+}
+
+MapHistory::MapHistory(MapRecord record) : record_(std::move(record)) {
+  record_.rows.shrink_to_fit();
+  record_.corners.shrink_to_fit();
+  find_steps();
+  find_patches();
+}
+
+void MapHistory::find_steps() {
+  const std::int32_t steps = record_.step_count();
+  const auto rows = static_cast<std::int32_t>(record_.rows.size());
+  steps_.resize(static_cast<std::size_t>(steps));
+  first_row_.resize(static_cast<std::size_t>(steps) + 1);
+  std::int32_t r = 0, map_size = 0;
+  for (std::int32_t k = 0; k < steps; ++k) {
+    Step& step = at(steps_, k);
+    step.patch = at(record_.step_patch, k);
+    at(first_row_, k) = r;
+    const std::int32_t first = r;
+    // The polygon itself is its step's last row.
+    while (r < rows && row(r).made == k) {
+      ++r;
+    }
+    if (r > first) {
+      step.row = r - 1;
+      step.front_facing = row(step.row).front_facing;
+    }
+    for (std::int32_t made = first; made < r; ++made) {
+      const double area = record_.area(row(made));
+      step.smallest = made == first ? area : std::min(step.smallest, area);
+      if (!is_inside_part(row(made))) {
+        ++map_size;
+        if (made == step.row) {
+          step.area = area;
+        }
+        continue;
+      }
+      --map_size;  // its parent
+      ++step.cut;
+      step.covered += area;
+      if (!exchanges(made)) {
+        continue;
+      }
+      ++step.exchanges;
+      step.exchanged += area;
+    }
+    step.map_size = map_size;
+  }
+  at(first_row_, steps) = r;
+}
+
+void MapHistory::find_patches() {
+  PatchId patches = 0;
+  for (const PatchId patch : record_.step_patch) {
+    patches = std::max(patches, patch + 1);
+  }
+  // Steps come in order, so the last one noted of a patch tells whether this one is new.
+  std::vector<std::int32_t> last(static_cast<std::size_t>(patches), none);
+  const auto each_event = [&](const auto& note) {
+    std::fill(last.begin(), last.end(), none);
+    for (std::int32_t k = 0; k < step_count(); ++k) {
+      const auto note_once = [&](PatchId patch) {
+        if (std::exchange(at(last, patch), k) != k) {
+          note(patch, k);
+        }
+      };
+      note_once(step(k).patch);
+      for (std::int32_t r = first_row(k); r < first_row(k + 1); ++r) {
+        note_once(row(r).patch);
+      }
+    }
+  };
+  patch_begin_.assign(static_cast<std::size_t>(patches) + 1, 0);
+  each_event(
+      [&](PatchId patch, std::int32_t) { ++patch_begin_[static_cast<std::size_t>(patch) + 1]; });
+  for (std::size_t p = 1; p < patch_begin_.size(); ++p) {
+    patch_begin_[p] += patch_begin_[p - 1];
+  }
+  patch_steps_.resize(patch_begin_.back());
+  std::vector<std::uint32_t> end(patch_begin_.begin(), patch_begin_.end() - 1);
+  each_event([&](PatchId patch, std::int32_t k) { patch_steps_[at(end, patch)++] = k; });
+}
+
+std::vector<std::int32_t> MapHistory::cut_at(std::int32_t k) const {
+  std::vector<std::int32_t> rows = inside_at(k);
+  for (std::int32_t& r : rows) {
+    r = row(r).parent;
+  }
+  return rows;
+}
+
+std::vector<std::int32_t> MapHistory::inside_at(std::int32_t k) const {
+  std::vector<std::int32_t> rows;
+  for (std::int32_t r = first_row(k); r < first_row(k + 1); ++r) {
+    if (is_inside_part(row(r))) {
+      rows.push_back(r);
+    }
+  }
+  return rows;
+}
+
+std::vector<std::int32_t> MapHistory::outside_at(std::int32_t k) const {
+  std::vector<std::int32_t> rows;
+  for (std::int32_t r = first_row(k); r < first_row(k + 1); ++r) {
+    if (is_outside_part(row(r))) {
+      rows.push_back(r);
+    }
+  }
+  return rows;
+}
+
+bool MapHistory::exchanges(std::int32_t r) const {
+  // What lies above shines down (is back facing), and what lies below looks up: see TransferSums.
+  const std::int32_t below = at(steps_, row(r).made).row;
+  return row(below).front_facing && !row(r).front_facing;
+}
+
+PatchId MapHistory::cut_by(std::int32_t r) const {
+  return row(r).parent == MapRecord::no_row ? no_patch : step(row(r).made).patch;
+}
+
+std::span<const std::int32_t> MapHistory::steps_of(PatchId patch) const {
+  const auto p = static_cast<std::size_t>(patch);
+  if (patch < 0 || p + 1 >= patch_begin_.size()) {
+    return {};
+  }
+  return {patch_steps_.data() + patch_begin_[p], patch_begin_[p + 1] - patch_begin_[p]};
+}
+
+std::int32_t MapHistory::next_step_of(PatchId patch, std::int32_t k) const {
+  const auto steps = steps_of(patch);
+  const auto after = std::upper_bound(steps.begin(), steps.end(), k);
+  return after == steps.end() ? none : *after;
+}
+
+std::int32_t MapHistory::previous_step_of(PatchId patch, std::int32_t k) const {
+  const auto steps = steps_of(patch);
+  const auto from = std::lower_bound(steps.begin(), steps.end(), k);
+  return from == steps.begin() ? none : *(from - 1);
+}
+
+std::size_t MapHistory::memory() const {
+  return bytes_of(record_.order) + bytes_of(record_.step_patch) + bytes_of(record_.rows) +
+         bytes_of(record_.corners) + bytes_of(steps_) + bytes_of(first_row_) +
+         bytes_of(patch_steps_) + bytes_of(patch_begin_);
+}
+
+}  // namespace transillum

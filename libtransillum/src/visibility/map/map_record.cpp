@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <span>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/visibility_map.h"
+
+namespace transillum {
+
+double MapRecord::area(const Row& row) const {
+  const auto corner = outline(row);
+  double twice = 0;
+  for (std::size_t k = 2; k < corner.size(); ++k) {
+    const Vec2 &a = corner[0], &b = corner[k - 1], &c = corner[k];
+    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return twice / 2;
+}
+
+bool MapRecord::covers(const Row& row, const Vec2& p) const {
+  // Convex, and needles may have turned over: p lies on one side of all edges.
+  const auto corner = outline(row);
+  bool left = true, right = true;
+  for (std::size_t k = 0; k < corner.size() && (left || right); ++k) {
+    const Vec2 &a = corner[k], &b = corner[(k + 1) % corner.size()];
+    const double side = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    left = left && side >= 0;
+    right = right && side <= 0;
+  }
+  return left != right;
+}
+
+std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
+  std::vector<std::int32_t> map;
+  // Rows are in order of making.
+  for (std::size_t r = 0; r < rows.size() && rows[r].made <= step; ++r) {
+    if (step < rows[r].consumed) {
+      map.push_back(static_cast<std::int32_t>(r));
+    }
+  }
+  return map;
+}
+
+std::int32_t MapRecord::fullest_step() const {
+  struct Change {
+    double rows = 0, area = 0;
+  };
+  std::vector<Change> changes(static_cast<std::size_t>(step_count()) + 1);
+  for (const Row& row : rows) {
+    if (row.front_facing) {
+      continue;
+    }
+    const double area = this->area(row);
+    Change& made = at(changes, row.made);
+    made.rows += 1;
+    made.area += area;
+    if (row.consumed == never) {
+      continue;
+    }
+    Change& consumed = at(changes, row.consumed);
+    consumed.rows -= 1;
+    consumed.area -= area;
+  }
+  std::int32_t fullest = -1;
+  double row_count = 0, area = 0, most = 0;
+  for (std::int32_t step = 0; step < step_count(); ++step) {
+    row_count += at(changes, step).rows;
+    area += at(changes, step).area;
+    if (row_count * area > most) {
+      most = row_count * area;
+      fullest = step;
+    }
+  }
+  return fullest;
+}
+
+}  // namespace transillum

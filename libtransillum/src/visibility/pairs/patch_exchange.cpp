@@ -1,0 +1,222 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "visibility/pairs/patch_exchange.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "transillum/at.h"
+#include "transillum/bsp_tree.h"
+#include "visibility/pairs/merged_pieces.h"
+#include "visibility/pairs/point_view.h"
+#include "visibility/pairs/shaft.h"
+
+namespace transillum {
+namespace {
+
+/// Calls visit(point, weight) for points of a polygon, weights adding up to its area: the rule of
+/// three points on each of `steps`² equal parts of each triangle about the first corner; none: its
+/// middle.
+template <class Visit>
+void for_points_of(Outline polygon, int steps, Visit&& visit) {
+  constexpr double sixth = 1.0 / 6;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    const Vec3 a = polygon[k] - polygon[0], b = polygon[k + 1] - polygon[0];
+    const double twice_area = norm(cross(a, b));
+    if (steps == 0) {
+      visit(polygon[0] + (a + b) / 3, twice_area / 2);
+      continue;
+    }
+    const double weight = twice_area * sixth / (steps * steps);
+    const auto visit_triangle = [&](double u, double v, double step) {
+      for (const auto& [s, t] : {std::pair{1.0, 1.0}, {4.0, 1.0}, {1.0, 4.0}}) {
+        visit(polygon[0] + (u + step * s * sixth) * a + (v + step * t * sixth) * b, weight);
+      }
+    };
+    const double step = 1.0 / steps;
+    for (int i = 0; i < steps; ++i) {
+      for (int j = 0; i + j < steps; ++j) {
+        visit_triangle(i * step, j * step, step);
+        if (i + j + 1 < steps) {
+          visit_triangle((i + 1) * step, (j + 1) * step, -step);
+        }
+      }
+    }
+  }
+}
+
+Bounds bounds_of(Outline polygon) {
+  Bounds box;
+  for (const Vec3& corner : polygon) {
+    box.add(corner);
+  }
+  return box;
+}
+
+std::vector<Bounds> bounds_of(const std::vector<Corners>& polygons) {
+  std::vector<Bounds> boxes;
+  for (const Corners& polygon : polygons) {
+    boxes.push_back(bounds_of(polygon));
+  }
+  return boxes;
+}
+
+}  // namespace
+
+ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellation, double density)
+    : scene_(scene),
+      density_(density),
+      tolerance_(std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
+      blockers_(merged_pieces(scene)),
+      tree_(bounds_of(blockers_)),
+      part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
+  std::vector<Bounds> boxes;
+  for (const Piece& piece : scene.pieces()) {
+    boxes.push_back(bounds_of(corners_of(piece)));
+  }
+  const BoxTree pieces(boxes);
+  std::vector<std::vector<Corners>> parts(static_cast<std::size_t>(scene.patch_count()));
+  for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
+    if (k % 1024 == 0) {
+      cancellation.throw_if_canceled();
+    }
+    auto& of_patch = at(parts, scene.pieces()[k].patch);
+    for (Corners& part : open_parts(k, pieces)) {
+      of_patch.push_back(std::move(part));
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (Corners& part : parts[i]) {
+      parts_.push_back(std::move(part));
+    }
+    part_begin_[i + 1] = parts_.size();
+  }
+}
+
+Corners ExchangeFinder::corners_of(const Piece& piece) const {
+  Corners corners;
+  for (const PointId p : scene_.corners(piece)) {
+    corners.push_back(scene_.point(p));
+  }
+  return corners;
+}
+
+/// For patches of one plane that face the same way.
+bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
+  const auto rank = [&](PatchId i) {
+    return std::tuple(-max_abs(scene_.exitance(i)), scene_.patch(i).area, -i);
+  };
+  return rank(upper) < rank(lower);
+}
+
+std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree& pieces) const {
+  const Corners corners = corners_of(scene_.pieces()[piece]);
+  const PatchId patch = scene_.pieces()[piece].patch;
+  const HalfSpace front = lit_half_space(corners);
+  const Bounds box = bounds_of(corners);
+  const auto overlaps = [&](const CenteredBox& other) {
+    const Vec3 apart = other.center - box.center(), sum = other.half + 0.5 * (box.high - box.low);
+    return std::abs(apart.x) <= sum.x + tolerance_ && std::abs(apart.y) <= sum.y + tolerance_ &&
+           std::abs(apart.z) <= sum.z + tolerance_;
+  };
+  std::vector<Corners> covering;
+  pieces.for_each(overlaps, [&](std::int32_t number) {
+    const Piece& other = at(scene_.pieces(), number);
+    if (other.patch == patch || dot(scene_.patch(other.patch).normal, front.normal) <= 0 ||
+        !covers(other.patch, patch)) {
+      return;
+    }
+    const Corners others = corners_of(other);
+    if (std::all_of(others.begin(), others.end(),
+                    [&](const Vec3& x) { return std::abs(front.distance(x)) <= tolerance_; })) {
+      covering.push_back(others);
+    }
+  });
+  return covering.empty() ? std::vector<Corners>{corners} : uncovered(corners, covering);
+}
+
+void ExchangeFinder::collect_blockers(const FacingPolygons& facing,
+                                      std::vector<Corners>& blockers) const {
+  blockers.clear();
+  const Shaft shaft(facing, tolerance_);
+  tree_.for_each([&](const CenteredBox& box) { return shaft.reaches(box); },
+                 [&](std::int32_t number) {
+                   const Corners& blocker = at(blockers_, number);
+                   if (shaft.meets(blocker)) {
+                     blockers.push_back(blocker);
+                   }
+                 });
+}
+
+/// Whether one blocker alone hides all of both: it meets every line between a corner of one and a
+/// corner of the other, so it meets all lines between them, as they and it are convex.
+bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& blocker) const {
+  const HalfSpace front = lit_half_space(blocker);
+  const bool p_is_before = front.distance(facing.p[0]) > 0;
+  const Corners& before = p_is_before ? facing.p : facing.q;
+  const Corners& behind = p_is_before ? facing.q : facing.p;
+  const auto is_before = [&](const Vec3& x) { return front.distance(x) > tolerance_; };
+  const auto is_behind = [&](const Vec3& x) { return front.distance(x) < -tolerance_; };
+  if (!std::all_of(before.begin(), before.end(), is_before) ||
+      !std::all_of(behind.begin(), behind.end(), is_behind)) {
+    return false;
+  }
+  for (const Vec3& x : before) {
+    for (std::size_t k = 0; k < blocker.size(); ++k) {
+      // Seen from before the edges run counter-clockwise.
+      const Vec3 out = cross(blocker[k] - x, blocker[k + 1 < blocker.size() ? k + 1 : 0] - x);
+      const auto is_outside = [&](const Vec3& y) { return dot(out, y - x) > 0; };
+      if (std::any_of(behind.begin(), behind.end(), is_outside)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
+                                        const std::vector<Corners>& blockers) const {
+  constexpr double few = 0.2, most_steps = 32;
+  const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
+  const double radius_p = radius_about(middle_p, facing.p);
+  const double radius_q = radius_about(middle_q, facing.q);
+  const bool p_is_smaller = radius_p < radius_q;
+  const Outline small = p_is_smaller ? facing.p : facing.q;
+  const Outline large = p_is_smaller ? facing.q : facing.p;
+  const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
+  const double steps =
+      density_ * std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
+  PointView view(large, blockers);
+  double sum = 0;
+  for_points_of(small,
+                steps < few ? 0 : static_cast<int>(std::clamp(std::ceil(steps), 1.0, most_steps)),
+                [&](const Vec3& x, double weight) { sum += weight * view.form_factor(x, normal); });
+  return sum;
+}
+
+PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j) const {
+  PatchExchange exchange;
+  std::vector<Corners> blockers;
+  for (const Corners& p : parts_of(i)) {
+    for (const Corners& q : parts_of(j)) {
+      const FacingPolygons facing(p, q, tolerance_);
+      if (facing.empty()) {
+        continue;
+      }
+      collect_blockers(facing, blockers);
+      if (blockers.empty()) {
+        exchange.area += polygon_exchange(facing);
+      } else {
+        exchange.whole = false;
+        const bool hidden =
+            std::any_of(blockers.begin(), blockers.end(),
+                        [&](const Corners& blocker) { return is_hidden(facing, blocker); });
+        if (!hidden) {
+          exchange.area += partial_exchange(facing, blockers);
+        }
+      }
+    }
+  }
+  return exchange;
+}
+
+}  // namespace transillum

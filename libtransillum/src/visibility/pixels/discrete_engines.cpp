@@ -1,0 +1,135 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The engines of section 2: the transillumination plane in pixels, each of which stands for its
+// area wherever its center is seen.
+#include "visibility/pixels/discrete_engines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "visibility/pixels/counted_transfers.h"
+#include "visibility/pixels/newell_order.h"
+#include "visibility/pixels/painter.h"
+#include "visibility/pixels/pixel_engines.h"
+#include "visibility/pixels/zbuffer.h"
+
+namespace transillum {
+namespace {
+
+int resolution_of(const EngineOptions& options) {
+  return options.resolution > 0 ? options.resolution : EngineOptions::default_resolution;
+}
+
+void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const PixelGrid& grid,
+           const PatchHeights& heights, VisibilitySink& sink, const Cancellation& cancellation) {
+  if (order == PaintersOrder::newell) {
+    const PieceOutlines pieces(scene, grid);
+    Painter(pieces, grid, heights, sink, cancellation)
+        .paint(newell_order(scene, grid, pieces, heights, cancellation));
+  } else {
+    const FragmentOutlines fragments(tree, grid);
+    Painter(fragments, grid, heights, sink, cancellation)
+        .paint(tree.order(grid.frame().omega, cancellation));
+  }
+}
+
+/// Fragments in the order of the pieces that they are parts of.
+std::vector<FragmentId> in_newell_order(const Scene& scene, const BspTree& tree,
+                                        std::span<const FragmentId> fragments,
+                                        const PixelGrid& grid, const PatchHeights& heights,
+                                        const Cancellation& cancellation) {
+  const PieceOutlines pieces(scene, grid);
+  const std::vector<std::int32_t> order = newell_order(scene, grid, pieces, heights, cancellation);
+  std::vector<std::size_t> place(scene.pieces().size(), order.size());  // edge-on ones last
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    at(place, order[n]) = n;
+  }
+  const PieceFinder finder(scene, tree, grid.frame());
+  std::vector<std::pair<std::size_t, FragmentId>> placed;
+  for (const FragmentId f : fragments) {
+    placed.emplace_back(place[finder.piece_of(f)], f);
+  }
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<FragmentId> sorted;
+  for (const auto& [at, f] : placed) {
+    sorted.push_back(f);
+  }
+  return sorted;
+}
+
+[[noreturn]] void refuse(Engine engine) {
+  throw InputError(
+      fmt::format("engine {} has no pixels: choose zbuffer, painter or rays", name_of(engine)));
+}
+
+}  // namespace
+
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 const EngineOptions& options, const PixelGrid& grid, const PatchHeights& heights,
+                 VisibilitySink& sink, const Cancellation& cancellation) {
+  switch (engine) {
+    case Engine::zbuffer:
+      return fill_zbuffer(scene, grid, heights, sink, cancellation);
+    case Engine::painter:
+      return paint(scene, tree, options.order, grid, heights, sink, cancellation);
+    case Engine::rays:
+      return cast_lines(scene, options.seed, grid, heights, nullptr, sink, cancellation);
+    default:
+      refuse(engine);
+  }
+}
+
+void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
+                 std::span<const FragmentId> fragments, const EngineOptions& options,
+                 const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink,
+                 const Cancellation& cancellation) {
+  switch (engine) {
+    case Engine::zbuffer:
+      return fill_zbuffer(tree, fragments, grid, heights, sink, cancellation);
+    case Engine::painter: {
+      const FragmentOutlines outlines(tree, grid);
+      Painter painter(outlines, grid, heights, sink, cancellation);
+      if (options.order == PaintersOrder::bsp) {
+        return painter.paint(fragments);
+      }
+      return painter.paint(in_newell_order(scene, tree, fragments, grid, heights, cancellation));
+    }
+    case Engine::rays: {
+      const ProcessedParts parts(scene, tree, fragments, grid.frame());
+      return cast_lines(scene, options.seed, grid, heights, &parts, sink, cancellation);
+    }
+    default:
+      refuse(engine);
+  }
+}
+
+TransferEngine zbuffer_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
+  return [scene = std::move(scene), resolution = resolution_of(options)](
+             const Vec3& omega, const Cancellation& cancellation) {
+    const PixelGrid grid(*scene, omega, resolution);
+    const PatchHeights heights(*scene, grid.frame(), grid.snapping());
+    CountedTransfers counted(*scene, heights, cancellation);
+    fill_zbuffer(*scene, grid, heights, counted, cancellation);
+    return counted.finish(omega, grid.area());
+  };
+}
+
+TransferEngine painter_engine(std::shared_ptr<const Scene> scene,
+                              std::shared_ptr<const BspTree> tree, const EngineOptions& options) {
+  return [scene = std::move(scene), tree = std::move(tree), resolution = resolution_of(options),
+          order = options.order](const Vec3& omega, const Cancellation& cancellation) {
+    const PixelGrid grid(*scene, omega, resolution);
+    const PatchHeights heights(*scene, grid.frame(), grid.snapping());
+    CountedTransfers counted(*scene, heights, cancellation);
+    paint(*scene, *tree, order, grid, heights, counted, cancellation);
+    return counted.finish(omega, grid.area());
+  };
+}
+
+}  // namespace transillum

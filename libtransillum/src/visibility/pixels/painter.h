@@ -1,0 +1,97 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "visibility/pixels/outlines.h"
+#include "visibility/pixels/patch_heights.h"
+#include "visibility/pixels/visibility_sink.h"
+
+namespace transillum {
+
+/// The painter's algorithm of section 2: puts polygons, those farthest toward omega first, into
+/// one item buffer. What a pixel held before is what the polygon sees there; the sink hears of it.
+///
+/// The buffer holds a band of rows, so what it takes does not grow with the resolution.
+template <class Outlines>
+class Painter {
+ public:
+  /// Keeps references.
+  Painter(const Outlines& outlines, const PixelGrid& grid, const PatchHeights& heights,
+          VisibilitySink& sink, const Cancellation& cancellation)
+      : outlines_(outlines),
+        grid_(grid),
+        heights_(heights),
+        sink_(sink),
+        cancellation_(cancellation),
+        converter_(grid) {}
+
+  /// `order`: numbers of outlines.
+  /// @throws Canceled
+  void paint(std::span<const std::int32_t> order) {
+    const int rows = std::max(most_pixels / grid_.columns(), 1);
+    for (first_row_ = 0; first_row_ < grid_.rows(); first_row_ += rows) {
+      end_row_ = std::min(first_row_ + rows, grid_.rows());
+      items_.assign(static_cast<std::size_t>(end_row_ - first_row_) *
+                        static_cast<std::size_t>(grid_.columns()),
+                    no_patch);
+      std::size_t done = 0;
+      for (const std::int32_t k : order) {
+        if (done++ % 64 == 0) {
+          cancellation_.throw_if_canceled();
+        }
+        paint(k);
+      }
+    }
+  }
+
+ private:
+  static constexpr int most_pixels = 1 << 22;
+
+  void paint(std::int32_t k) {
+    const PatchId patch = outlines_.patch(k);
+    if (heights_.edge_on(patch)) {
+      return;
+    }
+    converter_.begin(first_row_, end_row_);
+    outlines_.add_edges(k, converter_);
+    converter_.finish([&](int row, int begin, int end) { paint_span(patch, row, begin, end); });
+  }
+
+  void paint_span(PatchId patch, int row, int begin, int end) {
+    painted_ += end - begin;
+    if (painted_ > most_pixels / 4) {
+      painted_ = 0;
+      cancellation_.throw_if_canceled();
+    }
+    PatchId* const items = items_.data() + static_cast<std::size_t>(row - first_row_) *
+                                               static_cast<std::size_t>(grid_.columns());
+    while (begin < end) {
+      const PatchId above = items[begin];
+      int run = begin;
+      while (run < end && items[run] == above) {
+        items[run++] = patch;
+      }
+      if (above != patch) {
+        sink_.record(row, begin, run, patch, above);
+      }
+      begin = run;
+    }
+  }
+
+  const Outlines& outlines_;
+  const PixelGrid& grid_;
+  const PatchHeights& heights_;
+  VisibilitySink& sink_;
+  const Cancellation& cancellation_;
+  ScanConverter converter_;
+  int first_row_ = 0, end_row_ = 0;
+  int painted_ = 0;             ///< pixels since cancellation was looked for
+  std::vector<PatchId> items_;  ///< the buffer: who is seen from below so far
+};
+
+}  // namespace transillum

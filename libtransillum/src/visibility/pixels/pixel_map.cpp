@@ -1,0 +1,240 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/pixel_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "transillum/errors.h"
+#include "visibility/pixels/counted_transfers.h"
+#include "visibility/pixels/discrete_engines.h"
+
+namespace transillum {
+namespace {
+
+/// Keeps what is seen in each pixel.
+class ItemBuffer : public VisibilitySink {
+ public:
+  ItemBuffer(PixelMap& map, const PatchHeights& heights, CountedTransfers& counted)
+      : map_(map), heights_(heights), counted_(counted) {}
+
+  void record(int row, int begin, int end, PatchId below, PatchId above) override {
+    counted_.record(row, begin, end, below, above);
+    const bool from_below = map_.receiver == no_patch;
+    if (!from_below && (below != map_.receiver || !heights_.front_facing(below))) {
+      return;
+    }
+    for (int column = begin; column < end; ++column) {
+      const std::size_t at = map_.index(column, row);
+      map_.items[at] = from_below ? below : above;
+      if (!from_below) {
+        map_.window[at] = true;
+      }
+    }
+  }
+
+ private:
+  PixelMap& map_;
+  const PatchHeights& heights_;
+  CountedTransfers& counted_;
+};
+
+}  // namespace
+
+bool has_pixels(Engine engine) {
+  return engine == Engine::zbuffer || engine == Engine::painter || engine == Engine::rays;
+}
+
+namespace {
+
+int checked(int resolution) {
+  if (resolution == 0) {
+    return PixelMap::default_resolution;
+  }
+  if (resolution < 0 || resolution > PixelMap::largest_resolution) {
+    throw InputError(fmt::format("resolution: {} is not from 1 to {}, as a map's must be",
+                                 resolution, PixelMap::largest_resolution));
+  }
+  return resolution;
+}
+
+/// fill(grid, heights, sink) finds what is in the pixels.
+template <class Fill>
+PixelMap map_from(const Scene& scene, const Vec3& omega, int resolution, PatchId receiver,
+                  const Cancellation& cancellation, Fill fill) {
+  const PixelGrid grid(scene, omega, checked(resolution));
+  const PatchHeights heights(scene, grid.frame(), grid.snapping());
+  PixelMap map;
+  map.frame = grid.frame();
+  map.corner = grid.corner();
+  map.side = grid.side();
+  map.columns = grid.columns();
+  map.rows = grid.rows();
+  map.receiver = receiver;
+  map.items.assign(map.index(0, map.rows), no_patch);
+  if (receiver != no_patch) {
+    map.window.assign(map.items.size(), false);
+  }
+  CountedTransfers counted(scene, heights, cancellation);
+  ItemBuffer buffer(map, heights, counted);
+  fill(grid, heights, buffer);
+  map.exchanges = counted.finish(omega, grid.area()).exchanges;
+  return map;
+}
+
+}  // namespace
+
+PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
+                   const std::shared_ptr<const BspTree>& tree, const Vec3& omega, PatchId receiver,
+                   const EngineOptions& options, const Cancellation& cancellation) {
+  return map_from(*scene, omega, options.resolution, receiver, cancellation,
+                  [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
+                    fill_pixels(engine, *scene, *tree, options, grid, heights, sink, cancellation);
+                  });
+}
+
+PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
+                         const MapRecord& record, std::int32_t step, const EngineOptions& options,
+                         const Cancellation& cancellation) {
+  const std::span<const FragmentId> all(record.order);
+  const auto fragments = all.first(static_cast<std::size_t>(step + 1));
+  return map_from(scene, record.frame.omega, options.resolution, no_patch, cancellation,
+                  [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
+                    fill_pixels(engine, scene, tree, fragments, options, grid, heights, sink,
+                                cancellation);
+                  });
+}
+
+namespace {
+
+/// Rectangles of pixels that show the same: runs of a row, grown downward while the next row has
+/// the same run.
+class Rectangles {
+ public:
+  Rectangles(const PixelMap& pixels, VisibilityMap& map, const Cancellation& cancellation)
+      : pixels_(pixels), map_(map), cancellation_(cancellation) {}
+
+  /// of(index) is what a pixel shows; `nothing` is left out.
+  template <class Of, class Add>
+  void find(PatchId nothing, Of of, Add add) {
+    std::map<std::pair<int, PatchId>, Run> open;  // by first column and item
+    for (int row = 0; row <= pixels_.rows; ++row) {
+      cancellation_.throw_if_canceled();
+      std::map<std::pair<int, PatchId>, Run> grown;
+      for (int begin = 0; row < pixels_.rows && begin < pixels_.columns;) {
+        const PatchId item = of(pixels_.index(begin, row));
+        int end = begin + 1;
+        while (end < pixels_.columns && of(pixels_.index(end, row)) == item) {
+          ++end;
+        }
+        if (item != nothing) {
+          const auto above = open.find({begin, item});
+          const bool grows = above != open.end() && above->second.end == end;
+          grown[{begin, item}] = {end, grows ? above->second.row : row};
+          if (grows) {
+            open.erase(above);
+          }
+        }
+        begin = end;
+      }
+      for (const auto& [key, run] : open) {
+        add(key.second, rectangle(key.first, run.end, run.row, row));
+      }
+      open.swap(grown);
+    }
+  }
+
+ private:
+  struct Run {
+    int end, row;  ///< end column; first row
+  };
+
+  VisibilityMap::Polygon rectangle(int begin, int end, int first_row, int end_row) {
+    const auto first = static_cast<std::uint32_t>(map_.corners.size());
+    const auto x = [&](int column) { return pixels_.corner.x + column * pixels_.side; };
+    const auto y = [&](int row) { return pixels_.corner.y + row * pixels_.side; };
+    map_.corners.insert(map_.corners.end(), {{x(begin), y(first_row)},
+                                             {x(end), y(first_row)},
+                                             {x(end), y(end_row)},
+                                             {x(begin), y(end_row)}});
+    const double pixels = static_cast<double>(end - begin) * (end_row - first_row);
+    return {no_patch, false, pixels * pixels_.side * pixels_.side, first, first + 4};
+  }
+
+  const PixelMap& pixels_;
+  VisibilityMap& map_;
+  const Cancellation& cancellation_;
+};
+
+/// The sides of pixels between what differs.
+std::vector<Vec2> borders(const PixelMap& pixels) {
+  std::vector<Vec2> ends;
+  const auto item = [&](int column, int row) {
+    const bool inside = column >= 0 && column < pixels.columns && row >= 0 && row < pixels.rows;
+    return inside ? pixels.items[pixels.index(column, row)] : no_patch;
+  };
+  const auto at = [&](int column, int row) -> Vec2 {
+    return {pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
+  };
+  for (int row = 0; row <= pixels.rows; ++row) {
+    for (int begin = 0; begin < pixels.columns;) {
+      int end = begin;
+      while (end < pixels.columns && item(end, row) != item(end, row - 1)) {
+        ++end;
+      }
+      if (end > begin) {
+        ends.insert(ends.end(), {at(begin, row), at(end, row)});
+      }
+      begin = end + 1;
+    }
+  }
+  for (int column = 0; column <= pixels.columns; ++column) {
+    for (int begin = 0; begin < pixels.rows;) {
+      int end = begin;
+      while (end < pixels.rows && item(column, end) != item(column - 1, end)) {
+        ++end;
+      }
+      if (end > begin) {
+        ends.insert(ends.end(), {at(column, begin), at(column, end)});
+      }
+      begin = end + 1;
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
+VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels,
+                              const Cancellation& cancellation) {
+  VisibilityMap map;
+  map.frame = pixels.frame;
+  map.receiver = pixels.receiver;
+  map.exchanges = pixels.exchanges;
+  map.pixels.side = pixels.side;
+  map.pixels.borders = borders(pixels);
+  Rectangles rectangles(pixels, map, cancellation);
+  if (pixels.receiver != no_patch) {
+    rectangles.find(
+        no_patch, [&](std::size_t at) { return pixels.window[at] ? pixels.receiver : no_patch; },
+        [&](PatchId patch, VisibilityMap::Polygon rectangle) {
+          rectangle.patch = patch;
+          rectangle.front_facing = true;
+          map.window.push_back(rectangle);
+        });
+  }
+  rectangles.find(
+      no_patch, [&](std::size_t at) { return pixels.items[at]; },
+      [&](PatchId patch, VisibilityMap::Polygon rectangle) {
+        rectangle.patch = patch;
+        rectangle.front_facing = dot(scene.patch(patch).normal, pixels.frame.omega) > 0;
+        map.polygons.push_back(rectangle);
+      });
+  std::stable_sort(map.polygons.begin(), map.polygons.end(),
+                   [](const auto& a, const auto& b) { return a.patch < b.patch; });
+  return map;
+}
+
+}  // namespace transillum

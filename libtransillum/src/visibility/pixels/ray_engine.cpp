@@ -1,0 +1,298 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The statistical engine: parallel lines through the scene, traced by Embree with all their hits.
+// Every line stands for an area of the plane; on it, neighbors that face each other exchange that
+// area. Embree says which patches a line meets; at which height it meets them is computed anew in
+// double precision, because float32 cannot tell close surfaces apart
+// (decisions/0010-rays-are-counted.md).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/bit_mixing.h"
+#include "transillum/errors.h"
+#include "transillum/visibility_map.h"
+#include "visibility/embree/embree_scene.h"
+#include "visibility/pixels/counted_transfers.h"
+#include "visibility/pixels/discrete_engines.h"
+#include "visibility/pixels/pixel_engines.h"
+#include "visibility/pixels/pixel_grid.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t packet_size = 16;
+/// Hits nearer to each other than this share of the scene's radius may be one seam hit twice.
+constexpr double seam = 1e-5;
+
+std::uint64_t bits_of(double x) {
+  x += 0.0;  // -0 and 0 are one direction
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+std::uint64_t key_of(const Vec3& omega, std::uint64_t seed) {
+  std::uint64_t key = mixed(seed + 1);
+  for (const double x : {omega.x, omega.y, omega.z}) {
+    key = mixed(key ^ bits_of(x));
+  }
+  return key;
+}
+
+/// Where the lines of one direction meet the plane: over the box of the scene's projection.
+class LineGrid {
+ public:
+  struct Packet {
+    std::array<double, packet_size> x, y;
+    std::array<int, packet_size> row, column;
+    alignas(64) std::array<int, packet_size> valid;
+  };
+
+  LineGrid(const PlaneWindow& window, double lines, bool gridded, std::uint64_t key)
+      : low_(window.low), size_(window.size()), gridded_(gridded), key_(key) {
+    lines = std::ceil(lines);
+    if (!(size_.x > 0) || !(size_.y > 0)) {
+      return;  // nothing but edges
+    }
+    const double cell = std::sqrt(size_.x * size_.y / lines);
+    const double rows = gridded ? std::clamp(std::round(size_.y / cell), 1.0, lines) : 1.0;
+    rows_ = static_cast<std::int64_t>(rows);
+    columns_ = static_cast<std::int64_t>(std::ceil(lines / rows));
+    make_packets();
+  }
+  /// A line a pixel.
+  LineGrid(const PixelGrid& pixels, bool gridded, std::uint64_t key)
+      : low_(pixels.corner()),
+        size_{pixels.columns() * pixels.side(), pixels.rows() * pixels.side()},
+        gridded_(gridded),
+        key_(key),
+        rows_(gridded ? pixels.rows() : 1),
+        columns_(static_cast<std::int64_t>(pixels.columns()) * (gridded ? 1 : pixels.rows())) {
+    make_packets();
+  }
+
+  std::int64_t packets() const { return packets_; }
+  /// What one line stands for, m².
+  double area_of_line() const {
+    return size_.x * size_.y / (static_cast<double>(rows_) * static_cast<double>(columns_));
+  }
+
+  /// On the grid a packet is a tile of 4 x 4 cells.
+  void place(std::int64_t packet, Packet& lines) const {
+    const std::int64_t row = packet / tile_columns_, column = packet % tile_columns_;
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const auto lane = static_cast<std::int64_t>(k);
+      const std::int64_t i = gridded_ ? 4 * column + lane % 4 : 16 * column + lane;
+      const std::int64_t j = gridded_ ? 4 * row + lane / 4 : 0;
+      lines.valid[k] = i < columns_ && j < rows_ ? -1 : 0;
+      lines.row[k] = static_cast<int>(j);
+      lines.column[k] = static_cast<int>(i);
+      const std::uint64_t number = static_cast<std::uint64_t>(j * columns_ + i);
+      const std::uint64_t random = mixed(key_ + number * golden_step);
+      const double u = (static_cast<double>(random >> 32) + 0.5) * 0x1p-32;
+      const double v = (static_cast<double>(random & 0xffffffffU) + 0.5) * 0x1p-32;
+      lines.x[k] = low_.x + size_.x * (gridded_ ? (static_cast<double>(i) + u) / columns() : u);
+      lines.y[k] = low_.y + size_.y * (gridded_ ? (static_cast<double>(j) + v) / rows() : v);
+    }
+  }
+
+ private:
+  void make_packets() {
+    tile_columns_ = gridded_ ? (columns_ + 3) / 4 : (columns_ + 15) / 16;
+    packets_ = tile_columns_ * (gridded_ ? (rows_ + 3) / 4 : 1);
+  }
+  double columns() const { return static_cast<double>(columns_); }
+  double rows() const { return static_cast<double>(rows_); }
+
+  Vec2 low_, size_;
+  bool gridded_;
+  std::uint64_t key_;
+  std::int64_t rows_ = 1, columns_ = 1, tile_columns_ = 1, packets_ = 0;
+};
+
+/// What Embree finds on the lines of a packet.
+struct Meetings {
+  const EmbreeScene& embree;
+  std::array<std::vector<PatchId>, packet_size> patches;
+
+  static void collect(const RTCFilterFunctionNArguments* hits) {
+    auto& all = *static_cast<Meetings*>(EmbreeScene::data_of(hits));
+    for (unsigned k = 0; k < hits->N; ++k) {
+      if (!hits->valid[k]) {
+        continue;
+      }
+      hits->valid[k] = 0;
+      all.patches[RTCRayN_id(hits->ray, hits->N, k)].push_back(
+          all.embree.patch_of(RTCHitN_primID(hits->hit, hits->N, k)));
+    }
+  }
+};
+
+/// One direction's lines.
+class RayPass {
+ public:
+  RayPass(const Scene& scene, const EmbreeScene& embree, const LineGrid& grid, bool gridded,
+          const PlaneFrame& frame, const PatchHeights& heights, const ProcessedParts* parts,
+          VisibilitySink& sink, const Cancellation& cancellation)
+      : scene_(scene),
+        embree_(embree),
+        cancellation_(cancellation),
+        gridded_(gridded),
+        frame_(frame),
+        grid_(grid),
+        heights_(heights),
+        parts_(parts),
+        sink_(sink),
+        meetings_{embree, {}} {
+    aim();
+  }
+
+  void run() {
+    for (std::int64_t packet = 0; packet < grid_.packets(); ++packet) {
+      if (packet % 256 == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      grid_.place(packet, lines_);
+      trace();
+      for (std::size_t k = 0; k < packet_size; ++k) {
+        book_line(k);
+      }
+    }
+  }
+
+ private:
+  using Hit = PatchHeights::Hit;
+
+  /// All rays go down, against omega, from above the ball that holds the scene.
+  void aim() {
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      rays_.dir_x[k] = static_cast<float>(-frame_.omega.x);
+      rays_.dir_y[k] = static_cast<float>(-frame_.omega.y);
+      rays_.dir_z[k] = static_cast<float>(-frame_.omega.z);
+      rays_.mask[k] = ~0U;
+      rays_.id[k] = static_cast<unsigned>(k);
+    }
+  }
+
+  void trace() {
+    for (std::size_t k = 0; k < packet_size; ++k) {
+      const Vec3 start =
+          embree_.scale() * (lines_.x[k] * frame_.u + lines_.y[k] * frame_.v) + 1.25 * frame_.omega;
+      rays_.org_x[k] = static_cast<float>(start.x);
+      rays_.org_y[k] = static_cast<float>(start.y);
+      rays_.org_z[k] = static_cast<float>(start.z);
+      rays_.tnear[k] = 0;
+      rays_.tfar[k] = HUGE_VALF;
+      meetings_.patches[k].clear();
+    }
+    embree_.all_hits(lines_.valid.data(), rays_, gridded_, Meetings::collect, &meetings_);
+  }
+
+  /// The hits of line k from above, each patch once.
+  void sort_hits(std::size_t k) {
+    hits_.clear();
+    for (const PatchId i : meetings_.patches[k]) {
+      if (heights_.edge_on(i)) {
+        continue;
+      }
+      if (parts_ != nullptr && !parts_->hold(i, {lines_.x[k], lines_.y[k]})) {
+        continue;
+      }
+      hits_.push_back({i, heights_.height(i, {lines_.x[k], lines_.y[k]})});
+    }
+    heights_.sort(hits_);
+  }
+
+  bool contains(PatchId i, double x, double y) const {
+    return holds(scene_.outline(i), scene_.points(), frame_, {x, y});
+  }
+
+  /// A line through the seam of two patches may meet both in float32, but only one in truth, or
+  /// at a silhouette none.
+  void drop_false_hits(double x, double y) {
+    std::size_t kept = 0;
+    for (const Hit& hit : hits_) {
+      const double near = seam / embree_.scale();
+      if (kept == 0 || hits_[kept - 1].height - hit.height > near) {
+        hits_[kept++] = hit;
+        continue;
+      }
+      const Hit above = hits_[kept - 1];
+      const bool upper = contains(above.patch, x, y), lower = contains(hit.patch, x, y);
+      const bool alike = heights_.front_facing(above.patch) == heights_.front_facing(hit.patch);
+      if (!upper && !(alike && !lower)) {
+        --kept;
+      }
+      if (lower) {
+        hits_[kept++] = hit;
+      }
+    }
+    hits_.resize(kept);
+  }
+
+  void book_line(std::size_t k) {
+    if (meetings_.patches[k].empty()) {
+      return;
+    }
+    sort_hits(k);
+    drop_false_hits(lines_.x[k], lines_.y[k]);
+    PatchId above = no_patch;
+    for (const Hit& hit : hits_) {
+      sink_.record(lines_.row[k], lines_.column[k], lines_.column[k] + 1, hit.patch, above);
+      above = hit.patch;
+    }
+  }
+
+  const Scene& scene_;
+  const EmbreeScene& embree_;
+  const Cancellation& cancellation_;
+  bool gridded_;
+  const PlaneFrame& frame_;
+  const LineGrid& grid_;
+  const PatchHeights& heights_;
+  const ProcessedParts* parts_;  ///< all that is met; null: everything
+  VisibilitySink& sink_;
+
+  // The packet at hand.
+  LineGrid::Packet lines_;
+  RTCRay16 rays_{};
+  Meetings meetings_;
+  std::vector<Hit> hits_;  ///< of one line
+};
+
+}  // namespace
+
+void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
+                const PatchHeights& heights, const ProcessedParts* parts, VisibilitySink& sink,
+                const Cancellation& cancellation) {
+  const EmbreeScene embree(scene, cancellation);
+  const LineGrid lines(grid, true, key_of(grid.frame().omega, seed));
+  RayPass(scene, embree, lines, true, grid.frame(), heights, parts, sink, cancellation).run();
+}
+
+TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
+  if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
+    throw InputError("lines: the number of lines a patch must be larger than 0 and at most 1e6");
+  }
+  auto embree = std::make_shared<const EmbreeScene>(*scene);
+  return [scene = std::move(scene), embree = std::move(embree), options](
+             const Vec3& omega, const Cancellation& cancellation) {
+    const PlaneFrame frame = plane_frame(*scene, omega);
+    const PatchHeights heights(*scene, frame);
+    CountedTransfers counted(*scene, heights, cancellation);
+    const std::uint64_t key = key_of(omega, options.seed);
+    const LineGrid grid =
+        options.resolution > 0
+            ? LineGrid(PixelGrid(*scene, omega, options.resolution), options.gridded, key)
+            : LineGrid(plane_window(*scene, frame), options.lines_per_patch * scene->patch_count(),
+                       options.gridded, key);
+    RayPass(*scene, *embree, grid, options.gridded, frame, heights, nullptr, counted, cancellation)
+        .run();
+    return counted.finish(omega, grid.area_of_line());
+  };
+}
+
+}  // namespace transillum

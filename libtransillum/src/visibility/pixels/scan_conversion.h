@@ -1,0 +1,97 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "transillum/at.h"
+#include "visibility/pixels/pixel_grid.h"
+
+namespace transillum {
+
+/// Which pixels of a grid a convex polygon covers: those whose centers it holds, its left and lower
+/// edges included and the others not. So polygons that share an edge share no pixel and miss none.
+///
+/// Where an edge crosses a row is computed from the line that it is a part of, so that a polygon
+/// cut from another still meets its neighbors.
+class ScanConverter {
+ public:
+  /// Keeps a reference.
+  explicit ScanConverter(const PixelGrid& grid) : grid_(grid) {}
+
+  /// Starts a polygon of which only rows from `first` up to `end` are wanted.
+  void begin(int first, int end) {
+    first_ = std::max(first, 0);
+    end_ = std::min(end, grid_.rows());
+    low_ = end_;
+    high_ = first_;
+    const auto count = static_cast<std::size_t>(std::max(end_ - first_, 0));
+    if (spans_.size() < count) {
+      spans_.resize(count, nothing);
+    }
+  }
+
+  /// The next edge, a part of the line through a and b. In any order.
+  void add_edge(PixelPoint from, PixelPoint to, PixelPoint a, PixelPoint b) {
+    if (from.y > to.y) {
+      std::swap(from, to);
+    }
+    if (a.y > b.y) {
+      std::swap(a, b);
+    }
+    if (a.y == b.y) {
+      a = from;
+      b = to;
+    }
+    const int begin = std::max(grid_.first_center_from(from.y), first_);
+    const int end = std::min(grid_.first_center_from(to.y), end_);
+    if (begin >= end) {
+      return;
+    }
+    low_ = std::min(low_, begin);
+    high_ = std::max(high_, end);
+    for (int row = begin; row < end; ++row) {
+      Span& span = at(spans_, row - first_);
+      const int column = first_column(a, b, grid_.center_of(row));
+      span.begin = std::min(span.begin, column);
+      span.end = std::max(span.end, column);
+    }
+  }
+
+  /// take(row, begin, end) for the pixels covered in each row; end is one beyond the last.
+  template <class Take>
+  void finish(Take&& take) {
+    for (int row = low_; row < high_; ++row) {
+      Span& span = at(spans_, row - first_);
+      const Span covered = std::exchange(span, nothing);
+      if (covered.begin < covered.end) {
+        take(row, covered.begin, covered.end);
+      }
+    }
+  }
+
+ private:
+  struct Span {
+    int begin, end;
+  };
+  static constexpr Span nothing{std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
+
+  /// The first pixel whose center is on the line from a up to b at height y, or right of it.
+  int first_column(const PixelPoint& a, const PixelPoint& b, std::int64_t y) const {
+    // (x - one/2) / one, rounded up, where x = a.x + (y - a.y) (b.x - a.x) / (b.y - a.y).
+    const std::int64_t height = b.y - a.y;
+    const std::int64_t above = (a.x - grid_.one() / 2) * height + (y - a.y) * (b.x - a.x);
+    const std::int64_t below = height << grid_.bits();
+    const std::int64_t quotient = above / below;
+    const std::int64_t column = quotient + (above > quotient * below ? 1 : 0);
+    return static_cast<int>(std::clamp<std::int64_t>(column, 0, grid_.columns()));
+  }
+
+  const PixelGrid& grid_;
+  int first_ = 0, end_ = 0, low_ = 0, high_ = 0;
+  std::vector<Span> spans_;  ///< of rows from first_; `nothing` between polygons
+};
+
+}  // namespace transillum

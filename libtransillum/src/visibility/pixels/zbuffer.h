@@ -1,0 +1,25 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <span>
+
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "visibility/pixels/patch_heights.h"
+#include "visibility/pixels/pixel_grid.h"
+#include "visibility/pixels/visibility_sink.h"
+
+namespace transillum {
+
+/// The generalized z-buffer of section 2: tells `sink`, pixel by pixel, all patches over the
+/// pixel's center from above downward. What it keeps at a time does not grow with the resolution.
+/// @throws Canceled
+void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights,
+                  VisibilitySink& sink, const Cancellation& cancellation);
+
+/// The same of some fragments of a tree alone.
+void fill_zbuffer(const BspTree& tree, std::span<const FragmentId> fragments, const PixelGrid& grid,
+                  const PatchHeights& heights, VisibilitySink& sink,
+                  const Cancellation& cancellation);
+
+}  // namespace transillum

@@ -1,0 +1,52 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// For the few files that compute in exact numbers: this draws in CGAL.
+#pragma once
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
+
+#include <utility>
+
+#include "visibility/plane/map_number.h"
+
+namespace transillum {
+
+/// The number of the exact maps, always in lowest terms. Copies share their digits without a lock,
+/// so none may pass from one thread to another.
+using Rational = CGAL::Gmpq;
+
+/// A sum of exact areas, m²: an integer multiple of 2^-1200, which is finer than any double. A sum
+/// of fractions would have all their denominators multiplied together.
+class ExactArea {
+ public:
+  ExactArea() = default;
+  explicit ExactArea(const Rational& area);
+
+  ExactArea& operator+=(const ExactArea& other) {
+    units_ += other.units_;
+    return *this;
+  }
+  friend ExactArea operator-(const ExactArea& a, const ExactArea& b) {
+    ExactArea difference;
+    difference.units_ = a.units_ - b.units_;
+    return difference;
+  }
+  friend bool operator==(const ExactArea& a, const ExactArea& b) { return a.units_ == b.units_; }
+  /// The double nearest to it.
+  friend double nearest_double(const ExactArea& area);
+
+ private:
+  CGAL::Gmpz units_;
+};
+
+template <>
+struct MapNumber<Rational> {
+  using Area = ExactArea;
+
+  static Area area(const Rational& number) { return ExactArea(number); }
+  static std::pair<double, double> around(const Rational& number) {
+    return CGAL::to_interval(number);
+  }
+};
+
+}  // namespace transillum

@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/transfer_comparison.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "transillum/at.h"
+
+namespace transillum {
+
+TransferComparison compare(const Transfers& first, const Transfers& other) {
+  TransferComparison comparison;
+  comparison.differences.resize(first.forward.size());
+  double sum = 0;
+  const auto add = [&](const Transfer& pair, double difference) {
+    sum += std::abs(difference);
+    at(comparison.differences, pair.receiver) += std::abs(difference);
+    at(comparison.differences, pair.source) += std::abs(difference);
+    if (std::abs(difference) > std::abs(comparison.largest.area)) {
+      comparison.largest = {pair.receiver, pair.source, difference};
+    }
+  };
+  // Both are sorted by receiver, then source.
+  const auto before = [](const Transfer& a, const Transfer& b) {
+    return std::tie(a.receiver, a.source) < std::tie(b.receiver, b.source);
+  };
+  auto a = first.exchanges.begin(), b = other.exchanges.begin();
+  while (a != first.exchanges.end() || b != other.exchanges.end()) {
+    const bool only_a =
+        b == other.exchanges.end() || (a != first.exchanges.end() && before(*a, *b));
+    const bool only_b = !only_a && (a == first.exchanges.end() || before(*b, *a));
+    if (!only_b) {
+      comparison.exchanged += a->area;
+    }
+    if (!only_a) {
+      comparison.other_exchanged += b->area;
+    }
+    if (only_a) {
+      add(*a, a->area);
+      ++a;
+    } else if (only_b) {
+      add(*b, -b->area);
+      ++b;
+    } else {
+      add(*a, a->area - b->area);
+      ++a;
+      ++b;
+    }
+  }
+  if (comparison.exchanged > 0) {
+    comparison.misplaced = sum / (2 * comparison.exchanged);
+  }
+  return comparison;
+}
+
+}  // namespace transillum

@@ -1,0 +1,114 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/cancellation.h"
+#include "transillum/transfers.h"
+#include "visibility/plane/map_number.h"
+
+namespace transillum {
+
+/// Adds up who looks at whom in one direction, both ways.
+template <class Area>
+class TransferSums {
+ public:
+  explicit TransferSums(PatchId patch_count) : patches_(static_cast<std::size_t>(patch_count)) {}
+
+  /// Books a part of patch i's projection.
+  void project(PatchId i, bool front_facing, const Area& area) {
+    at(patches_, i).sides[front_facing ? 0 : 1].projected += area;
+  }
+
+  /// Books `area` between a part of patch `below` and one of `above` right above it.
+  void accumulate(PatchId below, bool below_front_facing, PatchId above, bool above_front_facing,
+                  const Area& area) {
+    if (below_front_facing) {
+      at(patches_, below).sides[0].covered += area;
+      if (above_front_facing) {
+        at(patches_, above).back_seen += area;
+      } else {
+        at(patches_, above).sides[1].covered += area;
+        exchanges_.push_back({below, above, area});
+      }
+    } else if (!above_front_facing) {
+      at(patches_, above).sides[1].covered += area;
+      at(patches_, below).back_seen += area;
+    }
+  }
+
+  /// The sums, rounded once; leaves nothing behind.
+  /// @throws Canceled
+  Transfers finish(const Vec3& omega, const Cancellation& cancellation) {
+    Transfers transfers;
+    transfers.direction = omega;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (i % 4096 == 0) {
+        cancellation.throw_if_canceled();
+      }
+      const OfPatch& patch = patches_[i];
+      transfers.forward.push_back(rounded(patch.sides[0]));
+      transfers.backward.push_back(rounded(patch.sides[1]));
+      transfers.back_seen.push_back(nearest_double(patch.back_seen));
+    }
+    add_exchanges(transfers.exchanges, cancellation);
+    exchanges_.clear();
+    return transfers;
+  }
+
+ private:
+  struct SideSums {
+    Area projected{}, covered{};
+  };
+  struct OfPatch {
+    SideSums sides[2];  ///< as receiver for omega, and for -omega
+    Area back_seen{};
+  };
+  struct Exchange {
+    PatchId receiver, source;
+    Area area;
+  };
+
+  static Coverage rounded(const SideSums& sums) {
+    return {nearest_double(sums.projected), nearest_double(sums.covered)};
+  }
+
+  /// One entry a pair, by receiver and source; parts summed in the order they were found.
+  void add_exchanges(std::vector<Transfer>& summed, const Cancellation& cancellation) const {
+    // Dealt out by receiver, then each row sorted.
+    std::vector<std::size_t> end(patches_.size() + 1, 0);
+    for (const Exchange& e : exchanges_) {
+      ++end[static_cast<std::size_t>(e.receiver) + 1];
+    }
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<const Exchange*> dealt(exchanges_.size());
+    for (const Exchange& e : exchanges_) {
+      dealt[at(end, e.receiver)++] = &e;
+    }
+    auto begin = dealt.begin();
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (i % 256 == 0) {
+        cancellation.throw_if_canceled();
+      }
+      const auto row_end = dealt.begin() + static_cast<std::ptrdiff_t>(end[i]);
+      std::stable_sort(begin, row_end,
+                       [](const Exchange* a, const Exchange* b) { return a->source < b->source; });
+      while (begin != row_end) {
+        const PatchId source = (*begin)->source;
+        Area area{};
+        for (; begin != row_end && (*begin)->source == source; ++begin) {
+          area += (*begin)->area;
+        }
+        summed.push_back({static_cast<PatchId>(i), source, nearest_double(area)});
+      }
+    }
+  }
+
+  std::vector<OfPatch> patches_;
+  std::vector<Exchange> exchanges_;
+};
+
+}  // namespace transillum

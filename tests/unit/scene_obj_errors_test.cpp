@@ -1,0 +1,220 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scene_test_support.h"
+
+namespace transillum {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string white = "newmtl white\nKd .7 .7 .7\n";
+
+struct Row {
+  const char* name;
+  std::string obj;
+  std::string mtl;
+  std::vector<std::string> said;  ///< parts of the sentence; the first comes after the folder
+};
+
+std::vector<Row> rows() {
+  const std::string lib = "mtllib s.mtl\n";
+  return {
+      {"Empty", "", "", {"s.obj: no vertices"}},
+      {"OnlyComments", "# nothing\n\n", "", {"s.obj: no vertices"}},
+      {"NoFaces", square, "", {"s.obj: no faces"}},
+      {"Html", "<html>\n<body>hello</body>\n", "", {"s.obj: no vertices", "is it an OBJ file?"}},
+      {"Binary", std::string("v 0 0 0\n\0\1\2", 11), "", {"s.obj: is a binary file"}},
+      {"NotANumber", "v 0 0 0\nv 1 x 0\n", "", {"s.obj:2: vertex 2: `x` is not a number"}},
+      {"HalfANumber", "v 0 0 1.5abc\n", "", {"s.obj:1: vertex 1: `1.5abc` is not a number"}},
+      {"CommaNumber", "v 0,5 0 1\n", "", {"s.obj:1: vertex 1: `0,5` is not a number"}},
+      {"Nan", "\n\nv 0 nan 0\n", "", {"s.obj:3: vertex 1: `nan` is not a finite"}},
+      {"Infinity", "v 0 0 -inf\n", "", {"s.obj:1: vertex 1: `-inf` is not a finite"}},
+      {"Overflow", "v 0 0 1e999\n", "", {"s.obj:1: vertex 1: `1e999` is not a finite"}},
+      {"TooLarge", "v 0 0 1e200\n", "", {"s.obj:1: vertex 1: `1e200`"}},
+      {"TwoCoordinates", "v 0 0\n", "", {"s.obj:1: vertex 1: needs three coordinates"}},
+      {"IndexTooLarge",
+       square + "f 1 2 3\nf 1 2 5\n",
+       "",
+       {"s.obj:6: face 1: vertex index 5 is out of range, there are 4 vertices"}},
+      {"IndexZero", square + "f 0 1 2\n", "", {"s.obj:5: face 0: vertex index 0 is out of range"}},
+      {"IndexTooNegative",
+       square + "f -5 -1 -2\n",
+       "",
+       {"s.obj:5: face 0: vertex index -5 is out of range"}},
+      {"IndexBeyondInt",
+       square + "f 1 2 4294967297\n",
+       "",
+       {"s.obj:5: face 0: vertex index 4294967297 is out of range"}},
+      {"IndexBeyondAll",
+       square + "f 1 2 99999999999999999999999999\n",
+       "",
+       {"s.obj:5: face 0: vertex index 9999999999"}},
+      {"CornerGarbage", square + "f 1 2 three\n", "", {"s.obj:5: face 0: `three` is not a corner"}},
+      {"CornerSlashes",
+       square + "f 1/1/1/1 2 3\n",
+       "",
+       {"s.obj:5: face 0: `1/1/1/1` is not a corner"}},
+      {"CornerOnlySlash", square + "f / 2 3\n", "", {"s.obj:5: face 0: `/` is not a corner"}},
+      {"CornerWithFormFeed", square + "f 1 2 3\f9\n", "", {"s.obj:5: face 0: vertex index 9"}},
+      {"ContinuedLine", square + "f 1 2 \\\n 3 9\n", "", {"s.obj:5: face 0: vertex index 9"}},
+      {"SelfCrossing", square + "f 1 3 2 4\n", "", {"s.obj:5: face 0: its outline crosses itself"}},
+      {"SelfCrossingWithArea",
+       "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 -1 0\nf 1 2 3 4\nv 0 5 0\nf 1 2 5\n",
+       "",
+       {"s.obj:5: face 0: its outline crosses itself"}},
+      {"Pentagram",
+       "v 0 3 0\nv -2 -3 0\nv 3 1 0\nv -3 1 0\nv 2 -3 0\nf 1 2 3 4 5\n",
+       "",
+       {"s.obj:6: face 0: its outline crosses itself"}},
+      {"NoArea",
+       "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n",
+       "",
+       {"s.obj:4: face 0: it has no area; there is"}},
+      {"TwoCorners",
+       square + "f 1 2\n",
+       "",
+       {"s.obj:5: face 0: it has 2 corners, but needs at least 3; there is nothing to light"}},
+      {"ManyWithoutArea",
+       square + "f 1\nf 1 2 1\n",
+       "",
+       {"s.obj:5: face 0: it has 1 corner, but needs at least 3, nor has any other face an area"}},
+      {"MissingMtl",
+       "mtllib gone.mtl\n" + square + "f 1 2 3\n",
+       "",
+       {"s.obj:1: the MTL file `gone.mtl` is missing"}},
+      {"MtlIsAFolder", "mtllib .\n" + square + "f 1 2 3\n", "", {"is not a plain file"}},
+      {"MtllibWithoutName", "mtllib\n", "", {"s.obj:1: mtllib has no file name"}},
+      {"UnknownMaterial",
+       lib + square + "usemtl whit\nf 1 2 3\n",
+       white,
+       {"s.obj:6: material `whit` is not defined; did you mean \"white\"?"}},
+      {"MaterialWithoutMtl",
+       square + "usemtl white\nf 1 2 3\n",
+       "",
+       {"s.obj:5: material `white` is not defined: there is no MTL file"}},
+      {"UsemtlWithoutName", square + "usemtl\nf 1 2 3\n", "", {"s.obj:5: usemtl has no name"}},
+      {"ReflectanceOne",
+       lib + square + "usemtl white\nf 1 2 3\n",
+       "newmtl white\nKd 1 1 1\n",
+       {"s.mtl:1: material `white`: red reflectance rho (Kd) is 1, but must be >= 0 and < 1"}},
+      {"ReflectanceNegative",
+       lib + square + "usemtl white\nf 1 2 3\n",
+       "\nnewmtl white\nKd .5 .5 -.1\n",
+       {"s.mtl:2: material `white`: blue reflectance rho (Kd) is -0.1"}},
+      {"ReflectanceNan",
+       lib + square + "usemtl white\nf 1 2 3\n",
+       "newmtl white\nKd .5 nan .1\n",
+       {"s.mtl:1: material `white`: green reflectance rho (Kd) is nan"}},
+      {"ExitanceNegative",
+       lib + square + "usemtl lamp\nf 1 2 3\n",
+       "newmtl lamp\nKd .5 .5 .5\nKe 1 -2 3\n",
+       {"s.mtl:1: material `lamp`: green exitance E (Ke) is -2"}},
+      {"ExitanceInfinite",
+       lib + square + "usemtl lamp\nf 1 2 3\n",
+       "newmtl lamp\nKd .5 .5 .5\nKe 1 2 1e400\n",
+       {"blue exitance E (Ke) is inf"}},
+      {"KdGarbage",
+       lib + square + "usemtl w\nf 1 2 3\n",
+       "newmtl w\nKd spectral file.rfl\n",
+       {"s.mtl:2: material `w`: Kd needs three numbers"}},
+      {"KdWord",
+       lib + square + "usemtl w\nf 1 2 3\n",
+       "newmtl w\nKd .5 half .5\n",
+       {"s.mtl:2: material `w`: Kd `half` is not a number"}},
+      {"KdBeforeNewmtl",
+       lib + square + "f 1 2 3\n",
+       "Kd .5 .5 .5\n",
+       {"s.mtl:1: Kd comes before any newmtl"}},
+      {"NewmtlWithoutName",
+       lib + square + "f 1 2 3\n",
+       "newmtl\n",
+       {"s.mtl:1: newmtl has no name"}},
+  };
+}
+
+class ObjErrors : public testing::TestWithParam<Row> {};
+
+TEST_P(ObjErrors, SayWhereAndWhat) {
+  const Row& row = GetParam();
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("s.obj", row.obj);
+  if (!row.mtl.empty()) {
+    folder.write("s.mtl", row.mtl);
+  }
+  const std::string said = test::refusal([&] { load_scene(file); });
+  EXPECT_THAT(said, StartsWith(folder.path().string() + "/"));
+  for (const std::string& part : row.said) {
+    EXPECT_THAT(said, HasSubstr(part));
+  }
+  EXPECT_EQ(said.find('\n'), std::string::npos) << "one line";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, ObjErrors, testing::ValuesIn(rows()),
+                         [](const auto& row) { return row.param.name; });
+
+TEST(ObjFile, ThatIsMissingIsSaidSo) {
+  EXPECT_EQ(test::refusal([] { load_scene("nowhere/gone.obj"); }),
+            "nowhere/gone.obj: no such file");
+}
+
+TEST(ObjFile, OfAnotherFormatIsSaidSo) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("s.stl", "solid\n");
+  EXPECT_EQ(test::refusal([&] { load_scene(file); }),
+            file + ": only files that end in .obj can be read");
+}
+
+TEST(ObjFile, ThatIsAFolderIsSaidSo) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "d.obj");
+  EXPECT_THAT(test::refusal([&] { load_scene((folder.path() / "d.obj").string()); }),
+              HasSubstr("d.obj: is not a plain file"));
+}
+
+TEST(ObjFile, OfTwoGigabytesIsRefusedUnread) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("s.obj", "v 0 0 0\n");
+  std::filesystem::resize_file(file, std::uintmax_t{2} << 30);  // a hole: takes no space
+  EXPECT_THAT(test::refusal([&] { load_scene(file); }),
+              HasSubstr("s.obj: has 2147483648 bytes, but at most 1073741824 are read"));
+}
+
+TEST(ObjFile, WithAFaceOfManyCornersNeitherHangsNorCrashes) {
+  const test::TemporaryFolder folder;
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf";
+  for (int i = 0; i < 300'000; ++i) {
+    text += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";
+  }
+  EXPECT_THAT(test::refusal([&] { load_scene(folder.write("s.obj", text + "\n")); }),
+              HasSubstr("s.obj:4: face 0: its outline crosses itself"));
+}
+
+TEST(ObjFile, WithALongLineOfGarbageNeitherHangsNorCrashes) {
+  const test::TemporaryFolder folder;
+  const std::string garbage(8'000'000, '/');
+  const std::string said =
+      test::refusal([&] { load_scene(folder.write("s.obj", "v 0 0 0\nf " + garbage)); });
+  EXPECT_THAT(said, HasSubstr("s.obj:2: face 0: `//////"));
+  EXPECT_LT(said.size(), 400u);
+}
+
+TEST(ObjFile, StopsWhenCanceled) {
+  const test::TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 10'000; ++i) {
+    text += "v 0 0 0\n";
+  }
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(load_scene(folder.write("s.obj", text), {}, cancellation), Canceled);
+}
+
+}  // namespace
+}  // namespace transillum

@@ -1,0 +1,175 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene_test_support.h"
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+SceneDescription read(const std::string& obj, const std::string& mtl = "") {
+  const test::TemporaryFolder folder;
+  if (!mtl.empty()) {
+    folder.write("s.mtl", mtl);
+  }
+  return describe_scene(folder.write("s.obj", obj));
+}
+
+TEST(ObjReader, KeepsPolygonsAndTheirOrderOverGroupsObjectsAndMaterials) {
+  const SceneDescription d =
+      read("mtllib s.mtl\no one\n" + square +
+               "v 2 2 0\ng a b\nusemtl red\nf 1 2 3 4\ng\nusemtl blue\nf 1 2 3\ns off\n"
+               "o two\nusemtl red\nf 1 2 3 5 4\nf 4 3 2\n",
+           "newmtl blue\nKd 0 0 .5\nnewmtl red\nKd .5 0 0\nKe 1 2 3\n");
+  ASSERT_EQ(d.face_count(), 4u);
+  EXPECT_THAT(d.outline(0), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(d.outline(2), ElementsAre(0, 1, 2, 4, 3));
+  EXPECT_THAT(d.face_material, ElementsAre(1, 0, 1, 1));
+  EXPECT_THAT(d.face_line, ElementsAre(10, 13, 17, 18));
+  EXPECT_EQ(d.materials[0].exitance, (Rgb{0, 0, 0}));
+  EXPECT_EQ(d.materials[1].exitance, (Rgb{1, 2, 3}));
+  EXPECT_TRUE(d.notes.empty());
+}
+
+TEST(ObjReader, TakesIndicesOfTexturesAndNormalsAndNegativeOnes) {
+  const SceneDescription d = read(square +
+                                  "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\n"
+                                  "f 1/1 2/1 3/1\nf -4 -3/-1 -2//-1\nv 9 9 9\nf -1 -3 -2\n");
+  for (std::size_t f = 0; f < 3; ++f) {
+    EXPECT_THAT(d.outline(f), ElementsAre(0, 1, 2)) << f;
+  }
+  EXPECT_THAT(d.outline(3), ElementsAre(0, 1, 2));
+  EXPECT_THAT(d.outline(4), ElementsAre(4, 2, 3));
+}
+
+TEST(ObjReader, TakesVerticesThatComeAfterTheirFaces) {
+  EXPECT_THAT(read("f 1 2 3\n" + square).outline(0), ElementsAre(0, 1, 2));
+}
+
+TEST(ObjReader, TakesLineEndsOfAllSystemsCommentsBlanksAndContinuations) {
+  const std::string plain = square + "f 1 2 3 4\n";
+  std::string crlf, cr;
+  for (const char c : plain) {
+    crlf += c == '\n' ? "\r\n" : std::string(1, c);
+    cr += c == '\n' ? '\r' : c;
+  }
+  const std::string decorated =
+      "\xef\xbb\xbf# a path \\\n\n  v 0 0 0 # first\n\tv\t1 0   0 1.0\nv +1 1e0 0\nv 0 1 0\n"
+      "f 1 2 \\\n 3 4";
+  for (const std::string& text : {plain, crlf, cr, decorated}) {
+    const SceneDescription d = read(text);
+    EXPECT_EQ(d.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    EXPECT_THAT(d.outline(0), ElementsAre(0, 1, 2, 3));
+  }
+}
+
+TEST(ObjReader, TakesTheNearestDoubleOfEveryNumber) {
+  // Numbers on which tinyobjloader's own arithmetic is off by units in the last place.
+  const SceneDescription d = read(
+      "mtllib s.mtl\nv 0.1 2.2250738585072014e-308 123456789.123456789\nv 1 0 0\n"
+      "v 0 1.7976931348623157e-300 1e-999\nusemtl m\nf 1 2 3\n",
+      "newmtl m\nKd 0.3333333333333333 0.1 0.7\nKe 9007199254740993 5e-324 0.30000000000000004\n");
+  EXPECT_EQ(d.points[0], (Vec3{0.1, 2.2250738585072014e-308, 123456789.123456789}));
+  EXPECT_EQ(d.points[2], (Vec3{0, 1.7976931348623157e-300, 0}));
+  EXPECT_EQ(d.materials[0].reflectance, (Rgb{0.3333333333333333, 0.1, 0.7}));
+  EXPECT_EQ(d.materials[0].exitance, (Rgb{9007199254740993.0, 5e-324, 0.30000000000000004}));
+}
+
+TEST(ObjReader, TakesNamesWithBlanksAndNumberSigns) {
+  const test::TemporaryFolder folder;
+  folder.write("my scene.mtl", "newmtl Material #25\nKd .1 .2 .3\n");
+  const SceneDescription d = describe_scene(
+      folder.write("s.obj", "mtllib my scene.mtl\n" + square + "usemtl Material #25\nf 1 2 3\n"));
+  ASSERT_EQ(d.materials.size(), 1u);
+  EXPECT_EQ(d.materials[0].name, "Material #25");
+}
+
+TEST(ObjReader, TakesSeveralLibrariesOfOneLine) {
+  const test::TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nKd .1 .1 .1\n");
+  folder.write("b.mtl", "newmtl b\nKd .2 .2 .2\n");
+  const SceneDescription d = describe_scene(folder.write(
+      "s.obj", "mtllib a.mtl .\\b.mtl\n" + square + "usemtl b\nf 1 2 3\nusemtl a\nf 1 2 3\n"));
+  EXPECT_THAT(d.face_material, ElementsAre(1, 0));
+}
+
+TEST(ObjReader, LeavesUnusedMaterialsUnchecked) {
+  EXPECT_NO_THROW(read("mtllib s.mtl\n" + square + "usemtl a\nf 1 2 3\n",
+                       "newmtl a\nKd .1 .1 .1\nnewmtl b\nKd 1 1 1\n"));
+}
+
+TEST(ObjReader, SaysWhatItLeavesOutOrMakesUp) {
+  const SceneDescription d = read("mtllib s.mtl\n" + square + "l 1 2\nf 1 2 3\ncurv 0 1 1 2\n",
+                                  "newmtl a\nmap_Kd x.png\nnewmtl a\nKd .1 .1 .1\n");
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:6: lines of the kind `l` are left out")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:8: lines of the kind `curv` are left out")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture maps such as map_Kd are left out")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:3: material `a` is defined again")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:1: material `a` has no Kd")));
+  EXPECT_THAT(d.notes,
+              Contains(HasSubstr("1 faces have no material (usemtl); they get rho = 0.5")));
+}
+
+TEST(ObjReader, CountsFacesOfTooFewCornersAsDegenerate) {
+  const test::TemporaryFolder folder;
+  const auto scene = load_scene(folder.write("s.obj", square + "f 1 2\nf\nf 1 2 3\nf 2\n"));
+  EXPECT_EQ(scene->patch_count(), 1);
+  EXPECT_EQ(scene->patch(0).face, 2);
+  EXPECT_EQ(scene->report().faces, 4);
+  EXPECT_EQ(scene->report().dropped_degenerate, 3);
+  EXPECT_THAT(scene->report().warnings,
+              Contains(HasSubstr("s.obj:5: face 0: it has 2 corners, but needs at least 3")));
+}
+
+void expect_same(const SceneDescription& a, const SceneDescription& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.face_begin, b.face_begin);
+  EXPECT_EQ(a.face_material, b.face_material);
+  ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t m = 0; m < a.materials.size(); ++m) {
+    EXPECT_EQ(a.materials[m].name, b.materials[m].name);
+    EXPECT_EQ(a.materials[m].reflectance, b.materials[m].reflectance);
+    EXPECT_EQ(a.materials[m].exitance, b.materials[m].exitance);
+  }
+}
+
+TEST(ObjWriter, WritesEveryBuiltInSoThatItReadsBackBitForBit) {
+  for (const BuiltInScene& b : built_in_scenes()) {
+    SCOPED_TRACE(b.name);
+    const test::TemporaryFolder folder;
+    const SceneDescription written = describe_scene(b.name);
+    write_obj(folder.path() / "out.obj", written);
+    expect_same(written, describe_scene((folder.path() / "out.obj").string()));
+  }
+}
+
+TEST(ObjWriter, KeepsNamesThatAreNoLinesApartAndReadable) {
+  SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  d.materials = {{"a\nb", {}, {}}, {"", {}, {}}, {" c \\", {}, {}}, {"", {}, {}}};
+  d.face_material = {3};
+  const test::TemporaryFolder folder;
+  write_obj(folder.path() / "out.obj", d);
+  const SceneDescription back = describe_scene((folder.path() / "out.obj").string());
+  ASSERT_EQ(back.materials.size(), 4u);
+  EXPECT_EQ(back.materials[0].name, "a_b");
+  EXPECT_THAT(back.face_material, ElementsAre(3));
+}
+
+TEST(ObjWriter, LeavesNothingBehindWhereItCannotWrite) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "out.mtl");
+  const SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_THROW(write_obj(folder.path() / "out.obj", d), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.obj"));
+}
+
+}  // namespace
+}  // namespace transillum

@@ -1,0 +1,164 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "colors/color_bar.h"
+
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int margin = 12;
+constexpr int histogram_width = 34;
+constexpr int bar_width = 18;
+constexpr int tip = 12;
+
+// Whose form factors are shown, or what of red, green and blue, where they differ.
+QString name_of_shown(const ColorChoice& colors) {
+  const QuantityTraits& traits = traits_of(colors.quantity());
+  if (traits.of_selection) {
+    return ColorBar::tr("i = %1").arg(colors.selection().patch());
+  }
+  if (!traits.has_channels) {
+    return {};
+  }
+  switch (colors.scale().mode) {
+    case ColorMode::red:
+      return ColorBar::tr("red");
+    case ColorMode::green:
+      return ColorBar::tr("green");
+    case ColorMode::blue:
+      return ColorBar::tr("blue");
+    case ColorMode::true_color:
+    case ColorMode::luminance:
+      break;
+  }
+  return ColorBar::tr("luminance");
+}
+
+QString tick_text(double value, bool logarithmic) {
+  if (logarithmic && (value < 1e-3 || value >= 1e5)) {
+    const double exponent = std::log10(value);
+    if (std::abs(exponent - std::round(exponent)) < 1e-6) {
+      return power_of_ten_text(static_cast<int>(std::lround(exponent)));
+    }
+  }
+  return number_text(value);
+}
+
+}  // namespace
+
+ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent), colors_(colors) {
+  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+  setToolTip(tr("To the left: how much area has which value (its root)"));
+  const auto show = [this] {
+    setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
+    update();
+  };
+  connect(&colors, &ColorChoice::changed, this, show);
+  connect(&colors, &ColorChoice::fitted, this, show);
+  show();
+}
+
+void ColorBar::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme::scene_background);
+  paint_title(painter);
+  const int top = margin + 2 * fontMetrics().height() + 10 + tip;
+  const QRectF bar(margin + histogram_width, top, bar_width, height() - top - margin - tip);
+  if (bar.height() < 20) {
+    return;
+  }
+  paint_bar(painter, bar);
+  paint_histogram(painter, QRectF(margin, bar.top(), histogram_width - 4, bar.height()));
+  paint_ticks(painter, bar);
+}
+
+void ColorBar::paint_title(QPainter& painter) const {
+  const QuantityTraits& traits = traits_of(colors_.quantity());
+  const QString unit = QString::fromUtf8(traits.unit);
+  const int line = fontMetrics().height();
+  QFont bold = font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  painter.setPen(theme::on_dark);
+  painter.drawText(QRect(0, margin, width(), line), Qt::AlignHCenter,
+                   QString::fromUtf8(traits.symbol) +
+                       (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit)));
+  painter.setFont(font());
+  painter.setPen(theme::on_dark_dim);
+  painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter,
+                   name_of_shown(colors_));
+}
+
+void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors_.scale();
+  const auto color_at = [&](double t) {
+    const Color8 c = color_of(scale.map, t);
+    return QColor(c[0], c[1], c[2]);
+  };
+  const auto rows = static_cast<int>(bar.height() * devicePixelRatioF());
+  const double row_height = bar.height() / rows;
+  for (int row = 0; row < rows; ++row) {
+    painter.fillRect(
+        QRectF(bar.left(), bar.top() + row * row_height, bar.width(), 1.01 * row_height),
+        color_at(1 - (row + 0.5) / rows));
+  }
+  // A tip on the bar: there is more beyond its end.
+  const auto paint_tip = [&](double y, double way, const QColor& color) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color);
+    painter.drawPolygon(
+        QPolygonF({QPointF(bar.left(), y + 2 * way), QPointF(bar.right(), y + 2 * way),
+                   QPointF(bar.center().x(), y + tip * way)}));
+    painter.setBrush(Qt::NoBrush);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+  };
+  if (scale.above) {
+    paint_tip(bar.top(), -1, color_at(1));
+  }
+  if (scale.below) {
+    paint_tip(bar.bottom(), 1, color_at(0).lighter(160));
+  }
+  painter.setPen(QPen(theme::on_dark_dim, 1));
+  painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));
+}
+
+void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
+  constexpr double pixels_a_bin = 4;
+  const int bins = std::max(1, static_cast<int>(box.height() / pixels_a_bin));
+  const double bin_height = box.height() / bins;
+  const std::vector<double> shares =
+      histogram(colors_.scale(), *colors_.snapshot()->loaded->scene, colors_.values(), bins);
+  for (int k = 0; k < bins; ++k) {
+    const double share = at(shares, k);
+    if (share <= 0) {
+      continue;
+    }
+    // The root of the share: what is rare shall be seen beside what is common.
+    const double length = std::max(1.0, std::sqrt(share) * box.width());
+    painter.fillRect(QRectF(box.right() - length, box.bottom() - (k + 1) * bin_height, length,
+                            std::max(1.0, bin_height - 1)),
+                     theme::on_dark_dim);
+  }
+}
+
+void ColorBar::paint_ticks(QPainter& painter, const QRectF& bar) const {
+  const ColorScale& scale = colors_.scale();
+  const int line = fontMetrics().height();
+  painter.setPen(theme::on_dark);
+  for (const double value : scale.ticks()) {
+    const double y = bar.bottom() - scale.position(value) * bar.height();
+    painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 5, y));
+    painter.drawText(QRectF(bar.right() + 9, y - line / 2.0, width() - bar.right() - 9, line),
+                     Qt::AlignLeft | Qt::AlignVCenter, tick_text(value, scale.logarithmic));
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,227 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "colors/color_choice.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+// Where there is nothing to show, the scene can still be made out: B, dim and without hue.
+void shade_without_hue(const Scene& scene, std::span<const Rgb> radiosity,
+                       std::vector<Color8>& colors) {
+  ColorScale scale;
+  scale.fit_exposure(scene, radiosity);
+  scale.color(radiosity, colors);
+  for (Color8& color : colors) {
+    const int brightness = (color[0] + color[1] + color[2]) / 3;
+    color.fill(static_cast<std::uint8_t>(0x38 + brightness / 3));
+  }
+}
+
+}  // namespace
+
+ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
+    : QObject(parent), selection_(selection) {
+  connect(&selection_, &Selection::changed, this, [this] {
+    if (traits_of(quantity_).of_selection) {
+      change();
+    }
+  });
+}
+
+void ColorChoice::set_quantity(Quantity quantity) {
+  if (quantity == quantity_) {
+    return;
+  }
+  quantity_ = quantity;
+  forget_range();
+  change();
+  if (traits_of(quantity).of_selection) {
+    emit form_factors_wanted();
+  }
+}
+
+void ColorChoice::set_mode(ColorMode mode) {
+  if (mode == mode_) {
+    return;
+  }
+  mode_ = mode;
+  forget_range();
+  change();
+}
+
+void ColorChoice::set_map(ColorMap map) {
+  if (map == map_) {
+    return;
+  }
+  map_ = map;
+  change();
+}
+
+void ColorChoice::set_logarithmic(bool logarithmic) {
+  if (logarithmic == scale_.logarithmic) {
+    return;
+  }
+  scale_.logarithmic = logarithmic;
+  if (range_rule_ != RangeRule::fixed) {
+    forget_range();
+  }
+  change();
+}
+
+void ColorChoice::set_range_rule(RangeRule rule) {
+  if (rule == range_rule_) {
+    return;
+  }
+  range_rule_ = rule;
+  change();
+}
+
+void ColorChoice::widen_from(double low, double high) {
+  range_rule_ = RangeRule::widening;
+  range_is_known_ = true;
+  scale_.low = low;
+  scale_.high = high;
+  change();
+}
+
+void ColorChoice::set_range(double low, double high) {
+  range_rule_ = RangeRule::fixed;
+  scale_.low = low;
+  scale_.high = high;
+  change();
+}
+
+void ColorChoice::set_gamma(double gamma) {
+  if (gamma == scale_.gamma) {
+    return;
+  }
+  scale_.gamma = gamma;
+  change();
+}
+
+void ColorChoice::set_exposure(double exposure) {
+  if (!automatic_ && exposure == scale_.exposure) {
+    return;
+  }
+  automatic_ = false;
+  scale_.exposure = exposure;
+  change();
+}
+
+void ColorChoice::set_automatic_exposure(bool automatic) {
+  if (automatic == automatic_) {
+    return;
+  }
+  automatic_ = automatic;
+  change();
+}
+
+void ColorChoice::keep_run() {
+  if (!snapshot_) {
+    return;
+  }
+  kept_run_ = snapshot_;
+  emit kept_run_changed();
+  change();
+}
+
+void ColorChoice::show_kept_run(bool shown) {
+  shown = shown && kept_run_;
+  if (shown == shows_kept_run_) {
+    return;
+  }
+  shows_kept_run_ = shown;
+  change();
+}
+
+void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool other_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
+  snapshot_ = std::move(snapshot);
+  if (other_scene && range_rule_ != RangeRule::fixed) {
+    forget_range();
+  }
+  refit();
+  emit fitted();
+}
+
+void ColorChoice::change() {
+  refit();
+  emit changed();
+}
+
+void ColorChoice::forget_range() {
+  range_is_known_ = false;
+  // What was typed in for another quantity means nothing.
+  if (range_rule_ == RangeRule::fixed) {
+    range_rule_ = RangeRule::automatic;
+  }
+}
+
+void ColorChoice::refit() {
+  const QuantityTraits& traits = traits_of(quantity_);
+  scale_.mode = !traits.has_channels                                 ? ColorMode::red
+                : !traits.is_light && mode_ == ColorMode::true_color ? ColorMode::luminance
+                                                                     : mode_;
+  scale_.map = traits.is_signed ? ColorMap::diverging : map_;
+  if (traits.is_signed) {
+    scale_.logarithmic = false;
+  }
+  if (!snapshot_) {
+    return;
+  }
+  const bool other = shows_kept_run_ && kept_run_->radiosity.size() == snapshot_->radiosity.size();
+  values_ =
+      values_of(quantity_, other ? *kept_run_ : *snapshot_, selection_.patch(), kept_run_.get());
+  if (!other) {
+    fit_range();
+  }
+  color();
+}
+
+void ColorChoice::fit_range() {
+  if (values_.values.empty()) {
+    return;
+  }
+  const QuantityTraits& traits = traits_of(quantity_);
+  const Scene& scene = *snapshot_->loaded->scene;
+  if (scale_.mode == ColorMode::true_color) {
+    if (!automatic_) {
+      return;
+    }
+    // Reflectances are shares: white is 1.
+    if (quantity_ == Quantity::reflectance) {
+      scale_.exposure = 0;
+    } else {
+      scale_.fit_exposure(scene, values_.values);
+    }
+    return;
+  }
+  const double low = scale_.low, high = scale_.high;
+  if (range_rule_ != RangeRule::fixed) {
+    if (quantity_ == Quantity::radiosity) {
+      scale_.fit_range(scene, values_.values);
+    } else {
+      scale_.fit_range(values_.values, traits.is_signed);
+    }
+    if (range_rule_ == RangeRule::widening && range_is_known_) {
+      scale_.low = std::min(low, scale_.low);
+      scale_.high = std::max(high, scale_.high);
+    }
+    range_is_known_ = true;
+  }
+  scale_.mend_range();
+  scale_.look_beyond(values_.values);
+}
+
+void ColorChoice::color() {
+  if (values_.values.empty()) {
+    shade_without_hue(*snapshot_->loaded->scene, snapshot_->radiosity, patch_colors_);
+  } else {
+    scale_.color(values_.values, patch_colors_);
+  }
+}
+
+}  // namespace transillum::viewer

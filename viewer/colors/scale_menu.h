@@ -1,0 +1,33 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QToolButton>
+
+#include "colors/color_choice.h"
+
+class QButtonGroup;
+class QComboBox;
+class QLineEdit;
+
+namespace transillum::viewer {
+
+/// The button that tells where the color map's ends come from, and opens what sets them and the
+/// map.
+class ScaleMenu : public QToolButton {
+  Q_OBJECT
+
+ public:
+  explicit ScaleMenu(ColorChoice& colors, QWidget* parent = nullptr);
+
+ private:
+  QWidget* make_panel();
+  void show_choice();
+  void take_ends();
+
+  ColorChoice& colors_;
+  QComboBox* map_;
+  QButtonGroup* rules_;
+  QLineEdit *low_, *high_;
+};
+
+}  // namespace transillum::viewer

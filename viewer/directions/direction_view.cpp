@@ -1,0 +1,361 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "directions/direction_view.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "directions/received_light.h"
+#include "state/initial_view.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double reach = 6;  ///< of a click, pixels
+
+/// Along the color bar: few directions hold a lamp, and most of the light comes from elsewhere.
+double position_of(double share) { return std::sqrt(share); }
+
+}  // namespace
+
+DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
+                             PerDirectionVisibility& sights, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), sights_(sights) {
+  setToolTip(tr("Drag to turn; click a direction to look along it"));
+  connect(&focus_, &Focus::moved, this, [this] {
+    ask();
+    update();
+  });
+  connect(&colors_, &ColorChoice::changed, this, qOverload<>(&QWidget::update));
+  connect(&selection_, &Selection::changed, this, [this] {
+    ask();
+    update();
+  });
+  connect(&sights_, &PerDirectionVisibility::grown, this, qOverload<>(&QWidget::update));
+}
+
+void DirectionView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  if (!snapshot_ || snapshot->loaded != snapshot_->loaded) {
+    const ViewPoint view = initial_view(*snapshot->loaded->scene, 1);
+    toward_ = normalized(view.eye - view.target);
+    right_ = normalized(cross(view.up, toward_));
+    up_ = cross(toward_, right_);
+    turn_ = tilt_ = 0;
+  }
+  snapshot_ = std::move(snapshot);
+  ask();
+  update();
+}
+
+void DirectionView::clear() {
+  snapshot_ = nullptr;
+  sights_.clear();
+  update();
+}
+
+void DirectionView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+int DirectionView::iteration() const {
+  const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
+  return renews && focus_.map() ? focus_.moment().iteration : snapshot_->progress.iteration;
+}
+
+int DirectionView::taken() const {
+  if (!snapshot_) {
+    return 0;
+  }
+  const SolveProgress& progress = snapshot_->progress;
+  if (iteration() < progress.iteration) {
+    return snapshot_->passes_of(iteration());
+  }
+  return progress.direction > 0 || progress.iteration == 0 ? progress.direction : progress.passes;
+}
+
+bool DirectionView::wants_sights() const {
+  return snapshot_ && selection_.patch() != no_patch && taken() > 0 && isVisible();
+}
+
+void DirectionView::ask() {
+  if (!wants_sights()) {
+    return;
+  }
+  const SolveOptions& options = snapshot_->options;
+  sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
+                   snapshot_->directions_of(iteration()), taken(), selection_.patch()});
+}
+
+std::vector<DirectionView::Point> DirectionView::points() const {
+  std::vector<Point> points;
+  for (int k = 0; k < taken(); ++k) {
+    const Vec3& omega = at(directions(), k);
+    points.push_back({omega, k, false});
+    if (snapshot_->options.two_way) {
+      points.push_back({-omega, k, true});
+    }
+  }
+  return points;
+}
+
+std::vector<double> DirectionView::received() const {
+  std::vector<double> received;
+  if (!wants_sights() || sights_.found().empty()) {
+    return received;
+  }
+  const auto& found = sights_.found();
+  const std::size_t count = std::min(found.size(), static_cast<std::size_t>(taken()));
+  for (const ReceivedLight& light :
+       received_light(sights_.asked(), {found.data(), count}, snapshot_->radiosity, taken())) {
+    received.push_back(luminance(light.irradiance));
+  }
+  return received;
+}
+
+QString DirectionView::caption() const {
+  if (selection_.patch() == no_patch) {
+    return tr("Select a patch to see which of them light it");
+  }
+  const QString patch = count_text(selection_.patch());
+  if (sights_.complete()) {
+    return tr("Color: what each adds to the irradiance of patch %1").arg(patch);
+  }
+  return tr("Looking along them from patch %1: %2 of %3")
+      .arg(patch, count_text(static_cast<int>(sights_.found().size())), count_text(taken()));
+}
+
+QRectF DirectionView::caption_rect() const {
+  const int line = fontMetrics().height();
+  const QRect room(12, 8 + line, width() - 24, 3 * line);
+  return fontMetrics().boundingRect(room, Qt::AlignLeft | Qt::TextWordWrap, caption());
+}
+
+QRectF DirectionView::sphere_room() const {
+  const double top = caption_rect().bottom() + 4;
+  return {12, top, width() - 24.0, height() - legend_height() - top};
+}
+
+double DirectionView::legend_height() const { return fontMetrics().height() + 28; }
+
+double DirectionView::radius() const {
+  const QRectF room = sphere_room();
+  return std::max(20.0, 0.5 * std::min(room.width(), room.height() - 12));
+}
+
+QPointF DirectionView::center() const { return sphere_room().center(); }
+
+/// x to the right, y up, z toward the viewer.
+Vec3 DirectionView::turned(const Vec3& direction) const {
+  const Vec3 d{dot(direction, right_), dot(direction, up_), dot(direction, toward_)};
+  const double x = std::cos(turn_) * d.x + std::sin(turn_) * d.z;
+  const double z = -std::sin(turn_) * d.x + std::cos(turn_) * d.z;
+  return {x, std::cos(tilt_) * d.y - std::sin(tilt_) * z,
+          std::sin(tilt_) * d.y + std::cos(tilt_) * z};
+}
+
+QPointF DirectionView::place(const Vec3& turned) const {
+  return center() + radius() * QPointF(turned.x, -turned.y);
+}
+
+void DirectionView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.fillRect(rect(), theme::scene_background);
+  if (taken() == 0) {
+    painter.setPen(theme::on_dark_dim);
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
+                     tr("A point for every direction taken"));
+    return;
+  }
+  draw_sphere(painter);
+  draw_points(painter, false);
+  draw_normal(painter);
+  draw_points(painter, true);
+  draw_focus(painter);
+  draw_legend(painter);
+}
+
+void DirectionView::draw_sphere(QPainter& painter) const {
+  painter.setPen(QPen(theme::on_dark_dim.darker(160), 1));
+  painter.setBrush(QColor(0x2a, 0x30, 0x38));
+  painter.drawEllipse(center(), radius(), radius());
+  painter.setBrush(Qt::NoBrush);
+  // The equator and two meridians, the far half fainter.
+  for (int circle = 0; circle < 3; ++circle) {
+    for (int half = 0; half < 2; ++half) {
+      QPainterPath path;
+      bool open = false;
+      for (int k = 0; k <= 96; ++k) {
+        const double a = 2 * std::numbers::pi * k / 96;
+        const double c = std::cos(a), s = std::sin(a);
+        const Vec3 at = turned(circle == 0   ? Vec3{c, 0, s}
+                               : circle == 1 ? Vec3{c, s, 0}
+                                             : Vec3{0, c, s});
+        if ((at.z >= 0) != (half == 1)) {
+          open = false;
+          continue;
+        }
+        if (open) {
+          path.lineTo(place(at));
+        } else {
+          path.moveTo(place(at));
+        }
+        open = true;
+      }
+      QColor line = theme::on_dark_dim;
+      line.setAlphaF(half == 1 ? 0.45 : 0.15);
+      painter.setPen(QPen(line, 1));
+      painter.drawPath(path);
+    }
+  }
+}
+
+void DirectionView::draw_points(QPainter& painter, bool front) const {
+  const std::vector<Point> shown = points();
+  const std::vector<double> power = received();
+  const double most = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
+  const double size =
+      std::clamp(1.6 * radius() / std::sqrt(static_cast<double>(shown.size())), 1.6, 5.0);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const Vec3 at = turned(shown[k].omega);
+    if ((at.z >= 0) != front) {
+      continue;
+    }
+    QColor color = theme::on_dark_dim;
+    double grow = 0.6;
+    if (k < power.size() && power[k] > 0) {
+      const Color8 c = color_of(colors_.map(), position_of(power[k] / most));
+      color = QColor(c[0], c[1], c[2]);
+      grow = 1;
+    }
+    color.setAlphaF(front ? 1 : 0.25);
+    painter.setBrush(color);
+    // The dark end of the map would be lost before the dark ground.
+    painter.setPen(front && grow == 1 ? QPen(theme::on_dark_dim, 0.7) : QPen(Qt::NoPen));
+    painter.drawEllipse(place(at), grow * size, grow * size);
+  }
+}
+
+/// Where the selected patch looks.
+void DirectionView::draw_normal(QPainter& painter) const {
+  if (!wants_sights()) {
+    return;
+  }
+  const Vec3 at = turned(snapshot_->loaded->scene->patch(selection_.patch()).normal);
+  QColor color = theme::selection;
+  color.setAlphaF(at.z >= 0 ? 1 : 0.4);
+  painter.setPen(QPen(color, 2));
+  painter.setBrush(Qt::NoBrush);
+  const QPointF p = place(at);
+  painter.drawLine(p - QPointF(6, 0), p + QPointF(6, 0));
+  painter.drawLine(p - QPointF(0, 6), p + QPointF(0, 6));
+}
+
+void DirectionView::draw_focus(QPainter& painter) const {
+  const int pass = focus_.moment().direction;
+  if (!focus_.map() || pass >= taken()) {
+    return;
+  }
+  const Vec3 point = turned(at(directions(), pass));
+  QColor color = theme::processed;
+  color.setAlphaF(point.z >= 0 ? 1 : 0.4);
+  painter.setPen(QPen(color, 2));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawEllipse(place(point), 7, 7);
+}
+
+void DirectionView::draw_legend(QPainter& painter) const {
+  const int line = painter.fontMetrics().height();
+  QFont bold = font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  painter.setPen(theme::on_dark);
+  const QString count = snapshot_->options.two_way
+                            ? tr("%1 directions and their opposites").arg(count_text(taken()))
+                            : tr("%1 directions").arg(count_text(taken()));
+  painter.drawText(QRect(12, 6, width() - 24, line), Qt::AlignLeft, count);
+  painter.setFont(font());
+  painter.setPen(theme::on_dark_dim);
+  const std::vector<double> power = received();
+  painter.drawText(caption_rect().adjusted(0, 0, 2, 0), Qt::AlignLeft | Qt::TextWordWrap,
+                   caption());
+  if (power.empty()) {
+    return;
+  }
+
+  const double most = *std::max_element(power.begin(), power.end());
+  const QRectF bar(12, height() - legend_height() + 6, width() - 24, 10);
+  for (int x = 0; x < static_cast<int>(bar.width()); ++x) {
+    const Color8 c = color_of(colors_.map(), x / bar.width());
+    painter.fillRect(QRectF(bar.left() + x, bar.top(), 1.5, bar.height()),
+                     QColor(c[0], c[1], c[2]));
+  }
+  const QRectF below(bar.left(), bar.bottom() + 3, bar.width(), line);
+  painter.setPen(theme::on_dark);
+  painter.drawText(below, Qt::AlignLeft, tr("0"));
+  painter.drawText(below, Qt::AlignRight, tr("%1 W/m²").arg(number_text(most)));
+  // Where a quarter of it lies, as position_of() says.
+  painter.drawText(below, Qt::AlignHCenter, number_text(most / 4));
+}
+
+std::optional<DirectionView::Point> DirectionView::point_at(const QPointF& where) const {
+  std::optional<Point> nearest;
+  double distance = reach;
+  for (const Point& point : points()) {
+    const Vec3 at = turned(point.omega);
+    if (at.z < 0) {
+      continue;
+    }
+    const QPointF off = place(at) - where;
+    const double d = std::hypot(off.x(), off.y());
+    if (d >= distance) {
+      continue;
+    }
+    distance = d;
+    nearest = point;
+  }
+  return nearest;
+}
+
+void DirectionView::mousePressEvent(QMouseEvent* event) {
+  pressed_ = last_ = event->localPos();
+  dragged_ = false;
+}
+
+void DirectionView::mouseMoveEvent(QMouseEvent* event) {
+  if (!(event->buttons() & Qt::LeftButton)) {
+    return;
+  }
+  const QPointF at = event->localPos();
+  if ((at - pressed_).manhattanLength() > 3) {
+    dragged_ = true;
+  }
+  turn_ += (at.x() - last_.x()) / radius();
+  tilt_ = std::clamp(tilt_ + (at.y() - last_.y()) / radius(), -std::numbers::pi / 2,
+                     std::numbers::pi / 2);
+  last_ = at;
+  update();
+}
+
+void DirectionView::mouseReleaseEvent(QMouseEvent* event) {
+  if (dragged_ || !snapshot_) {
+    return;
+  }
+  const auto point = point_at(event->localPos());
+  if (!point) {
+    return;
+  }
+  Moment moment = focus_.moment();
+  moment.direction = point->pass;
+  focus_.go_to(moment);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QPointF>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "colors/color_choice.h"
+#include "model/per_direction_visibility.h"
+#include "model/snapshot.h"
+#include "state/focus.h"
+#include "state/selection.h"
+
+namespace transillum::viewer {
+
+/// The sphere of directions, with those that the step under way has taken so far, colored by what
+/// the selected patch receives along them. Dragging turns it; a click on a point takes the focus
+/// there.
+class DirectionView : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// `sights` is shared with others that ask about the selected patch.
+  DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
+                PerDirectionVisibility& sights, QWidget* parent = nullptr);
+
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void clear();
+  /// Whether the points have the colors of the selected patch.
+  bool up_to_date() const { return !wants_sights() || sights_.complete(); }
+
+  /// A direction of the run as it stands on the sphere.
+  struct Point {
+    Vec3 omega;
+    int pass;
+    bool opposite;  ///< -omega of a two-way pass
+  };
+  /// Those that are shown, and what the selected patch receives along each, W/m² of its own
+  /// irradiance; empty where no patch is selected or nothing is known yet.
+  std::vector<Point> points() const;
+  std::vector<double> received() const;
+
+  QSize sizeHint() const override { return {420, 340}; }
+  QSize minimumSizeHint() const override { return {220, 150}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  bool wants_sights() const;
+  void ask();
+  Vec3 turned(const Vec3& direction) const;
+  QPointF place(const Vec3& turned) const;
+  QString caption() const;
+  QRectF caption_rect() const;
+  QRectF sphere_room() const;
+  double legend_height() const;
+  double radius() const;
+  QPointF center() const;
+  void draw_sphere(QPainter& painter) const;
+  void draw_points(QPainter& painter, bool front) const;
+  void draw_normal(QPainter& painter) const;
+  void draw_focus(QPainter& painter) const;
+  void draw_legend(QPainter& painter) const;
+  std::optional<Point> point_at(const QPointF& where) const;
+  /// The iteration step shown: that in focus where each has directions of its own, else the newest.
+  int iteration() const;
+  const std::vector<Vec3>& directions() const { return *snapshot_->directions_of(iteration()); }
+  int taken() const;
+
+  Focus& focus_;
+  Selection& selection_;
+  const ColorChoice& colors_;
+  PerDirectionVisibility& sights_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  Vec3 right_{1, 0, 0}, up_{0, 1, 0}, toward_{0, 0, 1};  ///< the scene's first view
+  double turn_ = 0, tilt_ = 0;  ///< from there, radians: about the upright axis, then over
+  QPointF pressed_, last_;
+  bool dragged_ = false;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,43 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "directions/received_light.h"
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+std::vector<ReceivedLight> received_light(const PerDirectionVisibility::Request& asked,
+                                          std::span<const PerDirectionVisibility::Sights> sights,
+                                          const std::vector<Rgb>& radiosity, int passes) {
+  std::vector<ReceivedLight> received;
+  const Patch& patch = asked.loaded->scene->patch(asked.patch);
+  const double weight = 4.0 / (passes * (asked.two_way ? 2 : 1) * patch.area);
+  const auto add = [&](int pass, bool opposite,
+                       const std::vector<PerDirectionVisibility::Sight>& seen) {
+    const double cosine = dot(patch.normal, at((*asked.directions), pass));
+    ReceivedLight light;
+    light.pass = pass;
+    light.opposite = opposite;
+    light.cosine = opposite ? -cosine : cosine;
+    double most = 0;
+    for (const PerDirectionVisibility::Sight& sight : seen) {
+      const Rgb part = weight * sight.area * at(radiosity, sight.source);
+      light.area += sight.area;
+      light.irradiance += part;
+      if (luminance(part) <= most) {
+        continue;
+      }
+      most = luminance(part);
+      light.brightest = sight.source;
+    }
+    received.push_back(light);
+  };
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    add(static_cast<int>(k), false, sights[k].forward);
+    if (asked.two_way) {
+      add(static_cast<int>(k), true, sights[k].backward);
+    }
+  }
+  return received;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,55 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <vector>
+
+#include "directions/received_light.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+/// The directions that a patch looks along, by what it receives there; sorted by any column.
+class ReceivedTable : public QAbstractTableModel {
+  Q_OBJECT
+
+ public:
+  using QAbstractTableModel::QAbstractTableModel;
+  enum Column {
+    of_direction,
+    of_area,
+    of_seen,
+    of_irradiance,
+    of_share,
+    of_brightest,
+    column_count
+  };
+
+  /// Those of `lights` that the patch looks along. `patch_area` in m².
+  void show_lights(const std::vector<ReceivedLight>& lights, double patch_area);
+  /// The rows of this pass stand out; -1: none.
+  void set_current_pass(int pass);
+  const ReceivedLight& light(int row) const { return at(lights_, row); }
+  /// Of all rows, W/m².
+  const Rgb& irradiance() const { return irradiance_; }
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  void sort(int column, Qt::SortOrder order) override;
+
+ private:
+  double value(const ReceivedLight& light, int column) const;
+  QString text(const ReceivedLight& light, int column) const;
+  void sort_lights(std::vector<ReceivedLight>& lights) const;
+
+  std::vector<ReceivedLight> lights_;
+  double patch_area_ = 1;
+  Rgb irradiance_;
+  int current_pass_ = -1;
+  int sorted_by_ = of_irradiance;
+  Qt::SortOrder sort_order_ = Qt::DescendingOrder;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,158 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "directions/received_view.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTableView>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "directions/received_table.h"
+#include "support/number_text.h"
+#include "widgets/figure_table.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int refresh_interval_ms = 400;
+
+}  // namespace
+
+ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& sights,
+                           QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), sights_(sights) {
+  words_ = new QLabel;
+  words_->setObjectName("received_words");
+  words_->setWordWrap(true);
+  words_->setContentsMargins(10, 4, 10, 4);
+  words_->setForegroundRole(QPalette::PlaceholderText);
+  table_ = new ReceivedTable(this);
+  view_ = new QTableView;
+  view_->setObjectName("received_light");
+  view_->setModel(table_);
+  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  view_->horizontalHeader()->setStretchLastSection(true);
+  view_->horizontalHeader()->setSortIndicator(ReceivedTable::of_irradiance, Qt::DescendingOrder);
+  view_->setSortingEnabled(true);
+  set_up_figure_table(*view_, {"8888, −ω", "0.08888", "100 %", "0.008888", "88.8 %", ""});
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(words_);
+  layout->addWidget(view_, 1);
+
+  later_ = new QTimer(this);
+  later_->setSingleShot(true);
+  later_->setInterval(refresh_interval_ms);
+  connect(later_, &QTimer::timeout, this, &ReceivedView::show_lights);
+  connect(&sights_, &PerDirectionVisibility::grown, this, [this] {
+    if (!later_->isActive()) {
+      later_->start();
+    }
+  });
+  connect(&selection_, &Selection::changed, this, &ReceivedView::ask);
+  connect(&focus_, &Focus::moved, this, &ReceivedView::show_moment);
+  connect(view_, &QTableView::clicked, this, [this](const QModelIndex& index) {
+    const PatchId source = table_->light(index.row()).brightest;
+    if (index.column() == ReceivedTable::of_brightest && source != no_patch) {
+      selection_.select(source);
+    }
+  });
+  connect(view_, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
+    if (index.column() == ReceivedTable::of_brightest) {
+      return;
+    }
+    focus_.go_to_first(focus_.moment().iteration, table_->light(index.row()).pass,
+                       find_exchanges_of(selection_.patch()));
+  });
+  show_lights();
+}
+
+void ReceivedView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool another = !snapshot_ || snapshot_->directions != snapshot->directions;
+  snapshot_ = std::move(snapshot);
+  if (another) {
+    ask();
+  } else if (isVisible() && !later_->isActive()) {
+    later_->start();
+  }
+}
+
+void ReceivedView::clear() {
+  snapshot_ = nullptr;
+  later_->stop();
+  show_lights();
+}
+
+void ReceivedView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+int ReceivedView::taken() const {
+  const SolveProgress& progress = snapshot_->progress;
+  const bool whole = focus_.moment().iteration < progress.iteration;
+  return whole ? snapshot_->passes_of(focus_.moment().iteration) : progress.direction;
+}
+
+void ReceivedView::ask() {
+  if (isVisible() && snapshot_ && selection_.patch() != no_patch && taken() > 0) {
+    const SolveOptions& options = snapshot_->options;
+    sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
+                     snapshot_->directions_of(focus_.moment().iteration), taken(),
+                     selection_.patch()});
+  }
+  show_lights();
+}
+
+void ReceivedView::show_moment() {
+  if (!isVisible()) {
+    return;
+  }
+  if (snapshot_ && selection_.patch() != no_patch) {
+    ask();
+  }
+}
+
+void ReceivedView::show_lights() {
+  if (!isVisible()) {
+    return;
+  }
+  const PatchId patch = selection_.patch();
+  if (!snapshot_ || patch == no_patch) {
+    table_->show_lights({}, 1);
+    words_->setText(tr("Select a patch to see what each direction adds to its irradiance."));
+    return;
+  }
+  if (sights_.asked().patch != patch || sights_.asked().loaded != snapshot_->loaded ||
+      sights_.asked().directions != snapshot_->directions_of(focus_.moment().iteration)) {
+    return;
+  }
+  const auto n = static_cast<std::size_t>(focus_.moment().iteration);
+  const auto& kept = snapshot_->kept_radiosity;
+  const bool known = n < kept.size() && kept[n];
+  const auto& found = sights_.found();
+  const int count = std::min(taken(), static_cast<int>(found.size()));
+  table_->show_lights(
+      received_light(sights_.asked(), {found.data(), static_cast<std::size_t>(count)},
+                     known ? *kept[n] : snapshot_->radiosity,
+                     snapshot_->passes_of(focus_.moment().iteration)),
+      snapshot_->loaded->scene->patch(patch).area);
+  table_->set_current_pass(focus_.map() ? focus_.moment().direction : -1);
+  const QString what =
+      known ? tr("Iteration %1: what each direction adds to the irradiance of patch %2, together "
+                 "%3 W/m².")
+                  .arg(count_text(focus_.moment().iteration + 1))
+            : tr("What each direction adds to the irradiance of patch %1, together %2 W/m².");
+  words_->setText(
+      what.arg(patch).arg(number_text(luminance(table_->irradiance()))) +
+      (count < taken()
+           ? tr(" Looking along them: %1 of %2.").arg(count_text(count), count_text(taken()))
+           : tr(" A double click goes there.")));
+}
+
+}  // namespace transillum::viewer

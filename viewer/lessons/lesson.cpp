@@ -1,0 +1,129 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "lessons/lesson.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "lessons/session_file.h"
+#include "support/json_object.h"
+
+// Resources of a static library are found only once it is asked for them.
+static void find_resources() { Q_INIT_RESOURCE(lessons); }
+
+namespace transillum::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+// One string, or a list of them: the lines.
+std::string text_from(const json* value, const JsonObject& page) {
+  if (!value) {
+    page.fail_at("text", "is missing");
+  }
+  if (value->is_string()) {
+    return value->get<std::string>();
+  }
+  if (!value->is_array()) {
+    page.fail_at("text", "must be words in quotes, or a list of lines");
+  }
+  std::string text;
+  for (const json& line : *value) {
+    if (!line.is_string()) {
+      page.fail_at("text", "each line must be in quotes");
+    }
+    text += line.get<std::string>() + '\n';
+  }
+  return text;
+}
+
+// A page tells only what it changes, and null takes back what one before it told. Another scene
+// begins anew, but for the layout.
+void tell(json& told, const json& show) {
+  const auto scene = show.find("scene");
+  if (scene != show.end() && told.value("scene", json()) != *scene) {
+    json kept = json::object();
+    for (const char* key : {"layout", "panels"}) {
+      if (told.contains(key)) {
+        kept[key] = told[key];
+      }
+    }
+    told = std::move(kept);
+  }
+  told.merge_patch(show);
+}
+
+}  // namespace
+
+Lesson lesson_from_text(const std::string& text, const std::string& name,
+                        const std::string& folder) {
+  const json whole = parse_json(text, name);
+  JsonObject object(whole, name);
+  Lesson lesson;
+  object.read("title", lesson.title);
+  if (lesson.title.empty()) {
+    object.fail_at("title", "is missing");
+  }
+  const json* pages = object.find("pages");
+  if (!pages || !pages->is_array() || pages->empty()) {
+    object.fail_at("pages", "must be a list [ … ] of at least one page");
+  }
+  object.done();
+
+  json told = json::object();
+  for (const json& value : *pages) {
+    const std::string where = name + ", page " + std::to_string(lesson.pages.size() + 1);
+    JsonObject page_object(value, where);
+    Lesson::Page& page = lesson.pages.emplace_back();
+    page_object.read("title", page.title);
+    page.text = text_from(page_object.find("text"), page_object);
+    if (const json* show = page_object.find("show")) {
+      if (!show->is_object()) {
+        page_object.fail_at("show", "must be an object { … }");
+      }
+      tell(told, *show);
+    }
+    page_object.done();
+    page.state = view_state_from_json(told, where, folder);
+  }
+  return lesson;
+}
+
+Lesson read_lesson(const std::string& path) {
+  return lesson_from_text(text_of_file(path), path,
+                          QFileInfo(QString::fromStdString(path)).path().toStdString());
+}
+
+void check_panels(const Lesson& lesson, const std::string& name,
+                  const std::vector<std::string>& panels) {
+  for (std::size_t k = 0; k < lesson.pages.size(); ++k) {
+    for (const std::string& panel : lesson.pages[k].state.panels) {
+      if (std::find(panels.begin(), panels.end(), panel) != panels.end()) {
+        continue;
+      }
+      std::string known;
+      for (const std::string& one : panels) {
+        known += (known.empty() ? "" : ", ") + one;
+      }
+      throw InputError(name + ", page " + std::to_string(k + 1) + ", panels: there is no panel \"" +
+                       panel + "\"; there are " + known);
+    }
+  }
+}
+
+const std::vector<Lesson>& built_in_lessons() {
+  static const std::vector<Lesson> lessons = [] {
+    find_resources();
+    std::vector<Lesson> all;
+    const QDir folder(QStringLiteral(":/lessons"));
+    for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) {
+      all.push_back(
+          lesson_from_text(text_of_file(folder.filePath(name).toStdString()), name.toStdString()));
+    }
+    return all;
+  }();
+  return lessons;
+}
+
+}  // namespace transillum::viewer

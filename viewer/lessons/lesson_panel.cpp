@@ -1,0 +1,223 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "lessons/lesson_panel.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QFontInfo>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QTextBlock>
+#include <QTextBrowser>
+#include <QTextList>
+#include <QTextTable>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "transillum/at.h"
+#include "widgets/elided.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double text_scale = 1.25, title_scale = 1.6;  // of the window's font: read from afar
+
+QToolButton* button_for(QAction* action, Qt::ToolButtonStyle style) {
+  auto* button = new QToolButton;
+  button->setDefaultAction(action);
+  button->setToolButtonStyle(style);
+  button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  return button;
+}
+
+QAction* make_action(QObject* parent, const char* name, const QString& text, const QString& tip) {
+  auto* action = new QAction(text, parent);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setToolTip(tip);
+  return action;
+}
+
+// Qt sets Markdown's paragraphs without room between them.
+void spread_paragraphs(QTextDocument& document) {
+  const double room = 0.6 * QFontInfo(document.defaultFont()).pixelSize();
+  for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+    QTextCursor cursor(block);
+    if (QTextTable* table = cursor.currentTable()) {
+      QTextTableFormat rules = table->format();
+      rules.setBorderCollapse(true);
+      rules.setBorder(1);
+      rules.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+      rules.setBorderBrush(theme::rule);
+      rules.setCellPadding(room / 3);
+      rules.setBottomMargin(room);
+      table->setFormat(rules);
+      continue;
+    }
+    QTextBlockFormat format = block.blockFormat();
+    format.setBottomMargin(block.textList() ? room / 2 : room);
+    cursor.setBlockFormat(format);
+  }
+}
+
+}  // namespace
+
+LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
+    : QWidget(parent), lessons_(std::move(lessons)) {
+  list_ = new ElidedComboBox;
+  list_->setObjectName("lesson_list");
+  list_->setPlaceholderText(tr("Lessons"));
+  list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  list_->installEventFilter(this);
+  title_ = new QLabel;
+  title_->setObjectName("lesson_title");
+  title_->setWordWrap(true);
+  text_ = new QTextBrowser;
+  text_->setObjectName("lesson_text");
+  text_->setOpenExternalLinks(true);
+  text_->setFrameShape(QFrame::NoFrame);
+  text_->setFocusPolicy(Qt::ClickFocus);
+  place_ = new QLabel;
+  place_->setObjectName("lesson_place");
+  place_->setAlignment(Qt::AlignCenter);
+
+  previous_ = make_action(this, "lesson_previous", tr("Previous page"), tr("Page up"));
+  previous_->setShortcut(Qt::Key_PageUp);
+  next_ =
+      make_action(this, "lesson_next", tr("Next page"), tr("Page down, as a presenter sends it"));
+  next_->setShortcut(Qt::Key_PageDown);
+  again_ = make_action(this, "lesson_again", tr("Show this page again"),
+                       tr("Bring the window back to what this page tells"));
+  again_->setShortcut(QKeySequence(QStringLiteral("Ctrl+L")));
+  open_ = make_action(this, "lesson_open", tr("Open a lesson…"), tr("Open a lesson's JSON file"));
+  previous_->setIcon(theme::icon(theme::Icon::step_back));
+  next_->setIcon(theme::icon(theme::Icon::step_on));
+
+  auto* turns = new QHBoxLayout;
+  turns->setSpacing(8);
+  turns->addWidget(button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
+  turns->addWidget(place_, 1);
+  turns->addWidget(button_for(next_, Qt::ToolButtonTextBesideIcon), 2);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 10, 12, 10);
+  layout->setSpacing(10);
+  layout->addWidget(list_);
+  layout->addWidget(title_);
+  layout->addWidget(text_, 1);
+  layout->addLayout(turns);
+
+  connect(list_, qOverload<int>(&QComboBox::activated), this, [this](int row) {
+    if (row < static_cast<int>(lessons_.size())) {
+      show_page(row, 0);
+    } else {
+      emit open_clicked();
+    }
+    show_state();
+  });
+  connect(previous_, &QAction::triggered, this, [this] { turn(-1); });
+  connect(next_, &QAction::triggered, this, [this] { turn(1); });
+  connect(again_, &QAction::triggered, this, [this] { turn(0); });
+  connect(open_, &QAction::triggered, this, &LessonPanel::open_clicked);
+  fill_list();
+  show_state();
+}
+
+void LessonPanel::add_to(QMenu& menu) {
+  auto* lessons = new QMenu(tr("Lessons"), &menu);
+  connect(lessons, &QMenu::aboutToShow, this, [this, lessons] {
+    lessons->clear();
+    for (int k = 0; k < static_cast<int>(lessons_.size()); ++k) {
+      lessons->addAction(list_->itemText(k), this, [this, k] { show_page(k, 0); });
+    }
+  });
+  menu.addMenu(lessons);
+  for (QAction* action : {open_, previous_, next_, again_}) {
+    menu.addAction(action);
+  }
+}
+
+void LessonPanel::add(Lesson lesson) {
+  lessons_.insert(lessons_.begin(), std::move(lesson));
+  fill_list();
+}
+
+void LessonPanel::fill_list() {
+  list_->clear();
+  for (const Lesson& lesson : lessons_) {
+    list_->addItem(QString::fromStdString(lesson.title));
+  }
+  list_->addItem(tr("Open a lesson…"));
+}
+
+void LessonPanel::show_page(int lesson, int page) {
+  lesson_ = lesson;
+  page_ = page;
+  show_state();
+  emit page_shown(at(at(lessons_, lesson).pages, page).state);
+}
+
+void LessonPanel::turn(int pages) {
+  const int page = page_ + pages;
+  if (lesson_ < 0) {
+    show_page(0, 0);
+  } else if (page < 0) {
+    show_page(lesson_ - 1, pages_of(lesson_ - 1) - 1);
+  } else if (page == pages_of(lesson_)) {
+    show_page(lesson_ + 1, 0);
+  } else {
+    show_page(lesson_, page);
+  }
+}
+
+int LessonPanel::pages_of(int lesson) const {
+  return static_cast<int>(at(lessons_, lesson).pages.size());
+}
+
+bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == list_ && event->type() == QEvent::KeyPress) {
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
+      return true;  // they turn pages
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void LessonPanel::show_state() {
+  list_->setCurrentIndex(lesson_);
+  const bool any = lesson_ >= 0;
+  again_->setEnabled(any);
+  const bool first = any && page_ == 0, last = any && page_ + 1 == pages_of(lesson_);
+  previous_->setEnabled(any && (!first || lesson_ > 0));
+  previous_->setText(first && lesson_ > 0 ? tr("Previous lesson") : tr("Previous page"));
+  const bool end = last && lesson_ + 1 == static_cast<int>(lessons_.size());
+  next_->setEnabled(!lessons_.empty() && !end);
+  next_->setText(end ? tr("No more pages") : last ? tr("Next lesson") : tr("Next page"));
+  if (!any) {
+    title_->setText(tr("Choose a lesson"));
+    text_->setMarkdown(
+        tr("Each page drives the window. Look around as you like; *Show this page "
+           "again* (Ctrl+L) brings back what the page tells."));
+    place_->clear();
+  } else {
+    const Lesson& lesson = at(lessons_, lesson_);
+    const Lesson::Page& page = at(lesson.pages, page_);
+    title_->setText(QString::fromStdString(page.title.empty() ? lesson.title : page.title));
+    text_->setMarkdown(QString::fromStdString(page.text));
+    place_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
+  }
+  const int size = QFontInfo(qApp->font()).pixelSize();
+  QFont large = font();
+  large.setPixelSize(static_cast<int>(text_scale * size));
+  text_->setFont(large);
+  spread_paragraphs(*text_->document());
+  large.setPixelSize(static_cast<int>(title_scale * size));
+  large.setBold(true);
+  title_->setFont(large);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,369 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "lessons/view_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <span>
+
+#include "support/json_object.h"
+
+namespace transillum::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int most = std::numeric_limits<int>::max() - 1;
+
+// The words of a file for the values of an enumeration.
+template <class Value>
+struct Word {
+  const char* word;
+  Value value;
+};
+constexpr Word<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color},
+                                           {"luminance", ColorMode::luminance},
+                                           {"red", ColorMode::red},
+                                           {"green", ColorMode::green},
+                                           {"blue", ColorMode::blue}};
+constexpr Word<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
+                                         {"exitance", Quantity::exitance},
+                                         {"reflectance", Quantity::reflectance},
+                                         {"irradiance", Quantity::irradiance},
+                                         {"form-factor-from", Quantity::form_factor_from},
+                                         {"form-factor-to", Quantity::form_factor_to},
+                                         {"form-factor-sum", Quantity::form_factor_sum},
+                                         {"fragments", Quantity::fragments},
+                                         {"error", Quantity::error},
+                                         {"last-change", Quantity::last_change}};
+constexpr Word<ColorMap> color_maps[] = {
+    {"viridis", ColorMap::viridis}, {"cividis", ColorMap::cividis}, {"inferno", ColorMap::inferno}};
+constexpr Word<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
+                                           {"locked", RangeRule::widening},
+                                           {"fixed", RangeRule::fixed}};
+constexpr Word<Overlay> overlays[] = {{"normals", Overlay::normals},
+                                      {"back-sides", Overlay::back_sides},
+                                      {"cuts", Overlay::cuts},
+                                      {"wireframe", Overlay::wireframe},
+                                      {"smooth", Overlay::smooth}};
+constexpr Word<MapKind> algorithms[] = {{"local-map", MapKind::local},
+                                        {"global-map", MapKind::global}};
+constexpr Word<Phase> phases[] = {
+    {"before", Phase::before}, {"split", Phase::split}, {"after", Phase::after}};
+constexpr Word<StepName> step_names[] = {{"exchange", StepName::exchange},
+                                         {"cut", StepName::cut},
+                                         {"event", StepName::event},
+                                         {"fullest", StepName::fullest},
+                                         {"polygon", StepName::polygon}};
+constexpr Word<Layout> layouts[] = {
+    {"teach", Layout::teach}, {"inspect", Layout::inspect}, {"debug", Layout::debug}};
+
+template <class Value, std::size_t n>
+Value value_of(const Word<Value> (&words)[n], const json& word, const std::string& where) {
+  std::string choices;
+  for (const Word<Value>& known : words) {
+    if (word == known.word) {
+      return known.value;
+    }
+    choices += (choices.empty() ? "\"" : ", \"") + std::string(known.word) + '"';
+  }
+  throw InputError(where + ": must be one of " + choices);
+}
+
+template <class Value, std::size_t n>
+void read(JsonObject& object, const char* key, const Word<Value> (&words)[n], Value& value) {
+  if (const json* found = object.find(key)) {
+    value = value_of(words, *found, object.where(key));
+  }
+}
+
+template <class Value, std::size_t n>
+const char* word_of(const Word<Value> (&words)[n], Value value) {
+  return std::find_if(std::begin(words), std::end(words),
+                      [value](const Word<Value>& known) { return known.value == value; })
+      ->word;
+}
+
+Goal goal_from(const json& value, const std::string& where) {
+  if (value == "finished") {
+    return {Goal::Kind::finished};
+  }
+  const double passes = value.is_number() ? value.get<double>() : -1;
+  constexpr double most_passes = 1e15;
+  if (!(passes >= 0 && passes <= most_passes) || passes != std::floor(passes)) {
+    throw InputError(where + ": must be \"finished\", or how many directions to take");
+  }
+  if (passes == 0) {
+    return {};
+  }
+  return {Goal::Kind::passes, static_cast<std::int64_t>(passes)};
+}
+
+json to_json(const Goal& goal) {
+  if (goal.kind == Goal::Kind::passes) {
+    return goal.passes;
+  }
+  return goal.kind == Goal::Kind::rest ? json(0) : json("finished");
+}
+
+std::optional<FocusChoice> focus_from(const json& value, const std::string& where) {
+  if (value == "newest") {
+    return std::nullopt;
+  }
+  FocusChoice focus;
+  JsonObject object(value, where);
+  int iteration = 1, direction = 1;
+  object.read("iteration", iteration, 1, most);
+  object.read("direction", direction, 1, most);
+  focus.iteration = iteration - 1;
+  focus.direction = direction - 1;
+  if (const json* step = object.find("step")) {
+    if (step->is_string()) {
+      if (*step == "last") {
+        focus.step = std::int32_t{most};
+      } else {
+        focus.step = value_of(step_names, *step, object.where("step"));
+      }
+    } else {
+      int number = 0;
+      object.read("step", number, 0, most);
+      focus.step = std::int32_t{number - 1};
+    }
+  }
+  read(object, "phase", phases, focus.phase);
+  object.done();
+  return focus;
+}
+
+json to_json(const std::optional<FocusChoice>& focus) {
+  if (!focus) {
+    return "newest";
+  }
+  json result = {{"iteration", focus->iteration + 1},
+                 {"direction", focus->direction + 1},
+                 {"phase", word_of(phases, focus->phase)}};
+  if (const auto* step = std::get_if<std::int32_t>(&focus->step)) {
+    result["step"] = *step == most ? json("last") : json(*step + 1);
+  } else {
+    result["step"] = word_of(step_names, std::get<StepName>(focus->step));
+  }
+  return result;
+}
+
+MaterialChange material_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  MaterialChange change;
+  object.read("name", change.name);
+  if (change.name.empty()) {
+    object.fail_at("name", "is missing");
+  }
+  const auto read_channels = [&](const char* key, bool below_one) {
+    const json* channels = object.find(key);
+    if (!channels) {
+      object.fail_at(key, "is missing");
+    }
+    const Vec3 c = vec3_from_json(*channels, object.where(key));
+    for (const double x : {c.x, c.y, c.z}) {
+      if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1))) {
+        object.fail_at(key, below_one ? "must be 0 to below 1" : "must be at least 0");
+      }
+    }
+    return Rgb{c.x, c.y, c.z};
+  };
+  change.exitance = read_channels("exitance", false);
+  change.reflectance = read_channels("reflectance", true);
+  object.done();
+  return change;
+}
+
+json to_json(const MaterialChange& change) {
+  const auto list = [](const Rgb& c) { return json::array({c.r, c.g, c.b}); };
+  return {{"name", change.name},
+          {"exitance", list(change.exitance)},
+          {"reflectance", list(change.reflectance)}};
+}
+
+void read_colors(ViewState& state, const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  read(object, "quantity", quantities, state.quantity);
+  read(object, "show", color_modes, state.color_mode);
+  read(object, "map", color_maps, state.color_map);
+  object.read("logarithmic", state.logarithmic);
+  if (const json* range = object.find("range")) {
+    const bool numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
+                         (*range)[1].is_number();
+    if (!numbers) {
+      object.fail_at("range", "must be two numbers [low, high]");
+    }
+    state.range = {(*range)[0].get<double>(), (*range)[1].get<double>()};
+    state.range_rule = RangeRule::fixed;
+  }
+  read(object, "range-rule", range_rules, state.range_rule);
+  if (state.range_rule == RangeRule::fixed && !state.range) {
+    object.fail_at("range-rule", "\"fixed\" wants a \"range\"");
+  }
+  if (state.range_rule == RangeRule::automatic && state.range) {
+    object.fail_at("range-rule", "\"automatic\" has no \"range\"");
+  }
+  if (object.find("exposure")) {
+    object.read("exposure", state.exposure.emplace());
+  }
+  object.read("gamma", state.gamma);
+  if (!(state.gamma >= 1 && state.gamma <= 3)) {
+    object.fail_at("gamma", "must be 1 to 3");
+  }
+  if (state.exposure && !(std::abs(*state.exposure) <= 12)) {
+    object.fail_at("exposure", "must be -12 to 12 EV");
+  }
+  object.done();
+}
+
+// A file beside the lesson comes before one of the working folder.
+std::string beside(const std::string& scene, const std::string& folder) {
+  if (folder.empty() || scene.empty()) {
+    return scene;
+  }
+  const auto path = std::filesystem::path(folder) / scene;
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) ? path.string() : scene;
+}
+
+}  // namespace
+
+ViewPoint view_point_from_json(const json& value, const std::string& where) {
+  ViewPoint camera;
+  camera.eye = {0, 0, 1};
+  camera.up = {0, 1, 0};
+  JsonObject object(value, where);
+  object.read("eye", camera.eye);
+  object.read("target", camera.target);
+  object.read("up", camera.up);
+  object.read("angle", camera.view_angle);
+  object.done();
+  const Vec3 sight = camera.target - camera.eye;
+  if (!(norm(cross(sight, camera.up)) > 1e-9 * norm(sight) * norm(camera.up))) {
+    object.fail("eye and target must differ, and \"up\" must not lie along the line between them");
+  }
+  if (!(camera.view_angle > 0 && camera.view_angle < 170)) {
+    object.fail_at("angle", "must be between 0 and 170 degrees");
+  }
+  return camera;
+}
+
+json to_json(const ViewPoint& camera) {
+  return {{"eye", viewer::to_json(camera.eye)},
+          {"target", viewer::to_json(camera.target)},
+          {"up", viewer::to_json(camera.up)},
+          {"angle", camera.view_angle}};
+}
+
+ViewState view_state_from_json(const json& value, const std::string& where,
+                               const std::string& folder) {
+  ViewState state;
+  JsonObject object(value, where);
+  object.read("scene", state.scene);
+  state.scene = beside(state.scene, folder);
+  if (const json* options = object.find("options")) {
+    state.options = run_options_from_json(*options, object.where("options"));
+  }
+  if (const json* goal = object.find("solve")) {
+    state.solve = goal_from(*goal, object.where("solve"));
+  }
+  if (const json* focus = object.find("focus")) {
+    state.focus = focus_from(*focus, object.where("focus"));
+  }
+  if (const json* list = object.find("materials")) {
+    if (!list->is_array()) {
+      object.fail_at("materials", "must be a list [ … ]");
+    }
+    for (const json& one : *list) {
+      state.materials.push_back(material_from(
+          one, object.where("material " + std::to_string(state.materials.size() + 1))));
+    }
+  }
+  object.read("select", state.selection, 0, most);
+  if (const json* camera = object.find("camera")) {
+    state.camera = view_point_from_json(*camera, object.where("camera"));
+  }
+  if (const json* colors = object.find("colors")) {
+    read_colors(state, *colors, object.where("colors"));
+  }
+  if (object.find("outlines")) {
+    object.read("outlines", state.outlines.emplace());
+  }
+  object.read("direction", state.direction_shown);
+  if (const json* list = object.find("overlays")) {
+    if (!list->is_array()) {
+      object.fail_at("overlays", "must be a list of words [\"normals\", …]");
+    }
+    for (const json& word : *list) {
+      state.overlays.push_back(value_of(overlays, word, object.where("overlays")));
+    }
+  }
+  read(object, "algorithm", algorithms, state.algorithm);
+  object.read("labels", state.labels);
+  if (object.find("layout")) {
+    read(object, "layout", layouts, state.layout.emplace());
+  }
+  if (const json* panels = object.find("panels")) {
+    const bool words =
+        panels->is_array() &&
+        std::all_of(panels->begin(), panels->end(), [](const json& p) { return p.is_string(); });
+    if (!words) {
+      object.fail_at("panels", "must be a list of names [\"map\", …]");
+    }
+    state.panels = panels->get<std::vector<std::string>>();
+  }
+  object.done();
+  return state;
+}
+
+json to_json(const ViewState& state) {
+  json result = {{"scene", state.scene},
+                 {"options", to_json(state.options)},
+                 {"solve", to_json(state.solve)},
+                 {"focus", to_json(state.focus)},
+                 {"colors",
+                  {{"quantity", word_of(quantities, state.quantity)},
+                   {"show", word_of(color_modes, state.color_mode)},
+                   {"map", word_of(color_maps, state.color_map)},
+                   {"logarithmic", state.logarithmic},
+                   {"range-rule", word_of(range_rules, state.range_rule)},
+                   {"gamma", state.gamma}}},
+                 {"overlays", json::array()},
+                 {"algorithm", word_of(algorithms, state.algorithm)},
+                 {"direction", state.direction_shown},
+                 {"labels", state.labels}};
+  if (state.range) {
+    result["colors"]["range"] = json::array({state.range->first, state.range->second});
+  }
+  if (state.exposure) {
+    result["colors"]["exposure"] = *state.exposure;
+  }
+  for (const Overlay overlay : state.overlays) {
+    result["overlays"].push_back(word_of(overlays, overlay));
+  }
+  for (const MaterialChange& change : state.materials) {
+    result["materials"].push_back(to_json(change));
+  }
+  if (state.selection != no_patch) {
+    result["select"] = state.selection;
+  }
+  if (state.camera) {
+    result["camera"] = to_json(*state.camera);
+  }
+  if (state.outlines) {
+    result["outlines"] = *state.outlines;
+  }
+  if (state.layout) {
+    result["layout"] = word_of(layouts, *state.layout);
+  }
+  if (!state.panels.empty()) {
+    result["panels"] = state.panels;
+  }
+  return result;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,320 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/compare_view.h"
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSpinBox>
+#include <QStackedWidget>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "map/difference_picture.h"
+#include "map/hemicube_view.h"
+#include "map/map_canvas.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "transillum/pixel_map.h"
+#include "widgets/elided.h"
+#include "widgets/engine_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+/// While the newest direction is followed, so often at most.
+constexpr int refresh_interval_ms = 400;
+constexpr int map_height = 110;  ///< pixels, where there is no more room
+
+QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
+
+QString words_of_figures(const EngineComparison::Side& side, double exchanged) {
+  return CompareView::tr("%1 ms, %2 pairs\n%3 m² exchanged\n%4 covered")
+      .arg(number_text(1000 * side.seconds), count_text(static_cast<std::int64_t>(side.pairs)),
+           number_text(exchanged), percent_text(side.covered_share));
+}
+
+QString words_of_direction(const EngineComparison& c) {
+  QString text = CompareView::tr(
+                     "Along this direction %1 of what “%2” exchanges is between other "
+                     "patches by “%3”.")
+                     .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
+                          engine_label(c.other.engine));
+  const Transfer& largest = c.transfers.largest;
+  if (largest.receiver == no_patch) {
+    return text;
+  }
+  return text + CompareView::tr(" Most: patches %1 and %2, %3 m² %4.")
+                    .arg(largest.receiver)
+                    .arg(largest.source)
+                    .arg(number_text(std::abs(largest.area)),
+                         largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
+}
+
+QString words_of_row(const EngineComparison& c, std::size_t directions) {
+  QString text = CompareView::tr(
+                     "A hemicube knows no direction. Of what patch %1 sees by “%2”, %3 "
+                     "is other patches by “%4” (all %5 directions of the run).")
+                     .arg(c.eye)
+                     .arg(engine_label(c.first.engine), percent_text(c.transfers.misplaced),
+                          engine_label(c.other.engine))
+                     .arg(directions);
+  const Transfer& largest = c.transfers.largest;
+  if (largest.receiver == no_patch) {
+    return text;
+  }
+  const double area = at(c.projected, c.eye);
+  return text + CompareView::tr(" Most: patch %1, form factor %2 %3.")
+                    .arg(largest.source)
+                    .arg(number_text(std::abs(largest.area) / area),
+                         largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
+}
+
+}  // namespace
+
+CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& colors,
+                         QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+  first_ = make_choice("first", Engine::fast);
+  other_ = make_choice("other", Engine::zbuffer);
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(2);
+  grid->setVerticalSpacing(0);
+  grid->addLayout(column_of(first_), 0, 0);
+  grid->addLayout(column_of(other_), 0, 1);
+  words_ = new QLabel;
+  words_->setObjectName(QStringLiteral("compare_words"));
+  words_->setWordWrap(true);
+  words_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  words_->setContentsMargins(10, 6, 10, 6);
+  picture_ = new DifferencePicture(selection_);
+  picture_->canvas()->set_height_hint(map_height);
+  link({first_.map, other_.map, picture_->canvas()});
+  grid->addWidget(words_, 1, 0);
+  grid->addWidget(picture_, 1, 1);
+  for (const int part : {0, 1}) {
+    grid->setRowStretch(part, 1);
+    grid->setColumnStretch(part, 1);
+  }
+
+  later_ = new QTimer(this);
+  later_->setSingleShot(true);
+  later_->setInterval(refresh_interval_ms);
+  connect(later_, &QTimer::timeout, this, &CompareView::ask);
+  connect(&focus_, &Focus::moved, this, [this] {
+    if (isVisible() && !later_->isActive()) {
+      later_->start();
+    }
+  });
+  connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
+  connect(&selection_, &Selection::changed, this, [this] {
+    if (first_.is_hemicube() || other_.is_hemicube()) {
+      later_->start();
+    }
+  });
+  connect(&focus_, &Focus::probed, this, &CompareView::show_maps);
+  connect(&colors_, &ColorChoice::changed, this, &CompareView::show_maps);
+  show_comparison(nullptr);
+}
+
+CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
+  Choice choice{new ElidedComboBox,           new QSpinBox,       new MapCanvas(selection_),
+                new HemicubeView(selection_), new QStackedWidget, new QLabel};
+  choice.figures->setObjectName(QString::fromLatin1(name) + QStringLiteral("_figures"));
+  choice.figures->setWordWrap(true);
+  choice.figures->setContentsMargins(10, 4, 10, 4);
+  choice.figures->setToolTip(
+      tr("Its processor time for this direction; the pairs of patches that exchange light; the "
+         "area, seen along the direction, over which they do; the share of what receivers show to "
+         "it that was found to see another patch"));
+  choice.picture->addWidget(choice.map);
+  choice.picture->addWidget(choice.hemicube);
+  choice.map->set_height_hint(map_height);
+  choice.map->setObjectName(QString::fromLatin1(name) + QStringLiteral("_map"));
+  choice.engine->setObjectName(QString::fromLatin1(name) + QStringLiteral("_engine"));
+  choice.engine->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  choice.engine->setMinimumContentsLength(6);
+  add_engines(*choice.engine, true);
+  choose_engine(*choice.engine, engine);
+  choice.engine->setToolTip(engine_sentence(engine));
+  choice.resolution->setObjectName(QString::fromLatin1(name) + QStringLiteral("_resolution"));
+  choice.resolution->setToolTip(tr("Pixels along the longer side of the map"));
+  choice.resolution->setRange(8, PixelMap::largest_resolution);
+  choice.resolution->setValue(128);
+  choice.resolution->setSingleStep(64);
+  choice.resolution->setSuffix(tr(" px"));
+  if (!takes_resolution(engine)) {
+    choice.resolution->hide();
+  }
+  connect(choice.engine, qOverload<int>(&QComboBox::currentIndexChanged), this, [this, choice] {
+    const Engine chosen = engine_of(*choice.engine);
+    choice.engine->setToolTip(engine_sentence(chosen));
+    choice.resolution->setVisible(takes_resolution(chosen));
+    ask();
+  });
+  connect(choice.resolution, QOverload<int>::of(&QSpinBox::valueChanged), this,
+          [this] { later_->start(); });
+  return choice;
+}
+
+QBoxLayout* CompareView::column_of(const Choice& choice) const {
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(6, 6, 6, 4);
+  row->setSpacing(4);
+  row->addWidget(choice.engine, 1);
+  row->addWidget(choice.resolution);
+  auto* column = new QVBoxLayout;
+  column->setSpacing(0);
+  column->addLayout(row);
+  column->addWidget(choice.picture, 1);
+  column->addWidget(choice.figures);
+  return column;
+}
+
+void CompareView::link(const std::vector<MapCanvas*>& maps) {
+  for (MapCanvas* map : maps) {
+    connect(map, &MapCanvas::view_changed, this, [map, maps] {
+      for (MapCanvas* another : maps) {
+        if (another != map) {
+          another->set_view(map->view());
+        }
+      }
+    });
+    connect(map, &MapCanvas::clicked, this,
+            [this, map](const QPointF& position) { focus_.set_probe(map->point_at(position)); });
+  }
+}
+
+bool CompareView::Choice::is_hemicube() const { return engine_of(*engine) == Engine::hemicube; }
+
+bool CompareView::Choice::up_to_date() const {
+  return is_hemicube() ? hemicube->up_to_date() : map->up_to_date();
+}
+
+int CompareView::Choice::resolution_asked() const {
+  if (is_hemicube()) {
+    return resolution->value() / 2 * 2;
+  }
+  return takes_resolution(engine_of(*engine)) ? resolution->value() : 0;
+}
+
+void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  if (isVisible() && !up_to_date() && !later_->isActive()) {
+    later_->start();
+  }
+}
+
+void CompareView::clear() {
+  snapshot_ = nullptr;
+  asked_ = {};
+  comparer_.clear();
+  for (const Choice* choice : {&first_, &other_}) {
+    choice->map->clear();
+    choice->hemicube->clear();
+  }
+  show_comparison(nullptr);
+}
+
+bool CompareView::up_to_date() const {
+  return comparison_ && !comparing_ && focus_.map() && snapshot_ && wanted() == asked_ &&
+         first_.up_to_date() && other_.up_to_date() && picture_->canvas()->up_to_date();
+}
+
+void CompareView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+EngineComparer::Request CompareView::wanted() const {
+  EngineComparer::Request request;
+  request.loaded = focus_.map()->loaded;
+  request.direction = focus_.map()->record().frame.omega;
+  request.options = snapshot_->options.engine_options;
+  request.first = engine_of(*first_.engine);
+  request.first_resolution = first_.resolution_asked();
+  request.other = engine_of(*other_.engine);
+  request.other_resolution = other_.resolution_asked();
+  if (request.compares_rows()) {
+    request.direction = {};  // it does not matter
+    request.eye = selection_.patch();
+    request.directions = snapshot_->directions;
+    request.two_way = snapshot_->options.two_way;
+  }
+  return request;
+}
+
+void CompareView::ask() {
+  show_maps();
+  if (!isVisible() || !snapshot_ || !focus_.map()) {
+    return;
+  }
+  EngineComparer::Request request = wanted();
+  if (request == asked_) {
+    return;
+  }
+  asked_ = request;
+  comparing_ = true;
+  words_->setText(tr("Comparing…"));
+  comparer_.request(std::move(request));
+}
+
+void CompareView::show_maps() {
+  const auto map = focus_.map();
+  if (!isVisible() || !snapshot_ || !map || snapshot_->loaded != map->loaded) {
+    return;
+  }
+  MapCanvas::Content content;
+  content.map = map;
+  content.step = map->record().fullest_step();
+  content.probe = focus_.probe();
+  content.patch_colors = std::make_shared<const std::vector<Color8>>(colors_.patch_colors());
+  for (const Choice* choice : {&first_, &other_}) {
+    const Engine engine = engine_of(*choice->engine);
+    choice->picture->setCurrentIndex(choice->is_hemicube() ? 1 : 0);
+    if (choice->is_hemicube()) {
+      choice->hemicube->show_scene(
+          {map->loaded, choice->resolution_asked(), false, content.patch_colors});
+      continue;
+    }
+    choice->hemicube->clear();
+    content.pixels = {};
+    if (has_pixels(engine) || engine == Engine::corrected) {
+      content.pixels.engine = engine;
+      content.pixels.order = snapshot_->options.engine_options.order;
+      content.pixels.resolution = choice->resolution->value();
+    }
+    choice->map->show_map(content);
+  }
+}
+
+void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {
+  comparison_ = std::move(comparison);
+  comparing_ = false;
+  picture_->show(focus_.map(), comparison_);
+  for (const Choice* choice : {&first_, &other_}) {
+    choice->figures->clear();
+  }
+  if (!comparison_) {
+    words_->setText(tr("Solve a scene to compare two engines on one of its directions."));
+    return;
+  }
+  const EngineComparison& c = *comparison_;
+  for (const EngineComparison::Side* side : {&c.first, &c.other}) {
+    if (side->failure.empty()) {
+      continue;
+    }
+    words_->setText(QStringLiteral("%1: %2").arg(engine_label(side->engine),
+                                                 QString::fromStdString(side->failure)));
+    return;
+  }
+  first_.figures->setText(words_of_figures(c.first, c.transfers.exchanged));
+  other_.figures->setText(words_of_figures(c.other, c.transfers.other_exchanged));
+  words_->setText(c.eye == no_patch ? words_of_direction(c)
+                                    : words_of_row(c, asked_.directions->size()));
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,87 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/difference_picture.h"
+
+#include <QPainter>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QColor color_of_share(double share) {
+  const double t = std::clamp(share / DifferencePicture::full_color_at, 0.0, 1.0);
+  const auto channel = [t](int from, int to) { return from + static_cast<int>(t * (to - from)); };
+  return {channel(0xff, 0xc0), channel(0xff, 0x1a), channel(0xff, 0x1a)};
+}
+
+/// A bar of the colors, and what its ends are.
+class Legend : public QWidget {
+ public:
+  Legend() { setFixedHeight(fontMetrics().height() + 12); }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme::scene_background);
+    const QRect bar(10, (height() - 12) / 2, width() / 3, 12);
+    QLinearGradient gradient(bar.topLeft(), bar.topRight());
+    gradient.setColorAt(0, color_of_share(0));
+    gradient.setColorAt(1, color_of_share(DifferencePicture::full_color_at));
+    painter.setPen(theme::on_dark_dim);
+    painter.fillRect(bar, gradient);
+    painter.drawRect(bar);
+    painter.setPen(theme::on_dark);
+    painter.drawText(rect().adjusted(bar.right() + 8, 0, -4, 0), Qt::AlignVCenter | Qt::AlignLeft,
+                     tr("0 … %1 % otherwise").arg(100 * DifferencePicture::full_color_at));
+  }
+};
+
+}  // namespace
+
+DifferencePicture::DifferencePicture(Selection& selection, QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("difference_picture"));
+  canvas_ = new MapCanvas(selection);
+  canvas_->setObjectName(QStringLiteral("difference_canvas"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(canvas_, 1);
+  layout->addWidget(new Legend);
+}
+
+void DifferencePicture::show(const std::shared_ptr<const RecordedMap>& map,
+                             std::shared_ptr<const EngineComparison> comparison) {
+  comparison_ = std::move(comparison);
+  if (!map || !comparison_ || !comparison_->ok() || comparison_->loaded != map->loaded) {
+    canvas_->clear();
+    return;
+  }
+  auto colors = std::make_shared<std::vector<Color8>>();
+  for (PatchId i = 0; i < map->loaded->scene->patch_count(); ++i) {
+    const QColor color = color_of_share(share(i));
+    colors->push_back({static_cast<std::uint8_t>(color.red()),
+                       static_cast<std::uint8_t>(color.green()),
+                       static_cast<std::uint8_t>(color.blue())});
+  }
+  MapCanvas::Content content;
+  content.map = map;
+  content.step = map->record().fullest_step();
+  content.patch_colors = std::move(colors);
+  canvas_->show_map(std::move(content));
+}
+
+double DifferencePicture::share(PatchId patch) const {
+  if (!comparison_ || !comparison_->ok()) {
+    return -1;
+  }
+  const auto i = static_cast<std::size_t>(patch);
+  const double projected = comparison_->projected[i];
+  // What one patch loses another gets: of either half of the difference is its own.
+  return projected > 0 ? comparison_->transfers.differences[i] / (2 * projected) : 0;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,245 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/hemicube_view.h"
+
+#include <QHelpEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "map/corrected_drawing.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int legend_room = 34;
+const QColor nothing_lit{0x43, 0x4a, 0x55};
+
+}  // namespace
+
+HemicubeView::HemicubeView(const Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      selection_(selection),
+      worker_([this](const Order& order, const Cancellation& cancellation) {
+        work(order, cancellation);
+      }) {
+  setMinimumSize(200, 90);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  connect(&selection_, &Selection::changed, this, &HemicubeView::ask);
+}
+
+void HemicubeView::show_scene(Content content) {
+  content_ = std::move(content);
+  ask();
+  draw_cross();
+}
+
+void HemicubeView::clear() {
+  content_ = {};
+  ask();
+}
+
+void HemicubeView::ask() {
+  const HemicubeComparison::Request request{content_.loaded, selection_.patch(),
+                                            content_.resolution, content_.differences};
+  if (request == asked_.request) {
+    return;
+  }
+  asked_ = {request, asked_.number + 1};
+  failure_.clear();
+  progress_ = 0;
+  if (!request.loaded || request.eye == no_patch) {
+    worker_.clear();
+    take(nullptr, asked_.number, true);
+  } else {
+    worker_.request(asked_);
+  }
+}
+
+void HemicubeView::work(const Order& order, const Cancellation& cancellation) {
+  const auto post = [this](auto message) {
+    QMetaObject::invokeMethod(this, std::move(message), Qt::QueuedConnection);
+  };
+  try {
+    const auto sight = see_by_hemicube(order.request, cancellation);
+    const bool last = !order.request.differences;
+    post([this, sight, number = order.number, last] { take(sight, number, last); });
+    if (last) {
+      return;
+    }
+    const auto progress = [&](double share) {
+      post([this, share, number = order.number] {
+        if (number != asked_.number) {
+          return;
+        }
+        progress_ = share;
+        emit shown();
+      });
+    };
+    const auto compared = with_exact(*sight, cancellation, progress);
+    post([this, compared, number = order.number] { take(compared, number, true); });
+  } catch (const Canceled&) {
+    throw;
+  } catch (const std::exception& error) {
+    post([this, words = QString::fromUtf8(error.what()), number = order.number] {
+      if (number != asked_.number) {
+        return;
+      }
+      failure_ = words;
+      take(nullptr, number, true);
+    });
+  }
+}
+
+void HemicubeView::take(std::shared_ptr<const HemicubeComparison> sight, quint64 number,
+                        bool last) {
+  if (number != asked_.number) {
+    return;  // something else is wanted by now
+  }
+  sight_ = std::move(sight);
+  if (last) {
+    done_ = number;
+  }
+  draw_cross();
+  emit shown();
+}
+
+bool HemicubeView::by_difference() const {
+  return sight_ && content_.differences && !sight_->exact.empty();
+}
+
+/// x to the left, as one sees it from inside; y up.
+void HemicubeView::draw_cross() {
+  update();
+  if (!sight_ || !content_.patch_colors) {
+    return;
+  }
+  const HemicubeImage& image = sight_->image;
+  const int size = image.cross();
+  cross_ = QImage(size, size, QImage::Format_RGB32);
+  cross_.fill(theme::scene_background);
+  for (int row = 0; row < size; ++row) {
+    auto* line = reinterpret_cast<QRgb*>(cross_.scanLine(size - 1 - row));
+    for (int column = 0; column < size; ++column) {
+      const auto pixel = image.pixel_at(column, row);
+      if (!pixel) {
+        continue;
+      }
+      const PatchId patch = image.items[*pixel];
+      QRgb color = nothing_lit.rgb();
+      if (patch != no_patch && by_difference()) {
+        color = color_of_surplus(sight_->surplus(patch)).rgb();
+      } else if (patch != no_patch) {
+        const Color8& c = at((*content_.patch_colors), patch);
+        color = qRgb(c[0], c[1], c[2]);
+      }
+      line[size - 1 - column] = color;
+    }
+  }
+}
+
+QRectF HemicubeView::place() const {
+  const double side = std::max(std::min(width(), height() - legend_room) - 16.0, 10.0);
+  return {(width() - side) / 2, (height() - legend_room - side) / 2, side, side};
+}
+
+std::optional<std::size_t> HemicubeView::pixel_at(const QPointF& position) const {
+  if (!sight_ || !place().contains(position)) {
+    return std::nullopt;
+  }
+  const int size = sight_->image.cross();
+  const auto cell = [size](double share) {
+    return std::clamp(static_cast<int>(share * size), 0, size - 1);
+  };
+  const QPointF at = (position - place().topLeft()) / place().width();
+  return sight_->image.pixel_at(size - 1 - cell(at.x()), size - 1 - cell(at.y()));
+}
+
+QString HemicubeView::words() const {
+  if (!failure_.isEmpty()) {
+    return failure_;
+  }
+  if (!content_.loaded || selection_.patch() == no_patch) {
+    return tr("Select a patch, on which a hemicube is to stand");
+  }
+  if (!sight_) {
+    return tr("Drawing what patch %1 sees…").arg(selection_.patch());
+  }
+  const QString eye = tr("On patch %1").arg(sight_->request.eye);
+  if (!content_.differences) {
+    return tr("%1: %2 pixels").arg(eye).arg(sight_->image.items.size());
+  }
+  if (sight_->exact.empty()) {
+    return tr("%1: finding exact form factors… %2 %").arg(eye).arg(100 * progress_, 0, 'f', 0);
+  }
+  const QString wrong =
+      tr("%1: %2 % of what is seen is wrong").arg(eye).arg(100 * sight_->wrong_share(), 0, 'g', 2);
+  return sight_->missed() == 0 ? wrong
+                               : tr("%1, %2 patches missed").arg(wrong).arg(sight_->missed());
+}
+
+bool HemicubeView::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) {
+    return QWidget::event(event);
+  }
+  const auto* help = static_cast<QHelpEvent*>(event);
+  const auto pixel = pixel_at(help->pos());
+  const PatchId patch = pixel ? sight_->image.items[*pixel] : no_patch;
+  if (patch == no_patch) {
+    QToolTip::hideText();
+    return true;
+  }
+  const auto k = static_cast<std::size_t>(patch);
+  QString text =
+      tr("Patch %1: form factor %2").arg(patch).arg(number_text(sight_->image.form_factors[k]));
+  if (!sight_->exact.empty()) {
+    text += tr(", exactly %1").arg(number_text(sight_->exact[k]));
+  }
+  QToolTip::showText(help->globalPos(), text, this);
+  return true;
+}
+
+void HemicubeView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme::scene_background);
+  if (!sight_) {
+    painter.setPen(theme::on_dark_dim);
+    painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                     words());
+    return;
+  }
+  const QRectF cross = place();
+  painter.drawImage(cross, cross_);  // pixels stay pixels
+  // The folds.
+  const double half = cross.width() / 4;
+  painter.setPen(QPen(theme::on_dark, theme::scale()));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(cross.adjusted(half, half, -half, -half));
+  double x = 14;
+  const auto entry = [&](const QColor& color, const QString& words) {
+    const double advance = painter.fontMetrics().horizontalAdvance(words);
+    if (x + 24 + advance > width()) {
+      return;
+    }
+    const QRectF box(x, height() - 23, 16, 12);
+    painter.fillRect(box, color);
+    painter.setPen(theme::on_dark_dim);
+    painter.drawRect(box);
+    painter.setPen(theme::on_dark);
+    painter.drawText(box.bottomRight() + QPointF(8, -1), words);
+    x += 16 + 16 + advance;
+  };
+  if (by_difference()) {
+    entry(color_of_surplus(1), tr("too much"));
+    entry(color_of_surplus(-1), tr("too little"));
+  }
+  entry(nothing_lit, tr("nothing lit"));
+}
+
+}  // namespace transillum::viewer

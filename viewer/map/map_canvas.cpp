@@ -1,0 +1,419 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/map_canvas.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "map/pixel_view.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double smallest_zoom = 0.5, largest_zoom = 500;
+constexpr std::chrono::milliseconds longest_wait{20};
+
+}  // namespace
+
+MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      selection_(selection),
+      painter_([this](const Order& order, const Cancellation& cancellation) {
+        auto picture = std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
+        {
+          const std::lock_guard lock(arrived_.mutex);
+          arrived_.picture = std::move(picture);
+          arrived_.number = order.number;
+        }
+        arrived_.changed.notify_one();
+        QMetaObject::invokeMethod(this, &MapCanvas::take_arrived, Qt::QueuedConnection);
+      }) {
+  setMinimumSize(200, 90);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setToolTip(tr("Drag to move, wheel to enlarge, double click to see all, click to select"));
+  connect(&selection_, &Selection::changed, this, qOverload<>(&QWidget::update));
+}
+
+void MapCanvas::show_map(Content content) {
+  content_ = std::move(content);
+  repaint_map();
+  // Queued: before the window is next brought to the screen, after all others know the step.
+  if (content_.step_shown) {
+    QMetaObject::invokeMethod(this, &MapCanvas::wait_for_picture, Qt::QueuedConnection);
+  }
+}
+
+void MapCanvas::clear() {
+  content_ = {};
+  region_ = {};
+  picture_ = nullptr;
+  painter_.clear();
+  painted_ = ++asked_.number;  // what is still on its way is late
+  zoom_ = 1;
+  pan_ = {};
+  update();
+}
+
+void MapCanvas::mark_region(const std::optional<MapRegion>& region) {
+  if (!region && !region_) {
+    return;
+  }
+  region_ = region;
+  update();
+}
+
+void MapCanvas::fit() {
+  set_view({});
+  emit view_changed();
+}
+
+MapCanvas::View MapCanvas::view() const {
+  if (!content_.map) {
+    return {};
+  }
+  return {zoom_, pan_ / fit_map(*content_.map, size()).scale};
+}
+
+void MapCanvas::set_view(const View& view) {
+  zoom_ = view.zoom;
+  pan_ = content_.map ? view.shift * fit_map(*content_.map, size()).scale : QPointF();
+  repaint_map();
+}
+
+void MapCanvas::fit_step() {
+  if (!content_.map) {
+    return;
+  }
+  const QRectF bounds = step_bounds(*content_.map, content_.step);
+  if (bounds.isNull()) {
+    return;
+  }
+  const MapTransform fitted = fit_map(*content_.map, size());
+  const double room = 0.6 * std::min(width(), height());
+  const double extent = std::max({bounds.width(), bounds.height(), 1e-12});
+  zoom_ = std::clamp(room / extent / fitted.scale, smallest_zoom, largest_zoom);
+  MapTransform near = fitted;
+  near.scale *= zoom_;
+  const QPointF middle = near.to_pixels({bounds.center().x(), bounds.center().y()});
+  pan_ = fitted.middle - middle;
+  repaint_map();
+  emit view_changed();
+}
+
+MapTransform MapCanvas::transform() const {
+  MapTransform result = fit_map(*content_.map, size());
+  result.scale *= zoom_;
+  result.middle += pan_;
+  return result;
+}
+
+void MapCanvas::repaint_map() {
+  update();
+  if (!content_.map) {
+    return;
+  }
+  // While the view moves, or newer directions come by themselves, pictures under way are finished:
+  // better an old one now and then than none. What the user asked for does not wait for them.
+  const bool wanted = content_.pixels != asked_.picture.pixels ||
+                      (content_.step_shown && content_.map != asked_.picture.map);
+  asked_ = {
+      {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
+       content_.pixels, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
+      asked_.number + 1};
+  painter_.request(asked_, wanted ? UnderWay::given_up : UnderWay::goes_on);
+}
+
+void MapCanvas::take_arrived() {
+  {
+    const std::lock_guard lock(arrived_.mutex);
+    if (!content_.map || arrived_.number <= painted_) {
+      return;
+    }
+    painted_ = arrived_.number;
+    picture_ = arrived_.picture;
+  }
+  update();
+  emit painted();
+}
+
+/// A step's map comes to the screen with all else that the step changes: bringing a window to the
+/// screen twice takes longer than painting a map, where there is no graphics card.
+void MapCanvas::wait_for_picture() {
+  if (up_to_date()) {
+    return;
+  }
+  {
+    std::unique_lock lock(arrived_.mutex);
+    arrived_.changed.wait_for(lock, longest_wait,
+                              [this] { return arrived_.number >= asked_.number; });
+  }
+  take_arrived();
+}
+
+PatchId MapCanvas::patch_at(const QPointF& position) const {
+  if (!picture_) {
+    return no_patch;
+  }
+  const MapRecord& record = picture_->request.map->record();
+  const std::int32_t row =
+      row_at(record, picture_->rows, picture_->request.transform.to_meters(position));
+  return row == MapRecord::no_row ? no_patch : at(record.rows, row).patch;
+}
+
+std::optional<Vec2> MapCanvas::point_at(const QPointF& position) const {
+  if (!picture_) {
+    return std::nullopt;
+  }
+  return picture_->request.transform.to_meters(position);
+}
+
+void MapCanvas::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme::scene_background);
+  if (!picture_ || !content_.map) {
+    painter.setPen(theme::on_dark_dim);
+    painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                     tr("The visibility map appears with the first direction"));
+    return;
+  }
+  // The picture may be of an older view: put its middle and scale where they are now.
+  const MapTransform& painted = picture_->request.transform;
+  const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
+  const double share = now.scale / painted.scale;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, share != 1);
+  const QPointF corner = now.middle - share * painted.middle;
+  painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (pixels() && !pixels()->failure.empty()) {
+    draw_failure(painter);
+    return;
+  }
+  draw_selection(painter, now);
+  draw_region(painter, now);
+  draw_probe(painter, now);
+  draw_scale_bar(painter, now.scale);
+  draw_axes(painter);
+  draw_legend(painter);
+}
+
+void MapCanvas::draw_failure(QPainter& painter) const {
+  painter.setPen(theme::on_dark);
+  painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                   tr("Nothing is drawn, for the engine gave up:\n\n%1")
+                       .arg(QString::fromStdString(pixels()->failure)));
+}
+
+void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
+  const PatchId patch = selection_.patch();
+  if (patch == no_patch) {
+    return;
+  }
+  const MapRecord& record = picture_->request.map->record();
+  std::vector<QPolygonF> fragments;
+  for (const std::int32_t number : picture_->rows) {
+    const MapRecord::Row& row = at(record.rows, number);
+    if (row.patch == patch) {
+      fragments.push_back(row_polygon(record, row, shown));
+    }
+  }
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen :
+       {QPen(Qt::black, 4 * theme::scale()), QPen(theme::selection, 2 * theme::scale())}) {
+    painter.setPen(pen);
+    for (const QPolygonF& fragment : fragments) {
+      painter.drawPolygon(fragment);
+    }
+  }
+}
+
+// Its parts share edges: no seams without antialiasing.
+void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
+  if (!region_) {
+    return;
+  }
+  QColor color = theme::region;
+  color.setAlpha(230);
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  for (const std::vector<Vec2>& part : region_->parts) {
+    QPolygonF polygon;
+    for (const Vec2& p : part) {
+      polygon.append(shown.to_pixels(p));
+    }
+    painter.drawPolygon(polygon);
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+}
+
+void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
+  if (!content_.probe) {
+    return;
+  }
+  const QPointF at = shown.to_pixels(*content_.probe);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen : {QPen(Qt::black, 3.5), QPen(theme::on_dark, 1.5)}) {
+    painter.setPen(pen);
+    painter.drawEllipse(at, 5, 5);
+    for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
+      painter.drawLine(at + 5 * way, at + 10 * way);
+    }
+  }
+}
+
+namespace {
+
+// Where the picture is low they lie on it.
+void draw_words(QPainter& painter, const QPointF& baseline, const QString& words) {
+  QColor plate = theme::scene_background;
+  plate.setAlphaF(0.7);
+  const QRectF box = painter.fontMetrics().boundingRect(words).adjusted(-3, -1, 3, 1);
+  painter.fillRect(box.translated(baseline), plate);
+  painter.drawText(baseline, words);
+}
+
+}  // namespace
+
+void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
+  // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
+  const double most = width() / 4.0 / scale;
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  const double lead = most / power;
+  const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+  const double length = meters * scale;
+  const QPointF left(14, height() - 14);
+  painter.setPen(QPen(theme::on_dark, 1.5));
+  painter.drawLine(left, left + QPointF(length, 0));
+  painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
+  painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
+  draw_words(painter, left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
+}
+
+void MapCanvas::draw_axes(QPainter& painter) const {
+  const QPointF origin(width() - 18, height() - 16);
+  constexpr double length = 22;
+  painter.setPen(QPen(theme::on_dark, 1.5));
+  const auto arrow = [&](const QPointF& way, const QString& name, const QPointF& name_offset) {
+    const QPointF tip = origin + length * way;
+    const QPointF across(-way.y(), way.x());
+    painter.drawLine(origin, tip);
+    painter.drawLine(tip, tip - 6 * way + 3.5 * across);
+    painter.drawLine(tip, tip - 6 * way - 3.5 * across);
+    painter.drawText(tip + name_offset, name);
+  };
+  arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
+  arrow({0, -1}, QStringLiteral("v"), {-4, -6});
+}
+
+void MapCanvas::draw_legend(QPainter& painter) const {
+  if (width() < 330) {
+    return;  // no room between scale bar and axes
+  }
+  std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
+  const PixelChoice& choice = picture_->request.pixels;
+  if (choice.engine == Engine::corrected && choice.differences) {
+    entries.emplace_back(theme::inside, tr("too open"));
+    entries.emplace_back(theme::outside, tr("too hidden"));
+  } else if (choice.engine && choice.differences) {
+    entries.emplace_back(theme::difference, tr("differs"));
+  }
+  constexpr double box_width = 16, gap = 8, axes = 64;
+  const auto width_of = [&](const QString& words) {
+    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+  };
+  double total = 0;
+  for (const auto& [brush, words] : entries) {
+    total += width_of(words);
+  }
+  // Right of the scale bar, with its words, and left of the axes; back sides explain themselves.
+  const double left = width() / 4.0 + 80, right = width() - axes;
+  if (entries.size() > 1 && left + total > right) {
+    total -= width_of(entries.front().second);
+    entries.erase(entries.begin());
+  }
+  double x = std::min(std::max(width() / 2.0 - 8, left), right - total);
+  for (const auto& [brush, words] : entries) {
+    const QRectF box(x, height() - 23, box_width, 12);
+    painter.setPen(QPen(theme::on_dark_dim, 1));
+    painter.setBrush(brush);
+    painter.drawRect(box);
+    painter.setPen(theme::on_dark);
+    draw_words(painter, box.bottomRight() + QPointF(gap, -1), words);
+    x += width_of(words);
+  }
+}
+
+void MapCanvas::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  repaint_map();
+}
+
+void MapCanvas::wheelEvent(QWheelEvent* event) {
+  if (!content_.map) {
+    return;
+  }
+  const double factor = std::pow(1.0015, event->angleDelta().y());
+  const double zoom = std::clamp(zoom_ * factor, smallest_zoom, largest_zoom);
+  // The point under the pointer stays where it is.
+  const QPointF fitted_middle = fit_map(*content_.map, size()).middle;
+  const QPointF arm = event->position() - fitted_middle - pan_;
+  pan_ += arm * (1 - zoom / zoom_);
+  zoom_ = zoom;
+  repaint_map();
+  emit view_changed();
+  event->accept();
+}
+
+void MapCanvas::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) {
+    return;
+  }
+  press_position_ = last_position_ = event->pos();
+  dragging_ = false;
+}
+
+void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (!(event->buttons() & Qt::LeftButton) || !content_.map) {
+    return;
+  }
+  const QPointF position = event->pos();
+  const double way = (position - press_position_).manhattanLength();
+  if (!dragging_ && way < QApplication::startDragDistance()) {
+    return;
+  }
+  dragging_ = true;
+  setCursor(Qt::ClosedHandCursor);
+  pan_ += position - last_position_;
+  last_position_ = position;
+  repaint_map();
+  emit view_changed();
+}
+
+void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) {
+    return;
+  }
+  unsetCursor();
+  if (!dragging_) {
+    selection_.select(patch_at(event->pos()));
+    emit clicked(event->pos());
+  }
+  dragging_ = false;
+}
+
+void MapCanvas::mouseDoubleClickEvent(QMouseEvent*) {
+  dragging_ = true;  // the release that follows selects nothing
+  fit();
+}
+
+}  // namespace transillum::viewer

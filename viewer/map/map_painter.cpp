@@ -1,0 +1,335 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/map_painter.h"
+
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "map/corrected_drawing.h"
+#include "map/pixel_view.h"
+#include "map/polygon_label.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+const QColor back_side{0x43, 0x4a, 0x55};
+const QColor back_hatch{0x6b, 0x74, 0x80};
+
+bool outside(const QPolygonF& polygon, const QRectF& view) {
+  return !polygon.boundingRect().intersects(view);
+}
+
+QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
+  const auto channel = [&](int x, int y) {
+    return static_cast<int>(std::lround(x + share_of_b * (y - x)));
+  };
+  return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
+}
+
+double area(const QPolygonF& polygon) {
+  double twice = 0;
+  for (int k = 0; k < polygon.size(); ++k) {
+    const QPointF& a = polygon[k];
+    const QPointF& b = polygon[(k + 1) % polygon.size()];
+    twice += a.x() * b.y() - b.x() * a.y();
+  }
+  return std::abs(twice) / 2;
+}
+
+}  // namespace
+
+// Diagonal lines in a tile: a pattern brush would be too coarse on a 2x screen.
+QBrush back_side_brush(double pixel_ratio) {
+  const int size = static_cast<int>(std::lround(6 * pixel_ratio));
+  QImage tile(size, size, QImage::Format_RGB32);
+  tile.fill(back_side);
+  QPainter painter(&tile);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(back_hatch, pixel_ratio));
+  for (const int shift : {-size, 0, size}) {
+    painter.drawLine(QPointF(shift - 1, size + 1), QPointF(shift + size + 1, -1));
+  }
+  painter.end();
+  return QBrush(tile);
+}
+
+MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
+  double left = HUGE_VAL, right = -HUGE_VAL, bottom = HUGE_VAL, top = -HUGE_VAL;
+  for (const Vec3& p : map.loaded->scene->points()) {
+    const Vec2 q = map.record().frame.project(p);
+    left = std::min(left, q.x);
+    right = std::max(right, q.x);
+    bottom = std::min(bottom, q.y);
+    top = std::max(top, q.y);
+  }
+  // Logical pixels; a low picture lies beside the scale bar, not above it.
+  const double margin = std::min(14.0, 0.06 * size.height());
+  const double scale_bar_room = size.height() > 160 ? 34 : 0;
+  const double width = std::max(size.width() - 2 * margin, 10.0);
+  const double height = std::max(size.height() - 2 * margin - scale_bar_room, 10.0);
+  MapTransform transform;
+  transform.center = {(left + right) / 2, (bottom + top) / 2};
+  transform.middle = {margin + width / 2, margin + height / 2};
+  transform.scale =
+      std::min(width / std::max(right - left, 1e-12), height / std::max(top - bottom, 1e-12));
+  return transform;
+}
+
+QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,
+                      const MapTransform& transform) {
+  QPolygonF polygon;
+  const auto outline = record.outline(row);
+  polygon.reserve(static_cast<int>(outline.size()));
+  for (const Vec2& p : outline) {
+    polygon.append(transform.to_pixels(p));
+  }
+  return polygon;
+}
+
+QRectF step_bounds(const RecordedMap& map, std::int32_t step) {
+  if (step < 0 || map.history.step(step).row == MapRecord::no_row) {
+    return {};
+  }
+  QPolygonF all;
+  std::vector<std::int32_t> rows = map.history.cut_at(step);
+  rows.push_back(map.history.step(step).row);
+  for (const std::int32_t r : rows) {
+    for (const Vec2& p : map.record().outline(map.row(r))) {
+      all.append({p.x, p.y});
+    }
+  }
+  return all.boundingRect();
+}
+
+namespace {
+
+/// Draws one picture; coordinates are device pixels.
+class MapPainting {
+ public:
+  MapPainting(const MapPictureRequest& request, const Cancellation& cancellation)
+      : request_(request),
+        cancellation_(cancellation),
+        history_(request.map->history),
+        ratio_(request.pixel_ratio),
+        transform_(request.transform),
+        hatch_(back_side_brush(ratio_)) {
+    transform_.scale *= ratio_;
+    transform_.middle *= ratio_;
+    // Pixels show V alone, not what a step does to it.
+    const bool marked = request.step_shown && !request.pixels.engine;
+    if (marked && request.step >= 0) {
+      step_row_ = history_.step(request.step).row;
+    }
+  }
+
+  MapPicture paint() {
+    picture_.request = request_;
+    const QSize size(static_cast<int>(std::lround(request_.size.width() * ratio_)),
+                     static_cast<int>(std::lround(request_.size.height() * ratio_)));
+    view_ = QRectF(QPointF(0, 0), QSizeF(size));
+    picture_.image = QImage(size, QImage::Format_RGB32);
+    picture_.image.fill(theme::scene_background);
+    painter_.begin(&picture_.image);
+    picture_.rows = drawn_rows();
+    if (request_.pixels.engine) {
+      picture_.pixels = pixels();
+      draw(*picture_.pixels);
+    } else {
+      fill(picture_.rows);
+    }
+    if (step_row_ != MapRecord::no_row) {
+      mark_step();
+    }
+    if (request_.labels && !draws_corrected()) {
+      label(picture_.rows);
+    }
+    painter_.end();
+    picture_.image.setDevicePixelRatio(ratio_);
+    return std::move(picture_);
+  }
+
+ private:
+  std::shared_ptr<const PixelView> pixels() const {
+    const std::shared_ptr<const PixelView>& known = request_.known_pixels;
+    if (known && known->shows(*request_.map, request_.step, request_.pixels)) {
+      return known;
+    }
+    return make_pixel_view(request_.map, request_.step, request_.pixels, cancellation_);
+  }
+
+  bool draws_corrected() const { return request_.pixels.engine == Engine::corrected; }
+
+  void draw(const PixelView& view) {
+    if (!view.failure.empty()) {
+      return;
+    }
+    if (!draws_corrected()) {
+      draw_pixels(painter_, view, transform_, *request_.patch_colors, hatch_, cancellation_);
+      return;
+    }
+    draw_corrected(painter_, *view.corrected, transform_, *request_.patch_colors, hatch_,
+                   request_.pixels.differences, cancellation_);
+    if (request_.labels) {
+      label_corrected(painter_, *view.corrected, transform_, ratio_);
+    }
+  }
+
+  std::vector<std::int32_t> drawn_rows() const {
+    const MapRecord& record = history_.record();
+    if (step_row_ == MapRecord::no_row || request_.phase == Phase::after) {
+      return record.map_after(request_.step);
+    }
+    std::vector<std::int32_t> rows = record.map_after(request_.step - 1);
+    if (request_.phase == Phase::before) {
+      return rows;
+    }
+    std::erase_if(rows, [&](std::int32_t r) { return row(r).consumed == request_.step; });
+    for (const auto& parts :
+         {history_.inside_at(request_.step), history_.outside_at(request_.step)}) {
+      rows.insert(rows.end(), parts.begin(), parts.end());
+    }
+    return rows;
+  }
+
+  // Polygons that share an edge are filled without antialiasing: no seams. Thin lines over the
+  // edges, drawn afterwards where polygons are large enough to bear them, smooth the steps.
+  void fill(const std::vector<std::int32_t>& rows) {
+    std::vector<QPolygonF> outlines;
+    const bool dim = step_row_ != MapRecord::no_row && request_.phase == Phase::split;
+    painter_.setPen(Qt::NoPen);
+    std::size_t done = 0;
+    for (const std::int32_t r : rows) {
+      if (done++ % 64 == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      const QPolygonF polygon = polygon_of(r);
+      if (outside(polygon, view_)) {
+        continue;
+      }
+      const Color8& c = at((*request_.patch_colors), row(r).patch);
+      QColor color(c[0], c[1], c[2]);
+      if (dim && row(r).made < request_.step) {
+        color = mixed(color, theme::scene_background, 0.45);
+      }
+      painter_.setBrush(row(r).front_facing ? hatch_ : QBrush(color));
+      painter_.drawPolygon(polygon);
+      if (area(polygon) > 30 * ratio_ * ratio_) {
+        outlines.push_back(polygon);
+      }
+    }
+    painter_.setRenderHint(QPainter::Antialiasing);
+    outline(outlines, QColor(0, 0, 0, 80), 0.6);
+  }
+
+  void mark_step() {
+    const std::int32_t step = request_.step;
+    const std::vector<QPolygonF> inside = polygons_of(history_.inside_at(step));
+    const std::vector<QPolygonF> outside = polygons_of(history_.outside_at(step));
+    const QPolygonF polygon = polygon_of(step_row_);
+    switch (request_.phase) {
+      case Phase::before:
+        outline(polygons_of(history_.cut_at(step)), theme::on_dark, 1.2);
+        veil({polygon}, theme::processed, 70);
+        break;
+      case Phase::split:
+        veil(outside, theme::outside, 215);
+        for (const std::int32_t r : history_.inside_at(step)) {
+          veil({polygon_of(r)}, theme::inside, history_.exchanges(r) ? 255 : 120);
+        }
+        // The cutting edges: where the parts meet.
+        outline(outside, theme::on_dark, 1.2);
+        outline(inside, theme::on_dark, 1.2);
+        break;
+      case Phase::after:
+        outline(outside, theme::outside, 1.4);
+        break;
+    }
+    outline({polygon}, Qt::black, 4);
+    outline({polygon}, theme::processed, 2);
+    ring_if_small(polygon);
+  }
+
+  void ring_if_small(const QPolygonF& polygon) {
+    const QRectF box = polygon.boundingRect();
+    constexpr double radius = 16;
+    if (std::max(box.width(), box.height()) > 1.2 * radius * ratio_) {
+      return;
+    }
+    painter_.setBrush(Qt::NoBrush);
+    for (const QPen& pen : {QPen(Qt::black, 3.5 * ratio_), QPen(theme::processed, 1.5 * ratio_)}) {
+      painter_.setPen(pen);
+      painter_.drawEllipse(box.center(), radius * ratio_, radius * ratio_);
+    }
+  }
+
+  void label(const std::vector<std::int32_t>& rows) {
+    PolygonLabels labels(painter_, ratio_);
+    for (const std::int32_t r : rows) {
+      const QPolygonF polygon = polygon_of(r);
+      if (!outside(polygon, view_)) {
+        labels.write(polygon, QString::number(row(r).patch));
+      }
+    }
+  }
+
+  void veil(const std::vector<QPolygonF>& polygons, QColor color, int alpha) {
+    color.setAlpha(alpha);
+    painter_.setPen(Qt::NoPen);
+    painter_.setBrush(color);
+    painter_.setRenderHint(QPainter::Antialiasing, false);
+    for (const QPolygonF& polygon : polygons) {
+      painter_.drawPolygon(polygon);
+    }
+    painter_.setRenderHint(QPainter::Antialiasing);
+  }
+
+  void outline(const std::vector<QPolygonF>& polygons, const QColor& color, double width) {
+    painter_.setBrush(Qt::NoBrush);
+    painter_.setPen(
+        QPen(color, width * ratio_ * theme::scale(), Qt::SolidLine, Qt::SquareCap, Qt::RoundJoin));
+    for (const QPolygonF& polygon : polygons) {
+      painter_.drawPolygon(polygon);
+    }
+  }
+
+  const MapRecord::Row& row(std::int32_t r) const { return history_.row(r); }
+  QPolygonF polygon_of(std::int32_t r) const {
+    return row_polygon(history_.record(), row(r), transform_);
+  }
+  std::vector<QPolygonF> polygons_of(const std::vector<std::int32_t>& rows) const {
+    std::vector<QPolygonF> polygons;
+    for (const std::int32_t r : rows) {
+      polygons.push_back(polygon_of(r));
+    }
+    return polygons;
+  }
+
+  const MapPictureRequest& request_;
+  const Cancellation& cancellation_;
+  const MapHistory& history_;
+  double ratio_;
+  MapTransform transform_;
+  QBrush hatch_;
+  std::int32_t step_row_ = MapRecord::no_row;  ///< the step's polygon, where it is to be marked
+  QRectF view_;
+  MapPicture picture_;
+  QPainter painter_;  // on its image
+};
+
+}  // namespace
+
+MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation) {
+  return MapPainting(request, cancellation).paint();
+}
+
+std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](std::int32_t row) {
+    return record.covers(at(record.rows, row), p);
+  });
+  return found == rows.end() ? MapRecord::no_row : *found;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QBrush>
+#include <QImage>
+#include <QPointF>
+#include <QPolygonF>
+#include <QSizeF>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "map/map_picture.h"
+#include "model/recorded_map.h"
+
+namespace transillum::viewer {
+
+/// The whole scene in a picture of `size` (logical pixels).
+MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
+
+/// How a back side is filled.
+QBrush back_side_brush(double pixel_ratio);
+
+/// Lit sides in their patch's color, back sides gray and hatched. Any thread.
+/// @throws Canceled
+MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation = {});
+
+/// What a step is about: its polygon and all that it cuts, meters; null rectangle for none.
+QRectF step_bounds(const RecordedMap& map, std::int32_t step);
+
+QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,
+                      const MapTransform& transform);
+/// The row of `rows` that covers `p`, or MapRecord::no_row.
+std::int32_t row_at(const MapRecord& record, const std::vector<std::int32_t>& rows, const Vec2& p);
+
+}  // namespace transillum::viewer

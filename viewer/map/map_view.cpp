@@ -1,0 +1,268 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/map_view.h"
+
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QStackedWidget>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "map/hemicube_view.h"
+#include "map/map_canvas.h"
+#include "map/pixel_menu.h"
+#include "map/pixel_view.h"
+#include "support/number_text.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int recolor_interval_ms = 700;
+
+QToolButton* text_button(const QString& text, const QString& tip, bool checkable) {
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setCheckable(checkable);
+  return button;
+}
+
+/// Of what is wrong by rounding only nothing is said.
+QString percent_of(double share) { return QString::number(share < 1e-9 ? 0 : 100 * share, 'g', 2); }
+
+QString color_name(const QColor& color, const QString& words) {
+  return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), words);
+}
+
+}  // namespace
+
+MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), focus_(focus), colors_(colors) {
+  title_ = new QLabel;
+  step_text_ = new QLabel;
+  step_text_->setObjectName("map_text");
+  step_text_->setForegroundRole(QPalette::PlaceholderText);
+  // Long words must not widen the window: they are cut off before that.
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  canvas_ = new MapCanvas(selection);
+  canvas_->setObjectName("map_canvas");
+
+  auto* words = new QVBoxLayout;
+  words->setContentsMargins(10, 6, 10, 6);
+  words->setSpacing(1);
+  words->addWidget(title_);
+  words->addWidget(step_text_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(words);
+  hemicube_ = new HemicubeView(selection);
+  hemicube_->setObjectName("hemicube_view");
+  pictures_ = new QStackedWidget;
+  pictures_->addWidget(canvas_);
+  pictures_->addWidget(hemicube_);
+  layout->addWidget(pictures_, 1);
+  layout->addWidget(make_controls());
+
+  recolor_timer_ = new QTimer(this);
+  recolor_timer_->setSingleShot(true);
+  connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_moment);
+  connect(&focus_, &Focus::moved, this, &MapView::show_moment);
+  connect(&focus_, &Focus::wished, this, &MapView::show_title);
+  connect(&focus_, &Focus::probed, this, &MapView::show_moment);
+  connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
+  connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
+  canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::offer_runs);
+  connect(canvas_, &MapCanvas::clicked, this,
+          [this](const QPointF& position) { focus_.set_probe(canvas_->point_at(position)); });
+  connect(&colors_, &ColorChoice::changed, this, &MapView::show_moment);
+  show_title();
+}
+
+void MapView::offer_runs(const QPoint& position) {
+  const auto point = canvas_->point_at(position);
+  if (!point || !focus_.map()) {
+    return;
+  }
+  auto* menu = new QMenu(this);
+  menu->setObjectName("map_menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  // Along another direction the point of the plane is another.
+  const auto offer = [&](const QString& text, Way way) {
+    Moment moment = focus_.moment();
+    moment.step = find_changes_at(*point)(focus_.map()->history, moment.step, way);
+    menu->addAction(text, this, [this, moment] { focus_.go_to(moment); })
+        ->setEnabled(moment.step != MapHistory::none);
+  };
+  offer(tr("Run to the next polygon over this point"), Way::forward);
+  offer(tr("Run back to the last polygon over this point"), Way::backward);
+  menu->addAction(tr("List the patches along this line"), this,
+                  [this, point] { focus_.set_probe(point); });
+  menu->popup(canvas_->mapToGlobal(position));
+}
+
+QWidget* MapView::make_controls() {
+  phases_ = new QButtonGroup(this);
+  const auto add_phase = [&](Phase phase, const char* name, const QString& text,
+                             const QString& tip) {
+    QToolButton* button = text_button(text, tip, true);
+    button->setObjectName(QString::fromLatin1(name));
+    phases_->addButton(button, static_cast<int>(phase));
+    return button;
+  };
+  auto* controls = new QWidget;
+  auto* row = new QHBoxLayout(controls);
+  row->setContentsMargins(10, 6, 8, 6);
+  row->setSpacing(4);
+  row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
+                           tr("V as the steps before left it, and the polygon to be put in")));
+  row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),
+                           tr("What the polygon cuts out of V, and what it leaves")));
+  row->addWidget(
+      add_phase(Phase::after, "phase_after", tr("After"), tr("V with the polygon put in")));
+  row->addStretch(1);
+  pixels_ = new PixelMenu;
+  row->addWidget(pixels_);
+  connect(pixels_, &PixelMenu::changed, this, &MapView::show_moment);
+  labels_ = text_button(tr("Labels"), tr("Name the patch of each fragment that has room"), true);
+  labels_->setObjectName("map_labels");
+  near_ = text_button(tr("Near"), tr("Bring the step's polygon near"), false);
+  near_->setObjectName("map_near");
+  auto* fit = new QToolButton;
+  fit->setIcon(theme::icon(theme::Icon::frame));
+  fit->setToolTip(tr("Show all of the map"));
+  for (QToolButton* button : {labels_, near_, fit}) {
+    row->addWidget(button);
+  }
+
+  connect(phases_, &QButtonGroup::idClicked, this,
+          [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
+  connect(labels_, &QToolButton::toggled, this, &MapView::show_moment);
+  connect(near_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
+  connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
+  return controls;
+}
+
+void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool first = !snapshot_;
+  snapshot_ = std::move(snapshot);
+  if (first) {
+    show_moment();
+  } else if (focus_.map() && !recolor_timer_->isActive()) {
+    recolor_timer_->start(recolor_interval_ms);
+  }
+}
+
+void MapView::clear() {
+  snapshot_ = nullptr;
+  recolor_timer_->stop();
+  canvas_->clear();
+  hemicube_->clear();
+  show_title();
+}
+
+void MapView::set_labels_shown(bool shown) { labels_->setChecked(shown); }
+
+bool MapView::labels_shown() const { return labels_->isChecked(); }
+
+bool MapView::up_to_date() const {
+  const bool painted = shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date();
+  return painted && !recolor_timer_->isActive();
+}
+
+bool MapView::shows_hemicube() const { return pixels_->choice().engine == Engine::hemicube; }
+
+void MapView::show_moment() {
+  const auto map = focus_.map();
+  if (!map) {
+    canvas_->clear();
+    show_title();
+    return;
+  }
+  if (!snapshot_ || snapshot_->loaded != map->loaded) {
+    return;
+  }
+  recolor_timer_->stop();
+  auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
+  pictures_->setCurrentWidget(shows_hemicube() ? static_cast<QWidget*>(hemicube_) : canvas_);
+  if (shows_hemicube()) {
+    hemicube_->show_scene({map->loaded, pixels_->choice().resolution, pixels_->choice().differences,
+                           std::move(patch_colors)});
+    show_title();
+    return;
+  }
+  hemicube_->clear();
+  canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
+                     labels_->isChecked(), pixels_->choice(), focus_.probe(),
+                     std::move(patch_colors)});
+}
+
+void MapView::show_title() {
+  const auto map = focus_.map();
+  for (QAbstractButton* button : phases_->buttons()) {
+    button->setEnabled(map && !pixels_->choice().engine);
+  }
+  near_->setEnabled(map && !shows_hemicube());
+  labels_->setEnabled(!shows_hemicube());
+  phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
+  if (!map) {
+    title_->setText(tr("No direction yet"));
+    step_text_->setText(tr("Seen along ω, toward the light that crosses the plane"));
+    return;
+  }
+  title_->setText(tr("Direction %1 of %2, seen along ω")
+                      .arg(count_text(map->direction + 1),
+                           count_text(focus_.passes_of(focus_.moment().iteration))));
+  title_->setToolTip(tr("ω = %1 points to where the light comes from")
+                         .arg(vector_text(map->record().frame.omega)));
+  if (shows_hemicube()) {
+    title_->setText(tr("Through a hemicube, seen from inside"));
+    title_->setToolTip(
+        tr("Half a cube on the middle of the selected patch, unfolded:\nits top in "
+           "the middle, its four sides about it"));
+    step_text_->setText(hemicube_->words());
+    return;
+  }
+  if (canvas_->pixels()) {
+    step_text_->setText(pixel_text());
+    return;
+  }
+  const bool split = focus_.phase() == Phase::split && focus_.moment().step >= 0;
+  if (split && !focus_.following()) {
+    step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
+                            .arg(color_name(theme::processed.darker(120), tr("polygon")),
+                                 color_name(theme::inside, tr("inside list")),
+                                 color_name(theme::outside, tr("outside list"))));
+    return;
+  }
+  const std::int32_t after = focus_.moment().step + (focus_.phase() == Phase::before ? 0 : 1);
+  step_text_->setText(tr("V after %1 of %2 polygons: %3 fragments")
+                          .arg(count_text(after), count_text(map->history.step_count()),
+                               count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
+}
+
+QString MapView::pixel_text() const {
+  const PixelView& view = *canvas_->pixels();
+  if (!view.failure.empty()) {
+    return tr("The engine gave up");
+  }
+  const QString after =
+      tr("V after %1 of %2 polygons")
+          .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
+  if (view.corrected) {
+    return after + tr(", none cut: %1 % of it taken wrongly").arg(percent_of(view.wrong));
+  }
+  if (!view.choice.differences) {
+    return after + tr(", pixels of %1 m").arg(number_text(view.drawn.pixels.side));
+  }
+  return after + tr(": %1 % of it differ").arg(100 * view.wrong, 0, 'g', 2);
+}
+
+}  // namespace transillum::viewer

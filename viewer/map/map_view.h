@@ -1,0 +1,65 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "colors/color_choice.h"
+#include "model/snapshot.h"
+#include "state/focus.h"
+#include "state/selection.h"
+
+class QButtonGroup;
+class QLabel;
+class QStackedWidget;
+class QTimer;
+class QToolButton;
+
+namespace transillum::viewer {
+
+class HemicubeView;
+class MapCanvas;
+class PixelMenu;
+
+/// The visibility map V of the direction in focus, and what its step does to it.
+class MapView : public QWidget {
+  Q_OBJECT
+
+ public:
+  MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+
+  /// The colors to come: shown with the next map, or soon.
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  void clear();
+
+  /// Whether the patches of fragments are named.
+  void set_labels_shown(bool shown);
+  bool labels_shown() const;
+
+  bool up_to_date() const;
+  MapCanvas* canvas() const { return canvas_; }
+
+ private:
+  QWidget* make_controls();
+  void offer_runs(const QPoint& position);
+  void show_moment();
+  void show_title();
+  QString pixel_text() const;
+  bool shows_hemicube() const;
+
+  Focus& focus_;
+  const ColorChoice& colors_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  QLabel* title_;
+  QLabel* step_text_;
+  MapCanvas* canvas_;
+  HemicubeView* hemicube_;
+  QStackedWidget* pictures_;
+  QButtonGroup* phases_;
+  QToolButton* labels_;
+  QToolButton* near_;
+  PixelMenu* pixels_;
+  QTimer* recolor_timer_;
+};
+
+}  // namespace transillum::viewer

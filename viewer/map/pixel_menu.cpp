@@ -1,0 +1,97 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/pixel_menu.h"
+
+#include <QActionGroup>
+#include <QMenu>
+
+#include "widgets/engine_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString label_of(const PixelChoice& choice) {
+  if (!choice.engine) {
+    return PixelMenu::tr("Exact");
+  }
+  const QString name = engine_label(*choice.engine);
+  return choice.order == PaintersOrder::newell ? PixelMenu::tr("%1 by Newell's tests").arg(name)
+                                               : name;
+}
+
+}  // namespace
+
+PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
+  setObjectName("map_engine");
+  setToolTip(tr("Draw V exactly, or as another engine sees it"));
+  setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(this);
+  menu->addSection(tr("Engine"));
+  auto* engines = new QActionGroup(this);
+  const auto add_engine = [&](std::optional<Engine> engine, const char* name,
+                              PaintersOrder order = PaintersOrder::bsp) {
+    PixelChoice shown;
+    shown.engine = engine;
+    shown.order = order;
+    QAction* action = engines->addAction(label_of(shown));
+    action->setObjectName(QString::fromLatin1(name));
+    action->setToolTip(engine ? engine_sentence(*engine) : tr("V itself"));
+    action->setCheckable(true);
+    action->setChecked(!engine);
+    connect(action, &QAction::triggered, this, [this, engine, order] {
+      PixelChoice next = choice_;
+      next.engine = engine;
+      next.order = order;
+      change(next);
+    });
+  };
+  menu->setToolTipsVisible(true);
+  add_engine(std::nullopt, "map_exact");
+  add_engine(Engine::zbuffer, "map_zbuffer");
+  add_engine(Engine::painter, "map_painter");
+  add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
+  add_engine(Engine::rays, "map_rays");
+  add_engine(Engine::corrected, "map_corrected");
+  add_engine(Engine::hemicube, "map_hemicube");
+  menu->addActions(engines->actions());
+  menu->addSection(tr("Pixels along the longer side"));
+  resolutions_ = new QActionGroup(this);
+  for (const int resolution : {16, 32, 64, 128, 256, 512}) {
+    QAction* action = resolutions_->addAction(QString::number(resolution));
+    action->setCheckable(true);
+    action->setChecked(resolution == choice_.resolution);
+    connect(action, &QAction::triggered, this, [this, resolution] {
+      PixelChoice next = choice_;
+      next.resolution = resolution;
+      change(next);
+    });
+  }
+  menu->addActions(resolutions_->actions());
+  menu->addSeparator();
+  differences_ = menu->addAction(tr("Mark what is not exact"));
+  differences_->setObjectName("map_difference");
+  differences_->setCheckable(true);
+  differences_->setChecked(choice_.differences);
+  connect(differences_, &QAction::toggled, this, [this](bool on) {
+    PixelChoice next = choice_;
+    next.differences = on;
+    change(next);
+  });
+  setMenu(menu);
+  change(choice_);
+}
+
+void PixelMenu::change(const PixelChoice& choice) {
+  choice_ = choice;
+  const bool pixels = choice_.engine && takes_resolution(*choice_.engine);
+  resolutions_->setEnabled(pixels);
+  differences_->setEnabled(choice_.engine.has_value());
+  QString label = label_of(choice_);
+  if (choice_.engine == Engine::painter) {  // short, as there is little room
+    label = choice_.order == PaintersOrder::newell ? tr("Painter (Newell)") : tr("Painter (BSP)");
+  }
+  setText(pixels ? tr("%1, %2 px ").arg(label).arg(choice_.resolution) : label + QLatin1Char(' '));
+  emit changed();
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,106 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/pixel_view.h"
+
+#include <QPolygonF>
+#include <algorithm>
+
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+double area_of(const std::vector<VisibilityMap::Polygon>& polygons) {
+  double sum = 0;
+  for (const VisibilityMap::Polygon& polygon : polygons) {
+    sum += polygon.area;
+  }
+  return sum;
+}
+
+QPolygonF polygon_of(const VisibilityMap& map, const VisibilityMap::Polygon& polygon,
+                     const MapTransform& transform) {
+  QPolygonF result;
+  for (const Vec2& p : map.outline(polygon)) {
+    result.append(transform.to_pixels(p));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const RecordedMap>& map,
+                                                 std::int32_t step, const PixelChoice& choice,
+                                                 const Cancellation& cancellation) {
+  auto view = std::make_shared<PixelView>();
+  const LoadedScene& loaded = *map->loaded;
+  EngineOptions options;
+  options.resolution = choice.resolution;
+  options.order = choice.order;
+  view->of = map;
+  view->step = step;
+  view->choice = choice;
+  try {
+    if (choice.engine == Engine::corrected) {
+      view->corrected =
+          corrected_map_after(loaded.scene, loaded.tree, map->record(), step, cancellation);
+      view->wrong = view->corrected->wrong_share();
+      return view;
+    }
+    const PixelMap pixels = pixel_map_after(*choice.engine, *loaded.scene, *loaded.tree,
+                                            map->record(), step, options, cancellation);
+    view->drawn = drawn_in_pixels(*loaded.scene, pixels, cancellation);
+    if (choice.differences) {
+      const VisibilityMap exact = map_after(map->record(), step);
+      mark_differences(pixels, exact, view->drawn, cancellation);
+      const double shown = std::max(area_of(exact.polygons), area_of(view->drawn.polygons));
+      view->wrong = shown > 0 ? area_of(view->drawn.pixels.differences) / shown : 0;
+    }
+  } catch (const Canceled&) {
+    throw;
+  } catch (const std::exception& error) {
+    view->failure = error.what();
+  }
+  return view;
+}
+
+void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& transform,
+                 const std::vector<Color8>& patch_colors, const QBrush& back_side,
+                 const Cancellation& cancellation) {
+  const VisibilityMap& map = view.drawn;
+  painter.save();
+  // Rectangles that meet are filled without antialiasing: no seams.
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  std::size_t done = 0;
+  const auto look_out = [&] {
+    if (done++ % 256 == 0) {
+      cancellation.throw_if_canceled();
+    }
+  };
+  for (const VisibilityMap::Polygon& polygon : map.polygons) {
+    look_out();
+    const Color8& c = at(patch_colors, polygon.patch);
+    painter.setBrush(polygon.front_facing ? back_side : QBrush(QColor(c[0], c[1], c[2])));
+    painter.drawPolygon(polygon_of(map, polygon, transform));
+  }
+  painter.setBrush(theme::difference);
+  for (const VisibilityMap::Polygon& polygon : map.pixels.differences) {
+    look_out();
+    painter.drawPolygon(polygon_of(map, polygon, transform));
+  }
+  // Thinner where the picture's pixels are as small as lines.
+  const double side = transform.scale * map.pixels.side;
+  painter.setPen(QPen(QColor(0, 0, 0, 130), std::clamp(0.15 * side, 0.3, 1.5)));
+  painter.setRenderHint(QPainter::Antialiasing);
+  const std::vector<Vec2>& ends = map.pixels.borders;
+  for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+    look_out();
+    painter.drawLine(transform.to_pixels(ends[k]), transform.to_pixels(ends[k + 1]));
+  }
+  painter.restore();
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,50 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/form_factor_views.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("FormFactors", text); }
+
+}  // namespace
+
+std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i) {
+  std::vector<double> row(form_factors.row_begin.size() - 1);
+  const auto row_of_i = static_cast<std::size_t>(i);
+  for (std::size_t k = form_factors.row_begin[row_of_i]; k < form_factors.row_begin[row_of_i + 1]; ++k) {
+    at(row, form_factors.source[k]) = form_factors.value[k];
+  }
+  return row;
+}
+
+std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) {
+  std::vector<double> column(form_factors.row_begin.size() - 1);
+  for (std::size_t j = 0; j < column.size(); ++j) {
+    const auto row = form_factors.source.begin();
+    const auto end = row + static_cast<std::ptrdiff_t>(form_factors.row_begin[j + 1]);
+    const auto found =
+        std::lower_bound(row + static_cast<std::ptrdiff_t>(form_factors.row_begin[j]), end, i);
+    if (found != end && *found == i) {
+      column[j] = at(form_factors.value, found - row);
+    }
+  }
+  return column;
+}
+
+QString why_no_form_factors(const SolverSnapshot& snapshot) {
+  if (snapshot.progress.iteration == 0) {
+    return tr("There are form factors when the first iteration is done.");
+  }
+  if (!snapshot.form_factors_fit) {
+    return tr("The form factors take more memory than they may.");
+  }
+  return tr("The form factors are being put together …");
+}
+
+}  // namespace transillum::viewer

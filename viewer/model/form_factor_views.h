@@ -1,0 +1,19 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include "model/snapshot.h"
+
+namespace transillum::viewer {
+
+/// F_ij for all j, one a patch.
+std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i);
+/// F_ji for all j, one a patch.
+std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i);
+
+/// What to tell where a snapshot has no form factors.
+QString why_no_form_factors(const SolverSnapshot& snapshot);
+
+}  // namespace transillum::viewer

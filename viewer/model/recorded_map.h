@@ -1,0 +1,23 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+
+#include "model/snapshot.h"
+#include "transillum/map_history.h"
+
+namespace transillum::viewer {
+
+/// The history of one direction's visibility map. Immutable.
+struct RecordedMap {
+  std::shared_ptr<const LoadedScene> loaded;
+  MapHistory history;
+  int iteration = 0;  ///< from 0; any, where all iteration steps have the same directions
+  int direction = 0;  ///< from 0: number of the pass within an iteration step
+  int passes = 0;     ///< of the step: M
+
+  const MapRecord& record() const { return history.record(); }
+  const MapRecord::Row& row(std::int32_t r) const { return history.row(r); }
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,94 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/relighting.h"
+
+#include <utility>
+
+#include "model/form_factor_views.h"
+
+namespace transillum::viewer {
+
+Relighting::Relighting(QObject* parent) : QObject(parent) {
+  connect(&edits_, &MaterialEdits::changed, this, &Relighting::ask);
+  connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
+  connect(&relighter_, &Relighter::relit, this,
+          [this](const std::shared_ptr<const Relit>& light, std::vector<Material> materials) {
+            if (!edits_.any()) {
+              return;  // undone meanwhile
+            }
+            light_ = light;
+            materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
+            emit changed();
+          });
+}
+
+void Relighting::show_scene(const Scene& scene) {
+  snapshot_ = nullptr;
+  used_ = nullptr;
+  light_ = nullptr;
+  materials_ = nullptr;
+  relighter_.clear();
+  edits_.start_with(scene.materials());
+}
+
+QString Relighting::obstacle() const {
+  if (!snapshot_) {
+    return tr("Open a scene to change its light.");
+  }
+  if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
+    return tr(
+        "The first shot's light takes more memory than it may, kept for each material: solve "
+        "without it to change the light.");
+  }
+  return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
+}
+
+QString Relighting::account() const {
+  if (!snapshot_) {
+    return {};
+  }
+  if (snapshot_->options.scheme == Scheme::semi_iterative) {
+    return tr("A change takes all steps' form factors; the scheme's own B is a mean over steps.");
+  }
+  if (snapshot_->shot && !snapshot_->shot->sources.empty()) {
+    return tr("The first shot follows; what was dark and emits now is not shot.");
+  }
+  return {};
+}
+
+void Relighting::ask() {
+  if (!edits_.any()) {
+    relighter_.clear();
+    light_ = nullptr;
+    materials_ = nullptr;
+    used_ = nullptr;
+    emit changed();
+    return;
+  }
+  if (!obstacle().isEmpty()) {
+    emit form_factors_wanted();
+    return;
+  }
+  used_ = snapshot_->form_factors;
+  relighter_.request({snapshot_->loaded->scene, used_, snapshot_->shot, edits_.materials(),
+                      light_ ? light_->radiosity : snapshot_->radiosity,
+                      snapshot_->options.tolerance});
+}
+
+std::shared_ptr<const SolverSnapshot> Relighting::lit(
+    std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  // Form factors of more passes than those asked with last.
+  if (edits_.any() && snapshot_->form_factors && snapshot_->form_factors != used_) {
+    ask();
+  }
+  if (!light_ || !snapshot_->form_factors) {
+    return snapshot_;
+  }
+  auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
+  lit->radiosity = light_->radiosity;
+  lit->irradiance = light_->irradiance;
+  lit->materials = materials_;
+  return lit;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,94 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/run_options.h"
+
+#include "support/json_object.h"
+#include "transillum/first_shot.h"
+
+namespace transillum::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+void read_seed(JsonObject& object, const char* key, std::uint64_t& value) {
+  const json* found = object.find(key);
+  if (!found) {
+    return;
+  }
+  if (!found->is_number_unsigned()) {
+    object.fail_at(key, "must be a whole number, 0 or more");
+  }
+  value = found->get<std::uint64_t>();
+}
+
+template <class Value, class FromName>
+void read_named(JsonObject& object, const char* key, Value& value, FromName from_name) {
+  std::string name;
+  object.read(key, name);
+  if (name.empty()) {
+    return;
+  }
+  try {
+    value = from_name(name);
+  } catch (const InputError& error) {
+    object.fail_at(key, error.what());
+  }
+}
+
+}  // namespace
+
+RunOptions run_options_from_json(const json& value, const std::string& where) {
+  RunOptions options;
+  SolveOptions& solve = options.solve;
+  JsonObject object(value, where);
+  object.read("directions", solve.directions, 1, 1 << 24);
+  read_named(object, "sampling", solve.sampling, sampling_from_name);
+  read_seed(object, "seed", solve.seed);
+  if (object.find("rotate")) {
+    read_seed(object, "rotate", solve.rotation.emplace());
+  }
+  read_named(object, "engine", solve.engine, engine_from_name);
+  object.read("resolution", solve.engine_options.resolution, 0, EngineOptions::largest_resolution);
+  object.read("two-way", solve.two_way);
+  read_named(object, "normalize", solve.normalize, normalization_from_name);
+  read_named(object, "scheme", solve.scheme, scheme_from_name);
+  read_named(object, "first-shot", solve.first_shot, first_shot_from_name);
+  object.read("burn-in", solve.burn_in, 0, 1'000'000);
+  object.read("replicas", solve.replicas, 1, 64);
+  object.read("iterations", solve.iterations, 0, 1'000'000);
+  object.read("tolerance", solve.tolerance);
+  object.read("two-sided", options.scene.two_sided);
+  object.read("max-patch-area", options.scene.max_patch_area);
+  if (!(options.scene.max_patch_area >= 0)) {
+    object.fail_at("max-patch-area", "must be an area in m², or 0 to leave faces whole");
+  }
+  object.done();
+  try {
+    solve.validate();
+  } catch (const InputError& error) {
+    object.fail(error.what());
+  }
+  return options;
+}
+
+json to_json(const RunOptions& options) {
+  const SolveOptions& solve = options.solve;
+  return {{"directions", solve.directions},
+          {"sampling", name_of(solve.sampling)},
+          {"seed", solve.seed},
+          {"rotate", solve.rotation ? json(*solve.rotation) : json()},
+          {"engine", name_of(solve.engine)},
+          {"resolution", solve.engine_options.resolution},
+          {"two-way", solve.two_way},
+          {"normalize", name_of(solve.normalize)},
+          {"scheme", name_of(solve.scheme)},
+          {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
+          {"burn-in", solve.burn_in},
+          {"replicas", solve.replicas},
+          {"iterations", solve.iterations},
+          {"tolerance", solve.tolerance},
+          {"two-sided", options.scene.two_sided},
+          {"max-patch-area", options.scene.max_patch_area}};
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patches/compare_actions.h"
+
+#include <QAbstractSpinBox>
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QMenu>
+#include <QStatusBar>
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int held_key = Qt::Key_A;
+
+// Letters that go into a line are no commands.
+bool is_typed_into(const QWidget* widget) {
+  return qobject_cast<const QLineEdit*>(widget) || qobject_cast<const QAbstractSpinBox*>(widget) ||
+         qobject_cast<const QComboBox*>(widget);
+}
+
+}  // namespace
+
+CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent)
+    : QObject(parent), colors_(colors), window_(window) {
+  keep_ = new QAction(tr("Keep this run as A"), this);
+  keep_->setObjectName("keep_run");
+  keep_->setShortcut(Qt::Key_K);
+  keep_->setToolTip(tr("Later runs of as many patches can be compared with it"));
+  show_ = new QAction(tr("Show A (while the key A is down)"), this);
+  show_->setObjectName("show_kept_run");
+  show_->setCheckable(true);
+  difference_ = new QAction(tr("Color by the difference to A"), this);
+  difference_->setObjectName("show_difference");
+  difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
+  difference_->setCheckable(true);
+  connect(keep_, &QAction::triggered, this, [this] {
+    colors_.keep_run();
+    if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
+      main->statusBar()->showMessage(
+          tr("Kept as A: hold the key A to see it; Shift+K colors by the difference"), 6000);
+    }
+  });
+  connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
+  connect(difference_, &QAction::triggered, this, [this](bool wanted) {
+    colors_.set_quantity(wanted ? Quantity::difference : Quantity::radiosity);
+  });
+  connect(&colors_, &ColorChoice::changed, this, &CompareActions::show_state);
+  connect(&colors_, &ColorChoice::fitted, this, &CompareActions::show_state);
+  qApp->installEventFilter(this);
+  show_state();
+}
+
+void CompareActions::add_to(QMenu& menu) const {
+  for (QAction* action : {keep_, show_, difference_}) {
+    menu.addAction(action);
+  }
+}
+
+void CompareActions::show_state() {
+  keep_->setEnabled(colors_.snapshot() != nullptr);
+  show_->setEnabled(colors_.kept_run() != nullptr);
+  show_->setChecked(colors_.shows_kept_run());
+  difference_->setEnabled(colors_.kept_run() != nullptr);
+  difference_->setChecked(colors_.quantity() == Quantity::difference);
+}
+
+bool CompareActions::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::WindowDeactivate && watched == window_) {
+    colors_.show_kept_run(false);  // the key's release would go elsewhere
+  } else if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const auto* widget = qobject_cast<QWidget*>(watched);
+    const bool down = event->type() == QEvent::KeyPress;
+    const bool wanted = key->key() == held_key && !key->isAutoRepeat() && widget &&
+                        widget->window() == window_ && !is_typed_into(widget);
+    if (wanted && (!down || key->modifiers() == Qt::NoModifier)) {
+      colors_.show_kept_run(down);
+    }
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,34 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+
+#include "colors/color_choice.h"
+
+class QAction;
+class QMenu;
+
+namespace transillum::viewer {
+
+/// Keeps a run as A; shows it while a key is held down, or how the newest run differs from it.
+class CompareActions : public QObject {
+  Q_OBJECT
+
+ public:
+  /// Keys count while `window` is the active one.
+  CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent = nullptr);
+
+  void add_to(QMenu& menu) const;
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void show_state();
+
+  ColorChoice& colors_;
+  const QWidget* window_;
+  QAction *keep_, *show_, *difference_;
+};
+
+}  // namespace transillum::viewer

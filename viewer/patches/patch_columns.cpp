@@ -1,0 +1,147 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patches/patch_columns.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "colors/color_scale.h"
+#include "colors/quantity.h"
+#include "model/form_factor_views.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+using Kind = PatchColumn::Kind;
+
+QString tr(const char* text) { return QCoreApplication::translate("PatchColumns", text); }
+
+// What value(i) is for each of the patches.
+template <class Value>
+PatchColumn column(const std::vector<PatchId>& patches, QString title, QString tip,
+                   std::string csv_name, Kind kind, const Value& value) {
+  PatchColumn result{std::move(title), std::move(tip), std::move(csv_name), kind, {}};
+  result.values.reserve(patches.size());
+  for (const PatchId i : patches) {
+    if constexpr (std::is_same_v<decltype(value(i)), Rgb>) {
+      result.values.push_back(value(i));
+    } else {
+      result.values.push_back({static_cast<double>(value(i)), 0, 0});
+    }
+  }
+  return result;
+}
+
+// Words in the order of the alphabet, so that their numbers sort.
+PatchColumn material_column(const std::vector<PatchId>& patches, const Scene& scene) {
+  std::map<QString, int> names;
+  for (const Material& material : scene.materials()) {
+    names.emplace(QString::fromStdString(material.name), 0);
+  }
+  QStringList words;
+  for (auto& [name, number] : names) {
+    number = words.size();
+    words << name;
+  }
+  std::vector<int> number_of_material;
+  for (const Material& material : scene.materials()) {
+    number_of_material.push_back(names.at(QString::fromStdString(material.name)));
+  }
+  PatchColumn result =
+      column(patches, tr("Material"), tr("Material of the patch"), "material", Kind::word,
+             [&](PatchId i) { return at(number_of_material, scene.patch(i).material); });
+  result.words = words;
+  return result;
+}
+
+PatchColumn patch_column(const std::vector<PatchId>& patches) {
+  return column(patches, tr("Patch"), tr("Number of the patch"), "patch", Kind::integer,
+                [](PatchId i) { return i; });
+}
+
+}  // namespace
+
+PatchRows rows_of_all(const SolverSnapshot& snapshot) {
+  const Scene& scene = *snapshot.loaded->scene;
+  PatchRows rows;
+  rows.patches.resize(static_cast<std::size_t>(scene.patch_count()));
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    at(rows.patches, i) = i;
+  }
+  const auto add = [&](const QString& title, const QString& tip, const char* csv_name, Kind kind,
+                       const auto& value) {
+    rows.columns.push_back(column(rows.patches, title, tip, csv_name, kind, value));
+  };
+  const auto add_quantity = [&](Quantity quantity, const char* csv_name) {
+    const PatchValues shown = values_of(quantity, snapshot, no_patch, nullptr);
+    if (shown.values.empty()) {
+      return;
+    }
+    const QuantityTraits& traits = traits_of(quantity);
+    const QString unit = QString::fromUtf8(traits.unit);
+    add(QString::fromUtf8(traits.symbol) + (unit.isEmpty() ? unit : ", " + unit),
+        QCoreApplication::translate("Quantity", traits.meaning), csv_name,
+        traits.has_channels ? Kind::channels : Kind::number,
+        [&](PatchId i) { return at(shown.values, i); });
+  };
+  rows.columns.push_back(patch_column(rows.patches));
+  rows.columns.push_back(material_column(rows.patches, scene));
+  add_quantity(Quantity::radiosity, "B");
+  add_quantity(Quantity::exitance, "E");
+  add_quantity(Quantity::reflectance, "rho");
+  add_quantity(Quantity::irradiance, "H");
+  add(tr("Area, m²"), tr("Area of the patch"), "area", Kind::number,
+      [&](PatchId i) { return scene.patch(i).area; });
+  add(tr("Face"), tr("Its face in the file, from 0"), "face", Kind::integer,
+      [&](PatchId i) { return scene.patch(i).face; });
+  add_quantity(Quantity::form_factor_sum, "F_sum");
+  const std::vector<int> fragments = fragment_counts(*snapshot.loaded);
+  add(tr("Fragments"), tr("How many parts the BSP tree has cut it into"), "fragments",
+      Kind::integer, [&](PatchId i) { return at(fragments, i); });
+  add_quantity(Quantity::error, "SE");
+  add_quantity(Quantity::last_change, "change");
+  return rows;
+}
+
+PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
+  const Scene& scene = *snapshot.loaded->scene;
+  const std::vector<double> from = form_factors_from(*snapshot.form_factors, i);
+  const std::vector<double> to = form_factors_to(*snapshot.form_factors, i);
+  const auto of = [](const auto& values, PatchId j) { return at(values, j); };
+  const auto received = [&](PatchId j) {
+    return scene.patch(i).area * of(from, j) * of(snapshot.radiosity, j);
+  };
+  PatchRows rows;
+  double all = 0;
+  for (PatchId j = 0; j < scene.patch_count(); ++j) {
+    if (!(of(from, j) > 0 || of(to, j) > 0)) {
+      continue;
+    }
+    rows.patches.push_back(j);
+    all += luminance(received(j));
+  }
+  const auto add = [&](const QString& title, const QString& tip, const char* csv_name, Kind kind,
+                       const auto& value) {
+    rows.columns.push_back(column(rows.patches, title, tip, csv_name, kind, value));
+  };
+  rows.columns.push_back(patch_column(rows.patches));
+  rows.columns.push_back(material_column(rows.patches, scene));
+  add(tr("F i→j"), tr("How much of what the selected patch i can see is this patch j"), "F_ij",
+      Kind::number, [&](PatchId j) { return of(from, j); });
+  add(tr("Received, W"), tr("Power that i receives from j: A_i F_ij B_j"), "received",
+      Kind::channels, received);
+  add(tr("Share, %"), tr("Of all that i receives, by luminance"), "share_percent", Kind::number,
+      [&](PatchId j) { return all > 0 ? 100 * luminance(received(j)) / all : 0.0; });
+  add(tr("F j→i"), tr("How much of what j can see is i"), "F_ji", Kind::number,
+      [&](PatchId j) { return of(to, j); });
+  add(tr("Sent, W"), tr("Power that j receives from i: A_j F_ji B_i"), "sent", Kind::channels,
+      [&](PatchId j) { return scene.patch(j).area * of(to, j) * of(snapshot.radiosity, i); });
+  add(tr("B, W/m²"), tr("Radiosity of j"), "B", Kind::channels,
+      [&](PatchId j) { return of(snapshot.radiosity, j); });
+  return rows;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,83 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patches/patch_inspector.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "support/number_text.h"
+#include "widgets/value_grid.h"
+
+namespace transillum::viewer {
+
+PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent)
+    : QWidget(parent), selection_(selection), colors_(colors) {
+  hint_ = new QLabel(tr("Click a patch in the scene or in the map."));
+  hint_->setForegroundRole(QPalette::PlaceholderText);
+  hint_->setWordWrap(true);
+  values_ = new ValueGrid;
+  id_ = values_->add_row(tr("Patch"), {});
+  id_->setObjectName("patch_id");
+  face_ = values_->add_row(tr("Face"), {});
+  material_ = values_->add_row(tr("Material"), {});
+  area_ = values_->add_row(tr("Area"), tr("m²"));
+  center_ = values_->add_row(tr("Center"), tr("m"));
+  normal_ = values_->add_row(tr("Normal"), {});
+  exitance_ = values_->add_row(tr("E"), tr("W/m²"));
+  reflectance_ = values_->add_row(tr("ρ"), {});
+  radiosity_ = values_->add_row(tr("B"), tr("W/m²"));
+  radiosity_->setObjectName("patch_radiosity");
+  form_factor_sum_ = values_->add_row(tr("Σ F"), {});
+  exitance_->setToolTip(tr("Emitted exitance: red, green, blue"));
+  reflectance_->setToolTip(tr("Diffuse reflectance: red, green, blue"));
+  radiosity_->setToolTip(tr("Radiosity, estimated so far: red, green, blue"));
+  form_factor_sum_->setToolTip(tr("Sum of the form factors so far; near 1 where enclosed"));
+  swatch_ = new QLabel;
+  swatch_->setFixedHeight(10);
+  swatch_->setToolTip(tr("The color that the scene shows it in"));
+  values_->add_wide(swatch_);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 8, 12, 10);
+  layout->addWidget(hint_);
+  layout->addWidget(values_);
+  layout->addStretch(1);
+  connect(&selection_, &Selection::changed, this, &PatchInspector::show_patch);
+  connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
+  show_patch();
+}
+
+void PatchInspector::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  show_patch();
+}
+
+void PatchInspector::show_patch() {
+  const PatchId patch = selection_.patch();
+  const bool any = snapshot_ && patch >= 0 && patch < snapshot_->loaded->scene->patch_count();
+  hint_->setVisible(!any);
+  values_->setVisible(any);
+  if (!any) {
+    return;
+  }
+  const Scene& scene = *snapshot_->loaded->scene;
+  const Patch& p = scene.patch(patch);
+  const auto index = static_cast<std::size_t>(patch);
+  // Numbers are shown as the files have them, without thousands apart.
+  id_->setText(QString::number(patch));
+  face_->setText(QString::number(p.face));
+  material_->setText(QString::fromStdString(scene.material(patch).name));
+  area_->setText(number_text(p.area));
+  center_->setText(vector_text(p.center));
+  normal_->setText(vector_text(p.normal));
+  exitance_->setText(rgb_text(material_of(*snapshot_, patch).exitance));
+  reflectance_->setText(rgb_text(material_of(*snapshot_, patch).reflectance));
+  radiosity_->setText(rgb_text(snapshot_->radiosity[index]));
+  form_factor_sum_->setText(QString::number(snapshot_->form_factor_sums[index], 'f', 6));
+  const Color8 c = colors_.patch_colors()[index];
+  swatch_->setStyleSheet(
+      QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")
+          .arg(QColor(c[0], c[1], c[2]).name()));
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "colors/color_choice.h"
+#include "model/snapshot.h"
+#include "state/selection.h"
+
+class QLabel;
+
+namespace transillum::viewer {
+
+class ValueGrid;
+
+/// All there is to know of the selected patch.
+class PatchInspector : public QWidget {
+  Q_OBJECT
+
+ public:
+  PatchInspector(Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
+
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+ private:
+  void show_patch();
+
+  Selection& selection_;
+  const ColorChoice& colors_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  QLabel* hint_;
+  ValueGrid* values_;
+  QLabel *id_, *face_, *material_, *area_, *center_, *normal_, *exitance_, *reflectance_,
+      *radiosity_, *form_factor_sum_, *swatch_;
+};
+
+}  // namespace transillum::viewer

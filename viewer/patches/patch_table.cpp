@@ -1,0 +1,212 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patches/patch_table.h"
+
+#include <QLocale>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <utility>
+
+#include "colors/color_scale.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+double key_of(const PatchColumn& column, int entry) {
+  const Rgb& value = at(column.values, entry);
+  return column.kind == PatchColumn::Kind::channels ? luminance(value) : value.r;
+}
+
+QString word_of(const PatchColumn& column, int entry) {
+  return column.words.value(static_cast<int>(at(column.values, entry).r));
+}
+
+std::string exact_text(double value) {
+  return QByteArray::number(value, 'g', QLocale::FloatingPointShortest).toStdString();
+}
+
+std::string quoted(const QString& word) {
+  if (!word.contains(',') && !word.contains('"') && !word.contains('\n')) {
+    return word.toStdString();
+  }
+  return '"' + QString(word).replace('"', "\"\"").toStdString() + '"';
+}
+
+}  // namespace
+
+void PatchTable::set_contents(std::vector<PatchId> patches, std::vector<PatchColumn> columns) {
+  const bool same_columns =
+      columns.size() == columns_.size() &&
+      std::equal(columns.begin(), columns.end(), columns_.begin(),
+                 [](const auto& a, const auto& b) { return a.title == b.title; });
+  if (same_columns && patches == patches_) {
+    // The view keeps its place, whatever the new values do to the order.
+    columns_ = std::move(columns);
+    arrange();
+    return;
+  }
+  beginResetModel();
+  patches_ = std::move(patches);
+  columns_ = std::move(columns);
+  shown_.clear();
+  endResetModel();
+  arrange();
+}
+
+void PatchTable::set_search(const QString& text) {
+  if (text == search_) {
+    return;
+  }
+  search_ = text;
+  arrange();
+}
+
+bool PatchTable::matches(int entry) const {
+  if (search_.isEmpty()) {
+    return true;
+  }
+  if (QString::number(at(patches_, entry)).startsWith(search_)) {
+    return true;
+  }
+  return std::any_of(columns_.begin(), columns_.end(), [&](const PatchColumn& column) {
+    return column.kind == PatchColumn::Kind::word &&
+           word_of(column, entry).contains(search_, Qt::CaseInsensitive);
+  });
+}
+
+void PatchTable::arrange() {
+  std::vector<int> shown;
+  for (int entry = 0; entry < size(); ++entry) {
+    if (matches(entry)) {
+      shown.push_back(entry);
+    }
+  }
+  if (sorted_by_ >= 0 && sorted_by_ < columnCount()) {
+    const PatchColumn& column = at(columns_, sorted_by_);
+    std::vector<double> keys(patches_.size());
+    for (const int entry : shown) {
+      // NaN would break the order.
+      const double key = key_of(column, entry);
+      at(keys, entry) = std::isnan(key) ? -HUGE_VAL : key;
+    }
+    const auto key = [&](int entry) { return at(keys, entry); };
+    std::stable_sort(shown.begin(), shown.end(), [&](int a, int b) {
+      return order_ == Qt::AscendingOrder ? key(a) < key(b) : key(b) < key(a);
+    });
+  }
+  if (shown.size() == shown_.size()) {
+    emit layoutAboutToBeChanged();
+    const QModelIndexList old = persistentIndexList();
+    std::vector<PatchId> kept;
+    for (const QModelIndex& index : old) {
+      kept.push_back(patch(index.row()));
+    }
+    shown_ = std::move(shown);
+    QModelIndexList now;
+    for (int k = 0; k < old.size(); ++k) {
+      const int row = row_of(at(kept, k));
+      now.push_back(row < 0 ? QModelIndex() : index(row, old[k].column()));
+    }
+    changePersistentIndexList(old, now);
+    emit layoutChanged();
+    return;
+  }
+  beginResetModel();
+  shown_ = std::move(shown);
+  endResetModel();
+}
+
+PatchId PatchTable::patch(int row) const { return at(patches_, at(shown_, row)); }
+
+int PatchTable::row_of(PatchId patch) const {
+  const auto found = std::find_if(shown_.begin(), shown_.end(),
+                                  [&](int entry) { return at(patches_, entry) == patch; });
+  return found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin());
+}
+
+void PatchTable::write_csv(std::ostream& out) const {
+  const char* separator = "";
+  for (const PatchColumn& column : columns_) {
+    for (const char* channel : {"_r", "_g", "_b"}) {
+      const bool channels = column.kind == PatchColumn::Kind::channels;
+      out << std::exchange(separator, ",") << column.csv_name << (channels ? channel : "");
+      if (!channels) {
+        break;
+      }
+    }
+  }
+  out << '\n';
+  for (const int entry : shown_) {
+    separator = "";
+    for (const PatchColumn& column : columns_) {
+      const Rgb& value = at(column.values, entry);
+      out << std::exchange(separator, ",");
+      if (column.kind == PatchColumn::Kind::word) {
+        out << quoted(word_of(column, entry));
+      } else if (column.kind == PatchColumn::Kind::channels) {
+        out << exact_text(value.r) << ',' << exact_text(value.g) << ',' << exact_text(value.b);
+      } else {
+        out << exact_text(value.r);
+      }
+    }
+    out << '\n';
+  }
+}
+
+int PatchTable::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(shown_.size());
+}
+
+int PatchTable::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(columns_.size());
+}
+
+QVariant PatchTable::data(const QModelIndex& index, int role) const {
+  const PatchColumn& column = at(columns_, index.column());
+  const int entry = at(shown_, index.row());
+  switch (role) {
+    case Qt::DisplayRole:
+      if (column.kind == PatchColumn::Kind::word) {
+        return word_of(column, entry);
+      }
+      // Numbers of patches are shown as the files have them, without thousands apart.
+      if (column.kind == PatchColumn::Kind::integer) {
+        return QString::number(static_cast<qint64>(key_of(column, entry)));
+      }
+      return number_text(key_of(column, entry));
+    case Qt::ToolTipRole:
+      return column.kind == PatchColumn::Kind::channels
+                 ? QVariant(tr("Red, green, blue: %1").arg(rgb_text(at(column.values, entry))))
+                 : QVariant();
+    case Qt::TextAlignmentRole:
+      return QVariant(column.kind == PatchColumn::Kind::word ? Qt::AlignLeft | Qt::AlignVCenter
+                                                             : Qt::AlignRight | Qt::AlignVCenter);
+    default:
+      return {};
+  }
+}
+
+QVariant PatchTable::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || section >= columnCount()) {
+    return {};
+  }
+  const PatchColumn& column = at(columns_, section);
+  if (role == Qt::DisplayRole) {
+    return column.title;
+  }
+  if (role == Qt::ToolTipRole) {
+    return column.tip;
+  }
+  return {};
+}
+
+void PatchTable::sort(int column, Qt::SortOrder order) {
+  sorted_by_ = column;
+  order_ = order;
+  arrange();
+}
+
+}  // namespace transillum::viewer

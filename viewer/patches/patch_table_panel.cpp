@@ -1,0 +1,237 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "patches/patch_table_panel.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <utility>
+
+#include "model/form_factor_views.h"
+#include "patches/patch_columns.h"
+#include "patches/patch_table.h"
+#include "support/number_text.h"
+#include "transillum/files.h"
+#include "widgets/figure_table.h"
+#include "widgets/save_dialog.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int refresh_interval_ms = 400;
+constexpr int share_column = 4;  // of the partners
+
+}  // namespace
+
+PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
+    : QWidget(parent), selection_(selection), tabs_(new QTabWidget) {
+  search_ = new QLineEdit;
+  search_->setObjectName("patch_search");
+  search_->setPlaceholderText(tr("Patch number or material"));
+  search_->setClearButtonEnabled(true);
+  auto* export_button = new QPushButton(tr("Export…"));
+  export_button->setObjectName("export_table");
+  export_button->setToolTip(tr("Write this table, as it is sorted and searched, as CSV"));
+  tabs_->setDocumentMode(true);
+  all_ = add_page(tr("All patches"), "patch_table");
+  partners_ = add_page(tr("Partners of the selected"), "partner_table");
+  partners_.view->sortByColumn(share_column, Qt::DescendingOrder);
+  later_ = new QTimer(this);
+  later_->setSingleShot(true);
+
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(10, 8, 10, 6);
+  row->addWidget(search_, 1);
+  row->addWidget(export_button);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(row);
+  layout->addWidget(tabs_, 1);
+
+  connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
+    for (const Page& page : {all_, partners_}) {
+      page.table->set_search(text.trimmed());
+    }
+    mark_selection();
+    count_rows();
+  });
+  connect(search_, &QLineEdit::returnPressed, this, [this] {
+    const PatchTable& table = *current().table;
+    if (table.rowCount() == 0) {
+      return;
+    }
+    // A number means that patch, though the numbers of others begin so too.
+    bool is_number = false;
+    const PatchId number = search_->text().trimmed().toInt(&is_number);
+    selection_.select(is_number && table.row_of(number) >= 0 ? number : table.patch(0));
+    search_->clear();  // else it would hide that patch's partners
+  });
+  connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
+  connect(tabs_, &QTabWidget::currentChanged, this, &PatchTablePanel::refresh);
+  connect(later_, &QTimer::timeout, this, &PatchTablePanel::refresh);
+  connect(&selection_, &Selection::changed, this, [this] {
+    if (!watched_) {
+      return;
+    }
+    if (current().table == partners_.table) {
+      show_partners();
+    }
+    mark_selection();
+  });
+}
+
+PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char* name) {
+  const Page page{new PatchTable(this), new QTableView, new QLabel};
+  page.words->setWordWrap(true);
+  page.words->setContentsMargins(10, 4, 10, 4);
+  page.words->setForegroundRole(QPalette::PlaceholderText);
+  page.view->setObjectName(QString::fromLatin1(name));
+  page.view->setModel(page.table);
+  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
+  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
+  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
+  page.view->setSortingEnabled(true);
+  set_up_figure_table(*page.view, {});
+
+  auto* widget = new QWidget;
+  auto* layout = new QVBoxLayout(widget);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(page.words);
+  layout->addWidget(page.view, 1);
+  tabs_->addTab(widget, title);
+  connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this, page](const QModelIndex& index) {
+            // Partners are of the selected patch: another selected would change the list at once.
+            if (index.isValid() && page.view->hasFocus() && page.table == all_.table) {
+              selection_.select(page.table->patch(index.row()));
+            }
+          });
+  connect(page.view, &QTableView::clicked, this, [this, page](const QModelIndex& index) {
+    if (page.table == all_.table) {
+      selection_.select(page.table->patch(index.row()));
+    }
+  });
+  connect(page.view, &QTableView::doubleClicked, this, [this, page](const QModelIndex& index) {
+    selection_.select(page.table->patch(index.row()));
+  });
+  return page;
+}
+
+const PatchTablePanel::Page& PatchTablePanel::current() const {
+  return tabs_->currentIndex() == 0 ? all_ : partners_;
+}
+
+void PatchTablePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  if (watched_ && !later_->isActive()) {
+    later_->start(refresh_interval_ms);
+  }
+}
+
+void PatchTablePanel::clear() {
+  snapshot_ = nullptr;
+  for (const Page& page : {all_, partners_}) {
+    page.table->set_contents({}, {});
+  }
+  count_rows();
+}
+
+void PatchTablePanel::begin_search() {
+  search_->setFocus(Qt::ShortcutFocusReason);
+  search_->selectAll();
+}
+
+void PatchTablePanel::set_watched(bool watched) {
+  watched_ = watched;
+  refresh();
+}
+
+void PatchTablePanel::refresh() {
+  if (!watched_) {
+    return;
+  }
+  if (current().table == partners_.table) {
+    emit form_factors_wanted();
+    show_partners();
+  } else if (snapshot_) {
+    PatchRows rows = rows_of_all(*snapshot_);
+    all_.table->set_contents(std::move(rows.patches), std::move(rows.columns));
+  }
+  mark_selection();
+  count_rows();
+}
+
+void PatchTablePanel::show_partners() {
+  const PatchId patch = selection_.patch();
+  if (snapshot_ && patch != no_patch && snapshot_->form_factors) {
+    PatchRows rows = rows_of_partners(*snapshot_, patch);
+    partners_.table->set_contents(std::move(rows.patches), std::move(rows.columns));
+  } else {
+    partners_.table->set_contents({}, {});
+  }
+  count_rows();
+}
+
+void PatchTablePanel::mark_selection() {
+  const Page& page = current();
+  const int row = selection_.patch() == no_patch ? -1 : page.table->row_of(selection_.patch());
+  if (row < 0) {
+    page.view->clearSelection();
+    return;
+  }
+  if (page.view->selectionModel()->isRowSelected(row, {})) {
+    return;
+  }
+  page.view->selectionModel()->setCurrentIndex(
+      page.table->index(row, 0), QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  page.view->scrollTo(page.table->index(row, 0));
+}
+
+void PatchTablePanel::count_rows() {
+  const auto count = [](const PatchTable& table) {
+    return table.rowCount() == table.size()
+               ? tr("%1 patches").arg(count_text(table.size()))
+               : tr("%1 of %2 patches").arg(count_text(table.rowCount()), count_text(table.size()));
+  };
+  all_.words->setText(snapshot_ ? count(*all_.table) : tr("Open a scene to list its patches."));
+  const PatchId patch = selection_.patch();
+  if (!snapshot_ || patch == no_patch) {
+    partners_.words->setText(tr("Click a patch to list whom it exchanges light with."));
+  } else if (!snapshot_->form_factors) {
+    partners_.words->setText(why_no_form_factors(*snapshot_));
+  } else {
+    partners_.words->setText(tr("Patch i = %1 exchanges light with %2. A double click goes to one.")
+                                 .arg(patch)
+                                 .arg(count(*partners_.table)));
+  }
+}
+
+void PatchTablePanel::write_csv(const QString& path) const {
+  write_file_whole(path.toStdString(),
+                   [this](std::ostream& out) { current().table->write_csv(out); });
+}
+
+void PatchTablePanel::choose_csv() {
+  const QString path =
+      ask_where_to_write(this, tr("Write the table"), tr("CSV (*.csv)"),
+                         current().table == all_.table ? "patches.csv" : "partners.csv");
+  if (path.isEmpty()) {
+    return;
+  }
+  try {
+    write_csv(path);
+  } catch (const std::exception& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+}  // namespace transillum::viewer

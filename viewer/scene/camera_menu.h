@@ -1,0 +1,30 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QToolButton>
+
+#include "state/camera_views.h"
+
+class QMenu;
+
+namespace transillum::viewer {
+
+class SceneView;
+
+/// Where the scene is looked from: sides, what fits, and kept views.
+class CameraMenu : public QToolButton {
+  Q_OBJECT
+
+ public:
+  CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidget* parent = nullptr);
+
+ private:
+  void fill_bookmarks();
+  void ask_for_name(std::size_t k);
+
+  SceneView& scene_view_;
+  CameraBookmarks& bookmarks_;
+  QMenu* kept_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,35 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "colors/color_map.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// A scene as VTK draws it: one cell a convex piece, colored by its patch.
+class SceneMesh {
+ public:
+  explicit SceneMesh(std::shared_ptr<const Scene> scene);
+
+  vtkPolyData* surface() const { return surface_; }
+  /// One color a patch. Only the cells' colors change, never their shape.
+  void color(std::span<const Color8> colors);
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  vtkSmartPointer<vtkPolyData> surface_;
+  vtkSmartPointer<vtkUnsignedCharArray> colors_;
+};
+
+/// The outline of a patch, `lift` meters in front of it.
+vtkSmartPointer<vtkPolyData> patch_outline(const Scene& scene, PatchId patch, double lift);
+
+}  // namespace transillum::viewer

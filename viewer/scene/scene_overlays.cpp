@@ -1,0 +1,144 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/scene_overlays.h"
+
+#include <vtkCellArray.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+const QColor back_face{0x8c, 0x3a, 0x4a};
+
+class Lines {
+ public:
+  void add(const Vec3& a, const Vec3& b) {
+    lines_->InsertNextCell(2);
+    lines_->InsertCellPoint(points_->InsertNextPoint(a.x, a.y, a.z));
+    lines_->InsertCellPoint(points_->InsertNextPoint(b.x, b.y, b.z));
+  }
+  vtkSmartPointer<vtkPolyData> data() const {
+    auto data = vtkSmartPointer<vtkPolyData>::New();
+    data->SetPoints(points_);
+    data->SetLines(lines_);
+    return data;
+  }
+
+ private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> lines_;
+};
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift) {
+  std::vector<int> fragments(static_cast<std::size_t>(scene.patch_count()));
+  for (const BspTree::Fragment& f : tree.fragments()) {
+    ++at(fragments, f.patch);
+  }
+  std::vector<int> pieces(fragments.size());
+  for (const Piece& piece : scene.pieces()) {
+    ++at(pieces, piece.patch);
+  }
+  Lines lines;
+  for (const BspTree::Fragment& f : tree.fragments()) {
+    // A patch that is not convex has pieces of its own, which no plane has cut.
+    const auto patch = static_cast<std::size_t>(f.patch);
+    if (fragments[patch] == pieces[patch]) {
+      continue;
+    }
+    const auto corners = tree.corners(f);
+    const Vec3 lifted = lift * scene.patch(f.patch).normal;
+    const auto point = [&](std::size_t k) {
+      return at(tree.points(), corners[k % corners.size()].point) + lifted;
+    };
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      lines.add(point(k), point(k + 1));
+    }
+  }
+  return lines.data();
+}
+
+vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene) {
+  Lines lines;
+  for (const Patch& patch : scene.patches()) {
+    lines.add(patch.center, patch.center + 0.5 * std::sqrt(patch.area) * patch.normal);
+  }
+  return lines.data();
+}
+
+SceneOverlays::SceneOverlays(vtkRenderer& renderer) {
+  for (Overlay& overlay : overlays_) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkPolyData> nothing;
+    mapper->SetInputData(nothing);
+    overlay.actor = vtkSmartPointer<vtkActor>::New();
+    overlay.actor->SetMapper(mapper);
+    overlay.actor->GetProperty()->LightingOff();
+    overlay.actor->VisibilityOff();
+    renderer.AddActor(overlay.actor);
+  }
+  const auto paint = [this](Kind kind, const QColor& color) {
+    overlay(kind).actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+  };
+  paint(Kind::fragments, theme::outside);
+  paint(Kind::normals, theme::processed);
+  paint(Kind::back_faces, back_face);
+  overlay(Kind::back_faces).actor->GetProperty()->FrontfaceCullingOn();
+}
+
+void SceneOverlays::show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface,
+                               double lift) {
+  loaded_ = std::move(loaded);
+  surface_ = surface;
+  lift_ = lift;
+  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_faces}) {
+    overlay(kind).made = false;
+    update(kind);
+  }
+}
+
+void SceneOverlays::set_shown(Kind kind, bool shown) {
+  overlay(kind).shown = shown;
+  update(kind);
+}
+
+void SceneOverlays::set_line_width(double pixels) {
+  for (Overlay& overlay : overlays_) {
+    overlay.actor->GetProperty()->SetLineWidth(static_cast<float>(pixels));
+  }
+}
+
+void SceneOverlays::update(Kind kind) {
+  Overlay& changed = overlay(kind);
+  const bool visible = changed.shown && loaded_;
+  changed.actor->SetVisibility(visible);
+  if (!visible || changed.made) {
+    return;
+  }
+  changed.made = true;
+  auto* mapper = vtkPolyDataMapper::SafeDownCast(changed.actor->GetMapper());
+  switch (kind) {
+    case Kind::fragments:
+      mapper->SetInputData(fragment_lines(*loaded_->scene, *loaded_->tree, lift_));
+      break;
+    case Kind::normals:
+      mapper->SetInputData(normal_lines(*loaded_->scene));
+      break;
+    case Kind::back_faces:
+      mapper->SetInputData(surface_);
+      break;
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,86 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/scene_page.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include "colors/color_bar.h"
+#include "colors/color_note.h"
+#include "colors/kept_run_label.h"
+#include "scene/color_controls.h"
+#include "scene/scene_view.h"
+#include "scene/show_menu.h"
+#include "scene/welcome_page.h"
+#include "widgets/banner.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
+    : QWidget(parent) {
+  banner_ = new Banner;
+  color_controls_ = new ColorControls(colors);
+  scene_view_ = new SceneView(focus, selection, colors);
+  scene_view_->setObjectName("scene_view");
+  welcome_ = new WelcomePage;
+  connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
+  connect(welcome_, &WelcomePage::lesson_clicked, this, &ScenePage::lesson_clicked);
+  connect(welcome_, &WelcomePage::built_in_clicked, this, &ScenePage::built_in_clicked);
+  connect(color_controls_, &ColorControls::direction_toggled, scene_view_,
+          &SceneView::set_direction_shown);
+  connect(color_controls_, &ColorControls::outlines_toggled, scene_view_,
+          &SceneView::set_outlines_shown);
+  connect(color_controls_, &ColorControls::list_closed, scene_view_->canvas(),
+          qOverload<>(&QWidget::setFocus));
+  const ShowMenu* show = color_controls_->show_menu();
+  connect(show, &ShowMenu::overlay_toggled, scene_view_, &SceneView::set_overlay_shown);
+  connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);
+  connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
+  new KeptRunLabel(colors, scene_view_->canvas());
+  camera_ = new CameraMenu(*scene_view_, bookmarks_);
+  color_controls_->add_tool(camera_);
+
+  auto* note = new ColorNote(colors);
+  connect(note, &ColorNote::replicas_wanted, this, &ScenePage::replicas_wanted);
+
+  auto* scene = new QWidget;
+  auto* with_bar = new QHBoxLayout;
+  with_bar->setSpacing(0);
+  with_bar->addWidget(scene_view_, 1);
+  with_bar->addWidget(new ColorBar(colors));
+  auto* scene_layout = new QVBoxLayout(scene);
+  scene_layout->setContentsMargins(0, 0, 0, 0);
+  scene_layout->setSpacing(0);
+  scene_layout->addWidget(color_controls_);
+  scene_layout->addWidget(note);
+  scene_layout->addLayout(with_bar, 1);
+  pages_ = new QStackedWidget;
+  pages_->addWidget(welcome_);
+  pages_->addWidget(scene);
+  scenes_ = new QAction(theme::icon(theme::Icon::scene), tr("Scenes"), this);
+  scenes_->setObjectName("scenes");
+  scenes_->setCheckable(true);
+  scenes_->setChecked(true);
+  scenes_->setEnabled(false);  // there is no other page yet
+  scenes_->setShortcut(QKeySequence(Qt::Key_W));
+  scenes_->setToolTip(tr("The scenes that come along, as pictures, and the lessons (W)"));
+  connect(scenes_, &QAction::toggled, this,
+          [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
+  connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(banner_);
+  layout->addWidget(pages_, 1);
+}
+
+void ScenePage::show_scene() {
+  scenes_->setEnabled(true);
+  welcome_->offer_way_back();
+  scenes_->setChecked(false);
+}
+
+}  // namespace transillum::viewer

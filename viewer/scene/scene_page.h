@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "colors/color_choice.h"
+#include "scene/camera_menu.h"
+#include "state/focus.h"
+#include "state/selection.h"
+
+class QAction;
+class QStackedWidget;
+
+namespace transillum::viewer {
+
+class Banner;
+class ColorControls;
+class SceneView;
+class WelcomePage;
+
+/// The middle of the window: what there is to open, then the scene with its colors.
+class ScenePage : public QWidget {
+  Q_OBJECT
+
+ public:
+  ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors,
+            QWidget* parent = nullptr);
+
+  Banner* banner() const { return banner_; }
+  ColorControls* color_controls() const { return color_controls_; }
+  SceneView* scene_view() const { return scene_view_; }
+  QMenu* camera_menu() const { return camera_->menu(); }
+  CameraBookmarks& bookmarks() { return bookmarks_; }
+  /// Puts the scene where there were scenes to choose from.
+  void show_scene();
+  /// Shows the scenes to choose from, or the open one again.
+  QAction* scenes_action() const { return scenes_; }
+
+ signals:
+  void open_clicked();
+  void lesson_clicked();
+  void built_in_clicked(const QString& name);
+  void replicas_wanted();
+
+ private:
+  CameraBookmarks bookmarks_;
+  CameraMenu* camera_;
+  Banner* banner_;
+  QStackedWidget* pages_;
+  WelcomePage* welcome_;
+  QAction* scenes_;
+  ColorControls* color_controls_;
+  SceneView* scene_view_;
+};
+
+}  // namespace transillum::viewer

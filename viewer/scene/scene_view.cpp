@@ -1,0 +1,411 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/scene_view.h"
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <array>
+#include <utility>
+
+#include <algorithm>
+
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// Smooth edges take long without a GPU: they come when steps no longer follow one another.
+constexpr int rest_ms = 150;
+
+// VTK's own keys would end the program ("e", "q") or spoil the picture ("w", "3"): ours are menus.
+class CameraStyle : public vtkInteractorStyleTrackballCamera {
+ public:
+  static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
+  void OnChar() override {}
+};
+
+vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkPolyData> nothing;
+  mapper->SetInputData(nothing);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+  actor->VisibilityOff();
+  renderer.AddActor(actor);
+  return actor;
+}
+
+Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
+
+}  // namespace
+
+SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
+                     QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+  canvas_ = new QVTKOpenGLNativeWidget(this);
+  canvas_->setObjectName("scene_canvas");
+  canvas_->setMinimumSize(200, 150);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(canvas_);
+
+  window_->SetMultiSamples(0);
+  canvas_->setRenderWindow(window_);
+  window_->AddRenderer(renderer_);
+  const QColor& ground = theme::scene_background;
+  renderer_->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
+  vtkNew<CameraStyle> style;
+  canvas_->interactor()->SetInteractorStyle(style);
+
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetColorModeToDirectScalars();
+  surface_ = vtkSmartPointer<vtkActor>::New();
+  surface_->SetMapper(mapper);
+  surface_->GetProperty()->LightingOff();  // B is the light: nothing is to be added
+  surface_->GetProperty()->BackfaceCullingOn();
+  surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
+  surface_->VisibilityOff();
+  renderer_->AddActor(surface_);
+  halo_ = line_actor(*renderer_, Qt::black);
+  outline_ = line_actor(*renderer_, theme::selection);
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::draw_outline_nearer);
+  overlays_ = std::make_unique<SceneOverlays>(*renderer_);
+  // Drawn in this order: what can be seen through comes last.
+  glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
+  step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
+
+  canvas_->installEventFilter(this);
+  connect(&selection_, &Selection::changed, this, [this] {
+    show_selection();
+    render();
+  });
+  rest_ = new QTimer(this);
+  rest_->setSingleShot(true);
+  rest_->setInterval(rest_ms);
+  connect(rest_, &QTimer::timeout, this, &SceneView::render);
+  connect(&focus_, &Focus::moved, this, &SceneView::show_step);
+  connect(&colors_, &ColorChoice::changed, this, [this] {
+    recolor();
+    render();
+  });
+}
+
+SceneView::~SceneView() = default;
+
+QWidget* SceneView::canvas() const { return canvas_; }
+
+void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
+  loaded_ = std::move(loaded);
+  snapshot_ = nullptr;
+  mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
+  smooth_mesh_ = nullptr;
+  show_surface();
+  surface_->VisibilityOn();
+  glyph_->hide();
+  show_selection();
+  reset_view();
+  overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
+}
+
+void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  if (snapshot->loaded != loaded_) {
+    return;
+  }
+  snapshot_ = std::move(snapshot);
+  recolor();
+  show_direction();
+  render();
+}
+
+void SceneView::set_direction_shown(bool shown) {
+  direction_shown_ = shown;
+  show_direction();
+  render();
+}
+
+void SceneView::set_outlines_shown(bool shown) {
+  surface_->GetProperty()->SetEdgeVisibility(shown);
+  render();
+}
+
+void SceneView::set_overlay_shown(SceneOverlays::Kind kind, bool shown) {
+  overlays_->set_shown(kind, shown);
+  render();
+}
+
+void SceneView::set_wireframe(bool wireframe) {
+  if (wireframe) {
+    surface_->GetProperty()->SetRepresentationToWireframe();
+  } else {
+    surface_->GetProperty()->SetRepresentationToSurface();
+  }
+  render();
+}
+
+void SceneView::set_smooth_shading(bool smooth) {
+  smooth_shading_ = smooth;
+  if (!loaded_) {
+    return;
+  }
+  show_surface();
+  recolor();
+  render();
+}
+
+void SceneView::show_surface() {
+  if (smooth_shading_ && !smooth_mesh_) {
+    smooth_mesh_ = std::make_unique<SmoothMesh>(*loaded_->scene);
+  }
+  auto* mapper = vtkPolyDataMapper::SafeDownCast(surface_->GetMapper());
+  if (smooth_shading_) {
+    mapper->SetScalarModeToUsePointData();
+    mapper->SetInputData(smooth_mesh_->surface());
+  } else {
+    mapper->SetScalarModeToUseCellData();
+    mapper->SetInputData(mesh_->surface());
+  }
+}
+
+void SceneView::set_smooth(bool smooth) {
+  if (smooth == smooth_) {
+    return;
+  }
+  smooth_ = smooth;
+  render();
+}
+
+void SceneView::reset_view() {
+  if (!loaded_) {
+    return;
+  }
+  const ViewPoint view = initial_view(*loaded_->scene, aspect());
+  focus_point_ = view.target;
+  radius_ = view.radius;
+  place_camera(view);
+  first_look_ = view_point();
+}
+
+double SceneView::aspect() const {
+  return static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
+}
+
+void SceneView::look_at_all() {
+  if (loaded_) {
+    place_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
+  }
+}
+
+void SceneView::look_at_selected() {
+  const PatchId patch = selection_.patch();
+  if (loaded_ && patch >= 0 && patch < loaded_->scene->patch_count()) {
+    place_camera(patch_view(*loaded_->scene, patch, view_point()));
+  }
+}
+
+void SceneView::look_from_side(Side side) {
+  if (loaded_) {
+    place_camera(standard_view(*loaded_->scene, side, aspect()));
+  }
+}
+
+ViewPoint SceneView::view_point() const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  return {vec3(camera->GetPosition()), vec3(camera->GetFocalPoint()), vec3(camera->GetViewUp()),
+          camera->GetViewAngle(), radius_};
+}
+
+void SceneView::look_from(const ViewPoint& view) {
+  if (loaded_) {
+    place_camera(view);
+  }
+}
+
+void SceneView::place_camera(const ViewPoint& view) {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
+  camera->SetFocalPoint(view.target.x, view.target.y, view.target.z);
+  camera->SetViewUp(view.up.x, view.up.y, view.up.z);
+  camera->SetViewAngle(view.view_angle);
+  show_direction();
+  render();
+}
+
+void SceneView::recolor() {
+  if (!mesh_ || !snapshot_) {
+    return;
+  }
+  patch_colors_ = colors_.patch_colors();
+  if (stepping()) {
+    dim_what_is_to_come(*focus_.map(), focus_.moment().step, patch_colors_);
+  }
+  if (smooth_shading_) {
+    smooth_mesh_->color(patch_colors_);
+  } else {
+    mesh_->color(patch_colors_);
+  }
+}
+
+bool SceneView::stepping() const {
+  return !focus_.following() && focus_.map() && focus_.map()->loaded == loaded_;
+}
+
+void SceneView::show_step() {
+  const bool now = stepping();
+  if (!now && !stepped_) {
+    return;  // a newer direction changes nothing but by its snapshot
+  }
+  stepped_ = now;
+  rest_->start();
+  recolor();
+  show_direction();
+  render();
+}
+
+void SceneView::show_direction() {
+  const bool on_a_step = stepping() && focus_.moment().step >= 0;
+  if (on_a_step) {
+    step_glyph_->show(*focus_.map(), focus_.moment().step);
+  } else {
+    step_glyph_->hide();
+  }
+  if (on_a_step && direction_shown_) {
+    // The plane sweeps with the polygons, from where the light comes.
+    const Vec3& omega = focus_.map()->record().frame.omega;
+    const Vec3 center = center_of_step(*focus_.map(), focus_.moment().step);
+    glyph_->show_at(omega, snapshot_ && snapshot_->options.two_way,
+                    focus_point_ + dot(center - focus_point_, omega) * omega, radius_);
+    return;
+  }
+  const bool any = snapshot_ && norm(snapshot_->progress.last_direction) > 0.5;
+  if (!any || !direction_shown_) {
+    glyph_->hide();
+    return;
+  }
+  // Just outside of the scene, or of what is worth looking at in a large enclosure.
+  const Vec3& omega = snapshot_->progress.last_direction;
+  double reach = 0;
+  for (const Vec3& p : loaded_->scene->points()) {
+    reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));
+  }
+  glyph_->show(omega, snapshot_->options.two_way, focus_point_, radius_,
+               std::min(0.86 * radius_, 1.06 * reach),
+               vec3(renderer_->GetActiveCamera()->GetPosition()));
+}
+
+void SceneView::show_selection() {
+  const PatchId patch = selection_.patch();
+  const bool any = loaded_ && patch >= 0 && patch < loaded_->scene->patch_count();
+  halo_->SetVisibility(any);
+  outline_->SetVisibility(any);
+  if (!any) {
+    return;
+  }
+  const auto lines = patch_outline(*loaded_->scene, patch, 1.5e-3 * radius_);
+  for (const auto& actor : {halo_, outline_}) {
+    vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(lines);
+  }
+}
+
+// In the same place of the picture, but before its halo from whichever side it is seen.
+void SceneView::draw_outline_nearer() {
+  outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
+  outline_->SetScale(1 - 5e-4);
+}
+
+void SceneView::render() {
+  const auto scale = static_cast<float>(canvas_->devicePixelRatioF() * theme::scale());
+  halo_->GetProperty()->SetLineWidth(5 * scale);
+  outline_->GetProperty()->SetLineWidth(2.5F * scale);
+  glyph_->set_line_width(1.5 * scale);
+  step_glyph_->set_line_width(2.5 * scale);
+  overlays_->set_line_width(1.2 * scale);
+  surface_->GetProperty()->SetLineWidth(scale);
+  renderer_->SetUseFXAA(smooth_ && !pressed_ && !rest_->isActive());
+  renderer_->ResetCameraClippingRange();
+  if (canvas_->isVisible()) {
+    window_->Render();
+  }
+}
+
+QImage SceneView::picture(int scale) const {
+  vtkNew<vtkWindowToImageFilter> filter;
+  filter->SetInput(window_);
+  filter->SetScale(scale);
+  filter->ReadFrontBufferOff();
+  filter->SetInputBufferTypeToRGB();
+  filter->Update();
+  if (scale > 1) {
+    window_->Render();  // on the screen is the last tile
+  }
+  vtkImageData* pixels = filter->GetOutput();
+  const int* size = pixels->GetDimensions();
+  const auto* bytes = static_cast<const uchar*>(pixels->GetScalarPointer());
+  if (!bytes) {
+    return {};
+  }
+  // VTK counts rows from below.
+  return QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
+}
+
+PatchId SceneView::patch_at(const QPoint& position) const {
+  if (!loaded_) {
+    return no_patch;
+  }
+  // VTK counts device pixels from the bottom.
+  const double scale = canvas_->devicePixelRatioF();
+  const double x = (position.x() + 0.5) * scale;
+  const double y = (canvas_->height() - position.y() - 0.5) * scale;
+  const auto world = [&](double depth) {
+    renderer_->SetDisplayPoint(x, y, depth);
+    renderer_->DisplayToWorld();
+    const double* p = renderer_->GetWorldPoint();
+    return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
+  };
+  // Back sides are culled in the picture.
+  const Vec3 begin = world(0);
+  const auto hit = loaded_->picker->first_lit_hit(begin, world(1) - begin);
+  return hit ? hit->patch : no_patch;
+}
+
+bool SceneView::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == canvas_) {
+    if (event->type() == QEvent::MouseButtonPress) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      pressed_ = mouse->button() == Qt::LeftButton;
+      press_position_ = mouse->pos();
+      renderer_->UseFXAAOff();  // while it is turned
+    } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
+      pressed_ = false;
+      const QPoint position = static_cast<QMouseEvent*>(event)->pos();
+      const int way = (position - press_position_).manhattanLength();
+      if (way < QApplication::startDragDistance()) {
+        selection_.select(patch_at(position));
+      }
+      render();
+    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == first_look_) {
+      reset_view();  // nobody has chosen another: it is to fit the new shape
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+}  // namespace transillum::viewer

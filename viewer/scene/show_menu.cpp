@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/show_menu.h"
+
+#include <QAction>
+#include <QMenu>
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
+  setObjectName("show");
+  setText(tr("Show "));
+  setToolTip(tr("What is drawn beside the colored patches"));
+  setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(this);
+  menu->setToolTipsVisible(true);
+  const auto add = [&](const char* name, const QString& text, const QString& tip) {
+    QAction* action = menu->addAction(text);
+    action->setObjectName(QString::fromLatin1(name));
+    action->setToolTip(tip);
+    action->setCheckable(true);
+    return action;
+  };
+  outlines_ = add("show_outlines", tr("Outlines"), tr("The edges of the patches"));
+  direction_ = add("show_direction", tr("Direction"),
+                   tr("The latest direction as an arrow with its plane (D)"));
+  direction_->setChecked(true);
+  const auto add_overlay = [&](Overlay overlay, const char* name, const QString& text,
+                               const QString& tip) {
+    return at(overlays_, overlay) = add(name, text, tip);
+  };
+  const auto add_lines = [&](Overlay overlay, SceneOverlays::Kind kind, const char* name,
+                             const QString& text, const QString& tip) {
+    connect(add_overlay(overlay, name, text, tip), &QAction::toggled, this,
+            [this, kind](bool shown) { emit overlay_toggled(kind, shown); });
+  };
+  add_lines(Overlay::normals, SceneOverlays::Kind::normals, "show_normals", tr("Normals"),
+            tr("A line from each patch to its lit side"));
+  add_lines(Overlay::back_sides, SceneOverlays::Kind::back_faces, "show_back_faces",
+            tr("Back sides"),
+            tr("The sides that neither emit nor receive, which are not drawn else"));
+  add_lines(Overlay::cuts, SceneOverlays::Kind::fragments, "show_fragments",
+            tr("Cuts of the BSP tree"),
+            tr("The fragments of those patches that the order has cut"));
+  menu->addSeparator();
+  connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
+                      tr("Edges in place of surfaces")),
+          &QAction::toggled, this, &ShowMenu::wireframe_toggled);
+  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
+                      tr("Colors run over the patches; the solution is constant on each")),
+          &QAction::toggled, this, &ShowMenu::smooth_toggled);
+  setMenu(menu);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,36 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QToolButton>
+#include <array>
+
+#include "scene/scene_overlays.h"
+#include "state/overlay.h"
+#include "transillum/at.h"
+
+class QAction;
+
+namespace transillum::viewer {
+
+/// What is drawn of the scene beside its colored patches, to be switched on and off.
+class ShowMenu : public QToolButton {
+  Q_OBJECT
+
+ public:
+  explicit ShowMenu(QWidget* parent = nullptr);
+
+  QAction* outlines() const { return outlines_; }
+  QAction* direction() const { return direction_; }
+  QAction* overlay(Overlay overlay) const { return at(overlays_, overlay); }
+
+ signals:
+  void overlay_toggled(transillum::viewer::SceneOverlays::Kind kind, bool shown);
+  void wireframe_toggled(bool shown);
+  void smooth_toggled(bool shown);
+
+ private:
+  QAction *outlines_, *direction_;
+  std::array<QAction*, std::size(all_overlays)> overlays_{};
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,157 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/welcome_page.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPixmap>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "transillum/scene.h"
+#include "widgets/theme.h"
+
+// Resources of a static library are found only once it is asked for them.
+static void find_resources() { Q_INIT_RESOURCE(pictures); }
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr QSize picture_size{240, 150};
+constexpr int margin = 28, gap = 14, padding = 8, most_columns = 3, least_lines = 4;
+
+}  // namespace
+
+/// A scene's picture, name and sentence; the whole of it is the button.
+class WelcomePage::Card : public QPushButton {
+ public:
+  explicit Card(const BuiltInScene& scene) {
+    const QString name = QString::fromStdString(scene.name);
+    setObjectName(QStringLiteral("built_in_") + name);
+    setAccessibleName(name);
+    setToolTip(QString::fromStdString(scene.summary));
+    picture_ = new QLabel;
+    picture_->setScaledContents(true);
+    picture_->setPixmap(QPixmap(QStringLiteral(":/pictures/scene-%1.png").arg(name)));
+    title_ = new QLabel(QStringLiteral("<b>%1</b>").arg(name));
+    summary_ = new QLabel(QString::fromStdString(scene.summary));
+    summary_->setWordWrap(true);
+    summary_->setForegroundRole(QPalette::PlaceholderText);
+    summary_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(padding, padding, padding, padding);
+    layout->setSpacing(4);
+    for (QLabel* label : {picture_, title_, summary_}) {
+      label->setAttribute(Qt::WA_TransparentForMouseEvents);
+      layout->addWidget(label);
+    }
+    layout->setStretch(2, 1);
+  }
+
+  /// Takes the size that its type wants, with room for so many lines of words at least.
+  void measure(int lines) {
+    const QSize size(theme::scaled(picture_size.width()), theme::scaled(picture_size.height()));
+    picture_->setFixedSize(size);
+    const int words = std::max(summary_->heightForWidth(size.width()),
+                               lines * summary_->fontMetrics().lineSpacing());
+    setFixedSize(size.width() + 2 * padding,
+                 size.height() + 3 * padding + title_->sizeHint().height() + words);
+  }
+
+ private:
+  QLabel* picture_;
+  QLabel* title_;
+  QLabel* summary_;
+};
+
+WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
+  find_resources();
+  title_ = new QLabel;
+  auto* words = new QLabel(
+      tr("Choose a scene: it is solved at once, direction by direction. Or open one of your own, "
+         "or drop its file here."));
+  words->setWordWrap(true);
+  auto* open = new QPushButton(theme::icon(theme::Icon::open), tr("Open a file…"));
+  auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Begin with a lesson"));
+  lesson->setObjectName("begin_lesson");
+  auto* buttons = new QHBoxLayout;
+  back_ = new QPushButton(tr("Back to the open scene"));
+  back_->setObjectName("back_to_scene");
+  back_->hide();
+  for (QPushButton* button : {lesson, open, back_}) {
+    buttons->addWidget(button);
+  }
+  buttons->addStretch(1);
+
+  grid_ = new QGridLayout;
+  grid_->setSpacing(gap);
+  for (const BuiltInScene& scene : built_in_scenes()) {
+    cards_ << new Card(scene);
+    const QString name = QString::fromStdString(scene.name);
+    connect(cards_.back(), &QPushButton::clicked, this,
+            [this, name] { emit built_in_clicked(name); });
+  }
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(margin, margin, margin, margin);
+  column->setSpacing(gap);
+  column->addWidget(title_);
+  column->addWidget(words);
+  column->addLayout(buttons);
+  column->addLayout(grid_);
+  column->addStretch(1);
+  setWidget(page);
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  measure();
+  connect(back_, &QPushButton::clicked, this, &WelcomePage::back_clicked);
+  connect(open, &QPushButton::clicked, this, &WelcomePage::open_clicked);
+  connect(lesson, &QPushButton::clicked, this, &WelcomePage::lesson_clicked);
+}
+
+void WelcomePage::offer_way_back() { back_->show(); }
+
+void WelcomePage::changeEvent(QEvent* event) {
+  QScrollArea::changeEvent(event);
+  // Once the cards have heard of the font.
+  if (event->type() == QEvent::FontChange) {
+    QTimer::singleShot(0, this, &WelcomePage::measure);
+  }
+}
+
+void WelcomePage::measure() {
+  // A font of its own would not outlive a change of the style sheet.
+  title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
+                      .arg(theme::scaled(24))
+                      .arg(tr("See light settle")));
+  for (Card* card : cards_) {
+    card->measure(least_lines);
+  }
+  setMinimumWidth(2 * margin + cards_.front()->width() + verticalScrollBar()->sizeHint().width());
+  place_cards();
+}
+
+void WelcomePage::resizeEvent(QResizeEvent* event) {
+  QScrollArea::resizeEvent(event);
+  place_cards();
+}
+
+void WelcomePage::place_cards() {
+  const int room = viewport()->width() - 2 * margin + gap;
+  const int columns = std::clamp(room / (cards_.front()->width() + gap), 1, most_columns);
+  if (columns == columns_) {
+    return;
+  }
+  columns_ = columns;
+  for (int k = 0; k < cards_.size(); ++k) {
+    grid_->addWidget(cards_[k], k / columns, k % columns, Qt::AlignLeft | Qt::AlignTop);
+  }
+  grid_->setColumnStretch(most_columns, 1);
+}
+
+}  // namespace transillum::viewer

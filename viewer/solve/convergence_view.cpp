@@ -1,0 +1,106 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/convergence_view.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+#include <numbers>
+
+#include "support/number_text.h"
+#include "transillum/bounds.h"
+#include "widgets/log_chart.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
+  const SolveStatistics& s = snapshot.statistics;
+  const double rate = s.predicted_contraction;
+  std::vector<double> predicted;
+  // Of other schemes each step has a matrix of its own.
+  if (snapshot.options.scheme != Scheme::fixed || s.steps.empty() || !(rate > 0 && rate < 1)) {
+    return predicted;
+  }
+  const int wanted = snapshot.options.iterations;
+  // As far again as the steps have come: more would leave them no room in a chart.
+  const auto last =
+      wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(8, 2 * s.steps.size());
+  for (double change = s.steps.front().change; predicted.size() < last; change *= rate) {
+    predicted.push_back(change);
+    if (wanted == 0 && change <= snapshot.options.tolerance) {
+      break;
+    }
+  }
+  return predicted;
+}
+
+ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
+  steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
+  steps_->set_hint(tr("A point for every finished iteration"));
+  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
+  passes_->set_hint(tr("A point for every direction"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(1);
+  layout->addWidget(steps_);
+  layout->addWidget(passes_);
+
+  steps_->setObjectName("iteration_chart");
+  steps_->setToolTip(tr("Click to go to an iteration"));
+  passes_->setObjectName("direction_chart");
+  passes_->setToolTip(tr("Click to go to a direction"));
+  connect(steps_, &LogChart::clicked, this, [this](int x) {
+    focus_.go_to({x - 1, focus_.wanted().direction, focus_.moment().step});
+  });
+  connect(passes_, &LogChart::clicked, this, [this](int x) {
+    focus_.go_to({shown_iteration_, x - 1, focus_.moment().step});
+  });
+  connect(&focus_, &Focus::moved, this, &ConvergenceView::show_moment);
+}
+
+std::vector<LineChart> ConvergenceView::charts() const {
+  return {steps_->chart(), passes_->chart()};
+}
+
+void ConvergenceView::show_moment() {
+  const bool any = focus_.map() != nullptr;
+  const Moment& moment = focus_.moment();
+  steps_->set_mark(any ? std::optional(moment.iteration + 1) : std::nullopt);
+  passes_->set_mark(any && moment.iteration == shown_iteration_
+                        ? std::optional(moment.direction + 1)
+                        : std::nullopt);
+}
+
+void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
+  std::vector<double> changes;
+  for (const IterationRecord& step : snapshot.statistics.steps) {
+    changes.push_back(step.change);
+  }
+  std::vector<LogChart::Level> levels;
+  if (snapshot.options.iterations == 0) {
+    levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
+                      snapshot.options.tolerance});
+  }
+  steps_->show_lines(
+      {{tr("change"), theme::accent, std::move(changes), true},
+       {tr("eq. 25"), theme::good, predicted_changes(snapshot), false, ChartDashes::dash_dot}},
+      std::move(levels), std::max(snapshot.options.iterations, 8));
+
+  passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
+  const int passes = snapshot.progress.passes;
+  // Predicted and actual: how well the directions so far integrate a cosine (section 4).
+  std::vector<double> errors, bounds;
+  const int ways = snapshot.options.two_way ? 2 : 1;
+  for (std::size_t d = 0; d < snapshot.quadrature_errors.size(); ++d) {
+    errors.push_back(snapshot.quadrature_errors[d] / std::numbers::pi);
+    bounds.push_back(quadrature_error_bound(static_cast<double>(d + 1) * ways) / std::numbers::pi);
+  }
+  passes_->show_lines(
+      {{tr("change of B"), theme::accent, snapshot.estimate_changes, false, ChartDashes::solid, 2},
+       {tr("ε/π"), theme::good, std::move(errors), false, ChartDashes::solid, 0.9},
+       {tr("eq. 21"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},
+      {}, passes);
+  shown_iteration_ = snapshot.estimate_iteration;
+  show_moment();
+}
+
+}  // namespace transillum::viewer

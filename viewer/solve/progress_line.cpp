@@ -1,0 +1,148 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/progress_line.h"
+
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <utility>
+
+#include "support/number_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QString iterations_text(int count) {
+  return count == 1 ? ProgressLine::tr("1 iteration")
+                    : ProgressLine::tr("%1 iterations").arg(count_text(count));
+}
+
+// A result's file goes by its own name, and tells whose result it is.
+QString name_of(const LoadedScene& loaded) {
+  const auto short_name = [](const std::string& path) {
+    return QFileInfo(QString::fromStdString(path)).fileName();
+  };
+  const QString scene = short_name(loaded.scene->name());
+  if (!loaded.stored || loaded.scene->name() == loaded.file) {
+    return scene;
+  }
+  return ProgressLine::tr("%1 (%2)").arg(short_name(loaded.file), scene);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
+  scene_ = new QLabel;
+  scene_->setObjectName("scene_summary");
+  scene_->hide();
+  phase_ = new QLabel(tr("No scene"));
+  phase_->setObjectName("phase");
+  phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  bar_ = new QProgressBar;
+  bar_->setObjectName("progress");
+  bar_->setFixedWidth(260);
+  bar_->setFixedHeight(16);
+  bar_->setVisible(false);
+  rate_ = new QLabel;
+  time_ = new QLabel;
+  // Fixed places, so that nothing dances while the numbers change.
+  rate_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8888.8 passes/s  ")));
+  time_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("88 min 88 s left  ")));
+  rate_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  time_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(8, 3, 8, 3);
+  layout->setSpacing(16);
+  layout->addWidget(scene_);
+  layout->addWidget(phase_, 1);
+  layout->addWidget(bar_);
+  layout->addWidget(rate_);
+  layout->addWidget(time_);
+}
+
+void ProgressLine::show_scene(const LoadedScene& loaded) {
+  snapshot_ = nullptr;
+  scene_->show();
+  QFont bold = font();
+  bold.setBold(true);
+  scene_->setFont(bold);
+  const QString name = name_of(loaded);
+  scene_->setText(tr("%1, %2 patches").arg(name, count_text(loaded.scene->patch_count())));
+  scene_->setToolTip(
+      tr("%1: %2 fragments in the BSP tree, read in %3 s, sorted in %4 s")
+          .arg(QString::fromStdString(loaded.scene->name()),
+               count_text(static_cast<std::int64_t>(loaded.tree->fragments().size())),
+               QString::number(loaded.seconds_load, 'f', 2),
+               QString::number(loaded.seconds_bsp, 'f', 2)));
+}
+
+void ProgressLine::show_loading(const QString& phase, double share) {
+  if (state_ != SessionState::loading) {
+    return;
+  }
+  phase_->setText(phase + QStringLiteral("…"));
+  bar_->setVisible(true);
+  bar_->setRange(0, share < 0 ? 0 : 1000);
+  bar_->setValue(static_cast<int>(1000 * share));
+  rate_->clear();
+  time_->clear();
+}
+
+void ProgressLine::show_state(SessionState state) {
+  state_ = state;
+  if (state == SessionState::empty) {
+    phase_->setText(tr("No scene"));
+    bar_->setVisible(false);
+  }
+  show_solve();
+}
+
+void ProgressLine::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  show_solve();
+}
+
+void ProgressLine::show_solve() {
+  if (!snapshot_ || state_ == SessionState::loading) {
+    return;
+  }
+  const SolveProgress& progress = snapshot_->progress;
+  const bool running = state_ == SessionState::running;
+  const bool within_step = progress.direction > 0 && progress.direction < progress.passes;
+  bar_->setVisible(!snapshot_->of_file);
+  bar_->setRange(0, std::max(progress.passes, 1));
+  bar_->setValue(state_ == SessionState::finished || (!within_step && progress.iteration > 0)
+                     ? progress.passes
+                     : progress.direction);
+
+  const QString at = within_step || progress.iteration == 0
+                         ? tr("Iteration %1, direction %2 of %3")
+                               .arg(count_text(progress.iteration + 1),
+                                    count_text(progress.direction), count_text(progress.passes))
+                         : tr("%1 done").arg(iterations_text(progress.iteration));
+  if (state_ == SessionState::finished) {
+    phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
+                                                     : tr("Done after %1, %2 s"))
+                        .arg(iterations_text(progress.iteration),
+                             QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
+  } else if (snapshot_->of_file) {
+    phase_->setText(tr("From the file: %1 of %2 passes")
+                        .arg(iterations_text(snapshot_->statistics.iterations),
+                             count_text(snapshot_->statistics.passes)));
+  } else if (progress.iteration == 0 && progress.direction == 0) {
+    phase_->setText(running ? tr("Starting") : tr("Ready: run, or take one direction"));
+  } else {
+    phase_->setText(running ? at : tr("Paused: %1").arg(at));
+  }
+
+  const bool timed = running && progress.passes_per_second > 0;
+  rate_->setText(timed ? tr("%1 passes/s").arg(QString::number(progress.passes_per_second, 'f', 1))
+                       : QString());
+  time_->setText(timed && within_step ? tr("%1 left").arg(duration_text(progress.seconds_left))
+                                      : QString());
+  time_->setToolTip(tr("For this iteration"));
+}
+
+}  // namespace transillum::viewer

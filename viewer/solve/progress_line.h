@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "model/snapshot.h"
+
+class QLabel;
+class QProgressBar;
+
+namespace transillum::viewer {
+
+/// The status bar: which scene, what is going on, how far, how fast, how long still.
+class ProgressLine : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ProgressLine(QWidget* parent = nullptr);
+
+  void show_scene(const LoadedScene& loaded);
+  void show_loading(const QString& phase, double share);
+  void show_state(SessionState state);
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+ private:
+  void show_solve();
+
+  SessionState state_ = SessionState::empty;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  QLabel* scene_;
+  QLabel* phase_;
+  QProgressBar* bar_;
+  QLabel* rate_;
+  QLabel* time_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,275 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/settings_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QDoubleValidator>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
+
+#include "model/run_options.h"
+#include "support/number_text.h"
+#include "widgets/engine_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+bool same(const SceneOptions& a, const SceneOptions& b) {
+  return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
+}
+
+// As rich text, so that a long one is broken into lines.
+QString tip(const char* setting) {
+  const QString sentence = capitalized(SettingsPanel::tr(sentence_of(setting)));
+  return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
+}
+
+}  // namespace
+
+SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
+  auto* form = form_ = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setHorizontalSpacing(10);
+  form->setVerticalSpacing(6);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  add_solve_rows(*form);
+  add_scene_rows(*form);
+  restart_ = new QPushButton(tr("Solve anew"));
+  restart_->setObjectName("restart");
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 10, 12, 10);
+  layout->setSpacing(10);
+  layout->addLayout(form);
+  layout->addWidget(restart_);
+  layout->addStretch(1);
+  connect(restart_, &QPushButton::clicked, this, &SettingsPanel::restart_clicked);
+  set_options({}, {});
+}
+
+void SettingsPanel::add_solve_rows(QFormLayout& form) {
+  directions_ = new QSpinBox;
+  directions_->setObjectName("directions");
+  directions_->setRange(1, 1 << 24);
+  directions_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  directions_->setGroupSeparatorShown(false);
+  directions_->setToolTip(tip("directions"));
+  sampling_ = new QComboBox;
+  for (const std::string& name : sampling_names()) {
+    sampling_->addItem(capitalized(QString::fromStdString(name)));
+  }
+  sampling_->setToolTip(tip("sampling"));
+  seed_ = new QSpinBox;
+  seed_->setRange(0, std::numeric_limits<int>::max());
+  seed_->setToolTip(tip("seed"));
+  engine_ = new QComboBox;
+  engine_->setObjectName("engine");
+  add_engines(*engine_, false);
+  resolution_ = new QSpinBox;
+  resolution_->setObjectName("resolution");
+  resolution_->setRange(0, EngineOptions::largest_resolution);
+  resolution_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  resolution_->setSuffix(tr(" px"));
+  order_ = new QComboBox;
+  order_->setObjectName("painters_order");
+  order_->addItems({tr("BSP tree"), tr("Newell's tests")});
+  order_->setToolTip(
+      tr("Who is painted first\nBSP tree: cuts what overlaps in a circle, so there always is an "
+         "order\nNewell's tests: cut nothing, and give up on such circles"));
+  ways_ = new QComboBox;
+  ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
+  ways_->setToolTip(tip("two-way"));
+  normalize_ = new QComboBox;
+  normalize_->addItems({tr("None, as the paper"), tr("Rows"), tr("Symmetric")});
+  normalize_->setToolTip(
+      tr("Rows: divide by the quadrature of the cosine, patch by patch\n"
+         "Symmetric: scale rows and columns alike, so that reciprocity stays"));
+  scheme_ = new QComboBox;
+  for (const std::string& name : scheme_names()) {
+    scheme_->addItem(capitalized(QString::fromStdString(name)));
+  }
+  scheme_->setToolTip(
+      tr("Fixed: the same directions in every step\nGrowing: twice as many each step, up to M\n"
+         "Semi-iterative: M others each step, and the mean over steps\n"
+         "Conjugate gradients: one step of passes, then solved at once"));
+  replicas_ = new QSpinBox;
+  replicas_->setObjectName("replicas");
+  replicas_->setRange(1, 64);
+  replicas_->setSpecialValueText(tr("None"));
+  replicas_->setToolTip(tip("replicas"));
+  stop_at_ = new QComboBox;
+  stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
+  tolerance_ = new QLineEdit;
+  auto* positive = new QDoubleValidator(0, 1, 15, tolerance_);
+  positive->setLocale(QLocale::c());
+  tolerance_->setValidator(positive);
+  tolerance_->setMinimumWidth(60);
+  stop_at_->setMinimumWidth(60);
+  tolerance_->setToolTip(tip("tolerance"));
+  iterations_ = new QSpinBox;
+  iterations_->setRange(1, 1'000'000);
+
+  form.addRow(tr("Directions M"), directions_);
+  form.addRow(tr("Sampling"), sampling_);
+  form.addRow(tr("Seed"), seed_);
+  form.addRow(tr("Engine"), engine_);
+  form.addRow(tr("Resolution"), resolution_);
+  form.addRow(tr("Painter's order"), order_);
+  form.addRow(tr("Light goes"), ways_);
+  form.addRow(tr("Normalize"), normalize_);
+  form.addRow(tr("Scheme"), scheme_);
+  form.addRow(tr("Replicas"), replicas_);
+  stop_value_ = new QStackedWidget;
+  stop_value_->addWidget(tolerance_);
+  stop_value_->addWidget(iterations_);
+  auto* stop_row = new QHBoxLayout;
+  stop_row->setSpacing(6);
+  stop_row->addWidget(stop_at_, 1);
+  stop_row->addWidget(stop_value_, 1);
+  form.addRow(tr("Stop at"), stop_row);
+  for (QComboBox* box : {sampling_, engine_, order_, ways_, normalize_, scheme_, stop_at_}) {
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+    connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
+  }
+  for (QSpinBox* box : {directions_, seed_, resolution_, replicas_, iterations_}) {
+    connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
+  }
+  connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+}
+
+void SettingsPanel::add_scene_rows(QFormLayout& form) {
+  max_patch_area_ = new QDoubleSpinBox;
+  max_patch_area_->setDecimals(6);
+  max_patch_area_->setRange(0, 1e9);
+  max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
+  max_patch_area_->setSuffix(tr(" m²"));
+  max_patch_area_->setToolTip(tip("max-patch-area"));
+  two_sided_ = new QCheckBox(tr("Two-sided faces"));
+  two_sided_->setObjectName("two_sided");
+  two_sided_->setToolTip(tip("two-sided"));
+  form.addRow(tr("Patch area"), max_patch_area_);
+  form.addRow(QString(), two_sided_);
+  connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
+          &SettingsPanel::show_state);
+  connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
+}
+
+SolveOptions SettingsPanel::solve_options() const {
+  SolveOptions options = base_;
+  options.directions = directions_->value();
+  options.sampling = static_cast<Sampling>(sampling_->currentIndex());
+  // A seed beyond the box's range came from the command line; it stays until it is changed here.
+  const auto shown = static_cast<std::uint64_t>(seed_->value());
+  if (shown < static_cast<std::uint64_t>(seed_->maximum())) {
+    options.seed = shown;
+  }
+  options.engine = engine_of(*engine_);
+  options.engine_options.resolution = resolution_->value();
+  options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
+  options.two_way = ways_->currentIndex() == 0;
+  options.normalize = static_cast<Normalization>(normalize_->currentIndex());
+  options.scheme = static_cast<Scheme>(scheme_->currentIndex());
+  options.replicas = replicas_->value();
+  options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
+  bool number = false;
+  const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
+  if (number && tolerance > 0) {
+    options.tolerance = tolerance;
+  }
+  return options;
+}
+
+SceneOptions SettingsPanel::scene_options() const {
+  return {two_sided_->isChecked(), max_patch_area_->value()};
+}
+
+void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
+  base_ = solve;
+  directions_->setValue(solve.directions);
+  sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
+  seed_->setValue(static_cast<int>(
+      std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
+  choose_engine(*engine_, solve.engine);
+  resolution_->setValue(solve.engine_options.resolution);
+  order_->setCurrentIndex(static_cast<int>(solve.engine_options.order));
+  ways_->setCurrentIndex(solve.two_way ? 0 : 1);
+  normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
+  scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
+  replicas_->setValue(solve.replicas);
+  stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
+  iterations_->setValue(std::max(solve.iterations, 1));
+  tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
+  two_sided_->setChecked(scene.two_sided);
+  max_patch_area_->setValue(scene.max_patch_area);
+  show_state();
+}
+
+void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
+  solve_in_effect_ = solve;
+  scene_in_effect_ = scene;
+  show_state();
+}
+
+bool SettingsPanel::differ_from_effect() const {
+  return !(solve_options() == solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+}
+
+void SettingsPanel::set_restart_enabled(bool enabled) {
+  enabled_ = enabled;
+  show_state();
+}
+
+void SettingsPanel::set_scene_fixed(bool fixed) {
+  for (QWidget* widget :
+       {static_cast<QWidget*>(max_patch_area_), static_cast<QWidget*>(two_sided_)}) {
+    widget->setEnabled(!fixed);
+  }
+  const QString why = tr("The patches are those of the result's file.");
+  max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
+  two_sided_->setToolTip(fixed ? why : tip("two-sided"));
+}
+
+void SettingsPanel::show_state() {
+  if (!restart_) {
+    return;  // still under construction
+  }
+  seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
+  stop_value_->setCurrentIndex(stop_at_->currentIndex());
+  const Engine engine = engine_of(*engine_);
+  engine_->setToolTip(engine_sentence(engine));
+  show_row(resolution_, takes_resolution(engine));
+  show_row(order_, engine == Engine::painter);
+  const bool rays = engine == Engine::rays;
+  resolution_->setSpecialValueText(
+      rays ? tr("%1 rays a patch").arg(solve_in_effect_.engine_options.lines_per_patch)
+           : tr("Default: %1 px").arg(EngineOptions::default_resolution));
+  resolution_->setToolTip(
+      rays ? tr("Pixels along the longer side of the projected scene, a ray in each;\n"
+                "least: so many rays a patch instead")
+           : tr("Pixels along the longer side of the projected scene"));
+  const bool differs = enabled_ && differ_from_effect();
+  restart_->setEnabled(enabled_);
+  restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
+  restart_->setDefault(differs);
+  QFont font = restart_->font();
+  font.setBold(differs);
+  restart_->setFont(font);
+}
+
+void SettingsPanel::show_row(QWidget* field, bool shown) {
+  field->setVisible(shown);
+  form_->labelForField(field)->setVisible(shown);
+}
+
+}  // namespace transillum::viewer

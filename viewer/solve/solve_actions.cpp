@@ -1,0 +1,69 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/solve_actions.h"
+
+#include <QAction>
+#include <QKeySequence>
+#include <QMenu>
+#include <QToolBar>
+
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QAction* make_action(QObject* parent, theme::Icon icon, const char* name, const QString& text,
+                     const QKeySequence& key, const QString& tip) {
+  auto* action = new QAction(theme::icon(icon), text, parent);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setShortcut(key);
+  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  return action;
+}
+
+}  // namespace
+
+SolveActions::SolveActions(QObject* parent) : QObject(parent) {
+  run_ = make_action(this, theme::Icon::run, "run", tr("Run"), Qt::Key_F5,
+                     tr("Solve until it has converged"));
+  pause_ = make_action(this, theme::Icon::pause, "pause", tr("Pause"), Qt::Key_F6,
+                       tr("Rest after the direction under way"));
+  one_direction_ = make_action(this, theme::Icon::one_direction, "one_direction",
+                               tr("One direction"), Qt::Key_F7, tr("Take one more direction"));
+  one_iteration_ = make_action(this, theme::Icon::one_iteration, "one_iteration",
+                               tr("One iteration"), Qt::Key_F8, tr("Finish this iteration"));
+  stop_ = make_action(this, theme::Icon::stop, "stop", tr("Start over"),
+                      QKeySequence(QStringLiteral("Shift+F5")),
+                      tr("Forget this solve, or stop loading: back to the first direction"));
+  connect(run_, &QAction::triggered, this, &SolveActions::run);
+  connect(pause_, &QAction::triggered, this, &SolveActions::pause);
+  connect(one_direction_, &QAction::triggered, this, &SolveActions::one_direction);
+  connect(one_iteration_, &QAction::triggered, this, &SolveActions::one_iteration);
+  connect(stop_, &QAction::triggered, this, &SolveActions::stop);
+  show_state(SessionState::empty, true);
+}
+
+void SolveActions::add_to(QMenu& menu) const {
+  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
+    menu.addAction(action);
+  }
+}
+
+void SolveActions::add_to(QToolBar& bar) const {
+  for (QAction* action : {run_, pause_, one_direction_, one_iteration_, stop_}) {
+    bar.addAction(action);
+  }
+}
+
+void SolveActions::show_state(SessionState state, bool at_start) {
+  const bool paused = state == SessionState::paused;
+  const bool running = state == SessionState::running;
+  run_->setEnabled(paused);
+  pause_->setEnabled(running);
+  one_direction_->setEnabled(paused || running);
+  one_iteration_->setEnabled(paused || running);
+  stop_->setEnabled(state == SessionState::loading || running || state == SessionState::finished ||
+                    (paused && !at_start));
+}
+
+}  // namespace transillum::viewer

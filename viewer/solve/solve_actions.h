@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+
+#include "model/snapshot.h"
+
+class QAction;
+class QMenu;
+class QToolBar;
+
+namespace transillum::viewer {
+
+/// Run, pause, one direction, one iteration, stop: as a menu and as a tool bar.
+class SolveActions : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SolveActions(QObject* parent = nullptr);
+
+  void add_to(QMenu& menu) const;
+  void add_to(QToolBar& bar) const;
+  /// Offers what makes sense.
+  void show_state(SessionState state, bool at_start);
+
+ signals:
+  void run();
+  void pause();
+  void one_direction();
+  void one_iteration();
+  void stop();
+
+ private:
+  QAction *run_, *pause_, *one_direction_, *one_iteration_, *stop_;
+};
+
+}  // namespace transillum::viewer

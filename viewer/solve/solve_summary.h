@@ -1,0 +1,28 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "model/snapshot.h"
+
+class QLabel;
+
+namespace transillum::viewer {
+
+/// The figures of the scene and of the solve, as --stats has them.
+class SolveSummary : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SolveSummary(QWidget* parent = nullptr);
+
+  void show_snapshot(const SolverSnapshot& snapshot);
+
+ private:
+  void show_needs(const SolverSnapshot& snapshot);
+
+  QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *energy_,
+      *contraction_, *error_, *bound_, *estimate_;
+};
+
+}  // namespace transillum::viewer

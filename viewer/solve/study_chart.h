@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+#include <memory>
+
+#include "model/study_session.h"
+
+namespace transillum::viewer {
+
+/// The plot of a study, as it is saved too.
+class StudyChart : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit StudyChart(QWidget* parent = nullptr);
+
+  void show_study(std::shared_ptr<const StudySnapshot> snapshot);
+  void set_measure(ErrorMeasure measure);
+
+  QSize sizeHint() const override { return {800, 480}; }
+  QSize minimumSizeHint() const override { return {500, 300}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void forget_picture();
+
+  std::shared_ptr<const StudySnapshot> snapshot_;
+  ErrorMeasure measure_ = ErrorMeasure::rms;
+  QImage picture_;  ///< of the device's pixels; null: to be drawn
+};
+
+}  // namespace transillum::viewer

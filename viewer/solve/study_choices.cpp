@@ -1,0 +1,166 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/study_choices.h"
+
+#include <QCheckBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "support/number_text.h"
+#include "transillum/errors.h"
+#include "widgets/engine_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int first_directions = 16, last_directions = 16384;
+constexpr int most_by_default = 512;
+
+QLabel* heading(const QString& text) {
+  auto* label = new QLabel(text);
+  QFont bold = label->font();
+  bold.setBold(true);
+  label->setFont(bold);
+  return label;
+}
+
+bool goes_together(const SolveOptions& options) {
+  try {
+    options.validate();
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+
+  layout->addWidget(heading(tr("Samplings")));
+  for (std::size_t k = 0; k < sampling_names().size(); ++k) {
+    const auto sampling = static_cast<Sampling>(k);
+    const bool on = sampling == Sampling::random || sampling == Sampling::hammersley ||
+                    sampling == Sampling::fibonacci;
+    const QString name = QString::fromStdString(name_of(sampling));
+    layout->addWidget(add_box(samplings_, name, name, static_cast<int>(k), on));
+  }
+  layout->addSpacing(10);
+
+  layout->addWidget(heading(tr("Light goes")));
+  layout->addWidget(add_box(ways_, QStringLiteral("two_way"), tr("both ways"), 1, true));
+  layout->addWidget(
+      add_box(ways_, QStringLiteral("one_way"), tr("one way, as the paper"), 0, false));
+  layout->addSpacing(10);
+
+  layout->addWidget(heading(tr("Directions M")));
+  auto* grid = new QGridLayout;
+  grid->setVerticalSpacing(4);
+  constexpr int columns = 3;
+  for (int m = first_directions, k = 0; m <= last_directions; m *= 2, ++k) {
+    grid->addWidget(
+        add_box(directions_, QString::number(m), count_text(m), m, m <= most_by_default),
+        k / columns, k % columns);
+  }
+  layout->addLayout(grid);
+  layout->addSpacing(10);
+
+  size_ = new QLabel;
+  size_->setObjectName("study_size");
+  rest_ = new QLabel;
+  for (QLabel* label : {size_, rest_}) {
+    label->setWordWrap(true);
+    label->setForegroundRole(QPalette::PlaceholderText);
+    layout->addWidget(label);
+  }
+  rest_->setToolTip(tr("As in Solve settings, where the solve was begun with them"));
+  layout->addStretch(1);
+  show_solve();
+}
+
+QCheckBox* StudyChoices::add_box(std::vector<Choice>& choices, const QString& name,
+                                 const QString& text, int value, bool on) {
+  auto* box = new QCheckBox(text);
+  box->setObjectName(QStringLiteral("study_%1").arg(name));
+  box->setChecked(on);
+  connect(box, &QCheckBox::toggled, this, [this] {
+    show_size();
+    emit changed();
+  });
+  choices.push_back({box, value});
+  return box;
+}
+
+void StudyChoices::set_solve(const SolveOptions& solve) {
+  if (solve == solve_) {
+    return;
+  }
+  solve_ = solve;
+  show_solve();
+  emit changed();
+}
+
+void StudyChoices::show_solve() {
+  rest_->setText(tr("Engine %1, normalization %2, scheme %3: as in the solve")
+                     .arg(engine_label(solve_.engine),
+                          QString::fromStdString(name_of(solve_.normalize)),
+                          QString::fromStdString(name_of(solve_.scheme))));
+  show_size();
+}
+
+StudyOptions StudyChoices::options() const {
+  StudyOptions options;
+  options.solve.engine_options = solve_.engine_options;
+  options.solve.seed = solve_.seed;
+  options.solve.burn_in = solve_.burn_in;
+  options.solve.memory = solve_.memory;
+  options.solve.threads = solve_.threads;
+  for (const Choice& choice : directions_) {
+    if (choice.box->isChecked()) {
+      options.directions.push_back(choice.value);
+    }
+  }
+  for (const Choice& sampling : samplings_) {
+    for (const Choice& way : ways_) {
+      if (!sampling.box->isChecked() || !way.box->isChecked()) {
+        continue;
+      }
+      const StudySeries series{static_cast<Sampling>(sampling.value),
+                               way.value == 1,
+                               solve_.normalize,
+                               solve_.scheme,
+                               solve_.first_shot,
+                               solve_.engine,
+                               solve_.engine_options.resolution};
+      if (goes_together(options.solve_options(series, first_directions))) {
+        options.series.push_back(series);
+      }
+    }
+  }
+  return options;
+}
+
+void StudyChoices::show_size() {
+  const StudyOptions options = this->options();
+  if (options.series.empty() || options.directions.empty()) {
+    size_->setText(tr("Choose a sampling, a way and a number of directions"));
+    return;
+  }
+  std::int64_t passes = 0;
+  for (const StudySeries& series : options.series) {
+    for (const int m : options.directions) {
+      const SolveOptions solve = options.solve_options(series, m);
+      passes += std::int64_t{m} *
+                (solve.scheme == Scheme::semi_iterative ? std::int64_t{solve.iterations} : 1);
+    }
+  }
+  size_->setText(
+      tr("%1 passes, and %2 of the reference that they are compared with, unless it is kept")
+          .arg(count_text(passes), count_text(options.reference().directions)));
+}
+
+}  // namespace transillum::viewer

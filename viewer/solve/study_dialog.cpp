@@ -1,0 +1,301 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "solve/study_dialog.h"
+
+#include <QComboBox>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <cmath>
+#include <utility>
+
+#include "solve/study_chart.h"
+#include "solve/study_choices.h"
+#include "support/number_text.h"
+#include "transillum/study_files.h"
+#include "widgets/banner.h"
+#include "widgets/save_dialog.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int controls_width = 250;
+
+QString cost_text(const std::optional<StudyCost>& cost) {
+  if (!cost) {
+    return QStringLiteral("–");
+  }
+  const QString passes = count_text(std::llround(cost->passes));
+  return cost->at_most ? StudyDialog::tr("≤ %1").arg(passes) : passes;
+}
+
+Qt::Alignment alignment_of(int column) {
+  return (column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+}
+
+QTableWidget* make_table() {
+  const QStringList names{StudyDialog::tr("Directions"), StudyDialog::tr("Slope"),
+                          StudyDialog::tr("Passes to 1 %"), StudyDialog::tr("Passes to 0.1 %")};
+  auto* table = new QTableWidget(0, names.size());
+  table->setObjectName("study_table");
+  for (int column = 0; column < names.size(); ++column) {
+    auto* item = new QTableWidgetItem(names[column]);
+    item->setTextAlignment(alignment_of(column));
+    table->setHorizontalHeaderItem(column, item);
+  }
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
+  QHeaderView* header = table->horizontalHeader();
+  header->setHighlightSections(false);
+  header->setDefaultSectionSize(140);
+  header->setSectionResizeMode(0, QHeaderView::Stretch);
+  return table;
+}
+
+}  // namespace
+
+StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
+    : QDialog(parent), session_(cache) {
+  setWindowTitle(tr("Study of directions – transillum"));
+  setWindowFlags(windowFlags() | Qt::WindowMaximizeButtonHint);
+  banner_ = new Banner;
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(12, 12, 12, 12);
+  row->setSpacing(12);
+  row->addWidget(make_controls());
+  row->addWidget(make_results(), 1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(banner_);
+  layout->addLayout(row, 1);
+  resize(1180, 760);
+  connect(&session_, &StudySession::snapshot_ready, this, &StudyDialog::show_snapshot);
+  connect(&session_, &StudySession::failed, this,
+          [this](const QString& message) { banner_->say(Banner::Kind::error, message); });
+  show_scene(nullptr);
+}
+
+QWidget* StudyDialog::make_controls() {
+  scene_ = new QLabel;
+  scene_->setWordWrap(true);
+  choices_ = new StudyChoices;
+  run_ = new QPushButton;
+  run_->setObjectName("study_run");
+  run_->setDefault(true);
+  connect(run_, &QPushButton::clicked, this, &StudyDialog::run_or_stop);
+  connect(choices_, &StudyChoices::changed, this, &StudyDialog::show_buttons);
+  auto* controls = new QWidget;
+  controls->setFixedWidth(controls_width);
+  auto* layout = new QVBoxLayout(controls);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(12);
+  layout->addWidget(scene_);
+  layout->addWidget(choices_, 1);
+  layout->addWidget(run_);
+  return controls;
+}
+
+QWidget* StudyDialog::make_results() {
+  error_ = new QComboBox;
+  error_->setObjectName("study_error");
+  error_->addItems({tr("RMS error"), tr("Largest error")});
+  error_->setToolTip(
+      tr("RMS: over all patches, relative to the RMS of B\n"
+         "Largest: of all patches, relative to the largest B"));
+  connect(error_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    chart_->set_measure(measure());
+    show_table();
+  });
+  phase_ = new QLabel;
+  phase_->setObjectName("study_phase");
+  progress_ = new QProgressBar;
+  progress_->setRange(0, 1000);
+  progress_->setFixedSize(180, 16);
+  save_ = new QPushButton(tr("Save…"));
+  save_->setObjectName("study_save");
+  save_->setToolTip(tr("The plot as SVG or PNG, or the figures as CSV"));
+  save_->setAutoDefault(false);
+  connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
+  auto* bar = new QHBoxLayout;
+  bar->setSpacing(12);
+  bar->addWidget(error_);
+  bar->addWidget(phase_, 1);
+  bar->addWidget(progress_);
+  bar->addWidget(save_);
+
+  chart_ = new StudyChart;
+  table_ = make_table();
+
+  auto* results = new QWidget;
+  auto* layout = new QVBoxLayout(results);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  layout->addLayout(bar);
+  layout->addWidget(chart_, 4);
+  layout->addWidget(table_, 1);
+  return results;
+}
+
+ErrorMeasure StudyDialog::measure() const {
+  return error_->currentIndex() == 0 ? ErrorMeasure::rms : ErrorMeasure::max;
+}
+
+void StudyDialog::present() {
+  show();
+  raise();
+  activateWindow();
+}
+
+void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
+  session_.stop();
+  loaded_ = std::move(loaded);
+  running_ = false;
+  snapshot_ = nullptr;
+  banner_->dismiss();
+  if (loaded_) {
+    const QString name = QFileInfo(QString::fromStdString(loaded_->scene->name())).fileName();
+    scene_->setText(tr("<b>%1</b>, %2 patches")
+                        .arg(name.toHtmlEscaped(), count_text(loaded_->scene->patch_count())));
+  } else {
+    scene_->setText(tr("No scene is open"));
+  }
+  chart_->show_study(nullptr);
+  show_phase();
+  show_table();
+  show_buttons();
+}
+
+void StudyDialog::set_solve(const SolveOptions& solve) { choices_->set_solve(solve); }
+
+void StudyDialog::run_or_stop() {
+  if (running_) {
+    session_.stop();
+    return;
+  }
+  banner_->dismiss();
+  running_ = true;
+  session_.start({loaded_, choices_->options()});
+  show_buttons();
+  show_phase();
+}
+
+void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
+  if (snapshot->loaded != loaded_) {
+    return;  // of a scene that is no longer open
+  }
+  snapshot_ = std::move(snapshot);
+  running_ = snapshot_->running;
+  chart_->show_study(snapshot_);
+  show_phase();
+  show_table();
+  show_buttons();
+  if (running_) {
+    return;
+  }
+  QStringList failures;
+  const std::vector<std::string> names = names_of(snapshot_->series);
+  for (const StudyPoint& point : snapshot_->study.points) {
+    if (point.failure.empty()) {
+      continue;
+    }
+    failures << tr("%1 with %2 passes left out: %3")
+                    .arg(QString::fromStdString(names[point.series]), count_text(point.passes),
+                         QString::fromStdString(point.failure));
+  }
+  if (!failures.isEmpty()) {
+    banner_->say(Banner::Kind::warning, failures.front(), failures.join('\n'));
+  }
+}
+
+void StudyDialog::show_phase() {
+  progress_->setVisible(running_);
+  const bool told = running_ && snapshot_ && snapshot_->running;
+  progress_->setValue(told ? static_cast<int>(1000 * snapshot_->share) : 0);
+  if (told) {
+    const QString what =
+        snapshot_->reference
+            ? tr("Reference, pass %1 of %2")
+                  .arg(count_text(snapshot_->directions), count_text(snapshot_->passes))
+            : tr("%1, %2 passes")
+                  .arg(QString::fromStdString(names_of(snapshot_->series)[snapshot_->under_way]),
+                       count_text(snapshot_->directions));
+    phase_->setText(tr("%1: %2 passes/s, %3 left")
+                        .arg(what, QString::number(snapshot_->passes_per_second, 'f', 1),
+                             duration_text(snapshot_->seconds_left)));
+  } else if (running_) {
+    phase_->setText(tr("Starting"));
+  } else if (!has_points()) {
+    phase_->setText(snapshot_ ? tr("Stopped") : QString());
+  } else {
+    phase_->setText(snapshot_->study.complete ? tr("Done") : tr("Stopped: the points so far"));
+  }
+}
+
+void StudyDialog::show_table() {
+  const std::size_t rows = has_points() ? snapshot_->series.size() : 0;
+  table_->setRowCount(static_cast<int>(rows));
+  if (rows == 0) {
+    return;
+  }
+  const std::vector<std::string> names = names_of(snapshot_->series);
+  for (std::size_t series = 0; series < rows; ++series) {
+    std::vector<StudyPoint> points = points_of(snapshot_->study, series);
+    const auto law = fitted_power_law(points, measure());
+    const QString texts[] = {
+        QString::fromStdString(names[series]),
+        law ? QString::number(law->slope, 'f', 2).replace('-', QStringLiteral("−"))
+            : QStringLiteral("–"),
+        cost_text(cost_of(points, 0.01, measure())), cost_text(cost_of(points, 0.001, measure()))};
+    for (int column = 0; column < 4; ++column) {
+      auto* item = new QTableWidgetItem(texts[column]);
+      item->setTextAlignment(alignment_of(column));
+      table_->setItem(static_cast<int>(series), column, item);
+    }
+  }
+}
+
+void StudyDialog::show_buttons() {
+  const StudyOptions options = choices_->options();
+  run_->setText(running_ ? tr("Stop") : tr("Run the study"));
+  run_->setEnabled(running_ || (loaded_ && !options.series.empty() && !options.directions.empty()));
+  save_->setEnabled(has_points());
+}
+
+void StudyDialog::choose_file() {
+  const QString path = ask_where_to_write(
+      this, tr("Save the study"),
+      tr("Plot, sharp at any size (*.svg);;Plot as a picture (*.png);;Figures (*.csv)"),
+      "study.svg");
+  if (!path.isEmpty()) {
+    save(path);
+  }
+}
+
+void StudyDialog::save(const QString& path) {
+  if (!has_points()) {
+    return;
+  }
+  banner_->dismiss();
+  try {
+    const std::string file = path.toStdString();
+    if (path.endsWith(QStringLiteral(".csv"), Qt::CaseInsensitive)) {
+      write_study_csv(file, snapshot_->series, snapshot_->study);
+    } else {
+      check_chart_path(file);
+      write_charts(file, {study_chart(snapshot_->loaded->scene->name(), snapshot_->series,
+                                      snapshot_->study, measure())});
+    }
+  } catch (const std::exception& error) {
+    banner_->say(Banner::Kind::error, QString::fromUtf8(error.what()));
+  }
+}
+
+}  // namespace transillum::viewer

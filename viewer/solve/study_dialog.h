@@ -1,0 +1,68 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QDialog>
+#include <filesystem>
+#include <memory>
+
+#include "model/study_session.h"
+
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QTableWidget;
+
+namespace transillum::viewer {
+
+class Banner;
+class StudyChart;
+class StudyChoices;
+
+/// Studies of the open scene: error of B against passes, as a plot and a table.
+class StudyDialog : public QDialog {
+  Q_OBJECT
+
+ public:
+  /// @param cache where references are kept; empty: nowhere
+  explicit StudyDialog(const std::filesystem::path& cache, QWidget* parent = nullptr);
+
+  /// In front of all else.
+  void present();
+  /// Ends the study of another scene.
+  void show_scene(std::shared_ptr<const LoadedScene> loaded);
+  /// Those of the solve; what the dialog has no choice of is taken from them.
+  void set_solve(const SolveOptions& solve);
+
+  std::shared_ptr<const StudySnapshot> snapshot() const { return snapshot_; }
+  /// Writes the plot or the table, by the ending of `path`; says so where it cannot.
+  void save(const QString& path);
+
+ private:
+  QWidget* make_controls();
+  QWidget* make_results();
+  void run_or_stop();
+  void choose_file();
+  void show_snapshot(std::shared_ptr<const StudySnapshot> snapshot);
+  void show_phase();
+  void show_table();
+  void show_buttons();
+  ErrorMeasure measure() const;
+  bool has_points() const { return snapshot_ && !snapshot_->study.points.empty(); }
+
+  StudySession session_;
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::shared_ptr<const StudySnapshot> snapshot_;
+  bool running_ = false;
+
+  StudyChoices* choices_;
+  QLabel *scene_, *phase_;
+  QComboBox* error_;
+  QProgressBar* progress_;
+  QPushButton *run_, *save_;
+  QTableWidget* table_;
+  StudyChart* chart_;
+  Banner* banner_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,207 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "state/algorithm_state.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "state/step_events.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+const std::vector<CodeText>& algorithm_code() {
+  using L = CodeLine;
+  static const std::vector<CodeText> code = {
+      {L::start, 0, QStringLiteral("for each patch i: B_i(0) ← E_i")},
+      {L::each_iteration, 0, QStringLiteral("for n = 0, 1, 2, …")},
+      {L::restart, 1, QStringLiteral("for each patch i: B_i(n+1) ← E_i")},
+      {L::each_direction, 1, QStringLiteral("for each direction d")},
+      {L::sort, 2, QStringLiteral("L ← the patches, sorted along ω_d")},
+      {L::empty_map, 2, QStringLiteral("V ← nothing")},
+      {L::each_patch, 2, QStringLiteral("for each patch i of L")},
+      {L::clip, 3, QStringLiteral("clip V by i: I inside, O outside")},
+      {L::if_front, 3, QStringLiteral("if i faces the light")},
+      {L::gather, 4,
+       QStringLiteral("B_i(n+1) += Σ over j in I: A(j)/A_i · ρ_i/(π M) · J_d · B_j(n)")},
+      {L::leave_hole, 4, QStringLiteral("V ← O, a hole where i is")},
+      {L::otherwise, 3, QStringLiteral("else")},
+      {L::put_in, 4, QStringLiteral("V ← O and i")},
+      {L::global_map, 2, QStringLiteral("M ← the visibility map of all patches along ω_d")},
+      {L::each_region, 2, QStringLiteral("for each region R of M")},
+      {L::region_list, 3, QStringLiteral("L ← the patches over R, sorted along ω_d")},
+      {L::each_receiver, 3, QStringLiteral("for each i of L that faces the light")},
+      {L::next_above, 4, QStringLiteral("j ← the next of L above i")},
+      {L::if_back, 4, QStringLiteral("if j shines down")},
+      {L::gather_region, 5, QStringLiteral("B_i(n+1) += A(R)/A_i · ρ_i/(π M) · J_d · B_j(n)")},
+  };
+  return code;
+}
+
+namespace {
+
+std::vector<CodeLine> lines_of_local_map(const Focus& focus, const MapHistory& history) {
+  const std::int32_t k = focus.moment().step;
+  if (k < 0) {
+    return {CodeLine::empty_map};
+  }
+  const MapHistory::Step& step = history.step(k);
+  if (focus.phase() == Phase::before || step.row == MapRecord::no_row) {
+    return {CodeLine::each_patch};
+  }
+  if (focus.phase() == Phase::split) {
+    return {CodeLine::clip};
+  }
+  if (step.front_facing) {
+    return {CodeLine::gather, CodeLine::leave_hole};
+  }
+  return {CodeLine::put_in};
+}
+
+/// The last event of the line that the focus has come to, if any.
+const StepEvent* event_reached(const std::vector<StepEvent>& line, std::int32_t step) {
+  const StepEvent* reached = nullptr;
+  for (const StepEvent& event : line) {
+    if (event.step <= step) {
+      reached = &event;
+    }
+  }
+  return reached;
+}
+
+std::vector<CodeLine> lines_of_global_map(const Focus& focus, const MapHistory& history) {
+  if (!focus.probe()) {
+    return {CodeLine::global_map};
+  }
+  const std::vector<StepEvent> line = events_at_point(history, *focus.probe());
+  const std::int32_t k = focus.moment().step;
+  const StepEvent* event = event_reached(line, k);
+  if (event == nullptr) {
+    return {CodeLine::region_list};
+  }
+  if (event->step != k || focus.phase() == Phase::before || !history.step(k).front_facing) {
+    return {CodeLine::each_receiver};
+  }
+  if (focus.phase() == Phase::split) {
+    return {CodeLine::next_above};
+  }
+  if (event->kind != StepEvent::Kind::exchange) {
+    return {CodeLine::if_back};
+  }
+  return {CodeLine::if_back, CodeLine::gather_region};
+}
+
+constexpr double weight = 4 * std::numbers::pi;  // J_d
+
+/// M of the step in focus; a pass both ways counts as two.
+int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
+  return snapshot.passes_of(focus.moment().iteration) * (snapshot.options.two_way ? 2 : 1);
+}
+
+/// B_j(n), where it has been kept.
+std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
+  const auto n = static_cast<std::size_t>(iteration);
+  if (n >= snapshot.kept_radiosity.size() || !snapshot.kept_radiosity[n]) {
+    return std::nullopt;
+  }
+  return at((*snapshot.kept_radiosity[n]), patch);
+}
+
+}  // namespace
+
+std::vector<CodeLine> current_lines(const Focus& focus, MapKind kind) {
+  const auto map = focus.map();
+  if (!map) {
+    return {};
+  }
+  return kind == MapKind::local ? lines_of_local_map(focus, map->history)
+                                : lines_of_global_map(focus, map->history);
+}
+
+std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot& snapshot) {
+  const auto map = focus.map();
+  if (!map || !focus.probe() || map->loaded != snapshot.loaded) {
+    return std::nullopt;
+  }
+  const MapHistory& history = map->history;
+  RegionState state;
+  state.point = *focus.probe();
+  const std::vector<StepEvent> line = events_at_point(history, state.point);
+  for (const StepEvent& event : line) {
+    state.list.push_back(event.below);
+  }
+  state.region = region_at(history, state.point);
+  const StepEvent* event = event_reached(line, focus.moment().step);
+  if (event == nullptr) {
+    return state;
+  }
+  state.i = event->below;
+  state.front_facing = history.step(event->step).front_facing;
+  state.j = event->above;
+  state.exchanges = event->kind == StepEvent::Kind::exchange;
+  state.pair_area = event->pair_area;
+  if (state.j == no_patch) {
+    return state;
+  }
+  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  if (!state.exchanges || !state.radiosity_j || !state.region) {
+    return state;
+  }
+  const double share = weight / (std::numbers::pi * directions_of(snapshot, focus)) *
+                       state.region->area / snapshot.loaded->scene->patch(state.i).area;
+  state.gathered = share * (snapshot.loaded->scene->reflectance(state.i) * *state.radiosity_j);
+  return state;
+}
+
+std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSnapshot& snapshot,
+                                              PatchId selected) {
+  const auto map = focus.map();
+  const std::int32_t k = focus.moment().step;
+  if (!map || k < 0 || map->loaded != snapshot.loaded) {
+    return std::nullopt;
+  }
+  const MapHistory& history = map->history;
+  const MapHistory::Step& step = history.step(k);
+  const Scene& scene = *snapshot.loaded->scene;
+
+  AlgorithmState state;
+  state.i = step.patch;
+  state.front_facing = step.front_facing;
+  state.area_i = scene.patch(step.patch).area;
+  state.map_before = k > 0 ? history.step(k - 1).map_size : 0;
+  state.map_after = step.map_size;
+  state.inside = step.cut;
+  state.outside = static_cast<std::int32_t>(history.outside_at(k).size());
+  state.weight = weight;
+  state.directions = directions_of(snapshot, focus);
+
+  std::map<PatchId, double> areas;  // A(j) of what lights i
+  for (const std::int32_t r : history.inside_at(k)) {
+    if (history.exchanges(r)) {
+      areas[history.row(r).patch] += history.record().area(history.row(r));
+    }
+  }
+  if (areas.empty()) {
+    return state;
+  }
+  const auto largest = std::max_element(
+      areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto chosen = areas.find(selected);
+  const auto j = chosen == areas.end() ? largest : chosen;
+  state.j = j->first;
+  state.area_j = j->second;
+
+  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  if (!state.radiosity_j) {
+    return state;
+  }
+  const double share = state.weight / (std::numbers::pi * state.directions * state.area_i);
+  Rgb sum;
+  for (const auto& [source, area] : areas) {
+    sum += (share * area) * *kept_radiosity(snapshot, focus.moment().iteration, source);
+  }
+  state.gathered = scene.reflectance(step.patch) * sum;
+  return state;
+}
+
+}  // namespace transillum::viewer

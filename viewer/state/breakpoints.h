@@ -1,0 +1,76 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "state/step_finder.h"
+
+class QSettings;
+class QUndoStack;
+
+namespace transillum::viewer {
+
+/// A condition on a step that a run through the polygons stops at.
+struct Breakpoint {
+  enum class Kind {
+    patch,           ///< the step processes, cuts or covers a polygon of `patch`
+    cut,             ///< it cuts a fragment of `patch`
+    pair,            ///< `patch` and `other` exchange light, either way
+    small_fragment,  ///< it makes a fragment smaller than `value` m²
+    open_receiver,   ///< more than the share `value` of its receiver lies open: closure defect
+    large_map,       ///< V grows beyond `value` fragments
+  };
+  Kind kind = Kind::patch;
+  PatchId patch = 0, other = 0;
+  double value = 0;
+  bool enabled = true;
+
+  friend bool operator==(const Breakpoint&, const Breakpoint&) = default;
+};
+
+bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t step);
+QString words_of(const Breakpoint& breakpoint);
+/// As files and settings name a kind.
+const char* name_of(Breakpoint::Kind kind);
+std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);
+
+/// The list of breakpoints, kept from one run of the program to the next.
+class Breakpoints : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  /// Where changes can be taken back, but for set_list() and load(); null: nowhere.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
+  const std::vector<Breakpoint>& list() const { return list_; }
+  void set_list(std::vector<Breakpoint> list);
+  void add(const Breakpoint& breakpoint);
+  void remove(std::size_t k);
+  void set_enabled(std::size_t k, bool enabled);
+  bool any_enabled() const;
+
+  /// The nearest step where an enabled one holds.
+  StepFinder finder() const;
+  /// All such steps of a direction, ascending.
+  std::vector<std::int32_t> steps_in(const MapHistory& history) const;
+
+  void save(QSettings& settings) const;
+  /// What cannot be read is left out.
+  void load(QSettings& settings);
+
+ signals:
+  void changed();
+
+ private:
+  void change(const QString& what, std::vector<Breakpoint> list);
+
+  std::vector<Breakpoint> list_;
+  QUndoStack* undo_ = nullptr;
+};
+
+}  // namespace transillum::viewer

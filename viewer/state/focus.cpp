@@ -1,0 +1,293 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "state/focus.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+std::int32_t nearest_step(const MapHistory& history, std::int32_t step) {
+  return std::clamp(step, -1, history.step_count() - 1);
+}
+
+}  // namespace
+
+void Focus::begin_run(int passes, bool renews) {
+  passes_ = passes;
+  renews_ = renews;
+  iterations_ = 1;
+  step_passes_.clear();
+  moment_ = wanted_ = newest_ = {};
+  map_ = nullptr;
+  set_probe(std::nullopt);
+  following_ = true;
+  under_way_ = false;
+  seek_left_ = 0;
+  emit wished();
+  emit moved();
+}
+
+void Focus::set_iterations(int count) {
+  count = std::max(count, 1);
+  if (count == iterations_) {
+    return;
+  }
+  iterations_ = count;
+  emit wished();
+}
+
+void Focus::set_passes_of_steps(std::vector<int> passes) {
+  if (passes == step_passes_) {
+    return;
+  }
+  step_passes_ = std::move(passes);
+  emit wished();
+}
+
+void Focus::go_to(const Moment& moment) {
+  if (passes_ == 0) {
+    return;
+  }
+  leave_newest();
+  seek_left_ = 0;
+  go(moment.iteration, moment.direction, moment.step,
+     [step = moment.step](const MapHistory& history) { return nearest_step(history, step); });
+}
+
+void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
+  if (passes_ == 0) {
+    return;
+  }
+  leave_newest();
+  seek_left_ = 0;
+  go(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
+    return finder(history, -1, Way::forward);
+  });
+}
+
+Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
+  Moment to{from.iteration, from.direction + directions, step};
+  while (to.direction < 0) {
+    if (to.iteration == 0) {
+      return from;
+    }
+    to.direction += passes_of(--to.iteration);
+  }
+  while (to.direction >= passes_of(to.iteration)) {
+    to.direction -= passes_of(to.iteration);
+    if (++to.iteration == iterations_) {
+      return from;
+    }
+  }
+  return to;
+}
+
+bool Focus::step_by(std::int32_t steps) {
+  if (!map_) {
+    return false;
+  }
+  const std::int32_t last = map_->history.step_count() - 1;
+  Moment to = moment_;
+  // After the last step comes the next direction's empty map, before that the last step.
+  if (steps > 0 && moment_.step == last) {
+    to = moved_by(moment_, 1, -1);
+  } else if (steps < 0 && moment_.step == -1) {
+    to = moved_by(moment_, -1, std::numeric_limits<std::int32_t>::max());
+  } else {
+    to.step = std::clamp(moment_.step + steps, -1, last);
+  }
+  if (to == moment_) {
+    return false;
+  }
+  go_to(to);
+  return true;
+}
+
+void Focus::direction_by(int directions) {
+  if (passes_ > 0) {
+    go_to(moved_by(wanted_, directions, moment_.step));
+  }
+}
+
+void Focus::iteration_by(int iterations) {
+  go_to({wanted_.iteration + iterations, wanted_.direction, moment_.step});
+}
+
+void Focus::set_phase(Phase phase) {
+  const bool news = following_ || phase != phase_;
+  leave_newest();
+  phase_ = phase;
+  if (news) {
+    emit moved();
+  }
+}
+
+void Focus::set_probe(const std::optional<Vec2>& probe) {
+  probe_ = probe;
+  emit probed();
+}
+
+void Focus::phase_by(int phases) {
+  const int phase = static_cast<int>(phase_) + phases;
+  const bool within = 0 <= phase && phase <= static_cast<int>(Phase::after);
+  if (within && moment_.step >= 0) {
+    set_phase(static_cast<Phase>(phase));
+    return;
+  }
+  const Phase now = std::exchange(phase_, phases > 0 ? Phase::before : Phase::after);
+  if (!step_by(phases > 0 ? 1 : -1)) {
+    phase_ = now;
+  }
+}
+
+void Focus::seek(StepFinder finder, Way way) {
+  if (!map_) {
+    return;
+  }
+  leave_newest();
+  finder_ = std::move(finder);
+  way_ = way;
+  // Every direction once; the last one is the first again, for what lies on its other side.
+  const bool all_alike = !renews_ && passes_of(0) == passes_;
+  seek_all_ = seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
+  wanted_ = moment_;
+  const std::int32_t from = moment_.step;
+  const std::int32_t step = finder_(map_->history, from, way_);
+  if (step != MapHistory::none) {
+    moment_.step = wanted_.step = step;
+    end_seek();
+    emit moved();
+    emit seek_ended(true);
+  } else {
+    seek_on();
+  }
+}
+
+void Focus::seek_on() {
+  const int by = way_ == Way::forward ? 1 : -1;
+  const Moment next = moved_by(wanted_, by, -1);
+  if (--seek_left_ <= 0 || next == wanted_) {
+    wanted_ = moment_;
+    end_seek();
+    emit seek_ended(false);
+    return;
+  }
+  go(next.iteration, next.direction, -1, [this](const MapHistory& history) {
+    return finder_(history, way_ == Way::forward ? -1 : history.step_count(), way_);
+  });
+}
+
+void Focus::end_seek() {
+  seek_left_ = 0;
+  under_way_ = false;
+  emit wished();
+}
+
+void Focus::stop() {
+  leave_newest();
+  const bool sought = seeking();
+  const auto searched = static_cast<int>(seek_all_ - seek_left_);
+  wanted_ = moment_;
+  end_seek();
+  if (sought) {
+    emit seek_stopped(searched);
+  }
+}
+
+void Focus::set_following(bool following) {
+  if (following == following_) {
+    return;
+  }
+  following_ = following;
+  emit wished();
+  if (following) {
+    phase_ = Phase::after;
+    go_to_newest();
+  } else {
+    emit moved();  // the step is marked from now on
+  }
+}
+
+void Focus::leave_newest() {
+  if (!following_) {
+    return;
+  }
+  following_ = false;
+  emit wished();
+}
+
+void Focus::follow(int iteration, int direction) {
+  const Moment newest{iteration, direction, -1};
+  const bool news = newest != newest_ || !map_;
+  newest_ = newest;
+  if (following_ && news) {
+    go_to_newest();
+  }
+}
+
+void Focus::go_to_newest() {
+  if (passes_ == 0) {
+    return;
+  }
+  seek_left_ = 0;
+  go(newest_.iteration, newest_.direction, -1,
+     [](const MapHistory& history) { return history.record().fullest_step(); });
+}
+
+void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
+  const int n = std::clamp(iteration, 0, iterations_ - 1);
+  wanted_ = {n, std::clamp(direction, 0, passes_of(n) - 1), step};
+  arrival_ = std::move(arrival);
+  under_way_ = true;
+  emit wished();
+  if (map_ && shows(*map_, wanted_)) {
+    show_map(map_);
+  } else {
+    emit map_wanted(wanted_.iteration, wanted_.direction);
+  }
+}
+
+bool Focus::shows(const RecordedMap& map, const Moment& moment) const {
+  return map.direction == moment.direction && (!renews_ || map.iteration == moment.iteration);
+}
+
+void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
+  const bool stale = !under_way_ || map->passes != passes_;
+  const bool on_the_way = !shows(*map, wanted_);
+  if (stale || (on_the_way && seek_left_ > 0)) {
+    return;
+  }
+  const std::int32_t step = arrival_(map->history);
+  if (seek_left_ > 0 && step == MapHistory::none) {
+    seek_on();
+    return;
+  }
+  const bool another = map != map_;
+  map_ = std::move(map);
+  if (another && probe_) {
+    set_probe(std::nullopt);
+  }
+  if (on_the_way) {
+    // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
+    moment_ = {renews_ ? map_->iteration : wanted_.iteration, map_->direction, step};
+    emit moved();
+  } else {
+    arrive(step);
+  }
+}
+
+void Focus::arrive(std::int32_t step) {
+  wanted_.step = step;
+  moment_ = wanted_;
+  const bool sought = seek_left_ > 0;
+  end_seek();
+  emit moved();
+  if (sought) {
+    emit seek_ended(true);
+  }
+}
+
+}  // namespace transillum::viewer

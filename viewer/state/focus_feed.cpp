@@ -1,0 +1,80 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "state/focus_feed.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+FocusFeed::FocusFeed(Focus& focus, QObject* parent) : QObject(parent), focus_(focus) {
+  connect(&focus_, &Focus::map_wanted, this, &FocusFeed::record);
+  connect(&recorder_, &MapRecorder::recorded, &focus_, &Focus::show_map);
+  connect(&recorder_, &MapRecorder::failed, this, [this](const QString& message) {
+    focus_.stop();
+    emit failed(message);
+  });
+}
+
+void FocusFeed::clear() {
+  snapshot_ = nullptr;
+  recorder_.clear();
+  focus_.begin_run(0);
+}
+
+void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool new_run =
+      !snapshot_ || snapshot->kept_directions.front() != snapshot_->kept_directions.front();
+  snapshot_ = std::move(snapshot);
+  const SolveProgress& progress = snapshot_->progress;
+  const int begun = progress.iteration + (progress.direction > 0 ? 1 : 0);
+  if (new_run) {
+    recorder_.clear();
+    focus_.begin_run(static_cast<int>(snapshot_->directions->size()),
+                     snapshot_->options.scheme == Scheme::semi_iterative);
+  }
+  focus_.set_passes_of_steps(snapshot_->kept_passes);
+  focus_.set_iterations(begun);
+  follow();
+}
+
+void FocusFeed::set_watched(bool watched) {
+  watched_ = watched;
+  follow();
+}
+
+void FocusFeed::follow() {
+  if (!snapshot_ || !watched_) {
+    return;
+  }
+  const SolveProgress& progress = snapshot_->progress;
+  // Of a step that has just ended, the last direction; a growing one had fewer than there are.
+  if (progress.direction > 0) {
+    focus_.follow(progress.iteration, progress.direction - 1);
+  } else if (progress.iteration > 0) {
+    const auto& kept = at(snapshot_->kept_directions, progress.iteration - 1);
+    const auto& all = kept ? *kept : *snapshot_->directions;
+    const auto last = std::find(all.rbegin(), all.rend(), progress.last_direction);
+    focus_.follow(progress.iteration - 1, static_cast<int>(all.rend() - last) - 1);
+  }
+}
+
+void FocusFeed::record(int iteration, int direction) {
+  if (!snapshot_) {
+    return;
+  }
+  const auto& kept = snapshot_->kept_directions;
+  const auto n = static_cast<std::size_t>(iteration);
+  const auto& directions = n < kept.size() ? kept[n] : snapshot_->directions;
+  if (!directions) {
+    focus_.stop();
+    emit failed(tr("The directions of iteration %1 have not been kept: there are too many")
+                    .arg(iteration + 1));
+    return;
+  }
+  recorder_.request({snapshot_->loaded, at((*directions), direction), iteration, direction,
+                     focus_.passes(), focus_.following()});
+}
+
+}  // namespace transillum::viewer

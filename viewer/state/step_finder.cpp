@@ -1,0 +1,59 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "state/step_finder.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace transillum::viewer {
+
+StepFinder find_where(std::function<bool(const MapHistory&, std::int32_t)> holds) {
+  return [holds = std::move(holds)](const MapHistory& history, std::int32_t from, Way way) {
+    const std::int32_t by = way == Way::forward ? 1 : -1;
+    for (std::int32_t k = from + by; 0 <= k && k < history.step_count(); k += by) {
+      if (holds(history, k)) {
+        return k;
+      }
+    }
+    return MapHistory::none;
+  };
+}
+
+StepFinder find_events_of(PatchId patch) {
+  return [patch](const MapHistory& history, std::int32_t from, Way way) {
+    return way == Way::forward ? history.next_step_of(patch, from)
+                               : history.previous_step_of(patch, from);
+  };
+}
+
+StepFinder find_exchanges() {
+  return find_where([](const MapHistory& history, std::int32_t step) {
+    return history.step(step).exchanges > 0;
+  });
+}
+
+StepFinder find_exchanges_of(PatchId patch) {
+  return [patch](const MapHistory& history, std::int32_t from, Way way) {
+    const auto exchanges = [&](std::int32_t k) {
+      const auto inside = history.inside_at(k);
+      const bool own = history.step(k).patch == patch;
+      return std::any_of(inside.begin(), inside.end(), [&](std::int32_t r) {
+        return (own || history.row(r).patch == patch) && history.exchanges(r);
+      });
+    };
+    const StepFinder next = find_events_of(patch);
+    std::int32_t k = next(history, from, way);
+    while (k != MapHistory::none && !exchanges(k)) {
+      k = next(history, k, way);
+    }
+    return k;
+  };
+}
+
+StepFinder find_changes_at(const Vec2& p) {
+  return find_where([p](const MapHistory& history, std::int32_t step) {
+    const std::int32_t row = history.step(step).row;
+    return row != MapRecord::no_row && history.record().covers(history.row(row), p);
+  });
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,259 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/algorithm_view.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QStringList>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "support/number_text.h"
+#include "widgets/elided.h"
+#include "widgets/scrolling.h"
+#include "widgets/theme.h"
+#include "widgets/value_grid.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QLabel* heading(const QString& text) {
+  auto* label = new QLabel(text);
+  label->setContentsMargins(12, 6, 12, 2);
+  label->setForegroundRole(QPalette::PlaceholderText);
+  return label;
+}
+
+// Long lines break below their own beginning.
+QLabel* code_line(const QString& words, int indent) {
+  auto* label = new QLabel(words);
+  label->setWordWrap(true);
+  label->setContentsMargins(14 + 16 * indent, 1, 8, 1);
+  return label;
+}
+
+QString i_text(PatchId i, double area, const QString& faces) {
+  return AlgorithmView::tr("%1, A = %2 m², %3").arg(QString::number(i), number_text(area), faces);
+}
+
+}  // namespace
+
+AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection) {
+  kind_ = new ElidedComboBox;
+  kind_->setObjectName("map_kind");
+  kind_->addItem(tr("by a local visibility map (section 3.2)"));
+  kind_->addItem(tr("by a global visibility map (section 3.1)"));
+  kind_->setMinimumContentsLength(20);
+  kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  auto* chooser = new QHBoxLayout;
+  chooser->setContentsMargins(12, 8, 12, 4);
+  chooser->addWidget(kind_);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 2, 0, 8);
+  layout->setSpacing(0);
+  layout->addWidget(heading(tr("All directions (section 3.3)")));
+  layout->addWidget(make_code(CodeLine::start, CodeLine::each_direction));
+  layout->addWidget(heading(tr("One direction")));
+  layout->addLayout(chooser);
+  local_parts_ = {make_code(CodeLine::sort, CodeLine::put_in), make_local_values()};
+  global_parts_ = {make_code(CodeLine::global_map, CodeLine::gather_region), make_region_values()};
+  for (const auto& parts : {local_parts_, global_parts_}) {
+    for (QWidget* part : parts) {
+      layout->addWidget(part);
+    }
+  }
+  layout->addStretch(1);
+  connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
+  connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
+  connect(&focus_, &Focus::probed, this, &AlgorithmView::show_moment);
+  connect(&selection_, &Selection::changed, this, &AlgorithmView::show_moment);
+  show_kind();
+}
+
+QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  for (const CodeText& text : algorithm_code()) {
+    if (text.line < first || text.line > last) {
+      continue;
+    }
+    lines_.push_back(code_line(text.words, text.indent));
+    layout->addWidget(lines_.back());
+  }
+  return box;
+}
+
+QWidget* AlgorithmView::make_local_values() {
+  values_ = new ValueGrid;
+  values_->layout()->setContentsMargins(12, 10, 12, 4);
+  moment_ = values_->add_row(tr("n, d"), {},
+                             tr("Iteration and direction; n counts from 0, as in the paper: it is "
+                                "what iteration n + 1 starts from"));
+  i_ = values_->add_row(tr("i"), {}, tr("The patch whose polygon is processed"));
+  i_->setObjectName("value_i");
+  map_ = values_->add_row(tr("V"), {}, tr("Fragments of the map, before and after the step"));
+  lists_ = values_->add_row(tr("I, O"), {}, tr("Fragments of the inside and of the outside list"));
+  j_ = values_->add_row(tr("j, A(j)"), tr("m²"),
+                        tr("The selected patch of those that light i, or the one that does most; "
+                           "the area that i sees of it"));
+  j_->setObjectName("value_j");
+  weight_ =
+      values_->add_row(tr("J_d, M"), {}, tr("Weight and number of directions; a pass serves two"));
+  radiosity_ = values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
+                               tr("What the step adds to B_i(n+1), before any normalization"));
+  gathered_->setObjectName("value_gathered");
+  for (QLabel* long_one : {i_, radiosity_, gathered_}) {
+    long_one->setWordWrap(true);
+  }
+  return values_;
+}
+
+QWidget* AlgorithmView::make_region_values() {
+  region_hint_ =
+      new QLabel(tr("Click the map: the region under the point, marked there, stands for all. "
+                    "Stepping goes down its list."));
+  region_hint_->setWordWrap(true);
+  region_hint_->setForegroundRole(QPalette::PlaceholderText);
+  region_values_ = new ValueGrid;
+  region_values_->layout()->setContentsMargins(12, 10, 12, 4);
+  region_ = region_values_->add_row(
+      tr("R"), tr("m"), tr("The point clicked, along u and v; the map marks the region round it"));
+  region_area_ = region_values_->add_row(
+      tr("A(R)"), tr("m²"),
+      tr("Area of the region round the point, up to the next edges of polygons, seen or hidden"));
+  region_area_->setObjectName("value_region_area");
+  region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches over R, the highest first"));
+  region_list_->setWordWrap(true);
+  region_list_->setObjectName("value_region_list");
+  region_i_ = region_values_->add_row(tr("i"), {}, tr("Of L, the last that has been processed"));
+  region_i_->setObjectName("value_region_i");
+  region_j_ = region_values_->add_row(tr("j, Σ A(R)"), tr("m²"),
+                                      tr("The next above i; what i sees of it in all regions"));
+  region_j_->setObjectName("value_region_j");
+  region_radiosity_ =
+      region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
+  region_gathered_ = region_values_->add_row(
+      tr("+="), tr("W/m²"), tr("What R adds to B_i(n+1), before any normalization"));
+  region_gathered_->setObjectName("value_region_gathered");
+  for (QLabel* three : {region_radiosity_, region_gathered_}) {
+    three->setWordWrap(true);
+  }
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  auto* hint = new QHBoxLayout;
+  hint->setContentsMargins(12, 8, 12, 0);
+  hint->addWidget(region_hint_);
+  layout->addLayout(hint);
+  layout->addWidget(region_values_);
+  return box;
+}
+
+MapKind AlgorithmView::kind() const {
+  return kind_->currentIndex() == 0 ? MapKind::local : MapKind::global;
+}
+
+void AlgorithmView::set_kind(MapKind kind) {
+  kind_->setCurrentIndex(kind == MapKind::local ? 0 : 1);
+}
+
+void AlgorithmView::show_kind() {
+  for (QWidget* part : local_parts_) {
+    part->setVisible(kind() == MapKind::local);
+  }
+  for (QWidget* part : global_parts_) {
+    part->setVisible(kind() == MapKind::global);
+  }
+  show_moment();
+}
+
+void AlgorithmView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  show_moment();
+}
+
+void AlgorithmView::show_moment() {
+  const auto current = current_lines(focus_, kind());
+  for (std::size_t k = 0; k < lines_.size(); ++k) {
+    const CodeLine line = algorithm_code()[k].line;
+    const bool on = std::find(current.begin(), current.end(), line) != current.end();
+    const QString style = on ? QStringLiteral("background: %1; color: %2; font-weight: bold;")
+                                   .arg(theme::processed.name(), theme::on_yellow.name())
+                             : QString();
+    if (lines_[k]->styleSheet() != style) {
+      lines_[k]->setStyleSheet(style);
+    }
+    if (on) {
+      scroll_to(lines_[k]);
+    }
+  }
+  if (kind() == MapKind::local) {
+    const auto state =
+        snapshot_ ? algorithm_state(focus_, *snapshot_, selection_.patch()) : std::nullopt;
+    values_->setEnabled(state.has_value());
+    show_values(state.value_or(AlgorithmState()));
+    emit region_shown({});
+  } else {
+    const auto state = snapshot_ ? region_state(focus_, *snapshot_) : std::nullopt;
+    region_values_->setEnabled(state.has_value());
+    region_hint_->setVisible(!state.has_value());
+    show_region(state.value_or(RegionState()));
+    emit region_shown(state ? state->region : std::nullopt);
+  }
+}
+
+void AlgorithmView::show_region(const RegionState& state) {
+  constexpr std::size_t most_listed = 24;
+  const QString none = QStringLiteral("–");
+  QStringList list;
+  for (std::size_t k = 0; k < std::min(state.list.size(), most_listed); ++k) {
+    list << QString::number(state.list[k]);
+  }
+  if (state.list.size() > most_listed) {
+    list << QStringLiteral("…");
+  }
+  region_->setText(list.isEmpty()
+                       ? none
+                       : tr("%1, %2").arg(number_text(state.point.x), number_text(state.point.y)));
+  region_list_->setText(list.isEmpty() ? none : list.join(QStringLiteral(", ")));
+  region_i_->setText(state.i == no_patch
+                         ? none
+                         : tr("%1, %2").arg(QString::number(state.i), state.front_facing
+                                                                          ? tr("faces the light")
+                                                                          : tr("shines down")));
+  region_j_->setText(state.j == no_patch ? none
+                     : state.exchanges
+                         ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))
+                         : tr("%1, no light").arg(state.j));
+  region_area_->setText(state.region ? number_text(state.region->area) : none);
+  region_radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
+  region_gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
+}
+
+void AlgorithmView::show_values(const AlgorithmState& state) {
+  const QString none = QStringLiteral("–");
+  const bool any = state.i != no_patch, lit = state.j != no_patch;
+  const Moment& moment = focus_.moment();
+  moment_->setText(focus_.map()
+                       ? tr("%1, %2").arg(moment.iteration).arg(count_text(moment.direction + 1))
+                       : none);
+  i_->setText(any ? i_text(state.i, state.area_i,
+                           state.front_facing ? tr("faces the light") : tr("shines down"))
+                  : none);
+  map_->setText(any ? tr("%1 → %2").arg(count_text(state.map_before), count_text(state.map_after))
+                    : none);
+  lists_->setText(any ? tr("%1, %2").arg(count_text(state.inside), count_text(state.outside))
+                      : none);
+  j_->setText(lit ? tr("%1, %2").arg(QString::number(state.j), number_text(state.area_j)) : none);
+  weight_->setText(any ? tr("4π, %1").arg(count_text(state.directions)) : none);
+  radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
+  gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "state/algorithm_state.h"
+#include "state/selection.h"
+
+class QComboBox;
+class QLabel;
+class QVBoxLayout;
+
+namespace transillum::viewer {
+
+class ValueGrid;
+
+/// The paper's pseudo-code with the line in focus marked, and what its variables hold.
+class AlgorithmView : public QWidget {
+  Q_OBJECT
+
+ public:
+  AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent = nullptr);
+
+  /// Whose pseudo-code is shown.
+  MapKind kind() const;
+  void set_kind(MapKind kind);
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+
+ signals:
+  /// R of the global map, where it is the one shown and a point has been chosen.
+  void region_shown(const std::optional<transillum::MapRegion>& region);
+
+ private:
+  QWidget* make_code(CodeLine first, CodeLine last);
+  QWidget* make_local_values();
+  QWidget* make_region_values();
+  void show_kind();
+  void show_moment();
+  void show_values(const AlgorithmState& state);
+  void show_region(const RegionState& state);
+
+  const Focus& focus_;
+  const Selection& selection_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  std::vector<QLabel*> lines_;  ///< as algorithm_code()
+  QComboBox* kind_;
+  std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the one or the other map
+  ValueGrid *values_, *region_values_;
+  QLabel *moment_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
+  QLabel *region_, *region_area_, *region_list_, *region_i_, *region_j_, *region_radiosity_,
+      *region_gathered_, *region_hint_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,266 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/breakpoint_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleValidator>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QShortcut>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <limits>
+
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+using Kind = Breakpoint::Kind;
+
+struct Choice {
+  Kind kind;
+  const char* text;
+  const char* unit;  ///< of the value; null where there is none
+  const char* first_value;
+};
+constexpr Choice choices[] = {
+    {Kind::patch, QT_TRANSLATE_NOOP("BreakpointPanel", "patch takes part"), nullptr, ""},
+    {Kind::cut, QT_TRANSLATE_NOOP("BreakpointPanel", "patch is cut"), nullptr, ""},
+    {Kind::pair, QT_TRANSLATE_NOOP("BreakpointPanel", "pair exchanges light"), nullptr, ""},
+    {Kind::small_fragment, QT_TRANSLATE_NOOP("BreakpointPanel", "fragment smaller than"), "m²",
+     "1e-9"},
+    {Kind::open_receiver, QT_TRANSLATE_NOOP("BreakpointPanel", "closure defect above"), "",
+     "1e-10"},
+    {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "fragments in V above"), "", "1000"},
+};
+
+QAction* make_action(QObject* parent, const char* name, const QString& text,
+                     const QKeySequence& key, const QString& tip) {
+  auto* action = new QAction(text, parent);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setShortcut(key);
+  action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
+  return action;
+}
+
+}  // namespace
+
+BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints& breakpoints,
+                                 QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), breakpoints_(breakpoints) {
+  run_back_ =
+      make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
+                  tr("Back to the last step where a breakpoint holds"));
+  run_on_ = make_action(this, "run_on", tr("Run on"), Qt::Key_F9,
+                        tr("On to the next step where a breakpoint holds"));
+  connect(run_on_, &QAction::triggered, this, [this] { run(Way::forward); });
+  connect(run_back_, &QAction::triggered, this, [this] { run(Way::backward); });
+
+  list_ = new QListWidget;
+  list_->setObjectName("breakpoint_list");
+  list_->setFrameShape(QFrame::NoFrame);
+  list_->setMinimumHeight(48);
+  hint_ = new QLabel(tr("None yet; F9 runs on to where one holds."));
+  hint_->setWordWrap(true);
+  hint_->setContentsMargins(10, 4, 10, 4);
+  hint_->setForegroundRole(QPalette::PlaceholderText);
+  remove_ = new QToolButton;
+  remove_->setText(tr("Remove"));
+  remove_->setObjectName("remove_breakpoint");
+  auto* buttons = new QHBoxLayout;
+  buttons->setContentsMargins(8, 4, 8, 0);
+  for (QAction* action : {run_back_, run_on_}) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    buttons->addWidget(button);
+  }
+  buttons->addStretch(1);
+  buttons->addWidget(remove_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addLayout(buttons);
+  layout->addWidget(hint_, 1, Qt::AlignTop);
+  layout->addWidget(list_, 1);
+  layout->addWidget(make_new_row());
+
+  connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
+    breakpoints_.set_enabled(static_cast<std::size_t>(list_->row(item)),
+                             item->checkState() == Qt::Checked);
+  });
+  connect(list_, &QListWidget::currentRowChanged, this, &BreakpointPanel::show_state);
+  connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
+  auto* delete_key = new QShortcut(QKeySequence::Delete, list_);
+  delete_key->setContext(Qt::WidgetShortcut);
+  connect(delete_key, &QShortcut::activated, this, &BreakpointPanel::remove_current);
+  list_->setContextMenuPolicy(Qt::CustomContextMenu);
+  list_->setToolTip(tr("Right button: run to where this one holds, switched on or not"));
+  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::offer_runs);
+  connect(&breakpoints_, &Breakpoints::changed, this, &BreakpointPanel::show_list);
+  connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
+  connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
+    if (patch != no_patch) {
+      patch_->setValue(patch);
+    }
+  });
+  show_inputs();
+  show_list();
+}
+
+QWidget* BreakpointPanel::make_new_row() {
+  kind_ = new QComboBox;
+  kind_->setObjectName("breakpoint_kind");
+  kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  kind_->setMinimumContentsLength(12);
+  for (const Choice& choice : choices) {
+    kind_->addItem(tr(choice.text));
+  }
+  const auto patch_box = [](const char* name) {
+    auto* box = new QSpinBox;
+    box->setObjectName(QString::fromLatin1(name));
+    box->setRange(0, std::numeric_limits<PatchId>::max());
+    box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    box->setToolTip(tr("Number of a patch; a selected one is put in by itself"));
+    return box;
+  };
+  patch_ = patch_box("breakpoint_patch");
+  other_ = patch_box("breakpoint_other");
+  value_ = new QLineEdit;
+  value_->setObjectName("breakpoint_value");
+  auto* positive = new QDoubleValidator(0, 1e300, 12, value_);
+  positive->setLocale(QLocale::c());
+  value_->setValidator(positive);
+  unit_ = new QLabel;
+  add_ = new QToolButton;
+  add_->setText(tr("Add"));
+  add_->setObjectName("add_breakpoint");
+
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(8, 0, 8, 6);
+  layout->setSpacing(4);
+  layout->addWidget(kind_, 2);
+  for (QWidget* input : std::initializer_list<QWidget*>{patch_, other_, value_}) {
+    layout->addWidget(input, 1);
+  }
+  layout->addWidget(unit_);
+  layout->addWidget(add_);
+  connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &BreakpointPanel::show_inputs);
+  connect(value_, &QLineEdit::textChanged, this, &BreakpointPanel::show_state);
+  connect(value_, &QLineEdit::returnPressed, this, &BreakpointPanel::add_new);
+  for (const QSpinBox* box : {patch_, other_}) {
+    connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this,
+            &BreakpointPanel::add_new);
+  }
+  connect(add_, &QToolButton::clicked, this, &BreakpointPanel::add_new);
+  return row;
+}
+
+void BreakpointPanel::add_to(QMenu& menu) const {
+  menu.addAction(run_on_);
+  menu.addAction(run_back_);
+}
+
+void BreakpointPanel::offer_runs(const QPoint& position) {
+  const int row = list_->indexAt(position).row();
+  if (row < 0 || !focus_.map()) {
+    return;
+  }
+  const StepFinder finder =
+      find_where([b = at(breakpoints_.list(), row)](const MapHistory& history, std::int32_t k) {
+        return holds(b, history, k);
+      });
+  auto* menu = new QMenu(this);
+  menu->setObjectName("breakpoint_menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(tr("Run back to the last time this was true"), this,
+                  [this, finder] { focus_.seek(finder, Way::backward); });
+  menu->addAction(tr("Run to the next time this is true"), this,
+                  [this, finder] { focus_.seek(finder, Way::forward); });
+  menu->popup(list_->viewport()->mapToGlobal(position));
+}
+
+void BreakpointPanel::show_inputs() {
+  const Choice& choice = choices[kind_->currentIndex()];
+  const bool valued = choice.unit != nullptr;
+  patch_->setVisible(!valued);
+  other_->setVisible(choice.kind == Kind::pair);
+  value_->setVisible(valued);
+  value_->setText(QString::fromLatin1(choice.first_value));
+  unit_->setVisible(valued);
+  unit_->setText(valued ? QString::fromUtf8(choice.unit) : QString());
+  show_state();
+}
+
+void BreakpointPanel::show_list() {
+  {
+    const QSignalBlocker quiet(list_);
+    const int row = list_->currentRow();
+    list_->clear();
+    for (const Breakpoint& breakpoint : breakpoints_.list()) {
+      auto* item = new QListWidgetItem(words_of(breakpoint), list_);
+      item->setCheckState(breakpoint.enabled ? Qt::Checked : Qt::Unchecked);
+    }
+    list_->setCurrentRow(std::min(row, list_->count() - 1));
+  }
+  hint_->setVisible(list_->count() == 0);
+  list_->setVisible(list_->count() > 0);
+  show_state();
+}
+
+void BreakpointPanel::show_state() {
+  const bool can_run = focus_.map() && breakpoints_.any_enabled();
+  if (const auto map = focus_.map()) {
+    for (QSpinBox* box : {patch_, other_}) {
+      box->setMaximum(map->loaded->scene->patch_count() - 1);
+    }
+  }
+  run_on_->setEnabled(can_run);
+  run_back_->setEnabled(can_run);
+  remove_->setEnabled(list_->currentRow() >= 0);
+  mark_what_holds();
+  add_->setEnabled(choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput());
+}
+
+void BreakpointPanel::mark_what_holds() {
+  const QSignalBlocker quiet(list_);
+  const auto map = focus_.map();
+  const std::int32_t step = focus_.moment().step;
+  for (int row = 0; row < list_->count(); ++row) {
+    const Breakpoint& breakpoint = at(breakpoints_.list(), row);
+    const bool here =
+        map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
+    QListWidgetItem* item = list_->item(row);
+    item->setText(here ? tr("%1: here").arg(words_of(breakpoint)) : words_of(breakpoint));
+    QFont font = list_->font();
+    font.setBold(here);
+    item->setFont(font);
+  }
+}
+
+void BreakpointPanel::add_new() {
+  if (!add_->isEnabled()) {
+    return;
+  }
+  const Choice& choice = choices[kind_->currentIndex()];
+  breakpoints_.add({choice.kind, patch_->value(), other_->value(),
+                    choice.unit != nullptr ? value_->text().toDouble() : 0, true});
+}
+
+void BreakpointPanel::remove_current() {
+  if (list_->currentRow() >= 0) {
+    breakpoints_.remove(static_cast<std::size_t>(list_->currentRow()));
+  }
+}
+
+void BreakpointPanel::run(Way way) { focus_.seek(breakpoints_.finder(), way); }
+
+}  // namespace transillum::viewer

@@ -1,0 +1,55 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "state/breakpoints.h"
+#include "state/focus.h"
+#include "state/selection.h"
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QMenu;
+class QSpinBox;
+class QToolButton;
+
+namespace transillum::viewer {
+
+/// The list of breakpoints, a row to add one, and running to the next and the last.
+class BreakpointPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  BreakpointPanel(Focus& focus, Selection& selection, Breakpoints& breakpoints,
+                  QWidget* parent = nullptr);
+
+  void add_to(QMenu& menu) const;
+
+ private:
+  QWidget* make_new_row();
+  void show_list();
+  void offer_runs(const QPoint& position);
+  void show_inputs();
+  void show_state();
+  void mark_what_holds();
+  void add_new();
+  void remove_current();
+  void run(Way way);
+
+  Focus& focus_;
+  Selection& selection_;
+  Breakpoints& breakpoints_;
+  QListWidget* list_;
+  QComboBox* kind_;
+  QSpinBox *patch_, *other_;
+  QLineEdit* value_;
+  QLabel* unit_;
+  QLabel* hint_;
+  QToolButton *add_, *remove_;
+  QAction *run_on_, *run_back_;
+};
+
+}  // namespace transillum::viewer

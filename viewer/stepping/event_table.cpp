@@ -1,0 +1,121 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/event_table.h"
+
+#include <QFont>
+#include <utility>
+
+#include "support/number_text.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+void EventTable::set_events(std::vector<StepEvent> events) {
+  if (events == events_) {
+    return;  // a reset in the midst of a double click would lose it
+  }
+  beginResetModel();
+  events_ = std::move(events);
+  endResetModel();
+}
+
+void EventTable::set_current_step(std::int32_t step) {
+  if (step == current_step_) {
+    return;
+  }
+  current_step_ = step;
+  if (!events_.empty()) {
+    emit dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1), {Qt::FontRole});
+  }
+}
+
+int EventTable::row_of_step(std::int32_t step) const {
+  int row = -1;
+  for (int k = 0; k < rowCount() && event(k).step <= step; ++k) {
+    row = k;
+  }
+  return row;
+}
+
+int EventTable::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(events_.size());
+}
+
+int EventTable::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : column_count;
+}
+
+QString EventTable::text(const StepEvent& event, int column) const {
+  switch (column) {
+    case of_step:
+      return QString::number(event.step + 1);
+    case of_below:
+      return QString::number(event.below);
+    case of_kind:
+      return words_of(event.kind);
+    case of_above:
+      return event.above == no_patch ? QString() : QString::number(event.above);
+    case of_area:
+      return event.kind == StepEvent::Kind::edge_on ? QString() : number_text(event.area);
+    case of_parts:
+      return event.above == no_patch ? QString() : QString::number(event.parts);
+    default:
+      return event.kind == StepEvent::Kind::exchange ? number_text(event.pair_area) : QString();
+  }
+}
+
+QVariant EventTable::data(const QModelIndex& index, int role) const {
+  const StepEvent& event = this->event(index.row());
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(event, index.column());
+    case Qt::TextAlignmentRole:
+      return QVariant(index.column() == of_kind ? Qt::AlignLeft | Qt::AlignVCenter
+                                                : Qt::AlignRight | Qt::AlignVCenter);
+    case Qt::ForegroundRole:
+      return event.kind == StepEvent::Kind::exchange ? QVariant(theme::inside.darker(140))
+                                                     : QVariant();
+    case Qt::FontRole: {
+      QFont font;
+      font.setBold(event.step == current_step_);
+      return font;
+    }
+    default:
+      return {};
+  }
+}
+
+QVariant EventTable::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) {
+    return {};
+  }
+  if (role == Qt::ToolTipRole && section == of_parts) {
+    return tr("How many parts of the cut fragment are left in V");
+  }
+  if (role == Qt::ToolTipRole && section == of_area) {
+    return tr("On the transillumination plane: of the polygon, or of the part above it");
+  }
+  if (role == Qt::ToolTipRole && section == of_pair) {
+    return tr("All that the one receives from the other along this direction");
+  }
+  if (role != Qt::DisplayRole) {
+    return {};
+  }
+  switch (section) {
+    case of_step:
+      return tr("Polygon");
+    case of_below:
+      return tr("Patch");
+    case of_kind:
+      return QString();
+    case of_above:
+      return tr("Patch");
+    case of_area:
+      return tr("Area, m²");
+    case of_parts:
+      return tr("Left");
+    default:
+      return tr("Pair, m²");
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,39 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <vector>
+
+#include "state/step_events.h"
+#include "transillum/at.h"
+
+namespace transillum::viewer {
+
+/// Events as a table: step, patch, what it does, to which patch, on how much area.
+class EventTable : public QAbstractTableModel {
+  Q_OBJECT
+
+ public:
+  using QAbstractTableModel::QAbstractTableModel;
+  enum Column { of_step, of_below, of_kind, of_above, of_area, of_parts, of_pair, column_count };
+
+  void set_events(std::vector<StepEvent> events);
+  /// The events of this step stand out.
+  void set_current_step(std::int32_t step);
+  const StepEvent& event(int row) const { return at(events_, row); }
+  /// The last row of a step at or before `step`, or -1.
+  int row_of_step(std::int32_t step) const;
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ private:
+  QString text(const StepEvent& event, int column) const;
+
+  std::vector<StepEvent> events_;
+  std::int32_t current_step_ = -1;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,48 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <vector>
+
+#include "state/focus.h"
+#include "state/selection.h"
+#include "widgets/theme.h"
+
+class QAction;
+class QKeySequence;
+class QMenu;
+
+namespace transillum::viewer {
+
+/// The ways from one moment of a run to another, as a menu, as buttons and as keys.
+class StepActions : public QObject {
+  Q_OBJECT
+
+ public:
+  StepActions(Focus& focus, Selection& selection, QObject* parent = nullptr);
+
+  void add_to(QMenu& menu) const;
+  /// Those with an icon, from the first to the last in time; newest() comes apart.
+  std::vector<QAction*> buttons() const { return buttons_; }
+  QAction* newest() const { return newest_; }
+
+ private:
+  QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& tip,
+               void (StepActions::*what)(Way), Way way);
+  void step(Way way);
+  void phase(Way way);
+  void event(Way way);
+  void exchange(Way way);
+  void direction(Way way);
+  void iteration(Way way);
+  void show_state();
+
+  Focus& focus_;
+  Selection& selection_;
+  std::vector<QAction*> actions_;
+  std::vector<QAction*> buttons_;
+  QAction* newest_;
+  QAction *next_event_, *previous_event_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,145 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/step_panel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "stepping/event_table.h"
+#include "support/number_text.h"
+#include "widgets/figure_table.h"
+
+namespace transillum::viewer {
+
+StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), tabs_(new QTabWidget) {
+  tabs_->setDocumentMode(true);
+  step_ = add_tab(tr("This step"), "step_events");
+  patch_ = add_tab(tr("Selected patch"), "patch_events");
+  line_ = add_tab(tr("Line"), "line_events");
+  step_.view->setColumnHidden(EventTable::of_step, true);
+  for (const Tab& tab : {step_, patch_}) {
+    tab.view->setColumnHidden(EventTable::of_pair, true);
+  }
+  line_.view->setColumnHidden(EventTable::of_parts, true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(tabs_);
+  connect(tabs_, &QTabWidget::currentChanged, this, &StepPanel::show_events);
+  connect(&focus_, &Focus::moved, this, &StepPanel::show_events);
+  connect(&focus_, &Focus::probed, this, [this] {
+    if (focus_.probe()) {
+      tabs_->setCurrentIndex(2);
+    }
+    show_events();
+  });
+  connect(&selection_, &Selection::changed, this, &StepPanel::show_events);
+  show_events();
+}
+
+StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
+  Tab tab{new EventTable(this), new QTableView, new QLabel};
+  tab.words->setWordWrap(true);
+  tab.words->setContentsMargins(10, 4, 10, 4);
+  tab.words->setForegroundRole(QPalette::PlaceholderText);
+  tab.view->setObjectName(QString::fromLatin1(name));
+  tab.view->setModel(tab.table);
+  tab.view->setSelectionBehavior(QAbstractItemView::SelectRows);
+  QHeaderView* header = tab.view->horizontalHeader();
+  header->setSectionResizeMode(QHeaderView::Interactive);
+  header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
+  set_up_figure_table(*tab.view,
+                      {"88888", "88888", "", "88888", "8.888 × 10⁻⁸", "8", "8.888 × 10⁻⁸"});
+
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(tab.words);
+  layout->addWidget(tab.view, 1);
+  tabs_->addTab(page, title);
+  connect(tab.view, &QTableView::clicked, this, [this, tab](const QModelIndex& index) {
+    const StepEvent event = tab.table->event(index.row());
+    selection_.select(index.column() == EventTable::of_below || event.above == no_patch
+                          ? event.below
+                          : event.above);
+  });
+  connect(tab.view, &QTableView::doubleClicked, this, [this, tab](const QModelIndex& index) {
+    Moment to = focus_.moment();
+    to.step = tab.table->event(index.row()).step;
+    focus_.go_to(to);
+  });
+  return tab;
+}
+
+void StepPanel::show_events() {
+  switch (tabs_->currentIndex()) {
+    case 0:
+      return show_step_tab();
+    case 1:
+      return show_patch_tab();
+    default:
+      return show_line_tab();
+  }
+}
+
+void StepPanel::show_step_tab() {
+  const auto map = focus_.map();
+  std::vector<StepEvent> events;
+  if (map) {
+    events = events_of_step(map->history, focus_.moment().step);
+  }
+  step_.words->setText(events.empty() ? tr("Before the first polygon nothing has happened.")
+                                      : tr("What polygon %1 met in V; a click selects a patch.")
+                                            .arg(count_text(focus_.moment().step + 1)));
+  step_.table->set_events(std::move(events));
+}
+
+void StepPanel::show_patch_tab() {
+  const auto map = focus_.map();
+  const PatchId patch = selection_.patch();
+  if (map != listed_map_ || patch != listed_patch_) {
+    listed_map_ = map;
+    listed_patch_ = patch;
+    std::vector<StepEvent> events;
+    if (map) {
+      events = events_of_patch(map->history, patch);
+    }
+    patch_.words->setText(
+        patch == no_patch ? tr("Select a patch to see what this direction does to it.")
+                          : tr("All that direction %1 does to patch %2; a double click goes there.")
+                                .arg(count_text(map ? map->direction + 1 : 0))
+                                .arg(patch));
+    patch_.table->set_events(std::move(events));
+  }
+  patch_.table->set_current_step(focus_.moment().step);
+  const int row = patch_.table->row_of_step(focus_.moment().step);
+  if (row >= 0) {
+    patch_.view->scrollTo(patch_.table->index(row, 0));
+  }
+}
+
+void StepPanel::show_line_tab() {
+  const auto map = focus_.map();
+  std::vector<StepEvent> events;
+  if (map && focus_.probe()) {
+    events = events_at_point(map->history, *focus_.probe());
+  }
+  const auto exchanges = std::count_if(events.begin(), events.end(), [](const StepEvent& event) {
+    return event.kind == StepEvent::Kind::exchange;
+  });
+  line_.words->setText(
+      !focus_.probe() ? tr("Click the map: the patches along that line are listed here.")
+      : events.empty()
+          ? tr("The line meets no patch.")
+          : tr("The patches along the line, from the light down; %1 of them receive there: by the "
+               "fragment under the point, and as a pair along this direction.")
+                .arg(exchanges));
+  line_.table->set_events(std::move(events));
+  line_.table->set_current_step(focus_.moment().step);
+}
+
+}  // namespace transillum::viewer

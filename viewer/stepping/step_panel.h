@@ -1,0 +1,46 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "state/focus.h"
+#include "state/selection.h"
+
+class QLabel;
+class QTabWidget;
+class QTableView;
+
+namespace transillum::viewer {
+
+class EventTable;
+
+/// What happened: in the step, to the selected patch, and along one line of the map.
+class StepPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  StepPanel(Focus& focus, Selection& selection, QWidget* parent = nullptr);
+
+ private:
+  /// One tab: a table, words above it, and what they were made for.
+  struct Tab {
+    EventTable* table;
+    QTableView* view;
+    QLabel* words;
+  };
+  Tab add_tab(const QString& title, const char* name);
+  void show_events();
+  void show_step_tab();
+  void show_patch_tab();
+  void show_line_tab();
+
+  Focus& focus_;
+  Selection& selection_;
+  QTabWidget* tabs_;
+  Tab step_, patch_, line_;
+  std::shared_ptr<const RecordedMap> listed_map_;  ///< what patch_ lists
+  PatchId listed_patch_ = no_patch;
+};
+
+}  // namespace transillum::viewer

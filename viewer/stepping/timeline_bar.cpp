@@ -1,0 +1,110 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/timeline_bar.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "stepping/step_actions.h"
+#include "stepping/timeline_lanes.h"
+#include "support/number_text.h"
+#include "widgets/elided.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QToolButton* button_of(QAction* action) {
+  auto* button = new QToolButton;
+  button->setDefaultAction(action);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  return button;
+}
+
+}  // namespace
+
+TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
+                         QWidget* parent)
+    : QWidget(parent), focus_(focus) {
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 4, 8, 0);
+  row->setSpacing(2);
+  for (QAction* action : actions.buttons()) {
+    row->addWidget(button_of(action));
+  }
+  text_ = new ClauseLabel;
+  text_->setObjectName("timeline_text");
+  stop_ = new QToolButton;
+  stop_->setText(tr("Stop searching"));
+  stop_->setObjectName("stop_seeking");
+  connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
+  QToolButton* newest = button_of(actions.newest());
+  newest->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  row->addSpacing(10);
+  row->addWidget(text_, 1);
+  row->addWidget(stop_);
+  row->addWidget(newest);
+  lanes_ = new TimelineLanes(focus, selection);
+  lanes_->setObjectName("timeline_lanes");
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addLayout(row);
+  layout->addWidget(lanes_, 1);
+  connect(&focus_, &Focus::moved, this, &TimelineBar::show_moment);
+  connect(&focus_, &Focus::wished, this, &TimelineBar::show_moment);
+  connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
+    if (!found) {
+      text_->set_clauses({tr("Nothing found in all directions of the run")});
+    }
+  });
+  connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {
+    text_->set_clauses({tr("The search was stopped: nothing found in the %1 directions so far")
+                            .arg(count_text(searched))});
+  });
+  show_moment();
+}
+
+void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {
+  const SolveProgress& progress = snapshot.progress;
+  const bool between = progress.direction == 0 && progress.iteration > 0;
+  lanes_->set_progress(between ? progress.iteration - 1 : progress.iteration,
+                       between ? snapshot.passes_of(progress.iteration - 1) : progress.direction);
+}
+
+void TimelineBar::show_moment() {
+  stop_->setVisible(focus_.seeking());
+  if (focus_.seeking()) {
+    text_->set_clauses(
+        {tr("Searching direction %1 …").arg(count_text(focus_.wanted().direction + 1))});
+    return;
+  }
+  const auto map = focus_.map();
+  if (!map) {
+    text_->set_clauses({});
+    return;
+  }
+  const std::int32_t k = focus_.moment().step;
+  if (k < 0) {
+    text_->set_clauses({tr("Before the first polygon: V is empty")});
+    return;
+  }
+  const MapHistory::Step& step = map->history.step(k);
+  const QString patch = tr("polygon of patch <b>%1</b>").arg(step.patch);
+  if (step.row == MapRecord::no_row) {
+    text_->set_clauses({tr("%1 is seen edge-on and takes no part").arg(patch)});
+  } else {
+    text_->set_clauses(
+        {patch + QLatin1Char(' ') +
+             (step.front_facing ? tr("faces the light and receives") : tr("shines down")),
+         tr("cuts %1, exchanges light with %2")
+             .arg(count_text(step.cut), count_text(step.exchanges)),
+         tr("V has %1 fragments").arg(count_text(step.map_size))});
+  }
+}
+
+}  // namespace transillum::viewer

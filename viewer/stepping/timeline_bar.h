@@ -1,0 +1,39 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "model/snapshot.h"
+#include "state/focus.h"
+#include "state/selection.h"
+
+class QToolButton;
+
+namespace transillum::viewer {
+
+class ClauseLabel;
+class StepActions;
+class TimelineLanes;
+
+/// Where in the run the window looks, and how to get elsewhere.
+class TimelineBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
+              QWidget* parent = nullptr);
+
+  void show_snapshot(const SolverSnapshot& snapshot);
+  TimelineLanes* lanes() const { return lanes_; }
+
+ private:
+  void show_moment();
+
+  Focus& focus_;
+  ClauseLabel* text_;
+  QToolButton* stop_;
+  TimelineLanes* lanes_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,297 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "stepping/timeline_lanes.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "support/number_text.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// Left and right of a lane.
+double name_room() { return 78 * theme::scale(); }
+double value_room() { return 128 * theme::scale(); }
+double line() { return 18 * theme::scale(); }  // height of the upper lanes
+
+}  // namespace
+
+TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection) {
+  setFocusPolicy(Qt::StrongFocus);
+  setToolTip(
+      tr("Press or drag to go to a moment; with Shift a pixel is one polygon.\n"
+         "Arrow keys: one polygon; with Ctrl one direction; Page up and down: a twentieth"));
+  connect(&focus_, &Focus::moved, this, [this] {
+    if (focus_.map() != counted_) {
+      count_columns();
+    }
+    update();
+  });
+  connect(&focus_, &Focus::wished, this, qOverload<>(&QWidget::update));
+  connect(&selection_, &Selection::changed, this, &TimelineLanes::count_columns);
+}
+
+void TimelineLanes::set_marks(Marks marks) {
+  marks_ = std::move(marks);
+  count_columns();
+}
+
+void TimelineLanes::set_progress(int iteration, int directions) {
+  done_iteration_ = iteration;
+  done_directions_ = directions;
+  update();
+}
+
+QRectF TimelineLanes::rect_of(Lane lane) const {
+  const double width_left = std::max(width() - name_room() - value_room(), 20.0);
+  const double top = lane == Lane::iterations   ? 3
+                     : lane == Lane::directions ? 3 + line()
+                                                : 7 + 2 * line();
+  const double bottom = lane == Lane::steps ? height() - 5 : top + line() - 4;
+  return {name_room(), top, width_left, bottom - top};
+}
+
+double TimelineLanes::position(const QRectF& lane, int k, int count) {
+  return lane.left() + lane.width() * (k + 0.5) / std::max(count, 1);
+}
+
+int TimelineLanes::index(const QRectF& lane, double x, int count) {
+  const double share = (x - lane.left()) / lane.width();
+  return std::clamp(static_cast<int>(std::floor(share * count)), 0, std::max(count - 1, 0));
+}
+
+// The lane of steps begins with the empty map before the first.
+int TimelineLanes::count_of(Lane lane) const {
+  switch (lane) {
+    case Lane::iterations:
+      return focus_.iterations();
+    case Lane::directions:
+      return focus_.passes_of(focus_.wanted().iteration);
+    default:
+      return focus_.map() ? focus_.map()->history.step_count() + 1 : 0;
+  }
+}
+
+int TimelineLanes::index_at(Lane lane) const {
+  switch (lane) {
+    case Lane::iterations:
+      return focus_.wanted().iteration;
+    case Lane::directions:
+      return focus_.wanted().direction;
+    default:
+      return focus_.moment().step + 1;
+  }
+}
+
+void TimelineLanes::count_columns() {
+  counted_ = focus_.map();
+  columns_.clear();
+  update();
+  if (!counted_) {
+    return;
+  }
+  const QRectF lane = rect_of(Lane::steps);
+  columns_.resize(static_cast<std::size_t>(std::ceil(lane.width())));
+  const MapHistory& history = counted_->history;
+  const auto column = [&](std::int32_t step) -> Column& {
+    const double x = position(lane, step + 1, history.step_count() + 1) - lane.left();
+    return columns_[std::min(static_cast<std::size_t>(x), columns_.size() - 1)];
+  };
+  for (std::int32_t k = 0; k < history.step_count(); ++k) {
+    column(k).cuts += history.step(k).cut;
+    column(k).exchanges += history.step(k).exchanges;
+  }
+  for (const std::int32_t k : history.steps_of(selection_.patch())) {
+    column(k).selected = true;
+  }
+  if (marks_) {
+    for (const std::int32_t k : marks_(history)) {
+      column(k).marked = true;
+    }
+  }
+}
+
+void TimelineLanes::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const bool any = focus_.passes() > 0;
+  const auto value = [&](Lane lane, int at) {
+    return any ? tr("%1 of %2").arg(count_text(at), count_text(count_of(lane))) : QString();
+  };
+  draw_lane(painter, Lane::iterations, tr("Iteration"), index_at(Lane::iterations),
+            count_of(Lane::iterations), value(Lane::iterations, index_at(Lane::iterations) + 1));
+  draw_lane(painter, Lane::directions, tr("Direction"), index_at(Lane::directions),
+            count_of(Lane::directions), value(Lane::directions, index_at(Lane::directions) + 1));
+  const int steps = std::max(count_of(Lane::steps) - 1, 0);
+  draw_lane(painter, Lane::steps, tr("Polygon"), index_at(Lane::steps), count_of(Lane::steps),
+            focus_.map() ? tr("%1 of %2").arg(count_text(index_at(Lane::steps)), count_text(steps))
+                         : QString());
+}
+
+void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name, int at, int count,
+                              const QString& value) const {
+  const QRectF rect = rect_of(lane);
+  painter.setPen(theme::ink_dim);
+  const QRectF name_rect(10, rect.top() - 4, name_room() - 18, std::min(rect.height() + 8, 26.0));
+  painter.drawText(name_rect, Qt::AlignVCenter | Qt::AlignLeft, name);
+  painter.setPen(theme::ink);
+  const QRectF value_rect(rect.right() + 10, name_rect.top(), value_room() - 14,
+                          name_rect.height());
+  painter.drawText(value_rect, Qt::AlignVCenter | Qt::AlignLeft, value);
+
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme::hover);
+  painter.drawRoundedRect(rect, 2, 2);
+  if (count == 0 || focus_.passes() == 0) {
+    return;
+  }
+  // What has been computed so far.
+  QRectF done = rect;
+  const bool newest = focus_.wanted().iteration >= done_iteration_;
+  if (lane == Lane::directions && newest) {
+    done.setWidth(rect.width() * done_directions_ / std::max(count, 1));
+  }
+  if (lane != Lane::steps) {
+    painter.setBrush(QColor(0xb9, 0xcc, 0xe6));
+    painter.drawRoundedRect(done, 2, 2);
+  } else {
+    draw_columns(painter);
+  }
+  // Few cells are told apart.
+  if (count > 1 && rect.width() / count > 5) {
+    painter.setPen(QPen(theme::window, 1));
+    for (int k = 1; k < count; ++k) {
+      const double x = rect.left() + rect.width() * k / count;
+      painter.drawLine(QPointF(x, rect.top()), QPointF(x, rect.bottom()));
+    }
+  }
+  const double x = position(rect, at, count);
+  const double half = std::clamp(rect.width() / count / 2, 1.5, 5.0);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme::accent);
+  painter.drawRoundedRect(QRectF(x - half, rect.top() - 2, 2 * half, rect.height() + 4), 1.5, 1.5);
+}
+
+void TimelineLanes::draw_columns(QPainter& painter) const {
+  const QRectF lane = rect_of(Lane::steps);
+  int most = 1;
+  for (const Column& column : columns_) {
+    most = std::max(most, column.cuts);
+  }
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  const double room = lane.height() - 9;  // marks lie above, the selected patch's below
+  const double base = lane.bottom() - 4;
+  const auto height = [&](int count) {
+    return room * std::sqrt(count / static_cast<double>(most));
+  };
+  // Few steps have room for wide bars.
+  const double cell = lane.width() / std::max(count_of(Lane::steps), 1);
+  const double width = std::max(std::floor(cell) - 1, 1.0);
+  const auto draw_bar = [&](double x, int count, const QColor& color) {
+    painter.fillRect(QRectF(std::round(x - width / 2), base - height(count), width, height(count)),
+                     color);
+  };
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const double x = lane.left() + static_cast<double>(k);
+    draw_bar(x, columns_[k].cuts, {0x9a, 0xa5, 0xb4});
+    draw_bar(x, columns_[k].exchanges, theme::inside);
+  }
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const double x = lane.left() + static_cast<double>(k);
+    if (columns_[k].selected) {
+      painter.fillRect(QRectF(x, base, 2, 4), theme::selection);
+    }
+    if (columns_[k].marked) {
+      painter.fillRect(QRectF(x - 1, lane.top(), 3, 4), QColor(0xc6, 0x28, 0x28));
+    }
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+}
+
+void TimelineLanes::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  count_columns();
+}
+
+void TimelineLanes::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || focus_.passes() == 0) {
+    return;
+  }
+  const double y = event->localPos().y();
+  scrubbed_ = Lane::steps;
+  for (const Lane lane : {Lane::directions, Lane::iterations}) {
+    if (y < rect_of(lane).bottom() + 2) {
+      scrubbed_ = lane;
+    }
+  }
+  scrubbing_ = true;
+  press_x_ = event->localPos().x();
+  if (!(event->modifiers() & Qt::ShiftModifier)) {
+    scrub(press_x_);
+  }
+  press_index_ = index_at(scrubbed_);
+}
+
+void TimelineLanes::mouseMoveEvent(QMouseEvent* event) {
+  if (!scrubbing_) {
+    return;
+  }
+  const double x = event->localPos().x();
+  if (!(event->modifiers() & Qt::ShiftModifier)) {
+    scrub(x);
+    return;
+  }
+  const QRectF rect = rect_of(scrubbed_);
+  scrub(position(rect, press_index_ + static_cast<int>(x - press_x_), count_of(scrubbed_)));
+}
+
+void TimelineLanes::mouseReleaseEvent(QMouseEvent*) { scrubbing_ = false; }
+
+void TimelineLanes::scrub(double x) {
+  const int k = index(rect_of(scrubbed_), x, count_of(scrubbed_));
+  Moment to = focus_.wanted();
+  to.step = focus_.moment().step;
+  switch (scrubbed_) {
+    case Lane::iterations:
+      to.iteration = k;
+      break;
+    case Lane::directions:
+      to.direction = k;
+      break;
+    case Lane::steps:
+      to.step = k - 1;
+      break;
+  }
+  focus_.go_to(to);
+}
+
+void TimelineLanes::keyPressEvent(QKeyEvent* event) {
+  const bool by_direction = event->modifiers() & Qt::ControlModifier;
+  const auto move = [&](int way) {
+    by_direction ? focus_.direction_by(way) : static_cast<void>(focus_.step_by(way));
+  };
+  const int page = std::max(count_of(Lane::steps) / 20, 1);
+  switch (event->key()) {
+    case Qt::Key_Right:
+      return move(1);
+    case Qt::Key_Left:
+      return move(-1);
+    case Qt::Key_PageDown:
+      focus_.step_by(page);
+      return;
+    case Qt::Key_PageUp:
+      focus_.step_by(-page);
+      return;
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+}  // namespace transillum::viewer

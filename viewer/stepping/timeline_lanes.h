@@ -1,0 +1,72 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <functional>
+#include <vector>
+
+#include "state/focus.h"
+#include "state/selection.h"
+
+namespace transillum::viewer {
+
+/// The time of a run in three lanes: iteration steps, the directions of one, the polygons of one of
+/// those. Press or drag goes to a moment; with Shift held, a pixel is one unit.
+class TimelineLanes : public QWidget {
+  Q_OBJECT
+
+ public:
+  TimelineLanes(Focus& focus, Selection& selection, QWidget* parent = nullptr);
+
+  enum class Lane { iterations, directions, steps };
+  /// Where a lane lies, in logical pixels.
+  QRectF rect_of(Lane lane) const;
+  /// The position on its lane of the `k`-th of `count`, and back.
+  static double position(const QRectF& lane, int k, int count);
+  static int index(const QRectF& lane, double x, int count);
+
+  /// Steps to be marked above the lane of steps, of each history shown.
+  using Marks = std::function<std::vector<std::int32_t>(const MapHistory&)>;
+  void set_marks(Marks marks);
+  /// Anew, where what the marks depend on has changed.
+  void count_columns();
+  /// How many directions of the newest iteration step are done.
+  void set_progress(int iteration, int directions);
+
+  QSize sizeHint() const override { return {900, 84}; }
+  QSize minimumSizeHint() const override { return {300, 72}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  /// What the steps of one pixel column did.
+  struct Column {
+    int cuts = 0, exchanges = 0;
+    bool selected = false, marked = false;
+  };
+  void scrub(double x);
+  void draw_lane(QPainter& painter, Lane lane, const QString& name, int at, int count,
+                 const QString& value) const;
+  void draw_columns(QPainter& painter) const;
+  int count_of(Lane lane) const;
+  int index_at(Lane lane) const;
+
+  Focus& focus_;
+  Selection& selection_;
+  Marks marks_;
+  int done_iteration_ = 0, done_directions_ = 0;
+  std::shared_ptr<const RecordedMap> counted_;  ///< what columns_ are of
+  std::vector<Column> columns_;
+  bool scrubbing_ = false;
+  Lane scrubbed_ = Lane::steps;
+  double press_x_ = 0;
+  int press_index_ = 0;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,63 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "transillum/errors.h"
+#include "transillum/vec3.h"
+
+namespace transillum::viewer {
+
+/// Reads an object of a JSON file key by key. Whatever is wrong throws an InputError that says
+/// where: "room.json, page 3, camera: …".
+class JsonObject {
+ public:
+  /// `where` opens every message. @throws InputError where `value` is no object.
+  JsonObject(const nlohmann::json& value, std::string where)
+      : value_(value), where_(std::move(where)) {
+    if (!value_.is_object()) {
+      fail("must be an object { … }");
+    }
+  }
+
+  /// The value of a key; null where it is missing, or null in the file.
+  const nlohmann::json* find(const std::string& key) {
+    known_.insert(key);
+    const auto found = value_.find(key);
+    return found == value_.end() || found->is_null() ? nullptr : &*found;
+  }
+
+  /// The same, of a type that it must have; `value` stays where there is none.
+  void read(const std::string& key, std::string& value);
+  void read(const std::string& key, bool& value);
+  void read(const std::string& key, double& value);
+  /// @param least,most the range it must be in.
+  void read(const std::string& key, int& value, int least, int most);
+  void read(const std::string& key, Vec3& value);
+
+  /// One message for a key.
+  [[noreturn]] void fail_at(const std::string& key, const std::string& what) const {
+    throw InputError(where_ + ", " + key + ": " + what);
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(where_ + ": " + what); }
+  std::string where(const std::string& key) const { return where_ + ", " + key; }
+
+  /// To be called at the end. @throws InputError naming a key that nobody asked for.
+  void done() const;
+
+ private:
+  const nlohmann::json& value_;
+  std::string where_;
+  std::set<std::string> known_;
+};
+
+/// Three numbers [x, y, z]. @throws InputError that begins with `where`.
+Vec3 vec3_from_json(const nlohmann::json& value, const std::string& where);
+nlohmann::json to_json(const Vec3& v);
+
+/// The JSON of a whole file. @throws InputError naming the file, and the line where it is no JSON.
+nlohmann::json parse_json(const std::string& text, const std::string& name);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,81 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "support/number_text.h"
+
+#include <QStringList>
+#include <cmath>
+
+namespace transillum::viewer {
+
+QString count_text(std::int64_t value) {
+  QString digits = QString::number(value < 0 ? -value : value);
+  for (qsizetype at = digits.size() - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<int>(at), QChar(0x2009));
+  }
+  return value < 0 ? QChar(0x2212) + digits : digits;
+}
+
+QString number_text(double value) {
+  if (!std::isfinite(value)) {
+    return QStringLiteral("–");
+  }
+  const double size = std::abs(value);
+  if (size >= 1e4 && size < 1e7) {
+    return count_text(std::llround(value));
+  }
+  QString text = QString::number(value, 'g', 4);
+  const auto exponent_at = text.indexOf(QLatin1Char('e'));
+  if (exponent_at >= 0) {
+    const QString power = power_of_ten_text(text.mid(exponent_at + 1).toInt());
+    const QString lead = text.left(exponent_at);
+    text = lead == QLatin1String("1") ? power : lead + QStringLiteral(" × ") + power;
+  }
+  return text.replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+QString power_of_ten_text(int exponent) {
+  static const QString superscripts = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
+  QString text = QStringLiteral("10");
+  if (exponent < 0) {
+    text += QChar(0x207B);
+  }
+  for (const QChar digit : QString::number(std::abs(exponent))) {
+    text += superscripts[digit.digitValue()];
+  }
+  return text;
+}
+
+QString duration_text(double seconds) {
+  if (!(seconds < 360000)) {
+    return QStringLiteral("over 100 h");
+  }
+  const auto whole = static_cast<int>(std::ceil(seconds));
+  if (whole < 60) {
+    return QStringLiteral("%1 s").arg(whole);
+  }
+  if (whole < 3600) {
+    return QStringLiteral("%1 min %2 s").arg(whole / 60).arg(whole % 60, 2, 10, QLatin1Char('0'));
+  }
+  return QStringLiteral("%1 h %2 min")
+      .arg(whole / 3600)
+      .arg(whole % 3600 / 60, 2, 10, QLatin1Char('0'));
+}
+
+QString capitalized(const QString& text) { return text.left(1).toUpper() + text.mid(1); }
+
+QString rgb_text(const Rgb& value) {
+  return QStringList{number_text(value.r), number_text(value.g), number_text(value.b)}.join(
+      QStringLiteral("   "));
+}
+
+QString vector_text(const Vec3& value) {
+  const auto coordinate = [](double x) {
+    // No "-0.000".
+    const double rounded = std::round(x * 1000) / 1000;
+    return QString::number(rounded == 0 ? 0.0 : rounded, 'f', 3)
+        .replace(QLatin1Char('-'), QChar(0x2212));
+  };
+  return QStringLiteral("(%1, %2, %3)")
+      .arg(coordinate(value.x), coordinate(value.y), coordinate(value.z));
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,122 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "tree/tree_browser.h"
+
+#include <QEvent>
+#include <QHeaderView>
+#include <QTreeView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "tree/order_bar.h"
+#include "tree/tree_model.h"
+#include "tree/tree_text.h"
+
+namespace transillum::viewer {
+
+TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection) {
+  model_ = new TreeModel(this);
+  view_ = new QTreeView;
+  view_->setObjectName("tree_browser");
+  view_->setModel(model_);
+  view_->setFrameShape(QFrame::NoFrame);
+  view_->setUniformRowHeights(true);
+  view_->setAlternatingRowColors(true);
+  view_->setExpandsOnDoubleClick(false);
+  view_->setIndentation(10);
+  view_->setMinimumHeight(60);
+  view_->header()->setStretchLastSection(false);
+  view_->header()->setSectionResizeMode(TreeModel::of_order, QHeaderView::Stretch);
+  const auto go_to = [this](std::int32_t step) {
+    Moment to = focus_.moment();
+    to.step = step;
+    focus_.go_to(to);
+  };
+  auto* bars = new OrderBar(focus_, selection_, this);
+  bars->set_wishes(
+      [this](std::int32_t step) {
+        if (const auto map = focus_.map()) {
+          selection_.select(map->history.step(step).patch);
+        }
+      },
+      go_to);
+  view_->setItemDelegateForColumn(TreeModel::of_order, bars);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(view_);
+  connect(view_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
+    const PatchId patch = patch_of(model_->outline(), model_->visit(index));
+    if (index.column() != TreeModel::of_order && patch != no_patch) {
+      selection_.select(patch);
+    }
+  });
+  connect(view_, &QTreeView::doubleClicked, this, [this, go_to](const QModelIndex& index) {
+    const TreeVisit& visit = model_->visit(index);
+    // Of a free plane, the first polygon behind it.
+    if (index.column() != TreeModel::of_order) {
+      go_to(visit.plane_begin < visit.end ? visit.plane_begin : visit.begin);
+    }
+  });
+  connect(&selection_, &Selection::changed, view_->viewport(), qOverload<>(&QWidget::update));
+  set_widths();
+}
+
+void TreeBrowser::show_moment(const std::shared_ptr<const TreeOutline>& outline) {
+  outline_ = outline;
+  if (!isVisible()) {
+    return;
+  }
+  const auto map = focus_.map();
+  if (!map || !outline) {
+    model_->show_moment(nullptr, {}, -1);
+    opened_.clear();
+    return;
+  }
+  model_->show_moment(outline, map->record().frame.omega, std::max(focus_.moment().step, 0));
+  open_path();
+  view_->viewport()->update();
+}
+
+void TreeBrowser::open_path() {
+  // What an earlier path opened is closed again, what a user opened is not.
+  const std::vector<std::int32_t>& path = model_->path();
+  const auto left = std::mismatch(opened_.begin(), opened_.end(), path.begin(), path.end()).first;
+  for (auto node = opened_.end(); node != left; --node) {
+    view_->collapse(model_->index_of(*std::prev(node)));
+  }
+  opened_.erase(left, opened_.end());
+  for (const std::int32_t node : path) {
+    const QModelIndex index = model_->index_of(node);
+    if (node == path.back() || view_->isExpanded(index)) {
+      continue;
+    }
+    view_->expand(index);
+    opened_.push_back(node);
+  }
+  if (!path.empty()) {
+    view_->scrollTo(model_->index_of(path.back()));
+  }
+}
+
+void TreeBrowser::set_widths() {
+  const auto advance = [this](const char* text) { return fontMetrics().horizontalAdvance(text); };
+  view_->header()->resizeSection(TreeModel::of_plane, advance("patch 88888 + 8") + 150);
+  view_->header()->resizeSection(TreeModel::of_side, advance("front, first") + 14);
+  view_->header()->resizeSection(TreeModel::of_count, advance("Polygons") + 14);
+}
+
+void TreeBrowser::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  show_moment(outline_);
+}
+
+void TreeBrowser::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) {
+    set_widths();
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,164 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "tree/tree_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "tree/tree_text.h"
+#include "widgets/table_cells.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+std::int32_t node_at(const QModelIndex& index) {
+  return static_cast<std::int32_t>(index.internalId());
+}
+
+}  // namespace
+
+void TreeModel::show_moment(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
+                            std::int32_t step) {
+  if (outline != outline_) {
+    beginResetModel();
+    outline_ = std::move(outline);
+    visits_ = outline_ ? outline_->visits(omega) : std::vector<TreeVisit>();
+    omega_ = omega;
+    endResetModel();
+  } else if (outline_ && omega != omega_) {
+    show_direction(omega);
+  }
+  step_ = step;
+  path_.clear();
+  if (outline_) {
+    for (const TreeVisit& visit : outline_->path_to(step, omega)) {
+      path_.push_back(visit.node);
+    }
+  }
+}
+
+void TreeModel::show_direction(const Vec3& omega) {
+  emit layoutAboutToBeChanged();
+  omega_ = omega;
+  visits_ = outline_->visits(omega);
+  const QModelIndexList before = persistentIndexList();
+  QModelIndexList after;
+  for (const QModelIndex& index : before) {
+    after << index_of(node_at(index), index.column());
+  }
+  changePersistentIndexList(before, after);
+  emit layoutChanged();
+}
+
+const TreeVisit& TreeModel::visit(const QModelIndex& index) const {
+  return visit_of(node_at(index));
+}
+
+QModelIndex TreeModel::index_of(std::int32_t node, int column) const {
+  const std::int32_t above = outline_->parent(node);
+  int row = 0;
+  if (above != BspTree::no_node) {
+    const auto sides = outline_->children(visit_of(above));
+    row = static_cast<int>(std::find(sides.begin(), sides.end(), node) - sides.begin());
+  }
+  return createIndex(row, column, static_cast<quintptr>(node));
+}
+
+QModelIndex TreeModel::index(int row, int column, const QModelIndex& parent) const {
+  if (row < 0 || row >= rowCount(parent) || column < 0 || column >= column_count) {
+    return {};
+  }
+  const std::int32_t node =
+      parent.isValid() ? at(outline_->children(visit(parent)), row) : outline_->tree().root();
+  return createIndex(row, column, static_cast<quintptr>(node));
+}
+
+QModelIndex TreeModel::parent(const QModelIndex& index) const {
+  const std::int32_t above = index.isValid() ? outline_->parent(node_at(index)) : BspTree::no_node;
+  return above == BspTree::no_node ? QModelIndex() : index_of(above);
+}
+
+int TreeModel::rowCount(const QModelIndex& parent) const {
+  if (!parent.isValid()) {
+    return visits_.empty() ? 0 : 1;
+  }
+  return parent.column() == 0 ? static_cast<int>(outline_->children(visit(parent)).size()) : 0;
+}
+
+int TreeModel::columnCount(const QModelIndex&) const { return column_count; }
+
+bool TreeModel::on_path(std::int32_t node) const {
+  return std::find(path_.begin(), path_.end(), node) != path_.end();
+}
+
+QString TreeModel::text(const TreeVisit& visit, int column) const {
+  switch (column) {
+    case of_plane:
+      return plane_name(*outline_, visit);
+    case of_side: {
+      const std::int32_t above = outline_->parent(visit.node);
+      if (above == BspTree::no_node) {
+        return tr("all");
+      }
+      const bool front = outline_->node(above).front == visit.node;
+      const bool first = visit.begin < visit_of(above).plane_begin;
+      const QString side = front ? tr("front") : tr("back");
+      return first ? tr("%1, first").arg(side) : tr("%1, then").arg(side);
+    }
+    case of_count:
+      return count_text(visit.end - visit.begin);
+    default:
+      return {};
+  }
+}
+
+QVariant TreeModel::data(const QModelIndex& index, int role) const {
+  const TreeVisit& visit = this->visit(index);
+  const bool to_come = visit.begin > step_;
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(visit, index.column());
+    case Qt::ToolTipRole:
+      return explanation(*outline_, visit);
+    case tree_visit_role:
+      return QVariant::fromValue(visit);
+    case Qt::TextAlignmentRole:
+      return QVariant(index.column() == of_count ? Qt::AlignRight | Qt::AlignVCenter
+                                                 : Qt::AlignLeft | Qt::AlignVCenter);
+    case Qt::ForegroundRole:
+      return on_path(visit.node) ? QVariant(theme::accent)
+             : to_come           ? QVariant(theme::ink_dim)
+                                 : QVariant();
+    case Qt::FontRole:
+      return font_cell(!path_.empty() && visit.node == path_.back());
+    default:
+      return {};
+  }
+}
+
+QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) {
+    return {};
+  }
+  const auto pick = [role](const QString& name, const QString& tip) {
+    return head_cell(role, name, tip);
+  };
+  switch (section) {
+    case of_plane:
+      return pick(tr("Plane"), tr("Its patch, and how many more lie in it; a free plane lies "
+                                  "between patches. Blue: on the way to the polygon in focus"));
+    case of_side:
+      return pick(tr("Lies in"), tr("On which side of the plane above it lies, and whether that "
+                                    "side comes first along this direction"));
+    case of_order:
+      return pick(tr("In order"), tr("The polygons below this plane: those done dark, to come "
+                                     "pale, the plane's own yellow, the selected patch's marked"));
+    default:
+      return pick(tr("Polygons"), tr("How many lie in and below the plane"));
+  }
+}
+
+}  // namespace transillum::viewer

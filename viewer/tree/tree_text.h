@@ -1,0 +1,27 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QMetaType>
+#include <QString>
+
+#include "tree/tree_outline.h"
+
+Q_DECLARE_METATYPE(transillum::viewer::TreeVisit)
+
+namespace transillum::viewer {
+
+/// Under which models of the tree give a row's TreeVisit.
+constexpr int tree_visit_role = Qt::UserRole;
+
+/// A patch that lies in the node's plane; no_patch for a free one.
+PatchId patch_of(const TreeOutline& outline, const TreeVisit& visit);
+/// "patch 12 + 3", "free plane".
+QString plane_name(const TreeOutline& outline, const TreeVisit& visit);
+/// "the plane of patch 12", "a free plane".
+QString plane_words(const TreeOutline& outline, const TreeVisit& visit);
+/// n·omega with its sign.
+QString cosine_text(double cosine);
+/// What the plane parts, and in which order, in three lines.
+QString explanation(const TreeOutline& outline, const TreeVisit& visit);
+
+}  // namespace transillum::viewer

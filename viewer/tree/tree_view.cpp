@@ -1,0 +1,154 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "tree/tree_view.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "support/number_text.h"
+#include "tree/order_bar.h"
+#include "tree/tree_browser.h"
+#include "tree/tree_path_table.h"
+#include "tree/tree_text.h"
+#include "widgets/figure_table.h"
+
+namespace transillum::viewer {
+
+TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection) {
+  words_ = new QLabel;
+  words_->setObjectName("tree_words");
+  words_->setWordWrap(true);
+  words_->setContentsMargins(10, 4, 10, 4);
+  words_->setForegroundRole(QPalette::PlaceholderText);
+  path_ = new TreePathTable(this);
+  table_ = new QTableView;
+  table_->setObjectName("tree_path");
+  table_->setModel(path_);
+  table_->setSelectionMode(QAbstractItemView::NoSelection);
+  table_->setFocusPolicy(Qt::NoFocus);
+  table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
+  set_up_figure_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
+  auto* bars = new OrderBar(focus_, selection_, this);
+  bars->set_wishes([this](std::int32_t step) { select_step(step); },
+                   [this](std::int32_t step) { go_to_step(step); });
+  table_->setItemDelegateForColumn(TreePathTable::of_order, bars);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(words_);
+  browser_ = new TreeBrowser(focus_, selection_);
+  tabs_ = new QTabWidget;
+  tabs_->setObjectName("tree_tabs");
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(table_, tr("Way to the polygon"));
+  tabs_->addTab(browser_, tr("Whole tree"));
+  layout->addWidget(tabs_, 1);
+  const auto patch_at = [this](const QModelIndex& index) {
+    return patch_of(path_->outline(), path_->visit(index.row()));
+  };
+  const auto in_plane = [patch_at](const QModelIndex& index) {
+    return index.column() != TreePathTable::of_order && patch_at(index) != no_patch;
+  };
+  connect(table_, &QTableView::clicked, this, [this, in_plane, patch_at](const QModelIndex& index) {
+    if (in_plane(index)) {
+      selection_.select(patch_at(index));
+    }
+  });
+  connect(table_, &QTableView::doubleClicked, this, [this, in_plane](const QModelIndex& index) {
+    if (in_plane(index)) {
+      go_to_step(path_->visit(index.row()).plane_begin);
+    }
+  });
+  connect(&focus_, &Focus::moved, this, &TreeView::show_moment);
+  connect(&selection_, &Selection::changed, this, [this] {
+    show_words();
+    table_->viewport()->update();
+  });
+  show_moment();
+}
+
+void TreeView::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  show_moment();
+}
+
+void TreeView::show_moment() {
+  if (!isVisible()) {
+    return;
+  }
+  const auto map = focus_.map();
+  if (!map) {
+    outline_ = nullptr;
+    path_->show_path(nullptr, {}, -1);
+  } else {
+    if (!outline_ || &outline_->tree() != map->loaded->tree.get()) {
+      outline_ = std::make_shared<const TreeOutline>(map->loaded->tree);
+    }
+    // Before the first polygon: the way to it.
+    const std::int32_t step = std::max(focus_.moment().step, 0);
+    path_->show_path(outline_, outline_->path_to(step, map->record().frame.omega), step);
+    table_->scrollToBottom();
+    table_->viewport()->update();
+  }
+  browser_->show_moment(outline_);
+  show_words();
+}
+
+void TreeView::show_words() {
+  const auto map = focus_.map();
+  const int rows = path_->rowCount();
+  if (!map || rows == 0) {
+    words_->setText(tr("The planes that sort the polygons appear with the first direction."));
+    return;
+  }
+  const std::int32_t step = path_->step();
+  words_->setText(tr("Why polygon %1, of patch %2, comes when it does: of each plane, what lies on "
+                     "the side that ω points to comes first. %3")
+                      .arg(count_text(step + 1))
+                      .arg(map->history.step(step).patch)
+                      .arg(words_of_selection()));
+}
+
+QString TreeView::words_of_selection() const {
+  const auto map = focus_.map();
+  const PatchId patch = selection_.patch();
+  const MapHistory& history = map->history;
+  if (patch == no_patch || history.step(path_->step()).patch == patch) {
+    return {};
+  }
+  const auto steps = history.steps_of(patch);
+  const auto own = std::find_if(steps.begin(), steps.end(),
+                                [&](std::int32_t k) { return history.step(k).patch == patch; });
+  if (own == steps.end()) {
+    return {};
+  }
+  // The lowest plane above both is the one that parts them.
+  int row = path_->rowCount() - 1;
+  while (row > 0 && !path_->visit(row).holds(*own)) {
+    --row;
+  }
+  const QString when = *own < path_->step() ? tr("before") : tr("after");
+  return tr("Patch %1 comes %2 it, parted by %3.")
+      .arg(patch)
+      .arg(when, plane_words(*outline_, path_->visit(row)));
+}
+
+void TreeView::select_step(std::int32_t step) {
+  if (const auto map = focus_.map()) {
+    selection_.select(map->history.step(step).patch);
+  }
+}
+
+void TreeView::go_to_step(std::int32_t step) {
+  Moment to = focus_.moment();
+  to.step = step;
+  focus_.go_to(to);
+}
+
+}  // namespace transillum::viewer

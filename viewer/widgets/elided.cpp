@@ -1,0 +1,69 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "widgets/elided.h"
+
+#include <QEvent>
+#include <QStyleOptionComboBox>
+#include <QStylePainter>
+#include <QTextDocument>
+
+namespace transillum::viewer {
+
+void ElidedComboBox::paintEvent(QPaintEvent*) {
+  QStyleOptionComboBox option;
+  initStyleOption(&option);
+  if (currentIndex() < 0) {
+    option.palette.setBrush(QPalette::ButtonText, option.palette.placeholderText());
+    option.currentText = placeholderText();
+  }
+  const QRect room =
+      style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+  option.currentText =
+      fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - 4);
+  QStylePainter painter(this);
+  painter.drawComplexControl(QStyle::CC_ComboBox, option);
+  painter.drawControl(QStyle::CE_ComboBoxLabel, option);
+}
+
+ClauseLabel::ClauseLabel(QWidget* parent) : QLabel(parent) {
+  setTextFormat(Qt::RichText);
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+}
+
+void ClauseLabel::set_clauses(const QStringList& clauses) {
+  if (clauses == clauses_) {
+    return;
+  }
+  clauses_ = clauses;
+  fit();
+}
+
+void ClauseLabel::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  fit();
+}
+
+void ClauseLabel::changeEvent(QEvent* event) {
+  QLabel::changeEvent(event);
+  if (event->type() == QEvent::FontChange) {
+    fit();
+  }
+}
+
+void ClauseLabel::fit() {
+  const QString between = QStringLiteral(" · ");
+  QTextDocument measured;
+  measured.setDefaultFont(font());
+  measured.setDocumentMargin(0);
+  QString words = clauses_.join(between);
+  for (int kept = clauses_.size() - 1; kept > 0; --kept) {
+    measured.setHtml(words);
+    if (measured.idealWidth() <= width()) {
+      break;
+    }
+    words = QStringList(clauses_.mid(0, kept)).join(between) + QStringLiteral(" …");
+  }
+  setText(words);
+  setToolTip(clauses_.join(between));
+}
+
+}  // namespace transillum::viewer

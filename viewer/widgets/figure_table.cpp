@@ -1,0 +1,71 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "widgets/figure_table.h"
+
+#include <QEvent>
+#include <QHeaderView>
+#include <QTableView>
+#include <algorithm>
+#include <utility>
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int row_margin = 6, column_margin = 10;
+
+/// Measures a table anew whenever its type changes.
+class TypeFollower : public QObject {
+ public:
+  TypeFollower(QTableView& table, QStringList widest)
+      : QObject(&table), table_(table), widest_(std::move(widest)) {
+    table_.installEventFilter(this);
+    measure();
+  }
+
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+      measure();
+    }
+    return false;
+  }
+
+ private:
+  void measure() {
+    table_.verticalHeader()->setDefaultSectionSize(table_.fontMetrics().height() + row_margin);
+    QFont bold = table_.font();
+    bold.setBold(true);  // so is the row of what is looked at
+    const QFontMetrics type(bold), header_type(table_.horizontalHeader()->font());
+    table_.horizontalHeader()->setDefaultSectionSize(
+        type.horizontalAdvance(QStringLiteral("0.008888")) + column_margin);
+    for (int column = 0; column < widest_.size(); ++column) {
+      if (widest_[column].isEmpty()) {
+        continue;
+      }
+      const QAbstractItemModel* model = table_.model();
+      const QString header = model ? model->headerData(column, Qt::Horizontal).toString() : "";
+      // The arrow of a sorted column lies beside its name.
+      const int arrow = table_.isSortingEnabled() ? 12 : 0;
+      table_.setColumnWidth(column, std::max(type.horizontalAdvance(widest_[column]),
+                                             header_type.horizontalAdvance(header) + arrow) +
+                                        column_margin);
+    }
+  }
+
+  QTableView& table_;
+  const QStringList widest_;
+};
+
+}  // namespace
+
+void set_up_figure_table(QTableView& table, QStringList widest) {
+  table.setFrameShape(QFrame::NoFrame);
+  table.setShowGrid(false);
+  table.setAlternatingRowColors(true);
+  table.setWordWrap(false);
+  table.setMinimumHeight(60);
+  table.verticalHeader()->hide();
+  table.horizontalHeader()->setHighlightSections(false);
+  new TypeFollower(table, std::move(widest));
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,89 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "widgets/full_screen.h"
+
+#include <QApplication>
+#include <QCursor>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenuBar>
+#include <QStatusBar>
+
+namespace transillum::viewer {
+
+FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) {
+  action_ = new QAction(tr("Full screen"), this);
+  action_->setObjectName("full_screen");
+  action_->setCheckable(true);
+  action_->setShortcut(Qt::Key_F11);
+  action_->setToolTip(tr("Only the view under the pointer, on the whole screen"));
+  connect(action_, &QAction::triggered, this, &FullScreen::toggle);
+}
+
+QWidget* FullScreen::view_of(QWidget* widget) const {
+  for (; widget; widget = widget->parentWidget()) {
+    if (widget == window_.centralWidget() ||
+        (qobject_cast<QDockWidget*>(widget) && widget->parentWidget() == &window_)) {
+      return widget;
+    }
+  }
+  return nullptr;
+}
+
+void FullScreen::toggle() {
+  if (active_) {
+    show_all();
+    return;
+  }
+  QWidget* view = view_of(QApplication::widgetAt(QCursor::pos()));
+  if (!view) {
+    view = view_of(QApplication::focusWidget());
+  }
+  show_only(view ? view : window_.centralWidget());
+}
+
+void FullScreen::show_only(QWidget* view) {
+  if (active_) {
+    show_all();
+  }
+  active_ = true;
+  action_->setChecked(true);
+  state_ = window_.saveState();
+  was_full_ = window_.isFullScreen();
+  // A key works only while something that shows its action is visible, and menus will not be.
+  for (QAction* menu : window_.menuBar()->actions()) {
+    if (menu->menu()) {
+      window_.addActions(menu->menu()->actions());
+    }
+  }
+  hidden_ = {window_.menuBar(), window_.statusBar()};
+  if (view != window_.centralWidget()) {
+    hidden_ << window_.centralWidget();
+  }
+  for (QWidget* widget : hidden_) {
+    widget->hide();
+  }
+  for (QWidget* child : window_.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    const bool part = child->inherits("QDockWidget") || child->inherits("QToolBar");
+    if (part && child != view) {
+      child->hide();
+    }
+  }
+  window_.showFullScreen();
+}
+
+void FullScreen::show_all() {
+  if (!active_) {
+    return;
+  }
+  active_ = false;
+  action_->setChecked(false);
+  if (!was_full_) {
+    window_.showNormal();
+  }
+  for (QWidget* widget : hidden_) {
+    widget->show();
+  }
+  window_.restoreState(state_);
+}
+
+}  // namespace transillum::viewer

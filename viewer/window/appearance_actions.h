@@ -1,0 +1,33 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+
+class QAction;
+class QMenu;
+class QSettings;
+
+namespace transillum::viewer {
+
+/// Dark or light, and as a projector needs it: larger type, thicker lines, more contrast.
+class AppearanceActions : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit AppearanceActions(QObject* parent = nullptr);
+
+  void add_to(QMenu& menu) const;
+  void save(QSettings& settings) const;
+  void load(const QSettings& settings);
+
+ signals:
+  /// What has painted with the old colors must do it again.
+  void changed();
+
+ private:
+  void apply();
+
+  QAction *dark_, *projector_;
+};
+
+}  // namespace transillum::viewer

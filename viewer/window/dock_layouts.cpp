@@ -1,0 +1,199 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/dock_layouts.h"
+
+#include <QAction>
+#include <QChildEvent>
+#include <QDockWidget>
+#include <QMenu>
+#include <QTabBar>
+#include <QTimer>
+#include <algorithm>
+#include <utility>
+
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+struct Widths {
+  int left, right;
+};
+Widths usual_widths_of(Layout layout) {
+  switch (layout) {
+    case Layout::teach:
+      return {400, 480};
+    case Layout::debug:
+      return {350, 470};
+    default:
+      return {290, 464};
+  }
+}
+
+// Larger type wants wider sides, but the scene is to keep its place.
+Widths widths_of(Layout layout, int window_width) {
+  constexpr double most_share = 0.64;
+  const Widths usual = usual_widths_of(layout);
+  const double sum = usual.left + usual.right;
+  const double factor = std::clamp(most_share * window_width / sum, 1.0, theme::scale());
+  return {static_cast<int>(factor * usual.left), static_cast<int>(factor * usual.right)};
+}
+
+}  // namespace
+
+DockLayouts::DockLayouts(QMainWindow& window) : QObject(&window), window_(window) {
+  window_.setDockOptions(QMainWindow::AnimatedDocks | QMainWindow::AllowNestedDocks |
+                         QMainWindow::AllowTabbedDocks);
+  window_.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  window_.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
+  window_.installEventFilter(this);
+}
+
+QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* content,
+                              std::vector<Place> places) {
+  auto* dock = new QDockWidget(title, &window_);
+  dock->setObjectName(QString::fromLatin1(name));
+  dock->setWidget(content);
+  // Qt moves a tab behind others out of sight and lets it count as visible: its content would work
+  // on for nobody, and never hear that it is in front again.
+  // Else a dock of hidden content is given no room, and those that share its place none either.
+  QSizePolicy policy = content->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  content->setSizePolicy(policy);
+  connect(dock, &QDockWidget::visibilityChanged, content,
+          [dock, content](bool visible) { content->setVisible(visible || dock->isHidden()); });
+  docks_.push_back({dock, std::move(places)});
+  return dock;
+}
+
+void DockLayouts::arrange(Layout layout) {
+  current_ = layout;
+  for (const Dock& dock : docks_) {
+    window_.removeDockWidget(dock.widget);
+    dock.widget->setFloating(false);
+  }
+  QList<QDockWidget*> shown;
+  QList<int> heights;
+  for (const Dock& dock : docks_) {
+    // One without a place here comes where it is in another layout, should it be asked for.
+    if (!dock.places.empty()) {
+      window_.addDockWidget(dock.places.front().area, dock.widget);
+    }
+    dock.widget->hide();
+    for (const Place& place : dock.places) {
+      if (place.layout != layout) {
+        continue;
+      }
+      window_.addDockWidget(place.area, dock.widget);
+      dock.widget->show();
+      if (place.behind) {
+        window_.tabifyDockWidget(shown.back(), dock.widget);
+        shown.back()->raise();
+        continue;
+      }
+      shown << dock.widget;
+      heights << place.height;
+    }
+  }
+  window_.resizeDocks(shown, heights, Qt::Vertical);
+  follow_type();
+  // Qt may leave the bar of tabs that are no more.
+  QTimer::singleShot(0, this, [this] {
+    for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+      if (bar->count() == 0) {
+        bar->hide();
+      }
+    }
+  });
+}
+
+void DockLayouts::follow_type() {
+  const Widths widths = widths_of(current_, window_.width());
+  for (const Dock& dock : docks_) {
+    for (const Place& place : dock.places) {
+      if (place.layout != current_ || place.behind || dock.widget->isHidden()) {
+        continue;
+      }
+      if (place.area == Qt::LeftDockWidgetArea) {
+        window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
+      } else if (place.area == Qt::RightDockWidgetArea) {
+        window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
+      } else {
+        window_.resizeDocks(
+            {dock.widget},
+            {static_cast<int>(std::min(theme::scale() * place.height, 0.18 * window_.height()))},
+            Qt::Vertical);
+      }
+    }
+  }
+}
+
+bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ChildPolished) {
+    // The window makes the tabs of its docks: their names are to be read, if need be by scrolling.
+    auto* bar = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child());
+    if (bar) {
+      bar->setElideMode(Qt::ElideNone);
+      bar->setUsesScrollButtons(true);
+    }
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+bool DockLayouts::restore(int layout, const QByteArray& state, int version) {
+  if (layout < 0 || layout > static_cast<int>(Layout::debug) || state.isEmpty()) {
+    return false;
+  }
+  arrange(static_cast<Layout>(layout));
+  return window_.restoreState(state, version);
+}
+
+void DockLayouts::add_to(QMenu& menu) {
+  for (const Dock& dock : docks_) {
+    menu.addAction(dock.widget->toggleViewAction());
+  }
+  menu.addSeparator();
+  const auto add_layout = [&](Layout layout, const char* name, const QString& text,
+                              const char* key) {
+    QAction* action = menu.addAction(
+        text, this, [this, layout] { arrange(layout); }, QKeySequence(QString::fromLatin1(key)));
+    action->setObjectName(QString::fromLatin1(name));
+  };
+  add_layout(Layout::teach, "layout_teach", tr("Lay out to teach"), "Ctrl+1");
+  add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+2");
+  add_layout(Layout::debug, "layout_debug", tr("Lay out to debug a map"), "Ctrl+3");
+  menu.addAction(
+          tr("Reset the layout"), this, [this] { arrange(current_); },
+          QKeySequence(QStringLiteral("Ctrl+0")))
+      ->setObjectName("layout_reset");
+}
+
+namespace {
+
+std::string panel_name(const QDockWidget& dock) {
+  return dock.objectName().remove(QStringLiteral("_dock")).toStdString();
+}
+
+}  // namespace
+
+bool DockLayouts::bring_to_front(const std::string& panel) {
+  for (const Dock& dock : docks_) {
+    if (panel_name(*dock.widget) != panel) {
+      continue;
+    }
+    dock.widget->show();
+    dock.widget->raise();
+    return true;
+  }
+  return false;
+}
+
+std::vector<std::string> DockLayouts::panels() const {
+  std::vector<std::string> names;
+  for (const Dock& dock : docks_) {
+    names.push_back(panel_name(*dock.widget));
+  }
+  return names;
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,302 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/export_actions.h"
+
+#include <QAction>
+#include <QBuffer>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMenu>
+#include <QSaveFile>
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
+#include "solve/convergence_view.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+#include "transillum/map_files.h"
+#include "widgets/save_dialog.h"
+#include "window/main_window.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+void write_whole(const QString& path, const QByteArray& bytes) {
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly) || file.write(bytes) < 0 || !file.commit()) {
+    throw std::runtime_error((path + ": " + file.errorString()).toStdString());
+  }
+}
+
+void write_png(const QString& path, const QImage& image) {
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  if (image.isNull() || !image.save(&buffer, "PNG")) {
+    throw std::runtime_error(path.toStdString() + ": there is no picture to write");
+  }
+  write_whole(path, bytes);
+}
+
+VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
+  const MapRecord& record = map.record();
+  VisibilityMap result;
+  result.frame = record.frame;
+  for (const std::int32_t r : record.map_after(step)) {
+    const MapRecord::Row& row = map.row(r);
+    const auto outline = record.outline(row);
+    const auto begin = static_cast<std::uint32_t>(result.corners.size());
+    result.corners.insert(result.corners.end(), outline.begin(), outline.end());
+    result.polygons.push_back({row.patch, row.front_facing, record.area(row), begin,
+                               static_cast<std::uint32_t>(result.corners.size())});
+  }
+  std::stable_sort(result.polygons.begin(), result.polygons.end(),
+                   [](const auto& a, const auto& b) { return a.patch < b.patch; });
+  return result;
+}
+
+/// Of an earlier recording, which goes on; 0 where there is none.
+int last_frame_in(const QString& folder) {
+  int last = 0;
+  for (const QString& name : QDir(folder).entryList({QStringLiteral("frame_*.png")})) {
+    last = std::max(last, name.mid(6, name.size() - 10).toInt());
+  }
+  return last;
+}
+
+}  // namespace
+
+ExportActions::ExportActions(MainWindow& window)
+    : QObject(&window),
+      window_(window),
+      writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); }) {
+  using E = ExportActions;
+  add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
+  add("export_result", tr("Result…"),
+      tr("B of all patches, with E, ρ and H: VTP, which can be opened again, CSV, PLY or OBJ"),
+      &E::choose_result);
+  add("export_map", tr("Visibility map…"), tr("As vectors (SVG), PNG, VTP or JSON"),
+      &E::choose_map);
+  add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
+  add("export_figures", tr("Convergence figures…"), tr("What the charts draw, as CSV"),
+      &E::choose_figures);
+  add("export_frames", tr("Record frames…"),
+      tr("Each new picture of the scene as a PNG, while it is solved and at each step, until it "
+         "is switched off"),
+      &E::toggle_frames);
+  record_ = actions_.back();
+  record_->setCheckable(true);
+  connect(&window_, &MainWindow::snapshot_shown, this, &ExportActions::write_frame);
+  // A run's own steps come with its snapshots.
+  connect(&window_.focus(), &Focus::moved, this, [this] {
+    if (!window_.focus().following()) {
+      write_frame();
+    }
+  });
+  const auto enable = [this] {
+    for (QAction* action : actions_) {
+      action->setEnabled(window_.snapshot() != nullptr);
+    }
+  };
+  connect(&window_, &MainWindow::snapshot_shown, this, enable);
+  enable();
+}
+
+void ExportActions::add(const char* name, const QString& text, const QString& tip,
+                        void (ExportActions::*what)()) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setToolTip(tip);
+  connect(action, &QAction::triggered, this, what);
+  actions_ << action;
+}
+
+void ExportActions::add_to(QMenu& menu) const {
+  for (QAction* action : actions_) {
+    menu.addAction(action);
+  }
+}
+
+void ExportActions::write_scene(const QString& path, int scale) const {
+  write_png(path, window_.page()->scene_view()->picture(scale));
+}
+
+void ExportActions::write_result(const QString& path) {
+  const auto snapshot = window_.snapshot();
+  if (!snapshot) {
+    throw InputError("there is no result yet");
+  }
+  if (snapshot->materials) {
+    throw InputError("a result is of the scene's own materials: take their changes back first");
+  }
+  check_result_path(path.toStdString());
+  writing_ = true;
+  const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
+                                          : window_.session().state() == SessionState::finished;
+  writer_.request({path, snapshot, complete}, UnderWay::goes_on);
+}
+
+// On the writer's thread.
+void ExportActions::write(const ResultToWrite& result) {
+  const SolverSnapshot& snapshot = *result.snapshot;
+  QString failure;
+  try {
+    transillum::write_result(result.path.toStdString(),
+                             {snapshot.loaded->scene, snapshot.radiosity, snapshot.irradiance,
+                              snapshot.error, snapshot.statistics, result.complete});
+  } catch (const std::exception& error) {
+    failure = QString::fromStdString(error.what());
+  }
+  QMetaObject::invokeMethod(
+      this,
+      [this, failure, path = result.path] {
+        writing_ = false;
+        if (failure.isEmpty()) {
+          window_.say_written(path);
+        } else {
+          window_.show_failure(failure);
+        }
+      },
+      Qt::QueuedConnection);
+}
+
+void ExportActions::write_map_picture(const QString& path) const {
+  const Focus& focus = window_.focus();
+  if (!focus.map()) {
+    throw std::runtime_error("there is no visibility map yet");
+  }
+  const std::int32_t step = focus.moment().step - (focus.phase() == Phase::before ? 1 : 0);
+  check_map_path(path.toStdString());
+  MapPictureOptions options;
+  options.patch_colors = window_.colors().patch_colors();
+  write_map(path.toStdString(), *focus.map()->loaded->scene, map_at(*focus.map(), step), options);
+}
+
+void ExportActions::write_charts(const QString& path) const {
+  const auto* view = window_.findChild<ConvergenceView*>();
+  check_chart_path(path.toStdString());
+  transillum::write_charts(path.toStdString(), view->charts(),
+                           {1.0 * view->width(), 1.0 * view->height()});
+}
+
+void ExportActions::write_chart_figures(const QString& path) const {
+  const auto snapshot = window_.snapshot();
+  if (!snapshot) {
+    throw std::runtime_error("there is nothing to write yet");
+  }
+  write_file_whole(path.toStdString(), [&](std::ostream& out) {
+    out.precision(17);
+    out << "chart,x,change,quadrature_error\n";
+    const auto& steps = snapshot->statistics.steps;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      out << "iteration," << k + 1 << ',' << steps[k].change << ",\n";
+    }
+    const auto& errors = snapshot->quadrature_errors;
+    for (std::size_t k = 0; k < snapshot->estimate_changes.size(); ++k) {
+      out << "direction," << k + 1 << ',' << snapshot->estimate_changes[k] << ',';
+      if (k < errors.size()) {
+        out << errors[k];
+      }
+      out << '\n';
+    }
+  });
+}
+
+void ExportActions::begin_frames(const QString& folder) {
+  folder_ = folder;
+  frames_ = last_frame_in(folder);
+  record_->setChecked(true);
+  write_frame();
+}
+
+void ExportActions::end_frames() {
+  folder_.clear();
+  record_->setChecked(false);
+}
+
+void ExportActions::write_frame() {
+  if (folder_.isEmpty()) {
+    return;
+  }
+  try {
+    const QString name = QStringLiteral("frame_%1.png").arg(frames_ + 1, 5, 10, QLatin1Char('0'));
+    write_scene(QDir(folder_).filePath(name), 1);
+    ++frames_;
+  } catch (const std::exception& error) {
+    end_frames();
+    window_.show_failure(QString::fromStdString(error.what()));
+  }
+}
+
+QString ExportActions::name_with(const char* ending) const {
+  const QString scene = QString::fromStdString(window_.snapshot()->loaded->scene->name());
+  return QFileInfo(scene).completeBaseName() + QString::fromLatin1(ending);
+}
+
+template <class Write>
+void ExportActions::write_chosen(const QString& title, const QString& filter,
+                                 const QString& proposed, Write write) {
+  const QString path = ask_where_to_write(&window_, title, filter, proposed);
+  if (path.isEmpty()) {
+    return;
+  }
+  try {
+    write(path);
+    if (!writing_) {
+      window_.say_written(path);
+    }
+  } catch (const std::exception& error) {
+    window_.show_failure(QString::fromStdString(error.what()));
+  }
+}
+
+void ExportActions::choose_scene() {
+  bool go_on = false;
+  const int scale =
+      QInputDialog::getInt(&window_, tr("Picture of the scene"),
+                           tr("Times as many pixels a side as on the screen:"), 2, 1, 8, 1, &go_on);
+  if (go_on) {
+    write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
+                 [&](const QString& path) { write_scene(path, scale); });
+  }
+}
+
+void ExportActions::choose_result() {
+  write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), name_with(".vtp"),
+               [this](const QString& path) { write_result(path); });
+}
+
+void ExportActions::choose_map() {
+  write_chosen(tr("Visibility map"), tr("Maps (*.svg *.png *.vtp *.json)"), name_with("-map.svg"),
+               [this](const QString& path) { write_map_picture(path); });
+}
+
+void ExportActions::choose_charts() {
+  write_chosen(tr("Convergence charts"), tr("Vector graphics (*.svg);;Pictures (*.png)"),
+               name_with("-convergence.svg"), [this](const QString& path) { write_charts(path); });
+}
+
+void ExportActions::choose_figures() {
+  write_chosen(tr("Convergence figures"), tr("Tables (*.csv)"), name_with("-convergence.csv"),
+               [this](const QString& path) { write_chart_figures(path); });
+}
+
+void ExportActions::toggle_frames() {
+  if (!record_->isChecked()) {
+    end_frames();
+    return;
+  }
+  const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the frames"));
+  if (folder.isEmpty()) {
+    record_->setChecked(false);
+  } else {
+    begin_frames(folder);
+  }
+}
+
+}  // namespace transillum::viewer

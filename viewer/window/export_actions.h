@@ -1,0 +1,80 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <memory>
+
+#include "model/snapshot.h"
+#include "support/request_worker.h"
+
+class QAction;
+class QMenu;
+class QWidget;
+
+namespace transillum::viewer {
+
+class MainWindow;
+
+/// What can be handed on of the window: pictures, vector graphics, figures, frames of the progress.
+/// All files are written whole or not at all; the functions throw std::runtime_error where one
+/// cannot be written.
+class ExportActions : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ExportActions(MainWindow& window);
+
+  void add_to(QMenu& menu) const;
+  /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
+  void write_scene(const QString& path, int scale) const;
+  /// The figures shown, as `transillum solve --out` writes them: .vtp, .csv, .ply or .obj. Written
+  /// beside the window's work; the window tells a failure later.
+  /// @throws InputError where it is known at once that it cannot be
+  void write_result(const QString& path);
+  /// Whether a result is still being written.
+  bool writing() const { return writing_; }
+  /// The map of the moment in focus, as vectors (.svg) or by the other endings of write_map().
+  void write_map_picture(const QString& path) const;
+  /// The convergence charts as vectors.
+  void write_charts(const QString& path) const;
+  /// What the charts draw: chart,x,change,quadrature_error.
+  void write_chart_figures(const QString& path) const;
+  /// From now on each new picture of the scene becomes the next frame_00001.png of `folder`.
+  void begin_frames(const QString& folder);
+  void end_frames();
+  int frames() const { return frames_; }
+
+ private:
+  void add(const char* name, const QString& text, const QString& tip,
+           void (ExportActions::*what)());
+  void choose_scene();
+  void choose_result();
+  void choose_map();
+  void choose_charts();
+  void choose_figures();
+  void toggle_frames();
+  void write_frame();
+  /// A file's name after the open scene.
+  QString name_with(const char* ending) const;
+  template <class Write>
+  void write_chosen(const QString& title, const QString& filter, const QString& proposed,
+                    Write write);
+
+  MainWindow& window_;
+  QList<QAction*> actions_;
+  QAction* record_;
+  QString folder_;
+  int frames_ = 0;
+  bool writing_ = false;
+
+  struct ResultToWrite {
+    QString path;
+    std::shared_ptr<const SolverSnapshot> snapshot;
+    bool complete;
+  };
+  void write(const ResultToWrite& result);
+  RequestWorker<ResultToWrite> writer_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,99 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/inspection_panels.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <utility>
+
+#include "model/solver_session.h"
+#include "patches/compare_actions.h"
+#include "patches/material_panel.h"
+#include "patches/patch_table_panel.h"
+#include "widgets/scrolling.h"
+#include "window/dock_layouts.h"
+
+namespace transillum::viewer {
+
+InspectionPanels::InspectionPanels(Selection& selection, ColorChoice& colors,
+                                   SolverSession& session, QWidget* window)
+    : QObject(window) {
+  materials_ = new MaterialPanel(relighting_, selection, colors);
+  tables_ = new PatchTablePanel(selection);
+  tables_->setObjectName("table_panel");
+  compare_ = new CompareActions(colors, window, this);
+  connect(&colors, &ColorChoice::form_factors_wanted, &session, &SolverSession::want_form_factors);
+  connect(&relighting_, &Relighting::form_factors_wanted, &session,
+          &SolverSession::want_form_factors);
+  connect(tables_, &PatchTablePanel::form_factors_wanted, &session,
+          &SolverSession::want_form_factors);
+  connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
+  connect(&relighting_, &Relighting::failed, this, &InspectionPanels::failed);
+  connect(&relighting_, &Relighting::changed, this, [this] {
+    if (newest_) {
+      emit light_changed(newest_);
+    }
+  });
+}
+
+void InspectionPanels::add_materials_to(DockLayouts& docks) {
+  const QDockWidget* dock = docks.add(tr("Materials"), "material_dock", scrollable(materials_),
+                                      {{Layout::inspect, Qt::LeftDockWidgetArea, 345, true}});
+  // Tells of tabs behind others too, which are "visible" all the time.
+  connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
+    if (visible) {
+      emit relighting_.form_factors_wanted();
+    }
+  });
+}
+
+void InspectionPanels::add_tables_to(DockLayouts& docks) {
+  table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
+                          {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
+  connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
+}
+
+void InspectionPanels::add_to(QMenuBar& bar) {
+  QMenu* edit = bar.addMenu(tr("&Edit"));
+  QAction* undo = edits().undo_stack().createUndoAction(this, tr("Undo"));
+  undo->setObjectName("undo");
+  undo->setShortcut(QKeySequence(QStringLiteral("Ctrl+Z")));
+  QAction* redo = edits().undo_stack().createRedoAction(this, tr("Redo"));
+  redo->setObjectName("redo");
+  redo->setShortcuts(
+      {QKeySequence(QStringLiteral("Ctrl+Y")), QKeySequence(QStringLiteral("Ctrl+Shift+Z"))});
+  edit->addAction(undo);
+  edit->addAction(redo);
+  edit->addSeparator();
+  QAction* find = edit->addAction(
+      tr("Find a patch"), this,
+      [this] {
+        table_dock_->show();
+        table_dock_->raise();
+        tables_->begin_search();
+      },
+      QKeySequence::Find);
+  find->setObjectName("find_patch");
+  compare_->add_to(*bar.addMenu(tr("&Compare")));
+}
+
+void InspectionPanels::show_scene(const LoadedScene& loaded) {
+  newest_ = nullptr;
+  relighting_.show_scene(*loaded.scene);
+  materials_->show_scene(loaded.scene);
+  tables_->clear();
+}
+
+std::shared_ptr<const SolverSnapshot> InspectionPanels::lit(
+    std::shared_ptr<const SolverSnapshot> snapshot) {
+  newest_ = std::move(snapshot);
+  return relighting_.lit(newest_);
+}
+
+void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  materials_->show_state();
+  tables_->show_snapshot(std::move(snapshot));
+}
+
+}  // namespace transillum::viewer

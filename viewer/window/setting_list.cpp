@@ -1,0 +1,32 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/setting_list.h"
+
+#include "support/number_text.h"
+#include "transillum/settings.h"
+#include "widgets/page_dialog.h"
+
+namespace transillum::viewer {
+
+QString setting_page() {
+  QString rows;
+  for (const Setting& setting : settings()) {
+    const QString name = setting.name;
+    rows += QStringLiteral("<tr><td><b>%1</b></td><td>%2</td><td>%3</td><td>%4</td></tr>")
+                .arg(setting.in_files ? name : name + '*',
+                     capitalized(setting.sentence).toHtmlEscaped(),
+                     QString::fromUtf8(setting.type).toHtmlEscaped(),
+                     QString::fromStdString(setting.default_value).toHtmlEscaped());
+  }
+  return PageDialog::tr(
+             "<h3>Settings of a solve</h3><p>The command line has them with two dashes, "
+             "lessons and sessions as they stand here, but for those with an asterisk.</p>"
+             "<table cellpadding=4><tr><th align=left>name</th><th align=left>what it "
+             "does</th><th align=left>value</th><th align=left>default</th></tr>") +
+         rows + QStringLiteral("</table>");
+}
+
+void show_settings(QWidget& parent) {
+  (new PageDialog("settings_page", PageDialog::tr("Settings"), setting_page(), parent))->show();
+}
+
+}  // namespace transillum::viewer
