@@ -373,7 +373,7 @@ double exact_share(const char* spec) {
   EXPECT_GT(counts.cuts, 0);
   EXPECT_LT(static_cast<double>(counts.exact_decisions),
             0.005 * static_cast<double>(counts.decisions));
-  return static_cast<double>(counts.exact_looks) /
+  return static_cast<double>(counts.exact_queries) /
          static_cast<double>(fast.scene->patch_count() * directions.size());
 }
 
@@ -390,7 +390,7 @@ TEST(FastEngine, LooksByExactSignsWhereThereAreNeedlesAndSpecks) {
     std::int64_t exact = 0;
     for (const Vec3& omega : testing::test_directions(10, 15)) {
       expect_as_local(fast, omega);
-      exact += fast.run(omega, {}).counts.exact_looks;
+      exact += fast.run(omega, {}).counts.exact_queries;
     }
     return exact;
   };

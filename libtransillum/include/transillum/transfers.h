@@ -28,7 +28,7 @@ struct PassCounts {
   std::int64_t cuts = 0;             ///< of a polygon by a line
   std::int64_t decisions = 0;        ///< on which side of a line a corner lies
   std::int64_t exact_decisions = 0;  ///< of them, those that took whole numbers
-  std::int64_t exact_looks = 0;      ///< polygons looked at by pieces, their signs exact
+  std::int64_t exact_queries = 0;      ///< polygons looked at by pieces, their signs exact
   std::int64_t pixels = 0;           ///< that patches cover, lines that meet them: of all patches
   std::int64_t missed = 0;           ///< patches so small or thin that no pixel or line meets them
   // Seconds of the thread that made the pass.

@@ -93,7 +93,7 @@ Json statistics_json(const SolveStatistics& statistics) {
                       {"cuts", counts.cuts},
                       {"decisions", counts.decisions},
                       {"exact_decisions", counts.exact_decisions},
-                      {"exact_looks", counts.exact_looks},
+                      {"exact_looks", counts.exact_queries},
                       {"pixels", counts.pixels},
                       {"missed_patches", counts.missed}};
   json["thread_seconds"] = {{"order", counts.seconds_order},

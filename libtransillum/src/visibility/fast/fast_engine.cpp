@@ -158,7 +158,7 @@ class FastPass {
   template <Way way>
   void look(std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
     if (!look_with<way>(outline_view_, face, bin, entry)) {
-      ++transfers_.counts.exact_looks;
+      ++transfers_.counts.exact_queries;
       look_with<way>(exact_view_, face, bin, entry);
     }
     for (const VisibleArea& visible : visible_areas_) {
