@@ -26,8 +26,12 @@ double position_of(double share) { return std::sqrt(share); }
 }  // namespace
 
 DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
-                             PerDirectionVisibility& sights, QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), sights_(sights) {
+                             PerDirectionVisibility& visibility, QWidget* parent)
+    : QWidget(parent),
+      focus_(focus),
+      selection_(selection),
+      colors_(colors),
+      visibility_(visibility) {
   setToolTip(tr("Drag to turn; click a direction to look along it"));
   connect(&focus_, &Focus::moved, this, [this] {
     ask();
@@ -38,7 +42,7 @@ DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoi
     ask();
     update();
   });
-  connect(&sights_, &PerDirectionVisibility::grown, this, qOverload<>(&QWidget::update));
+  connect(&visibility_, &PerDirectionVisibility::grown, this, qOverload<>(&QWidget::update));
 }
 
 void DirectionView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -56,7 +60,7 @@ void DirectionView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot
 
 void DirectionView::clear() {
   snapshot_ = nullptr;
-  sights_.clear();
+  visibility_.clear();
   update();
 }
 
@@ -67,7 +71,7 @@ void DirectionView::showEvent(QShowEvent* event) {
 
 int DirectionView::iteration() const {
   const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
-  return renews && focus_.map() ? focus_.moment().iteration : snapshot_->progress.iteration;
+  return renews && focus_.map() ? focus_.position().iteration : snapshot_->progress.iteration;
 }
 
 int DirectionView::taken() const {
@@ -81,17 +85,17 @@ int DirectionView::taken() const {
   return progress.direction > 0 || progress.iteration == 0 ? progress.direction : progress.passes;
 }
 
-bool DirectionView::wants_sights() const {
+bool DirectionView::needs_visibility() const {
   return snapshot_ && selection_.patch() != no_patch && taken() > 0 && isVisible();
 }
 
 void DirectionView::ask() {
-  if (!wants_sights()) {
+  if (!needs_visibility()) {
     return;
   }
   const SolveOptions& options = snapshot_->options;
-  sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                   snapshot_->directions_of(iteration()), taken(), selection_.patch()});
+  visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
+                       snapshot_->directions_of(iteration()), taken(), selection_.patch()});
 }
 
 std::vector<DirectionView::Point> DirectionView::points() const {
@@ -108,13 +112,13 @@ std::vector<DirectionView::Point> DirectionView::points() const {
 
 std::vector<double> DirectionView::received() const {
   std::vector<double> received;
-  if (!wants_sights() || sights_.found().empty()) {
+  if (!needs_visibility() || visibility_.found().empty()) {
     return received;
   }
-  const auto& found = sights_.found();
+  const auto& found = visibility_.found();
   const std::size_t count = std::min(found.size(), static_cast<std::size_t>(taken()));
-  for (const ReceivedLight& light :
-       received_light(sights_.asked(), {found.data(), count}, snapshot_->radiosity, taken())) {
+  for (const ReceivedLight& light : received_light(
+           visibility_.current_request(), {found.data(), count}, snapshot_->radiosity, taken())) {
     received.push_back(luminance(light.irradiance));
   }
   return received;
@@ -125,11 +129,11 @@ QString DirectionView::caption() const {
     return tr("Select a patch to see which of them light it");
   }
   const QString patch = count_text(selection_.patch());
-  if (sights_.complete()) {
+  if (visibility_.complete()) {
     return tr("Color: what each adds to the irradiance of patch %1").arg(patch);
   }
   return tr("Looking along them from patch %1: %2 of %3")
-      .arg(patch, count_text(static_cast<int>(sights_.found().size())), count_text(taken()));
+      .arg(patch, count_text(static_cast<int>(visibility_.found().size())), count_text(taken()));
 }
 
 QRectF DirectionView::caption_rect() const {
@@ -246,7 +250,7 @@ void DirectionView::draw_points(QPainter& painter, bool front) const {
 
 /// Where the selected patch looks.
 void DirectionView::draw_normal(QPainter& painter) const {
-  if (!wants_sights()) {
+  if (!needs_visibility()) {
     return;
   }
   const Vec3 at = turned(snapshot_->loaded->scene->patch(selection_.patch()).normal);
@@ -260,7 +264,7 @@ void DirectionView::draw_normal(QPainter& painter) const {
 }
 
 void DirectionView::draw_focus(QPainter& painter) const {
-  const int pass = focus_.moment().direction;
+  const int pass = focus_.position().direction;
   if (!focus_.map() || pass >= taken()) {
     return;
   }
@@ -353,9 +357,9 @@ void DirectionView::mouseReleaseEvent(QMouseEvent* event) {
   if (!point) {
     return;
   }
-  Moment moment = focus_.moment();
-  moment.direction = point->pass;
-  focus_.go_to(moment);
+  RunPosition position = focus_.position();
+  position.direction = point->pass;
+  focus_.go_to(position);
 }
 
 }  // namespace transillum::viewer

@@ -22,14 +22,14 @@ class DirectionView : public QWidget {
   Q_OBJECT
 
  public:
-  /// `sights` is shared with others that ask about the selected patch.
+  /// `visibility` is shared with others that ask about the selected patch.
   DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
-                PerDirectionVisibility& sights, QWidget* parent = nullptr);
+                PerDirectionVisibility& visibility, QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
   /// Whether the points have the colors of the selected patch.
-  bool up_to_date() const { return !wants_sights() || sights_.complete(); }
+  bool up_to_date() const { return !needs_visibility() || visibility_.complete(); }
 
   /// A direction of the run as it stands on the sphere.
   struct Point {
@@ -53,7 +53,7 @@ class DirectionView : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  bool wants_sights() const;
+  bool needs_visibility() const;
   void ask();
   Vec3 turned(const Vec3& direction) const;
   QPointF place(const Vec3& turned) const;
@@ -77,7 +77,7 @@ class DirectionView : public QWidget {
   Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
-  PerDirectionVisibility& sights_;
+  PerDirectionVisibility& visibility_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   Vec3 right_{1, 0, 0}, up_{0, 1, 0}, toward_{0, 0, 1};  ///< the scene's first view
   double turn_ = 0, tilt_ = 0;  ///< from there, radians: about the upright axis, then over

@@ -5,36 +5,37 @@
 
 namespace transillum::viewer {
 
-std::vector<ReceivedLight> received_light(const PerDirectionVisibility::Request& asked,
-                                          std::span<const PerDirectionVisibility::Sights> sights,
-                                          const std::vector<Rgb>& radiosity, int passes) {
+std::vector<ReceivedLight> received_light(
+    const PerDirectionVisibility::Request& asked,
+    std::span<const PerDirectionVisibility::VisibleAreas> visible_areas,
+    const std::vector<Rgb>& radiosity, int passes) {
   std::vector<ReceivedLight> received;
   const Patch& patch = asked.loaded->scene->patch(asked.patch);
   const double weight = 4.0 / (passes * (asked.two_way ? 2 : 1) * patch.area);
   const auto add = [&](int pass, bool opposite,
-                       const std::vector<PerDirectionVisibility::Sight>& seen) {
+                       const std::vector<PerDirectionVisibility::VisibleArea>& seen) {
     const double cosine = dot(patch.normal, at((*asked.directions), pass));
     ReceivedLight light;
     light.pass = pass;
     light.opposite = opposite;
     light.cosine = opposite ? -cosine : cosine;
     double most = 0;
-    for (const PerDirectionVisibility::Sight& sight : seen) {
-      const Rgb part = weight * sight.area * at(radiosity, sight.source);
-      light.area += sight.area;
+    for (const PerDirectionVisibility::VisibleArea& visible : seen) {
+      const Rgb part = weight * visible.area * at(radiosity, visible.source);
+      light.area += visible.area;
       light.irradiance += part;
       if (luminance(part) <= most) {
         continue;
       }
       most = luminance(part);
-      light.brightest = sight.source;
+      light.brightest = visible.source;
     }
     received.push_back(light);
   };
-  for (std::size_t k = 0; k < sights.size(); ++k) {
-    add(static_cast<int>(k), false, sights[k].forward);
+  for (std::size_t k = 0; k < visible_areas.size(); ++k) {
+    add(static_cast<int>(k), false, visible_areas[k].forward);
     if (asked.two_way) {
-      add(static_cast<int>(k), true, sights[k].backward);
+      add(static_cast<int>(k), true, visible_areas[k].backward);
     }
   }
   return received;

@@ -21,11 +21,12 @@ struct ReceivedLight {
   friend bool operator==(const ReceivedLight&, const ReceivedLight&) = default;
 };
 
-/// One for each direction of `sights`, in their order, both ways where the run goes both.
+/// One for each direction of `visible_areas`, in their order, both ways where the run goes both.
 /// @param radiosity B(n), W/m², one a patch
 /// @param passes M; an irradiance is the M-th part of 4/A_i times area and B, summed up
-std::vector<ReceivedLight> received_light(const PerDirectionVisibility::Request& asked,
-                                          std::span<const PerDirectionVisibility::Sights> sights,
-                                          const std::vector<Rgb>& radiosity, int passes);
+std::vector<ReceivedLight> received_light(
+    const PerDirectionVisibility::Request& asked,
+    std::span<const PerDirectionVisibility::VisibleAreas> visible_areas,
+    const std::vector<Rgb>& radiosity, int passes);
 
 }  // namespace transillum::viewer

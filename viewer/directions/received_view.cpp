@@ -21,9 +21,9 @@ constexpr int refresh_interval_ms = 400;
 
 }  // namespace
 
-ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& sights,
+ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& visibility,
                            QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), sights_(sights) {
+    : QWidget(parent), focus_(focus), selection_(selection), visibility_(visibility) {
   words_ = new QLabel;
   words_->setObjectName("received_words");
   words_->setWordWrap(true);
@@ -49,13 +49,13 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
   later_->setSingleShot(true);
   later_->setInterval(refresh_interval_ms);
   connect(later_, &QTimer::timeout, this, &ReceivedView::show_lights);
-  connect(&sights_, &PerDirectionVisibility::grown, this, [this] {
+  connect(&visibility_, &PerDirectionVisibility::grown, this, [this] {
     if (!later_->isActive()) {
       later_->start();
     }
   });
   connect(&selection_, &Selection::changed, this, &ReceivedView::ask);
-  connect(&focus_, &Focus::moved, this, &ReceivedView::show_moment);
+  connect(&focus_, &Focus::moved, this, &ReceivedView::show_position);
   connect(view_, &QTableView::clicked, this, [this](const QModelIndex& index) {
     const PatchId source = table_->light(index.row()).brightest;
     if (index.column() == ReceivedTable::of_brightest && source != no_patch) {
@@ -66,7 +66,7 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
     if (index.column() == ReceivedTable::of_brightest) {
       return;
     }
-    focus_.go_to_first(focus_.moment().iteration, table_->light(index.row()).pass,
+    focus_.go_to_first(focus_.position().iteration, table_->light(index.row()).pass,
                        find_exchanges_of(selection_.patch()));
   });
   show_lights();
@@ -95,21 +95,21 @@ void ReceivedView::showEvent(QShowEvent* event) {
 
 int ReceivedView::taken() const {
   const SolveProgress& progress = snapshot_->progress;
-  const bool whole = focus_.moment().iteration < progress.iteration;
-  return whole ? snapshot_->passes_of(focus_.moment().iteration) : progress.direction;
+  const bool whole = focus_.position().iteration < progress.iteration;
+  return whole ? snapshot_->passes_of(focus_.position().iteration) : progress.direction;
 }
 
 void ReceivedView::ask() {
   if (isVisible() && snapshot_ && selection_.patch() != no_patch && taken() > 0) {
     const SolveOptions& options = snapshot_->options;
-    sights_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                     snapshot_->directions_of(focus_.moment().iteration), taken(),
-                     selection_.patch()});
+    visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
+                         snapshot_->directions_of(focus_.position().iteration), taken(),
+                         selection_.patch()});
   }
   show_lights();
 }
 
-void ReceivedView::show_moment() {
+void ReceivedView::show_position() {
   if (!isVisible()) {
     return;
   }
@@ -128,25 +128,27 @@ void ReceivedView::show_lights() {
     words_->setText(tr("Select a patch to see what each direction adds to its irradiance."));
     return;
   }
-  if (sights_.asked().patch != patch || sights_.asked().loaded != snapshot_->loaded ||
-      sights_.asked().directions != snapshot_->directions_of(focus_.moment().iteration)) {
+  if (visibility_.current_request().patch != patch ||
+      visibility_.current_request().loaded != snapshot_->loaded ||
+      visibility_.current_request().directions !=
+          snapshot_->directions_of(focus_.position().iteration)) {
     return;
   }
-  const auto n = static_cast<std::size_t>(focus_.moment().iteration);
+  const auto n = static_cast<std::size_t>(focus_.position().iteration);
   const auto& kept = snapshot_->kept_radiosity;
   const bool known = n < kept.size() && kept[n];
-  const auto& found = sights_.found();
+  const auto& found = visibility_.found();
   const int count = std::min(taken(), static_cast<int>(found.size()));
   table_->show_lights(
-      received_light(sights_.asked(), {found.data(), static_cast<std::size_t>(count)},
+      received_light(visibility_.current_request(), {found.data(), static_cast<std::size_t>(count)},
                      known ? *kept[n] : snapshot_->radiosity,
-                     snapshot_->passes_of(focus_.moment().iteration)),
+                     snapshot_->passes_of(focus_.position().iteration)),
       snapshot_->loaded->scene->patch(patch).area);
-  table_->set_current_pass(focus_.map() ? focus_.moment().direction : -1);
+  table_->set_current_pass(focus_.map() ? focus_.position().direction : -1);
   const QString what =
       known ? tr("Iteration %1: what each direction adds to the irradiance of patch %2, together "
                  "%3 W/m².")
-                  .arg(count_text(focus_.moment().iteration + 1))
+                  .arg(count_text(focus_.position().iteration + 1))
             : tr("What each direction adds to the irradiance of patch %1, together %2 W/m².");
   words_->setText(
       what.arg(patch).arg(number_text(luminance(table_->irradiance()))) +

@@ -20,8 +20,8 @@ class ReceivedView : public QWidget {
   Q_OBJECT
 
  public:
-  /// `sights` is shared with others that ask about the selected patch.
-  ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& sights,
+  /// `visibility` is shared with others that ask about the selected patch.
+  ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& visibility,
                QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -33,13 +33,13 @@ class ReceivedView : public QWidget {
  private:
   void ask();
   void show_lights();
-  void show_moment();
+  void show_position();
   /// Directions of the iteration in focus that have been taken.
   int taken() const;
 
   Focus& focus_;
   Selection& selection_;
-  PerDirectionVisibility& sights_;
+  PerDirectionVisibility& visibility_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* words_;
   QTableView* view_;

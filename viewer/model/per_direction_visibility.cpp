@@ -12,17 +12,18 @@ namespace transillum::viewer {
 
 namespace {
 
-PerDirectionVisibility::Sights sights_of(PatchId patch, const Transfers& transfers, bool two_way) {
-  PerDirectionVisibility::Sights sights;
+PerDirectionVisibility::VisibleAreas visible_areas_of(PatchId patch, const Transfers& transfers,
+                                                      bool two_way) {
+  PerDirectionVisibility::VisibleAreas areas;
   for (const Transfer& t : transfers.exchanges) {
     if (t.receiver == patch) {
-      sights.forward.push_back({t.source, t.area});
+      areas.forward.push_back({t.source, t.area});
     }
     if (two_way && t.source == patch) {
-      sights.backward.push_back({t.receiver, t.area});
+      areas.backward.push_back({t.receiver, t.area});
     }
   }
-  return sights;
+  return areas;
 }
 
 }  // namespace
@@ -68,11 +69,11 @@ void PerDirectionVisibility::look(const Task& task, const Cancellation& cancella
                                 request.patch, request.engine_options);
     engine_of_ = request;
   }
-  std::vector<Sights> more;
+  std::vector<VisibleAreas> more;
   auto delivered = Clock::now();
   for (int k = task.first; k < request.count; ++k) {
     const Vec3& omega = at((*request.directions), k);
-    more.push_back(sights_of(request.patch, engine_(omega, cancellation), request.two_way));
+    more.push_back(visible_areas_of(request.patch, engine_(omega, cancellation), request.two_way));
     const bool last = k + 1 == request.count;
     if (!last && Clock::now() - delivered < std::chrono::milliseconds(200)) {
       continue;
@@ -87,12 +88,12 @@ void PerDirectionVisibility::look(const Task& task, const Cancellation& cancella
   }
 }
 
-void PerDirectionVisibility::deliver(std::vector<Sights> more, quint64 number) {
+void PerDirectionVisibility::deliver(std::vector<VisibleAreas> more, quint64 number) {
   if (number != number_) {
     return;
   }
-  for (Sights& sights : more) {
-    found_.push_back(std::move(sights));
+  for (VisibleAreas& areas : more) {
+    found_.push_back(std::move(areas));
   }
   emit grown();
 }

@@ -20,13 +20,13 @@ class PerDirectionVisibility : public QObject {
 
  public:
   /// The patch sees `area` m² of `source`, projected along the direction.
-  struct Sight {
+  struct VisibleArea {
     PatchId source;
     double area;
   };
   /// Along omega, and along its opposite.
-  struct Sights {
-    std::vector<Sight> forward, backward;
+  struct VisibleAreas {
+    std::vector<VisibleArea> forward, backward;
   };
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
@@ -44,8 +44,8 @@ class PerDirectionVisibility : public QObject {
   /// Gives up what is under way, and forgets what was found.
   void clear();
   /// A direction each, the first ones of the run, for the patch asked for last.
-  const std::vector<Sights>& found() const { return found_; }
-  const Request& asked() const { return wanted_; }
+  const std::vector<VisibleAreas>& found() const { return found_; }
+  const Request& current_request() const { return wanted_; }
   bool complete() const { return static_cast<int>(found_.size()) >= wanted_.count; }
 
  signals:
@@ -58,11 +58,11 @@ class PerDirectionVisibility : public QObject {
     quint64 number;
   };
   void look(const Task& task, const Cancellation& cancellation);
-  void deliver(std::vector<Sights> more, quint64 number);
+  void deliver(std::vector<VisibleAreas> more, quint64 number);
 
   // The window's own.
   Request wanted_;
-  std::vector<Sights> found_;
+  std::vector<VisibleAreas> found_;
   quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
 
   // The worker's own: what it looked with last.

@@ -135,8 +135,8 @@ void MainWindow::make_docks() {
   inspector_ = new PatchInspector(selection_, colors_);
   map_view_ = new MapView(focus_, selection_, colors_);
   convergence_view_ = new ConvergenceView(focus_);
-  direction_view_ = new DirectionView(focus_, selection_, colors_, sights_);
-  received_view_ = new ReceivedView(focus_, selection_, sights_);
+  direction_view_ = new DirectionView(focus_, selection_, colors_, visibility_);
+  received_view_ = new ReceivedView(focus_, selection_, visibility_);
   compare_view_ = new CompareView(focus_, selection_, colors_);
   algorithm_ = new AlgorithmView(focus_, selection_);
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);

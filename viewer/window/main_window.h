@@ -138,7 +138,7 @@ class MainWindow : public QMainWindow {
   Focus focus_;
   FocusFeed focus_feed_{focus_};
   Breakpoints breakpoints_;
-  PerDirectionVisibility sights_;
+  PerDirectionVisibility visibility_;
   DockLayouts docks_{*this};
   FullScreen full_screen_{*this};
   AppearanceActions appearance_{this};
