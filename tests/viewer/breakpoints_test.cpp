@@ -151,8 +151,8 @@ class BreakpointsTest : public QObject {
     QVERIFY(steps.size() > 2);
     std::vector<std::int32_t> back;
     const StepFinder finder = breakpoints.finder();
-    for (std::int32_t k = finder(d.history(), d.history().step_count(), Way::backward);
-         k != MapHistory::none; k = finder(d.history(), k, Way::backward)) {
+    for (std::int32_t k = finder(d.history(), d.history().step_count(), StepOrder::backward);
+         k != MapHistory::none; k = finder(d.history(), k, StepOrder::backward)) {
       back.insert(back.begin(), k);
     }
     QCOMPARE(back, steps);

@@ -19,7 +19,7 @@ namespace {
 
 struct Shown : SolvedWindow {
   explicit Shown(const char* scene) : SolvedWindow(scene) {
-    window->session().run();
+    window->runner().run();
     (void)wait_for([this] { return window->snapshot()->progress.finished && window->settled(); });
     window->findChild<QDockWidget*>("direction_dock")->raise();
     view = window->findChild<DirectionView*>();
@@ -120,11 +120,11 @@ class DirectionViewTest : public QObject {
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place);
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
-    QCOMPARE(focus.moment().iteration, 3);
-    QCOMPARE(focus.moment().direction, most.pass);
+    QCOMPARE(focus.position().iteration, 3);
+    QCOMPARE(focus.position().direction, most.pass);
     const auto events = events_of_patch(focus.map()->history, shown.window->selection().patch());
     QVERIFY(std::any_of(events.begin(), events.end(), [&](const StepEvent& event) {
-      return event.step == focus.moment().step && event.kind == StepEvent::Kind::exchange;
+      return event.step == focus.position().step && event.kind == StepEvent::Kind::exchange;
     }));
     table->sort(ReceivedTable::of_direction, Qt::AscendingOrder);
     for (int row = 1; row < table->rowCount(); ++row) {

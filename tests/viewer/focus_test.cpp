@@ -35,7 +35,7 @@ struct Watched {
       map->passes = passes;
       maps.push_back(map);
     }
-    QObject::connect(&focus, &Focus::map_wanted, &focus, [this](int iteration, int direction) {
+    QObject::connect(&focus, &Focus::map_requested, &focus, [this](int iteration, int direction) {
       wanted.push_back(direction);
       if (at_once) {
         show(direction, iteration);
@@ -51,9 +51,9 @@ struct Watched {
   std::int32_t last_step(int direction) const {
     return at(maps, direction)->history.step_count() - 1;
   }
-  bool arrived_at(const Moment& moment) const {
-    return focus.moment() == moment && focus.arrived() && focus.map() &&
-           focus.map()->direction == moment.direction;
+  bool arrived_at(const RunPosition& position) const {
+    return focus.position() == position && focus.arrived() && focus.map() &&
+           focus.map()->direction == position.direction;
   }
 };
 
@@ -64,20 +64,20 @@ class FocusTest : public QObject {
 
  private slots:
   void moments_are_ordered() {
-    QVERIFY((Moment{0, 3, 100}) < (Moment{1, 0, -1}));
-    QVERIFY((Moment{1, 2, 7}) < (Moment{1, 3, -1}));
-    QVERIFY((Moment{1, 2, -1}) < (Moment{1, 2, 0}));
+    QVERIFY((RunPosition{0, 3, 100}) < (RunPosition{1, 0, -1}));
+    QVERIFY((RunPosition{1, 2, 7}) < (RunPosition{1, 3, -1}));
+    QVERIFY((RunPosition{1, 2, -1}) < (RunPosition{1, 2, 0}));
   }
 
   void follows_the_newest_until_told_otherwise() {
     Watched w;
     w.focus.follow(0, 0);
-    QCOMPARE(w.focus.moment().step, w.maps[0]->record().fullest_step());
+    QCOMPARE(w.focus.position().step, w.maps[0]->record().fullest_step());
     w.focus.follow(0, 2);
     QVERIFY(w.arrived_at({0, 2, w.maps[2]->record().fullest_step()}));
     w.focus.step_by(-1);
     QVERIFY(!w.focus.following());
-    const Moment here = w.focus.moment();
+    const RunPosition here = w.focus.position();
     w.focus.follow(0, 3);
     QVERIFY(w.arrived_at(here));
     w.focus.set_following(true);
@@ -93,24 +93,24 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 0, 1}));
     std::vector<std::pair<int, int>> way;
     for (int k = 0; k < 8; ++k) {
-      way.emplace_back(w.focus.moment().iteration, w.focus.moment().direction);
+      way.emplace_back(w.focus.position().iteration, w.focus.position().direction);
       w.focus.direction_by(1);
     }
     const std::vector<std::pair<int, int>> expected{{0, 0}, {1, 0}, {1, 1}, {2, 0},
                                                     {2, 1}, {2, 2}, {2, 3}, {2, 3}};
     QCOMPARE(way, expected);
     w.focus.direction_by(-4);
-    QCOMPARE(w.focus.moment().iteration, 1);
-    QCOMPARE(w.focus.moment().direction, 1);
+    QCOMPARE(w.focus.position().iteration, 1);
+    QCOMPARE(w.focus.position().direction, 1);
     w.focus.iteration_by(-1);
-    QCOMPARE(w.focus.moment().direction, 0);
+    QCOMPARE(w.focus.position().direction, 0);
     // A search goes through later steps to directions that the earlier ones had not.
     w.focus.go_to({0, 0, w.last_step(0)});
     w.wanted.clear();
-    w.focus.seek([](const MapHistory&, std::int32_t, Way) { return MapHistory::none; },
-                 Way::forward);
+    w.focus.seek([](const MapHistory&, std::int32_t, StepOrder) { return MapHistory::none; },
+                 StepOrder::forward);
     QVERIFY(std::find(w.wanted.begin(), w.wanted.end(), 3) != w.wanted.end());
-    QCOMPARE(w.focus.moment().iteration, 0);
+    QCOMPARE(w.focus.position().iteration, 0);
   }
 
   void goes_to_the_first_step_that_is_found() {
@@ -145,9 +145,9 @@ class FocusTest : public QObject {
   void steps_go_through_all_directions_and_back() {
     Watched w;
     w.focus.go_to({0, 0, -1});
-    std::vector<Moment> way{w.focus.moment()};
+    std::vector<RunPosition> way{w.focus.position()};
     while (w.focus.step_by(1)) {
-      way.push_back(w.focus.moment());
+      way.push_back(w.focus.position());
     }
     std::size_t expected = 0;
     for (int d = 0; d < passes; ++d) {
@@ -222,7 +222,8 @@ class FocusTest : public QObject {
     // A search goes through those of all iterations.
     w.wanted.clear();
     w.focus.go_to({0, 0, -1});
-    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
+    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }),
+                 StepOrder::forward);
     QVERIFY(w.arrived_at({0, 0, -1}));
     QCOMPARE(w.wanted.size(), std::size_t{3 * passes});
     // One that comes late is shown as what it is.
@@ -231,7 +232,7 @@ class FocusTest : public QObject {
     w.focus.go_to({2, 1, 0});
     w.show(1, 1);
     QVERIFY(!w.focus.arrived());
-    QCOMPARE(w.focus.moment().iteration, 1);
+    QCOMPARE(w.focus.position().iteration, 1);
     w.show(1, 2);
     QVERIFY(w.arrived_at({2, 1, 0}));
   }
@@ -242,9 +243,9 @@ class FocusTest : public QObject {
     w.at_once = false;
     w.focus.go_to({0, 2, 3});
     QVERIFY(!w.focus.arrived());
-    QCOMPARE(w.focus.moment().direction, 0);
+    QCOMPARE(w.focus.position().direction, 0);
     QCOMPARE(w.focus.map()->direction, 0);
-    QCOMPARE(w.focus.wanted().direction, 2);
+    QCOMPARE(w.focus.target().direction, 2);
     w.show(2);
     QVERIFY(w.arrived_at({0, 2, 3}));
   }
@@ -257,7 +258,7 @@ class FocusTest : public QObject {
     w.focus.go_to({0, 3, 0});
     w.show(1);  // shown in passing
     QVERIFY(!w.focus.arrived());
-    QCOMPARE(w.focus.moment().direction, 1);
+    QCOMPARE(w.focus.position().direction, 1);
     w.show(3);
     QVERIFY(w.arrived_at({0, 3, 0}));
     w.show(1);  // nobody waits for it any more
@@ -268,7 +269,7 @@ class FocusTest : public QObject {
     Watched w;
     w.focus.go_to({0, 0, -1});
     const PatchId patch = 2;
-    std::vector<Moment> expected;
+    std::vector<RunPosition> expected;
     for (int d = 0; d < passes; ++d) {
       for (const std::int32_t k : at(w.maps, d)->history.steps_of(patch)) {
         expected.push_back({0, d, k});
@@ -276,15 +277,15 @@ class FocusTest : public QObject {
     }
     QVERIFY(expected.front().direction < expected.back().direction);
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
-    for (const Moment& moment : expected) {
-      w.focus.seek(find_events_of(patch), Way::forward);
-      QVERIFY(w.arrived_at(moment));
+    for (const RunPosition& position : expected) {
+      w.focus.seek(find_events_of(patch), StepOrder::forward);
+      QVERIFY(w.arrived_at(position));
     }
-    w.focus.seek(find_events_of(patch), Way::forward);
+    w.focus.seek(find_events_of(patch), StepOrder::forward);
     QVERIFY(w.arrived_at(expected.back()));
     QCOMPARE(ended.back().front().toBool(), false);
     for (std::size_t k = expected.size() - 1; k-- > 0;) {
-      w.focus.seek(find_events_of(patch), Way::backward);
+      w.focus.seek(find_events_of(patch), StepOrder::backward);
       QVERIFY(w.arrived_at(expected[k]));
     }
   }
@@ -295,8 +296,8 @@ class FocusTest : public QObject {
     w.focus.go_to({500, 1, 3});
     w.wanted.clear();
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
-    for (const Way way : {Way::forward, Way::backward}) {
-      w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), way);
+    for (const StepOrder order : {StepOrder::forward, StepOrder::backward}) {
+      w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), order);
       QVERIFY(w.arrived_at({500, 1, 3}));
     }
     QCOMPARE(ended.count(), 2);
@@ -308,7 +309,8 @@ class FocusTest : public QObject {
     w.focus.go_to({0, 0, 3});
     w.at_once = false;
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
-    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), Way::forward);
+    w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }),
+                 StepOrder::forward);
     QVERIFY(w.focus.seeking());
     const QSignalSpy stopped(&w.focus, &Focus::seek_stopped);
     w.focus.stop();
@@ -343,7 +345,7 @@ class FocusTest : public QObject {
     const StepFinder finder = find_changes_at(p);
     std::int32_t k = -1;
     int changes = 0;
-    while ((k = finder(history, k, Way::forward)) != MapHistory::none) {
+    while ((k = finder(history, k, StepOrder::forward)) != MapHistory::none) {
       QCOMPARE(top_after(k), history.step(k).patch);
       ++changes;
     }

@@ -66,8 +66,8 @@ class LessonsTest : public QObject {
     QVERIFY(taught.settles());
     QCOMPARE(window.snapshot()->progress.direction, 5);  // not solved anew
     QVERIFY(!taught.focus().following());
-    QCOMPARE(taught.focus().moment().direction, 8);
-    QCOMPARE(taught.focus().moment().step, 2);
+    QCOMPARE(taught.focus().position().direction, 8);
+    QCOMPARE(taught.focus().position().step, 2);
     QVERIFY(taught.focus().phase() == Phase::split);
     QVERIFY(window.colors().scale().mode == ColorMode::luminance);
     QCOMPARE(window.findChild<SceneView*>()->view_point().eye.x, 9.0);
@@ -75,10 +75,10 @@ class LessonsTest : public QObject {
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
     QCOMPARE(taught.text("lesson_title"), QString("Mine"));
-    QCOMPARE(window.session().state(), SessionState::finished);
+    QCOMPARE(window.runner().state(), RunState::finished);
     QCOMPARE(window.snapshot()->progress.passes, 8);
-    QCOMPARE(taught.focus().moment().iteration, 1);
-    QVERIFY(taught.focus().map()->history.step(taught.focus().moment().step).exchanges > 0);
+    QCOMPARE(taught.focus().position().iteration, 1);
+    QVERIFY(taught.focus().map()->history.step(taught.focus().position().step).exchanges > 0);
     QCOMPARE(window.findChild<QAction*>("lesson_next")->text(), QString("Next lesson"));
 
     // Back is back: fewer directions than are solved mean a solve anew.
@@ -226,7 +226,7 @@ class LessonsTest : public QObject {
       QCOMPARE(taught.window->selection().patch(), state.selection);
       QCOMPARE(!taught.focus().following(), state.focus.has_value());
       if (state.focus) {
-        QCOMPARE(taught.focus().moment().direction, state.focus->direction);
+        QCOMPARE(taught.focus().position().direction, state.focus->direction);
       }
       QVERIFY(!at(pages, k).text.empty());
     }

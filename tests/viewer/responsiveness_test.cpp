@@ -125,7 +125,7 @@ class ResponsivenessTest : public QObject {
     QVERIFY(wait_for([&] { return window->settled(); }));
     QTimer heartbeat;
     heartbeat.start(5);
-    const auto time_seeks = [&](int count, const std::function<Moment(int)>& to) {
+    const auto time_seeks = [&](int count, const std::function<RunPosition(int)>& to) {
       Timings timings;
       for (int k = 0; k < count; ++k) {
         timings.measure([&] {
@@ -140,9 +140,9 @@ class ResponsivenessTest : public QObject {
     };
     const std::int32_t steps = focus.map()->history.step_count();
     const Timings same = time_seeks(15, [&](int k) {
-      return Moment{0, 1, steps * ((7 * k) % 15) / 15};
+      return RunPosition{0, 1, steps * ((7 * k) % 15) / 15};
     });
-    const Timings other = time_seeks(5, [&](int k) { return Moment{0, 3 + k, steps / 2}; });
+    const Timings other = time_seeks(5, [&](int k) { return RunPosition{0, 3 + k, steps / 2}; });
     qInfo("seek on the sphere-flake, ms in the median: same direction %.0f, another %.0f",
           median(same.clock), median(other.clock));
     // The goals are 50 and 500 on an idle machine.
@@ -155,7 +155,7 @@ class ResponsivenessTest : public QObject {
     constexpr int directions = 32;
     const auto window = make_window(directions);
     window->open("sphere-flake", {Goal::Kind::iteration});
-    window->session().want_form_factors();
+    window->runner().include_form_factors();
     QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; },
                      long_enough));
     MaterialEdits& edits = window->inspection().edits();

@@ -80,8 +80,8 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->snapshot()->options.directions, 32);
     QCOMPARE(window->selection().patch(), PatchId{7});
     QVERIFY(window->colors().scale().mode == ColorMode::luminance);
-    const Moment there{0, 5, 3};
-    QVERIFY(window->focus().moment() == there);
+    const RunPosition there{0, 5, 3};
+    QVERIFY(window->focus().position() == there);
     QVERIFY(window->focus().phase() == Phase::split);
     QCOMPARE(window->breakpoints().list().size(), std::size_t{1});
     QVERIFY(window->breakpoints().list()[0].kind == Breakpoint::Kind::pair);

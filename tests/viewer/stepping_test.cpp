@@ -68,13 +68,13 @@ class SteppingTest : public QObject {
     QVERIFY(s.focus.following());
     const int count = s.steps() + 1;
     QTest::mousePress(s.lanes, Qt::LeftButton, {}, s.place(Lane::steps, 0, count));
-    QCOMPARE(s.focus.moment().step, -1);
+    QCOMPARE(s.focus.position().step, -1);
     QVERIFY(!s.focus.following());
     QVERIFY(s.settles());
     QCOMPARE(s.map_view->canvas()->fragment_count(), std::size_t{0});
     for (const int k : {1, 3, count - 1, 2}) {
       s.drag_to(s.place(Lane::steps, k, count));
-      QCOMPARE(s.focus.moment().step, k - 1);
+      QCOMPARE(s.focus.position().step, k - 1);
       QVERIFY(s.settles());
       QCOMPARE(s.map_view->canvas()->fragment_count(),
                s.focus.map()->record().map_after(k - 1).size());
@@ -83,7 +83,7 @@ class SteppingTest : public QObject {
 
     QTest::mouseClick(s.lanes, Qt::LeftButton, {}, s.place(Lane::directions, 5, s.focus.passes()));
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-    QVERIFY((s.focus.moment() == Moment{0, 5, 1}));
+    QVERIFY((s.focus.position() == RunPosition{0, 5, 1}));
     QVERIFY(s.focus.map()->record().frame.omega == (*s.window->snapshot()->directions)[5]);
   }
 
@@ -155,15 +155,15 @@ class SteppingTest : public QObject {
     s.trigger("map_hemicube");
     QVERIFY(s.settles());
     const auto* hemicube = s.map_view->findChild<HemicubeView*>("hemicube_view");
-    QVERIFY(hemicube->isVisible() && !hemicube->sight());
+    QVERIFY(hemicube->isVisible() && !hemicube->comparison());
     QVERIFY(s.text("map_text").contains("Select a patch"));
     s.window->selection().select(14);
     QVERIFY(s.settles());
-    QVERIFY(hemicube->sight());
-    QCOMPARE(hemicube->sight()->request.eye, 14);
-    QCOMPARE(hemicube->sight()->image.resolution, 64);
-    QCOMPARE(hemicube->sight()->exact.size(), std::size_t{27});
-    const double wrong = hemicube->sight()->wrong_share();
+    QVERIFY(hemicube->comparison());
+    QCOMPARE(hemicube->comparison()->request.eye, 14);
+    QCOMPARE(hemicube->comparison()->image.resolution, 64);
+    QCOMPARE(hemicube->comparison()->exact.size(), std::size_t{27});
+    const double wrong = hemicube->comparison()->wrong_share();
     QVERIFY(wrong > 0.001 && wrong < 0.4);
     QVERIFY(s.text("map_text").contains("On patch 14"));
     const auto picture = [&] {
@@ -174,14 +174,14 @@ class SteppingTest : public QObject {
     save_picture(*s.window, "hemicube-difference");
     s.trigger("map_difference");
     QVERIFY(s.settles());
-    QVERIFY(hemicube->sight()->exact.empty());
+    QVERIFY(hemicube->comparison()->exact.empty());
     QVERIFY(color_count(picture()) > 6);
     QVERIFY(picture() != by_difference);
     save_picture(*s.window, "hemicube-colors");
     s.trigger("map_exact");
     QVERIFY(s.settles());
     QVERIFY(s.map_view->canvas()->isVisible());
-    QVERIFY(!hemicube->sight());
+    QVERIFY(!hemicube->comparison());
   }
 
   void tells_why_newell_gives_up() {
@@ -213,30 +213,30 @@ class SteppingTest : public QObject {
       return wait_for([&] { return s.focus.arrived(); });
     };
     QVERIFY(press(Qt::Key_Period));
-    QCOMPARE(s.focus.moment().step, 11);
+    QCOMPARE(s.focus.position().step, 11);
     QVERIFY(press(Qt::Key_Comma));
     QVERIFY(press(Qt::Key_Comma));
-    QCOMPARE(s.focus.moment().step, 9);
+    QCOMPARE(s.focus.position().step, 9);
     QVERIFY(press(Qt::Key_BracketRight));
-    QCOMPARE(s.focus.moment().direction, 4);
+    QCOMPARE(s.focus.position().direction, 4);
     QVERIFY(press(Qt::Key_BracketLeft));
-    QCOMPARE(s.focus.moment().direction, 3);
+    QCOMPARE(s.focus.position().direction, 3);
     QVERIFY(press(Qt::Key_T));
-    QVERIFY(s.focus.map()->history.step(s.focus.moment().step).exchanges > 0);
+    QVERIFY(s.focus.map()->history.step(s.focus.position().step).exchanges > 0);
 
     s.window->selection().select(4);
-    const Moment before = s.focus.moment();
+    const RunPosition before = s.focus.position();
     QVERIFY(press(Qt::Key_N));
-    QVERIFY(before < s.focus.moment());
+    QVERIFY(before < s.focus.position());
     const auto events = s.focus.map()->history.steps_of(4);
-    QVERIFY(std::find(events.begin(), events.end(), s.focus.moment().step) != events.end());
+    QVERIFY(std::find(events.begin(), events.end(), s.focus.position().step) != events.end());
 
     s.lanes->setFocus();
-    const std::int32_t at = s.focus.moment().step;
+    const std::int32_t at = s.focus.position().step;
     QTest::keyClick(s.lanes, Qt::Key_Left);
-    QCOMPARE(s.focus.moment().step, at - 1);
+    QCOMPARE(s.focus.position().step, at - 1);
     QTest::keyClick(s.lanes, Qt::Key_Right);
-    QCOMPARE(s.focus.moment().step, at);
+    QCOMPARE(s.focus.position().step, at);
     QVERIFY(press(Qt::Key_F));
     QVERIFY(s.focus.following());
   }
@@ -249,7 +249,7 @@ class SteppingTest : public QObject {
     s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
                    return history.step(k).exchanges > 0 && !history.outside_at(k).empty();
                  }),
-                 Way::forward);
+                 StepOrder::forward);
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     MapCanvas* canvas = s.map_view->canvas();
     s.window->findChild<QToolButton*>("map_near")->click();
@@ -281,10 +281,10 @@ class SteppingTest : public QObject {
     s.focus.seek(find_where([](const MapHistory& history, std::int32_t k) {
                    return history.step(k).exchanges > 1 && history.outside_at(k).size() > 1;
                  }),
-                 Way::forward);
+                 StepOrder::forward);
     s.focus.set_phase(Phase::split);
     QVERIFY(s.settles());
-    const MapHistory::Step& step = s.focus.map()->history.step(s.focus.moment().step);
+    const MapHistory::Step& step = s.focus.map()->history.step(s.focus.position().step);
     QVERIFY(s.text("value_i").startsWith(QString::number(step.patch)));
     QVERIFY(s.text("value_gathered").size() > 3);
     const auto* events = s.window->findChild<QTableView*>("step_events");
@@ -318,7 +318,7 @@ class SteppingTest : public QObject {
     const QPoint first = line->visualRect(line->model()->index(0, 1)).center();
     QTest::mouseClick(line->viewport(), Qt::LeftButton, {}, first);
     QTest::mouseDClick(line->viewport(), Qt::LeftButton, {}, first);
-    QCOMPARE(s.focus.moment().step + 1, line->model()->index(0, 0).data().toInt());
+    QCOMPARE(s.focus.position().step + 1, line->model()->index(0, 0).data().toInt());
     // The same by a global map: the line's patches are the region's list.
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(1);
     QCOMPARE(s.text("value_region_list").split(", ").size(), line->model()->rowCount());
@@ -341,13 +341,13 @@ class SteppingTest : public QObject {
     QCOMPARE(s.window->findChild<QSpinBox*>("breakpoint_patch")->value(), 9);
     s.window->findChild<QToolButton*>("add_breakpoint")->click();
     QCOMPARE(s.window->breakpoints().list().size(), std::size_t{1});
-    std::vector<Moment> stops;
+    std::vector<RunPosition> stops;
     for (int k = 0; k < 6; ++k) {
       s.trigger("run_on");
       QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-      stops.push_back(s.focus.moment());
+      stops.push_back(s.focus.position());
       const auto steps = s.focus.map()->history.steps_of(9);
-      QVERIFY(std::find(steps.begin(), steps.end(), s.focus.moment().step) != steps.end());
+      QVERIFY(std::find(steps.begin(), steps.end(), s.focus.position().step) != steps.end());
     }
     // The list says which one it was.
     s.window->breakpoints().add({Breakpoint::Kind::large_map, 0, 0, 1e6, true});
@@ -359,7 +359,7 @@ class SteppingTest : public QObject {
     for (int k = 4; k >= 0; --k) {
       s.trigger("run_back");
       QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-      QVERIFY(s.focus.moment() == at(stops, k));
+      QVERIFY(s.focus.position() == at(stops, k));
     }
     auto* list = s.window->findChild<QListWidget*>("breakpoint_list");
     list->item(0)->setCheckState(Qt::Unchecked);
@@ -373,7 +373,7 @@ class SteppingTest : public QObject {
       menu->actions()[action]->trigger();
       menu->close();
       QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-      QVERIFY(s.focus.moment() == stops[action == 1 ? 1 : 0]);
+      QVERIFY(s.focus.position() == stops[action == 1 ? 1 : 0]);
       QVERIFY(wait_for([&] { return !s.window->findChild<QMenu*>("breakpoint_menu"); }));
     }
     list->setCurrentRow(0);
@@ -393,7 +393,7 @@ class SteppingTest : public QObject {
     const QImage before = directions->grab().toImage();
     QTest::mouseClick(directions, Qt::LeftButton, {}, directions->place_of(21).toPoint());
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-    QVERIFY((s.focus.moment() == Moment{0, 20, 2}));
+    QVERIFY((s.focus.position() == RunPosition{0, 20, 2}));
     QCOMPARE(directions->mark(), std::optional(21));
     QVERIFY(directions->grab().toImage() != before);
 
@@ -401,7 +401,7 @@ class SteppingTest : public QObject {
     QVERIFY(wait_for([&] { return s.focus.iterations() == 2 && s.window->settled(); }));
     QTest::mouseClick(iterations, Qt::LeftButton, {}, iterations->place_of(2).toPoint());
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
-    QVERIFY((s.focus.moment() == Moment{1, 20, 2}));
+    QVERIFY((s.focus.position() == RunPosition{1, 20, 2}));
     QCOMPARE(iterations->mark(), std::optional(2));
   }
 
@@ -422,7 +422,7 @@ class SteppingTest : public QObject {
     for (const int n : {2, 0, 1}) {
       window->focus().go_to({n, 5, 1});
       QVERIFY(wait_for([&] { return window->focus().arrived(); }));
-      QCOMPARE(window->focus().moment().iteration, n);
+      QCOMPARE(window->focus().position().iteration, n);
       QVERIFY(window->focus().map()->record().frame.omega == solver.direction(n, 5));
     }
   }

@@ -136,7 +136,7 @@ class TreeTest : public QObject {
     int turned = 0;
     QPersistentModelIndex deep;
     for (const auto& sample : make_directions(Sampling::random, 8, 3)) {
-      model.show_moment(outline, sample.direction, 5);
+      model.show_position(outline, sample.direction, 5);
       const std::int32_t node = model.path().back();
       QVERIFY(model.visit(model.index_of(node)).holds(5));
       if (deep.isValid()) {
@@ -192,7 +192,7 @@ class TreeTest : public QObject {
     const std::int32_t step = path->visit(row).plane_begin;
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
-    QCOMPARE(focus.moment().step, step);
+    QCOMPARE(focus.position().step, step);
     QCOMPARE(path->rowCount(), row + 1);
 
     // A place of the root's bar is a step.
@@ -206,7 +206,7 @@ class TreeTest : public QObject {
     QCOMPARE(s.window->selection().patch(), focus.map()->history.step(20).patch);
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
     QVERIFY(wait_for([&] { return focus.arrived(); }));
-    QCOMPARE(focus.moment().step, 20);
+    QCOMPARE(focus.position().step, 20);
 
     // Who comes first is told.
     focus.go_to({0, 3, 5});
@@ -232,12 +232,13 @@ class TreeTest : public QObject {
         return false;
       }
       const QModelIndex last = model->index_of(model->path().back());
-      return model->visit(last).holds(focus.moment().step) &&
+      return model->visit(last).holds(focus.position().step) &&
              view->visualRect(last).intersects(view->viewport()->rect());
     };
-    for (const Moment& moment : {Moment{0, 3, 11}, Moment{0, 3, 25}, Moment{0, 7, 2}}) {
-      focus.go_to(moment);
-      QVERIFY(wait_for([&] { return focus.moment() == moment && shows_path(); }));
+    for (const RunPosition& position :
+         {RunPosition{0, 3, 11}, RunPosition{0, 3, 25}, RunPosition{0, 7, 2}}) {
+      focus.go_to(position);
+      QVERIFY(wait_for([&] { return focus.position() == position && shows_path(); }));
       // What lies off the path is closed.
       const auto& path = model->path();
       for (std::int32_t n = 0;
@@ -254,7 +255,7 @@ class TreeTest : public QObject {
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
     QCOMPARE(s.window->selection().patch(), patch_of(model->outline(), model->visit(root)));
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
-    QVERIFY(wait_for([&] { return focus.arrived() && focus.moment().step == own; }));
+    QVERIFY(wait_for([&] { return focus.arrived() && focus.position().step == own; }));
     save_picture(*s.window, "whole-tree");
   }
 
@@ -271,7 +272,7 @@ class TreeTest : public QObject {
     timer.start();
     const auto directions = make_directions(Sampling::random, 10, 3);
     for (const auto& sample : directions) {
-      model.show_moment(outline, sample.direction, outline->size(0) / 2);
+      model.show_position(outline, sample.direction, outline->size(0) / 2);
       for (const std::int32_t node : model.path()) {
         view.expand(model.index_of(node));
       }

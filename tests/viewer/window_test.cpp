@@ -29,7 +29,7 @@ struct Solved : SolvedWindow {
     const Focus& focus = window->focus();
     const MapRecord& record = focus.map()->record();
     std::set<PatchId> patches;
-    for (const std::int32_t row : record.map_after(focus.moment().step)) {
+    for (const std::int32_t row : record.map_after(focus.position().step)) {
       patches.insert(at(record.rows, row).patch);
     }
     return patches;
@@ -225,7 +225,7 @@ class WindowTest : public QObject {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
     // Starting anew with many directions.
-    solved.window->session().restart(
+    solved.window->runner().restart(
         [] {
           SolveOptions options;
           options.directions = 100000;
@@ -235,11 +235,11 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.passes == 100000; }));
     solved.trigger("one_direction");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 1; }));
-    QVERIFY(wait_for([&] { return solved.window->session().state() == SessionState::paused; }));
+    QVERIFY(wait_for([&] { return solved.window->runner().state() == RunState::paused; }));
     solved.trigger("run");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > 20; }));
     solved.trigger("pause");
-    QVERIFY(wait_for([&] { return solved.window->session().state() == SessionState::paused; }));
+    QVERIFY(wait_for([&] { return solved.window->runner().state() == RunState::paused; }));
     const int at = solved.window->snapshot()->progress.direction;
     QTest::qWait(300);
     QCOMPARE(solved.window->snapshot()->progress.direction, at);

@@ -72,17 +72,17 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
 
   recolor_timer_ = new QTimer(this);
   recolor_timer_->setSingleShot(true);
-  connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_moment);
-  connect(&focus_, &Focus::moved, this, &MapView::show_moment);
-  connect(&focus_, &Focus::wished, this, &MapView::show_title);
-  connect(&focus_, &Focus::probed, this, &MapView::show_moment);
+  connect(recolor_timer_, &QTimer::timeout, this, &MapView::show_position);
+  connect(&focus_, &Focus::moved, this, &MapView::show_position);
+  connect(&focus_, &Focus::target_changed, this, &MapView::show_title);
+  connect(&focus_, &Focus::probed, this, &MapView::show_position);
   connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
   connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
   canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::offer_runs);
   connect(canvas_, &MapCanvas::clicked, this,
           [this](const QPointF& position) { focus_.set_probe(canvas_->point_at(position)); });
-  connect(&colors_, &ColorChoice::changed, this, &MapView::show_moment);
+  connect(&colors_, &ColorChoice::changed, this, &MapView::show_position);
   show_title();
 }
 
@@ -95,14 +95,14 @@ void MapView::offer_runs(const QPoint& position) {
   menu->setObjectName("map_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
   // Along another direction the point of the plane is another.
-  const auto offer = [&](const QString& text, Way way) {
-    Moment moment = focus_.moment();
-    moment.step = find_changes_at(*point)(focus_.map()->history, moment.step, way);
-    menu->addAction(text, this, [this, moment] { focus_.go_to(moment); })
-        ->setEnabled(moment.step != MapHistory::none);
+  const auto offer = [&](const QString& text, StepOrder order) {
+    RunPosition target = focus_.position();
+    target.step = find_changes_at(*point)(focus_.map()->history, target.step, order);
+    menu->addAction(text, this, [this, target] { focus_.go_to(target); })
+        ->setEnabled(target.step != MapHistory::none);
   };
-  offer(tr("Run to the next polygon over this point"), Way::forward);
-  offer(tr("Run back to the last polygon over this point"), Way::backward);
+  offer(tr("Run to the next polygon over this point"), StepOrder::forward);
+  offer(tr("Run back to the last polygon over this point"), StepOrder::backward);
   menu->addAction(tr("List the patches along this line"), this,
                   [this, point] { focus_.set_probe(point); });
   menu->popup(canvas_->mapToGlobal(position));
@@ -130,7 +130,7 @@ QWidget* MapView::make_controls() {
   row->addStretch(1);
   pixels_ = new PixelMenu;
   row->addWidget(pixels_);
-  connect(pixels_, &PixelMenu::changed, this, &MapView::show_moment);
+  connect(pixels_, &PixelMenu::changed, this, &MapView::show_position);
   labels_ = text_button(tr("Labels"), tr("Name the patch of each fragment that has room"), true);
   labels_->setObjectName("map_labels");
   near_ = text_button(tr("Near"), tr("Bring the step's polygon near"), false);
@@ -144,7 +144,7 @@ QWidget* MapView::make_controls() {
 
   connect(phases_, &QButtonGroup::idClicked, this,
           [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
-  connect(labels_, &QToolButton::toggled, this, &MapView::show_moment);
+  connect(labels_, &QToolButton::toggled, this, &MapView::show_position);
   connect(near_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
   connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
   return controls;
@@ -154,7 +154,7 @@ void MapView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool first = !snapshot_;
   snapshot_ = std::move(snapshot);
   if (first) {
-    show_moment();
+    show_position();
   } else if (focus_.map() && !recolor_timer_->isActive()) {
     recolor_timer_->start(recolor_interval_ms);
   }
@@ -179,7 +179,7 @@ bool MapView::up_to_date() const {
 
 bool MapView::shows_hemicube() const { return pixels_->choice().engine == Engine::hemicube; }
 
-void MapView::show_moment() {
+void MapView::show_position() {
   const auto map = focus_.map();
   if (!map) {
     canvas_->clear();
@@ -199,7 +199,7 @@ void MapView::show_moment() {
     return;
   }
   hemicube_->clear();
-  canvas_->show_map({map, focus_.moment().step, focus_.phase(), !focus_.following(),
+  canvas_->show_map({map, focus_.position().step, focus_.phase(), !focus_.following(),
                      labels_->isChecked(), pixels_->choice(), focus_.probe(),
                      std::move(patch_colors)});
 }
@@ -219,7 +219,7 @@ void MapView::show_title() {
   }
   title_->setText(tr("Direction %1 of %2, seen along ω")
                       .arg(count_text(map->direction + 1),
-                           count_text(focus_.passes_of(focus_.moment().iteration))));
+                           count_text(focus_.passes_of(focus_.position().iteration))));
   title_->setToolTip(tr("ω = %1 points to where the light comes from")
                          .arg(vector_text(map->record().frame.omega)));
   if (shows_hemicube()) {
@@ -234,7 +234,7 @@ void MapView::show_title() {
     step_text_->setText(pixel_text());
     return;
   }
-  const bool split = focus_.phase() == Phase::split && focus_.moment().step >= 0;
+  const bool split = focus_.phase() == Phase::split && focus_.position().step >= 0;
   if (split && !focus_.following()) {
     step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
                             .arg(color_name(theme::processed.darker(120), tr("polygon")),
@@ -242,7 +242,7 @@ void MapView::show_title() {
                                  color_name(theme::outside, tr("outside list"))));
     return;
   }
-  const std::int32_t after = focus_.moment().step + (focus_.phase() == Phase::before ? 0 : 1);
+  const std::int32_t after = focus_.position().step + (focus_.phase() == Phase::before ? 0 : 1);
   step_text_->setText(tr("V after %1 of %2 polygons: %3 fragments")
                           .arg(count_text(after), count_text(map->history.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));

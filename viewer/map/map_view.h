@@ -42,7 +42,7 @@ class MapView : public QWidget {
  private:
   QWidget* make_controls();
   void offer_runs(const QPoint& position);
-  void show_moment();
+  void show_position();
   void show_title();
   QString pixel_text() const;
   bool shows_hemicube() const;

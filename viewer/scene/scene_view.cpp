@@ -255,7 +255,7 @@ void SceneView::recolor() {
   }
   patch_colors_ = colors_.patch_colors();
   if (stepping()) {
-    dim_what_is_to_come(*focus_.map(), focus_.moment().step, patch_colors_);
+    dim_what_is_to_come(*focus_.map(), focus_.position().step, patch_colors_);
   }
   if (smooth_shading_) {
     smooth_mesh_->color(patch_colors_);
@@ -281,16 +281,16 @@ void SceneView::show_step() {
 }
 
 void SceneView::show_direction() {
-  const bool on_a_step = stepping() && focus_.moment().step >= 0;
+  const bool on_a_step = stepping() && focus_.position().step >= 0;
   if (on_a_step) {
-    step_glyph_->show(*focus_.map(), focus_.moment().step);
+    step_glyph_->show(*focus_.map(), focus_.position().step);
   } else {
     step_glyph_->hide();
   }
   if (on_a_step && direction_shown_) {
     // The plane sweeps with the polygons, from where the light comes.
     const Vec3& omega = focus_.map()->record().frame.omega;
-    const Vec3 center = center_of_step(*focus_.map(), focus_.moment().step);
+    const Vec3 center = center_of_step(*focus_.map(), focus_.position().step);
     glyph_->show_at(omega, snapshot_ && snapshot_->options.two_way,
                     focus_point_ + dot(center - focus_point_, omega) * omega, radius_);
     return;

@@ -49,24 +49,24 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
   passes_->setObjectName("direction_chart");
   passes_->setToolTip(tr("Click to go to a direction"));
   connect(steps_, &LogChart::clicked, this, [this](int x) {
-    focus_.go_to({x - 1, focus_.wanted().direction, focus_.moment().step});
+    focus_.go_to({x - 1, focus_.target().direction, focus_.position().step});
   });
   connect(passes_, &LogChart::clicked, this, [this](int x) {
-    focus_.go_to({shown_iteration_, x - 1, focus_.moment().step});
+    focus_.go_to({shown_iteration_, x - 1, focus_.position().step});
   });
-  connect(&focus_, &Focus::moved, this, &ConvergenceView::show_moment);
+  connect(&focus_, &Focus::moved, this, &ConvergenceView::show_position);
 }
 
 std::vector<LineChart> ConvergenceView::charts() const {
   return {steps_->chart(), passes_->chart()};
 }
 
-void ConvergenceView::show_moment() {
+void ConvergenceView::show_position() {
   const bool any = focus_.map() != nullptr;
-  const Moment& moment = focus_.moment();
-  steps_->set_mark(any ? std::optional(moment.iteration + 1) : std::nullopt);
-  passes_->set_mark(any && moment.iteration == shown_iteration_
-                        ? std::optional(moment.direction + 1)
+  const RunPosition& position = focus_.position();
+  steps_->set_mark(any ? std::optional(position.iteration + 1) : std::nullopt);
+  passes_->set_mark(any && position.iteration == shown_iteration_
+                        ? std::optional(position.direction + 1)
                         : std::nullopt);
 }
 
@@ -100,7 +100,7 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
        {tr("eq. 21"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},
       {}, passes);
   shown_iteration_ = snapshot.estimate_iteration;
-  show_moment();
+  show_position();
 }
 
 }  // namespace transillum::viewer

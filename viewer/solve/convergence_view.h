@@ -25,7 +25,7 @@ class ConvergenceView : public QWidget {
   std::vector<LineChart> charts() const;
 
  private:
-  void show_moment();
+  void show_position();
 
   Focus& focus_;
   LogChart* steps_;

@@ -41,7 +41,7 @@ const std::vector<CodeText>& algorithm_code() {
 namespace {
 
 std::vector<CodeLine> lines_of_local_map(const Focus& focus, const MapHistory& history) {
-  const std::int32_t k = focus.moment().step;
+  const std::int32_t k = focus.position().step;
   if (k < 0) {
     return {CodeLine::empty_map};
   }
@@ -74,7 +74,7 @@ std::vector<CodeLine> lines_of_global_map(const Focus& focus, const MapHistory& 
     return {CodeLine::global_map};
   }
   const std::vector<StepEvent> line = events_at_point(history, *focus.probe());
-  const std::int32_t k = focus.moment().step;
+  const std::int32_t k = focus.position().step;
   const StepEvent* event = event_reached(line, k);
   if (event == nullptr) {
     return {CodeLine::region_list};
@@ -95,7 +95,7 @@ constexpr double weight = 4 * std::numbers::pi;  // J_d
 
 /// M of the step in focus; a pass both ways counts as two.
 int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
-  return snapshot.passes_of(focus.moment().iteration) * (snapshot.options.two_way ? 2 : 1);
+  return snapshot.passes_of(focus.position().iteration) * (snapshot.options.two_way ? 2 : 1);
 }
 
 /// B_j(n), where it has been kept.
@@ -131,7 +131,7 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
     state.list.push_back(event.below);
   }
   state.region = region_at(history, state.point);
-  const StepEvent* event = event_reached(line, focus.moment().step);
+  const StepEvent* event = event_reached(line, focus.position().step);
   if (event == nullptr) {
     return state;
   }
@@ -143,7 +143,7 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
   if (state.j == no_patch) {
     return state;
   }
-  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  state.radiosity_j = kept_radiosity(snapshot, focus.position().iteration, state.j);
   if (!state.exchanges || !state.radiosity_j || !state.region) {
     return state;
   }
@@ -156,7 +156,7 @@ std::optional<RegionState> region_state(const Focus& focus, const SolverSnapshot
 std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSnapshot& snapshot,
                                               PatchId selected) {
   const auto map = focus.map();
-  const std::int32_t k = focus.moment().step;
+  const std::int32_t k = focus.position().step;
   if (!map || k < 0 || map->loaded != snapshot.loaded) {
     return std::nullopt;
   }
@@ -191,14 +191,14 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   state.j = j->first;
   state.area_j = j->second;
 
-  state.radiosity_j = kept_radiosity(snapshot, focus.moment().iteration, state.j);
+  state.radiosity_j = kept_radiosity(snapshot, focus.position().iteration, state.j);
   if (!state.radiosity_j) {
     return state;
   }
   const double share = state.weight / (std::numbers::pi * state.directions * state.area_i);
   Rgb sum;
   for (const auto& [source, area] : areas) {
-    sum += (share * area) * *kept_radiosity(snapshot, focus.moment().iteration, source);
+    sum += (share * area) * *kept_radiosity(snapshot, focus.position().iteration, source);
   }
   state.gathered = scene.reflectance(step.patch) * sum;
   return state;

@@ -70,7 +70,7 @@ bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t
   return false;
 }
 
-QString words_of(const Breakpoint& b) {
+QString text_of(const Breakpoint& b) {
   switch (b.kind) {
     case Kind::patch:
       return Breakpoints::tr("Patch %1 takes part").arg(b.patch);
@@ -116,13 +116,13 @@ void Breakpoints::change(const QString& what, std::vector<Breakpoint> list) {
 void Breakpoints::add(const Breakpoint& breakpoint) {
   auto list = list_;
   list.push_back(breakpoint);
-  change(tr("new breakpoint: %1").arg(words_of(breakpoint)), std::move(list));
+  change(tr("new breakpoint: %1").arg(text_of(breakpoint)), std::move(list));
 }
 
 void Breakpoints::remove(std::size_t k) {
   auto list = list_;
   list.erase(list.begin() + static_cast<std::ptrdiff_t>(k));
-  change(tr("removal of breakpoint: %1").arg(words_of(list_[k])), std::move(list));
+  change(tr("removal of breakpoint: %1").arg(text_of(list_[k])), std::move(list));
 }
 
 void Breakpoints::set_enabled(std::size_t k, bool enabled) {
@@ -132,7 +132,7 @@ void Breakpoints::set_enabled(std::size_t k, bool enabled) {
   auto list = list_;
   list[k].enabled = enabled;
   change((enabled ? tr("switching on of breakpoint: %1") : tr("switching off of breakpoint: %1"))
-             .arg(words_of(list_[k])),
+             .arg(text_of(list_[k])),
          std::move(list));
 }
 
@@ -150,8 +150,8 @@ StepFinder Breakpoints::finder() const {
 std::vector<std::int32_t> Breakpoints::steps_in(const MapHistory& history) const {
   std::vector<std::int32_t> steps;
   const StepFinder next = finder();
-  for (std::int32_t k = next(history, -1, Way::forward); k != MapHistory::none;
-       k = next(history, k, Way::forward)) {
+  for (std::int32_t k = next(history, -1, StepOrder::forward); k != MapHistory::none;
+       k = next(history, k, StepOrder::forward)) {
     steps.push_back(k);
   }
   return steps;

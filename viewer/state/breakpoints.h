@@ -33,7 +33,7 @@ struct Breakpoint {
 };
 
 bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t step);
-QString words_of(const Breakpoint& breakpoint);
+QString text_of(const Breakpoint& breakpoint);
 /// As files and settings name a kind.
 const char* name_of(Breakpoint::Kind kind);
 std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);

@@ -20,13 +20,13 @@ void Focus::begin_run(int passes, bool renews) {
   renews_ = renews;
   iterations_ = 1;
   step_passes_.clear();
-  moment_ = wanted_ = newest_ = {};
+  position_ = target_ = newest_ = {};
   map_ = nullptr;
   set_probe(std::nullopt);
   following_ = true;
   under_way_ = false;
   seek_left_ = 0;
-  emit wished();
+  emit target_changed();
   emit moved();
 }
 
@@ -36,7 +36,7 @@ void Focus::set_iterations(int count) {
     return;
   }
   iterations_ = count;
-  emit wished();
+  emit target_changed();
 }
 
 void Focus::set_passes_of_steps(std::vector<int> passes) {
@@ -44,17 +44,17 @@ void Focus::set_passes_of_steps(std::vector<int> passes) {
     return;
   }
   step_passes_ = std::move(passes);
-  emit wished();
+  emit target_changed();
 }
 
-void Focus::go_to(const Moment& moment) {
+void Focus::go_to(const RunPosition& position) {
   if (passes_ == 0) {
     return;
   }
   leave_newest();
   seek_left_ = 0;
-  go(moment.iteration, moment.direction, moment.step,
-     [step = moment.step](const MapHistory& history) { return nearest_step(history, step); });
+  go(position.iteration, position.direction, position.step,
+     [step = position.step](const MapHistory& history) { return nearest_step(history, step); });
 }
 
 void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
@@ -64,12 +64,12 @@ void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
   leave_newest();
   seek_left_ = 0;
   go(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
-    return finder(history, -1, Way::forward);
+    return finder(history, -1, StepOrder::forward);
   });
 }
 
-Moment Focus::moved_by(const Moment& from, int directions, std::int32_t step) const {
-  Moment to{from.iteration, from.direction + directions, step};
+RunPosition Focus::moved_by(const RunPosition& from, int directions, std::int32_t step) const {
+  RunPosition to{from.iteration, from.direction + directions, step};
   while (to.direction < 0) {
     if (to.iteration == 0) {
       return from;
@@ -90,16 +90,16 @@ bool Focus::step_by(std::int32_t steps) {
     return false;
   }
   const std::int32_t last = map_->history.step_count() - 1;
-  Moment to = moment_;
+  RunPosition to = position_;
   // After the last step comes the next direction's empty map, before that the last step.
-  if (steps > 0 && moment_.step == last) {
-    to = moved_by(moment_, 1, -1);
-  } else if (steps < 0 && moment_.step == -1) {
-    to = moved_by(moment_, -1, std::numeric_limits<std::int32_t>::max());
+  if (steps > 0 && position_.step == last) {
+    to = moved_by(position_, 1, -1);
+  } else if (steps < 0 && position_.step == -1) {
+    to = moved_by(position_, -1, std::numeric_limits<std::int32_t>::max());
   } else {
-    to.step = std::clamp(moment_.step + steps, -1, last);
+    to.step = std::clamp(position_.step + steps, -1, last);
   }
-  if (to == moment_) {
+  if (to == position_) {
     return false;
   }
   go_to(to);
@@ -108,12 +108,12 @@ bool Focus::step_by(std::int32_t steps) {
 
 void Focus::direction_by(int directions) {
   if (passes_ > 0) {
-    go_to(moved_by(wanted_, directions, moment_.step));
+    go_to(moved_by(target_, directions, position_.step));
   }
 }
 
 void Focus::iteration_by(int iterations) {
-  go_to({wanted_.iteration + iterations, wanted_.direction, moment_.step});
+  go_to({target_.iteration + iterations, target_.direction, position_.step});
 }
 
 void Focus::set_phase(Phase phase) {
@@ -133,7 +133,7 @@ void Focus::set_probe(const std::optional<Vec2>& probe) {
 void Focus::phase_by(int phases) {
   const int phase = static_cast<int>(phase_) + phases;
   const bool within = 0 <= phase && phase <= static_cast<int>(Phase::after);
-  if (within && moment_.step >= 0) {
+  if (within && position_.step >= 0) {
     set_phase(static_cast<Phase>(phase));
     return;
   }
@@ -143,21 +143,21 @@ void Focus::phase_by(int phases) {
   }
 }
 
-void Focus::seek(StepFinder finder, Way way) {
+void Focus::seek(StepFinder finder, StepOrder order) {
   if (!map_) {
     return;
   }
   leave_newest();
   finder_ = std::move(finder);
-  way_ = way;
+  order_ = order;
   // Every direction once; the last one is the first again, for what lies on its other side.
   const bool all_alike = !renews_ && passes_of(0) == passes_;
   seek_all_ = seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
-  wanted_ = moment_;
-  const std::int32_t from = moment_.step;
-  const std::int32_t step = finder_(map_->history, from, way_);
+  target_ = position_;
+  const std::int32_t from = position_.step;
+  const std::int32_t step = finder_(map_->history, from, order_);
   if (step != MapHistory::none) {
-    moment_.step = wanted_.step = step;
+    position_.step = target_.step = step;
     end_seek();
     emit moved();
     emit seek_ended(true);
@@ -167,30 +167,30 @@ void Focus::seek(StepFinder finder, Way way) {
 }
 
 void Focus::seek_on() {
-  const int by = way_ == Way::forward ? 1 : -1;
-  const Moment next = moved_by(wanted_, by, -1);
-  if (--seek_left_ <= 0 || next == wanted_) {
-    wanted_ = moment_;
+  const int by = order_ == StepOrder::forward ? 1 : -1;
+  const RunPosition next = moved_by(target_, by, -1);
+  if (--seek_left_ <= 0 || next == target_) {
+    target_ = position_;
     end_seek();
     emit seek_ended(false);
     return;
   }
   go(next.iteration, next.direction, -1, [this](const MapHistory& history) {
-    return finder_(history, way_ == Way::forward ? -1 : history.step_count(), way_);
+    return finder_(history, order_ == StepOrder::forward ? -1 : history.step_count(), order_);
   });
 }
 
 void Focus::end_seek() {
   seek_left_ = 0;
   under_way_ = false;
-  emit wished();
+  emit target_changed();
 }
 
 void Focus::stop() {
   leave_newest();
   const bool sought = seeking();
   const auto searched = static_cast<int>(seek_all_ - seek_left_);
-  wanted_ = moment_;
+  target_ = position_;
   end_seek();
   if (sought) {
     emit seek_stopped(searched);
@@ -202,7 +202,7 @@ void Focus::set_following(bool following) {
     return;
   }
   following_ = following;
-  emit wished();
+  emit target_changed();
   if (following) {
     phase_ = Phase::after;
     go_to_newest();
@@ -216,11 +216,11 @@ void Focus::leave_newest() {
     return;
   }
   following_ = false;
-  emit wished();
+  emit target_changed();
 }
 
 void Focus::follow(int iteration, int direction) {
-  const Moment newest{iteration, direction, -1};
+  const RunPosition newest{iteration, direction, -1};
   const bool news = newest != newest_ || !map_;
   newest_ = newest;
   if (following_ && news) {
@@ -239,24 +239,24 @@ void Focus::go_to_newest() {
 
 void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
   const int n = std::clamp(iteration, 0, iterations_ - 1);
-  wanted_ = {n, std::clamp(direction, 0, passes_of(n) - 1), step};
+  target_ = {n, std::clamp(direction, 0, passes_of(n) - 1), step};
   arrival_ = std::move(arrival);
   under_way_ = true;
-  emit wished();
-  if (map_ && shows(*map_, wanted_)) {
+  emit target_changed();
+  if (map_ && shows(*map_, target_)) {
     show_map(map_);
   } else {
-    emit map_wanted(wanted_.iteration, wanted_.direction);
+    emit map_requested(target_.iteration, target_.direction);
   }
 }
 
-bool Focus::shows(const RecordedMap& map, const Moment& moment) const {
-  return map.direction == moment.direction && (!renews_ || map.iteration == moment.iteration);
+bool Focus::shows(const RecordedMap& map, const RunPosition& position) const {
+  return map.direction == position.direction && (!renews_ || map.iteration == position.iteration);
 }
 
 void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   const bool stale = !under_way_ || map->passes != passes_;
-  const bool on_the_way = !shows(*map, wanted_);
+  const bool on_the_way = !shows(*map, target_);
   if (stale || (on_the_way && seek_left_ > 0)) {
     return;
   }
@@ -272,7 +272,7 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   }
   if (on_the_way) {
     // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
-    moment_ = {renews_ ? map_->iteration : wanted_.iteration, map_->direction, step};
+    position_ = {renews_ ? map_->iteration : target_.iteration, map_->direction, step};
     emit moved();
   } else {
     arrive(step);
@@ -280,8 +280,8 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
 }
 
 void Focus::arrive(std::int32_t step) {
-  wanted_.step = step;
-  moment_ = wanted_;
+  target_.step = step;
+  position_ = target_;
   const bool sought = seek_left_ > 0;
   end_seek();
   emit moved();

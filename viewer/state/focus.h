@@ -15,12 +15,12 @@
 namespace transillum::viewer {
 
 /// A point in the time of a run; later ones are larger.
-struct Moment {
+struct RunPosition {
   int iteration = 0;       ///< from 0: the step that makes B(n+1) of B(n)
   int direction = 0;       ///< from 0: number of the pass
   std::int32_t step = -1;  ///< of the direction, from 0; -1: before its first
 
-  friend auto operator<=>(const Moment&, const Moment&) = default;
+  friend auto operator<=>(const RunPosition&, const RunPosition&) = default;
 };
 
 /// What of a step is looked at; the order of the paper's pseudo-code (section 3.2).
@@ -33,7 +33,7 @@ enum class Phase {
 /// The moment that all views show, and the ways to another one. The views know it, and never each
 /// other.
 ///
-/// A direction's history has to be recorded first: what is wanted goes out by map_wanted() and
+/// A direction's history has to be recorded first: what is wanted goes out by map_requested() and
 /// comes back by show_map(); until then the old moment stays, and a newer wish replaces an older.
 class Focus : public QObject {
   Q_OBJECT
@@ -57,11 +57,12 @@ class Focus : public QObject {
   }
 
   /// What is shown; its direction is map()'s. Without a map there is no moment to show.
-  const Moment& moment() const { return moment_; }
+  const RunPosition& position() const { return position_; }
   std::shared_ptr<const RecordedMap> map() const { return map_; }
   Phase phase() const { return phase_; }
-  /// Where it is going, or moment(); of a direction not recorded yet the step may be unknown (-1).
-  const Moment& wanted() const { return wanted_; }
+  /// Where it is going, or position(); of a direction not recorded yet the step may be unknown
+  /// (-1).
+  const RunPosition& target() const { return target_; }
   bool arrived() const { return !under_way_; }
   /// Whether it stays with the newest direction.
   bool following() const { return following_; }
@@ -72,7 +73,7 @@ class Focus : public QObject {
   void set_probe(const std::optional<Vec2>& probe);
 
   /// Each of these but follow() ends the following. Out of range means the nearest there is.
-  void go_to(const Moment& moment);
+  void go_to(const RunPosition& position);
   /// To the first step of a direction that `finder` finds; before its first where there is none.
   void go_to_first(int iteration, int direction, StepFinder finder);
   /// To an end of the direction at most; from there on to the next one. False at the run's end.
@@ -85,20 +86,20 @@ class Focus : public QObject {
   void set_phase(Phase phase);
   /// To the nearest step after (before) this one that `finder` finds, through all directions of the
   /// run if need be; ends with seek_ended(), or with seek_stopped().
-  void seek(StepFinder finder, Way way);
+  void seek(StepFinder finder, StepOrder order);
   /// Stays where it is.
   void stop();
   /// Goes to the fullest step of a direction and stays with the newest ones, if `following`.
   void set_following(bool following);
   void follow(int iteration, int direction);
 
-  /// The answer to map_wanted().
+  /// The answer to map_requested().
   void show_map(std::shared_ptr<const RecordedMap> map);
 
  signals:
-  void moved();   ///< moment, map or phase
-  void wished();  ///< what is wanted, what can be, whether it follows or seeks
-  void map_wanted(int iteration, int direction);
+  void moved();           ///< position, map or phase
+  void target_changed();  ///< what is wanted, what can be, whether it follows or seeks
+  void map_requested(int iteration, int direction);
   void seek_ended(bool found);
   void seek_stopped(int searched);  ///< in vain until now: so many directions
   void probed();
@@ -108,9 +109,9 @@ class Focus : public QObject {
   using Arrival = std::function<std::int32_t(const MapHistory&)>;
 
   /// Whether `map` is of the direction at `moment`.
-  bool shows(const RecordedMap& map, const Moment& moment) const;
+  bool shows(const RecordedMap& map, const RunPosition& position) const;
   /// `from` where the run does not reach so far.
-  Moment moved_by(const Moment& from, int directions, std::int32_t step) const;
+  RunPosition moved_by(const RunPosition& from, int directions, std::int32_t step) const;
   void go(int iteration, int direction, std::int32_t step, Arrival arrival);
   void go_to_newest();
   void arrive(std::int32_t step);
@@ -121,7 +122,7 @@ class Focus : public QObject {
   int passes_ = 0, iterations_ = 1;
   std::vector<int> step_passes_;
   bool renews_ = false;
-  Moment moment_, wanted_, newest_;
+  RunPosition position_, target_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;
   std::optional<Vec2> probe_;
@@ -129,7 +130,7 @@ class Focus : public QObject {
   bool under_way_ = false;
   Arrival arrival_;
   StepFinder finder_;
-  Way way_ = Way::forward;
+  StepOrder order_ = StepOrder::forward;
   std::int64_t seek_all_ = 0, seek_left_ = 0;  ///< directions to be searched
 };
 

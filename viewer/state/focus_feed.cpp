@@ -9,7 +9,7 @@
 namespace transillum::viewer {
 
 FocusFeed::FocusFeed(Focus& focus, QObject* parent) : QObject(parent), focus_(focus) {
-  connect(&focus_, &Focus::map_wanted, this, &FocusFeed::record);
+  connect(&focus_, &Focus::map_requested, this, &FocusFeed::record);
   connect(&recorder_, &MapRecorder::recorded, &focus_, &Focus::show_map);
   connect(&recorder_, &MapRecorder::failed, this, [this](const QString& message) {
     focus_.stop();

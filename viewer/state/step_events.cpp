@@ -114,7 +114,7 @@ std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p)
   return events;
 }
 
-QString words_of(StepEvent::Kind kind) {
+QString text_of(StepEvent::Kind kind) {
   const auto tr = [](const char* words) { return QCoreApplication::translate("StepEvent", words); };
   switch (kind) {
     case Kind::edge_on:

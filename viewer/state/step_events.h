@@ -39,6 +39,6 @@ double exchanged_area(const MapHistory& history, PatchId receiver, PatchId sourc
 std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p);
 
 /// In a few words, without the patches.
-QString words_of(StepEvent::Kind kind);
+QString text_of(StepEvent::Kind kind);
 
 }  // namespace transillum::viewer

@@ -7,8 +7,8 @@
 namespace transillum::viewer {
 
 StepFinder find_where(std::function<bool(const MapHistory&, std::int32_t)> holds) {
-  return [holds = std::move(holds)](const MapHistory& history, std::int32_t from, Way way) {
-    const std::int32_t by = way == Way::forward ? 1 : -1;
+  return [holds = std::move(holds)](const MapHistory& history, std::int32_t from, StepOrder order) {
+    const std::int32_t by = order == StepOrder::forward ? 1 : -1;
     for (std::int32_t k = from + by; 0 <= k && k < history.step_count(); k += by) {
       if (holds(history, k)) {
         return k;
@@ -19,9 +19,9 @@ StepFinder find_where(std::function<bool(const MapHistory&, std::int32_t)> holds
 }
 
 StepFinder find_events_of(PatchId patch) {
-  return [patch](const MapHistory& history, std::int32_t from, Way way) {
-    return way == Way::forward ? history.next_step_of(patch, from)
-                               : history.previous_step_of(patch, from);
+  return [patch](const MapHistory& history, std::int32_t from, StepOrder order) {
+    return order == StepOrder::forward ? history.next_step_of(patch, from)
+                                       : history.previous_step_of(patch, from);
   };
 }
 
@@ -32,7 +32,7 @@ StepFinder find_exchanges() {
 }
 
 StepFinder find_exchanges_of(PatchId patch) {
-  return [patch](const MapHistory& history, std::int32_t from, Way way) {
+  return [patch](const MapHistory& history, std::int32_t from, StepOrder order) {
     const auto exchanges = [&](std::int32_t k) {
       const auto inside = history.inside_at(k);
       const bool own = history.step(k).patch == patch;
@@ -41,9 +41,9 @@ StepFinder find_exchanges_of(PatchId patch) {
       });
     };
     const StepFinder next = find_events_of(patch);
-    std::int32_t k = next(history, from, way);
+    std::int32_t k = next(history, from, order);
     while (k != MapHistory::none && !exchanges(k)) {
-      k = next(history, k, way);
+      k = next(history, k, order);
     }
     return k;
   };

@@ -7,11 +7,11 @@
 
 namespace transillum::viewer {
 
-enum class Way { forward, backward };
+enum class StepOrder { forward, backward };
 
 /// The nearest step after `from` (before it) of what is looked for, or MapHistory::none.
 using StepFinder =
-    std::function<std::int32_t(const MapHistory& history, std::int32_t from, Way way)>;
+    std::function<std::int32_t(const MapHistory& history, std::int32_t from, StepOrder order)>;
 
 /// Steps that process, cut or cover a polygon of the patch.
 StepFinder find_events_of(PatchId patch);

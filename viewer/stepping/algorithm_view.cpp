@@ -67,9 +67,9 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
   }
   layout->addStretch(1);
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
-  connect(&focus_, &Focus::moved, this, &AlgorithmView::show_moment);
-  connect(&focus_, &Focus::probed, this, &AlgorithmView::show_moment);
-  connect(&selection_, &Selection::changed, this, &AlgorithmView::show_moment);
+  connect(&focus_, &Focus::moved, this, &AlgorithmView::show_position);
+  connect(&focus_, &Focus::probed, this, &AlgorithmView::show_position);
+  connect(&selection_, &Selection::changed, this, &AlgorithmView::show_position);
   show_kind();
 }
 
@@ -91,9 +91,10 @@ QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
 QWidget* AlgorithmView::make_local_values() {
   values_ = new ValueGrid;
   values_->layout()->setContentsMargins(12, 10, 12, 4);
-  moment_ = values_->add_row(tr("n, d"), {},
-                             tr("Iteration and direction; n counts from 0, as in the paper: it is "
-                                "what iteration n + 1 starts from"));
+  position_ =
+      values_->add_row(tr("n, d"), {},
+                       tr("Iteration and direction; n counts from 0, as in the paper: it is "
+                          "what iteration n + 1 starts from"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose polygon is processed"));
   i_->setObjectName("value_i");
   map_ = values_->add_row(tr("V"), {}, tr("Fragments of the map, before and after the step"));
@@ -170,15 +171,15 @@ void AlgorithmView::show_kind() {
   for (QWidget* part : global_parts_) {
     part->setVisible(kind() == MapKind::global);
   }
-  show_moment();
+  show_position();
 }
 
 void AlgorithmView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
-  show_moment();
+  show_position();
 }
 
-void AlgorithmView::show_moment() {
+void AlgorithmView::show_position() {
   const auto current = current_lines(focus_, kind());
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const CodeLine line = algorithm_code()[k].line;
@@ -239,10 +240,10 @@ void AlgorithmView::show_region(const RegionState& state) {
 void AlgorithmView::show_values(const AlgorithmState& state) {
   const QString none = QStringLiteral("–");
   const bool any = state.i != no_patch, lit = state.j != no_patch;
-  const Moment& moment = focus_.moment();
-  moment_->setText(focus_.map()
-                       ? tr("%1, %2").arg(moment.iteration).arg(count_text(moment.direction + 1))
-                       : none);
+  const RunPosition& position = focus_.position();
+  position_->setText(
+      focus_.map() ? tr("%1, %2").arg(position.iteration).arg(count_text(position.direction + 1))
+                   : none);
   i_->setText(any ? i_text(state.i, state.area_i,
                            state.front_facing ? tr("faces the light") : tr("shines down"))
                   : none);

@@ -37,7 +37,7 @@ class AlgorithmView : public QWidget {
   QWidget* make_local_values();
   QWidget* make_region_values();
   void show_kind();
-  void show_moment();
+  void show_position();
   void show_values(const AlgorithmState& state);
   void show_region(const RegionState& state);
 
@@ -48,7 +48,7 @@ class AlgorithmView : public QWidget {
   QComboBox* kind_;
   std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the one or the other map
   ValueGrid *values_, *region_values_;
-  QLabel *moment_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
+  QLabel *position_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
   QLabel *region_, *region_area_, *region_list_, *region_i_, *region_j_, *region_radiosity_,
       *region_gathered_, *region_hint_;
 };

@@ -60,8 +60,8 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
                   tr("Back to the last step where a breakpoint holds"));
   run_on_ = make_action(this, "run_on", tr("Run on"), Qt::Key_F9,
                         tr("On to the next step where a breakpoint holds"));
-  connect(run_on_, &QAction::triggered, this, [this] { run(Way::forward); });
-  connect(run_back_, &QAction::triggered, this, [this] { run(Way::backward); });
+  connect(run_on_, &QAction::triggered, this, [this] { run(StepOrder::forward); });
+  connect(run_back_, &QAction::triggered, this, [this] { run(StepOrder::backward); });
 
   list_ = new QListWidget;
   list_->setObjectName("breakpoint_list");
@@ -182,9 +182,9 @@ void BreakpointPanel::offer_runs(const QPoint& position) {
   menu->setObjectName("breakpoint_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(tr("Run back to the last time this was true"), this,
-                  [this, finder] { focus_.seek(finder, Way::backward); });
+                  [this, finder] { focus_.seek(finder, StepOrder::backward); });
   menu->addAction(tr("Run to the next time this is true"), this,
-                  [this, finder] { focus_.seek(finder, Way::forward); });
+                  [this, finder] { focus_.seek(finder, StepOrder::forward); });
   menu->popup(list_->viewport()->mapToGlobal(position));
 }
 
@@ -206,7 +206,7 @@ void BreakpointPanel::show_list() {
     const int row = list_->currentRow();
     list_->clear();
     for (const Breakpoint& breakpoint : breakpoints_.list()) {
-      auto* item = new QListWidgetItem(words_of(breakpoint), list_);
+      auto* item = new QListWidgetItem(text_of(breakpoint), list_);
       item->setCheckState(breakpoint.enabled ? Qt::Checked : Qt::Unchecked);
     }
     list_->setCurrentRow(std::min(row, list_->count() - 1));
@@ -233,13 +233,13 @@ void BreakpointPanel::show_state() {
 void BreakpointPanel::mark_what_holds() {
   const QSignalBlocker quiet(list_);
   const auto map = focus_.map();
-  const std::int32_t step = focus_.moment().step;
+  const std::int32_t step = focus_.position().step;
   for (int row = 0; row < list_->count(); ++row) {
     const Breakpoint& breakpoint = at(breakpoints_.list(), row);
     const bool here =
         map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
     QListWidgetItem* item = list_->item(row);
-    item->setText(here ? tr("%1: here").arg(words_of(breakpoint)) : words_of(breakpoint));
+    item->setText(here ? tr("%1: here").arg(text_of(breakpoint)) : text_of(breakpoint));
     QFont font = list_->font();
     font.setBold(here);
     item->setFont(font);
@@ -261,6 +261,6 @@ void BreakpointPanel::remove_current() {
   }
 }
 
-void BreakpointPanel::run(Way way) { focus_.seek(breakpoints_.finder(), way); }
+void BreakpointPanel::run(StepOrder order) { focus_.seek(breakpoints_.finder(), order); }
 
 }  // namespace transillum::viewer

@@ -37,7 +37,7 @@ class BreakpointPanel : public QWidget {
   void mark_what_holds();
   void add_new();
   void remove_current();
-  void run(Way way);
+  void run(StepOrder order);
 
   Focus& focus_;
   Selection& selection_;

@@ -51,7 +51,7 @@ QString EventTable::text(const StepEvent& event, int column) const {
     case of_below:
       return QString::number(event.below);
     case of_kind:
-      return words_of(event.kind);
+      return text_of(event.kind);
     case of_above:
       return event.above == no_patch ? QString() : QString::number(event.above);
     case of_area:

@@ -10,7 +10,7 @@ namespace transillum::viewer {
 StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
     : QObject(parent), focus_(focus), selection_(selection) {
   using S = StepActions;
-  constexpr Way on = Way::forward, back = Way::backward;
+  constexpr StepOrder on = StepOrder::forward, back = StepOrder::backward;
   QAction* previous_direction =
       add("previous_direction", tr("Previous direction"), Qt::Key_BracketLeft,
           tr("The same step of the direction before"), &S::direction, back);
@@ -56,19 +56,20 @@ StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
   newest_->setShortcut(Qt::Key_F);
   newest_->setToolTip(tr("Show each new direction after the step at which most of it shines (F)"));
   connect(newest_, &QAction::triggered, &focus_, &Focus::set_following);
-  connect(&focus_, &Focus::wished, this, &StepActions::show_state);
+  connect(&focus_, &Focus::target_changed, this, &StepActions::show_state);
   connect(&focus_, &Focus::moved, this, &StepActions::show_state);
   connect(&selection_, &Selection::changed, this, &StepActions::show_state);
   show_state();
 }
 
 QAction* StepActions::add(const char* name, const QString& text, const QKeySequence& key,
-                          const QString& tip, void (StepActions::*what)(Way), Way way) {
+                          const QString& tip, void (StepActions::*what)(StepOrder),
+                          StepOrder order) {
   auto* action = new QAction(text, this);
   action->setObjectName(QString::fromLatin1(name));
   action->setShortcut(key);
   action->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString(QKeySequence::NativeText)));
-  connect(action, &QAction::triggered, this, [this, what, way] { (this->*what)(way); });
+  connect(action, &QAction::triggered, this, [this, what, order] { (this->*what)(order); });
   actions_.push_back(action);
   return action;
 }
@@ -83,16 +84,16 @@ void StepActions::add_to(QMenu& menu) const {
 
 namespace {
 
-int sign(Way way) { return way == Way::forward ? 1 : -1; }
+int sign(StepOrder order) { return order == StepOrder::forward ? 1 : -1; }
 
 }  // namespace
 
-void StepActions::step(Way way) { focus_.step_by(sign(way)); }
-void StepActions::phase(Way way) { focus_.phase_by(sign(way)); }
-void StepActions::event(Way way) { focus_.seek(find_events_of(selection_.patch()), way); }
-void StepActions::exchange(Way way) { focus_.seek(find_exchanges(), way); }
-void StepActions::direction(Way way) { focus_.direction_by(sign(way)); }
-void StepActions::iteration(Way way) { focus_.iteration_by(sign(way)); }
+void StepActions::step(StepOrder order) { focus_.step_by(sign(order)); }
+void StepActions::phase(StepOrder order) { focus_.phase_by(sign(order)); }
+void StepActions::event(StepOrder order) { focus_.seek(find_events_of(selection_.patch()), order); }
+void StepActions::exchange(StepOrder order) { focus_.seek(find_exchanges(), order); }
+void StepActions::direction(StepOrder order) { focus_.direction_by(sign(order)); }
+void StepActions::iteration(StepOrder order) { focus_.iteration_by(sign(order)); }
 
 void StepActions::show_state() {
   const bool any = focus_.passes() > 0 && focus_.map();

@@ -28,13 +28,13 @@ class StepActions : public QObject {
 
  private:
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& tip,
-               void (StepActions::*what)(Way), Way way);
-  void step(Way way);
-  void phase(Way way);
-  void event(Way way);
-  void exchange(Way way);
-  void direction(Way way);
-  void iteration(Way way);
+               void (StepActions::*what)(StepOrder), StepOrder order);
+  void step(StepOrder order);
+  void phase(StepOrder order);
+  void event(StepOrder order);
+  void exchange(StepOrder order);
+  void direction(StepOrder order);
+  void iteration(StepOrder order);
   void show_state();
 
   Focus& focus_;

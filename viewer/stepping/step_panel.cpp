@@ -68,7 +68,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
                           : event.above);
   });
   connect(tab.view, &QTableView::doubleClicked, this, [this, tab](const QModelIndex& index) {
-    Moment to = focus_.moment();
+    RunPosition to = focus_.position();
     to.step = tab.table->event(index.row()).step;
     focus_.go_to(to);
   });
@@ -90,11 +90,11 @@ void StepPanel::show_step_tab() {
   const auto map = focus_.map();
   std::vector<StepEvent> events;
   if (map) {
-    events = events_of_step(map->history, focus_.moment().step);
+    events = events_of_step(map->history, focus_.position().step);
   }
   step_.words->setText(events.empty() ? tr("Before the first polygon nothing has happened.")
                                       : tr("What polygon %1 met in V; a click selects a patch.")
-                                            .arg(count_text(focus_.moment().step + 1)));
+                                            .arg(count_text(focus_.position().step + 1)));
   step_.table->set_events(std::move(events));
 }
 
@@ -115,8 +115,8 @@ void StepPanel::show_patch_tab() {
                                 .arg(patch));
     patch_.table->set_events(std::move(events));
   }
-  patch_.table->set_current_step(focus_.moment().step);
-  const int row = patch_.table->row_of_step(focus_.moment().step);
+  patch_.table->set_current_step(focus_.position().step);
+  const int row = patch_.table->row_of_step(focus_.position().step);
   if (row >= 0) {
     patch_.view->scrollTo(patch_.table->index(row, 0));
   }
@@ -139,7 +139,7 @@ void StepPanel::show_line_tab() {
                "fragment under the point, and as a pair along this direction.")
                 .arg(exchanges));
   line_.table->set_events(std::move(events));
-  line_.table->set_current_step(focus_.moment().step);
+  line_.table->set_current_step(focus_.position().step);
 }
 
 }  // namespace transillum::viewer

@@ -55,8 +55,8 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   layout->setSpacing(2);
   layout->addLayout(row);
   layout->addWidget(lanes_, 1);
-  connect(&focus_, &Focus::moved, this, &TimelineBar::show_moment);
-  connect(&focus_, &Focus::wished, this, &TimelineBar::show_moment);
+  connect(&focus_, &Focus::moved, this, &TimelineBar::show_position);
+  connect(&focus_, &Focus::target_changed, this, &TimelineBar::show_position);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
     if (!found) {
       text_->set_clauses({tr("Nothing found in all directions of the run")});
@@ -66,7 +66,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
     text_->set_clauses({tr("The search was stopped: nothing found in the %1 directions so far")
                             .arg(count_text(searched))});
   });
-  show_moment();
+  show_position();
 }
 
 void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {
@@ -76,11 +76,11 @@ void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {
                        between ? snapshot.passes_of(progress.iteration - 1) : progress.direction);
 }
 
-void TimelineBar::show_moment() {
+void TimelineBar::show_position() {
   stop_->setVisible(focus_.seeking());
   if (focus_.seeking()) {
     text_->set_clauses(
-        {tr("Searching direction %1 …").arg(count_text(focus_.wanted().direction + 1))});
+        {tr("Searching direction %1 …").arg(count_text(focus_.target().direction + 1))});
     return;
   }
   const auto map = focus_.map();
@@ -88,7 +88,7 @@ void TimelineBar::show_moment() {
     text_->set_clauses({});
     return;
   }
-  const std::int32_t k = focus_.moment().step;
+  const std::int32_t k = focus_.position().step;
   if (k < 0) {
     text_->set_clauses({tr("Before the first polygon: V is empty")});
     return;

@@ -28,7 +28,7 @@ class TimelineBar : public QWidget {
   TimelineLanes* lanes() const { return lanes_; }
 
  private:
-  void show_moment();
+  void show_position();
 
   Focus& focus_;
   ClauseLabel* text_;

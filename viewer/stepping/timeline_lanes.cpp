@@ -34,7 +34,7 @@ TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent
     }
     update();
   });
-  connect(&focus_, &Focus::wished, this, qOverload<>(&QWidget::update));
+  connect(&focus_, &Focus::target_changed, this, qOverload<>(&QWidget::update));
   connect(&selection_, &Selection::changed, this, &TimelineLanes::count_columns);
 }
 
@@ -73,7 +73,7 @@ int TimelineLanes::count_of(Lane lane) const {
     case Lane::iterations:
       return focus_.iterations();
     case Lane::directions:
-      return focus_.passes_of(focus_.wanted().iteration);
+      return focus_.passes_of(focus_.target().iteration);
     default:
       return focus_.map() ? focus_.map()->history.step_count() + 1 : 0;
   }
@@ -82,11 +82,11 @@ int TimelineLanes::count_of(Lane lane) const {
 int TimelineLanes::index_at(Lane lane) const {
   switch (lane) {
     case Lane::iterations:
-      return focus_.wanted().iteration;
+      return focus_.target().iteration;
     case Lane::directions:
-      return focus_.wanted().direction;
+      return focus_.target().direction;
     default:
-      return focus_.moment().step + 1;
+      return focus_.position().step + 1;
   }
 }
 
@@ -154,7 +154,7 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
   }
   // What has been computed so far.
   QRectF done = rect;
-  const bool newest = focus_.wanted().iteration >= done_iteration_;
+  const bool newest = focus_.target().iteration >= done_iteration_;
   if (lane == Lane::directions && newest) {
     done.setWidth(rect.width() * done_directions_ / std::max(count, 1));
   }
@@ -256,8 +256,8 @@ void TimelineLanes::mouseReleaseEvent(QMouseEvent*) { scrubbing_ = false; }
 
 void TimelineLanes::scrub(double x) {
   const int k = index(rect_of(scrubbed_), x, count_of(scrubbed_));
-  Moment to = focus_.wanted();
-  to.step = focus_.moment().step;
+  RunPosition to = focus_.target();
+  to.step = focus_.position().step;
   switch (scrubbed_) {
     case Lane::iterations:
       to.iteration = k;

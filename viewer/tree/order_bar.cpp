@@ -55,7 +55,7 @@ void OrderBar::paint(QPainter* painter, const QStyleOptionViewItem& option,
   };
   painter->save();
   painter->setPen(Qt::NoPen);
-  const std::int32_t now = std::clamp(focus_.moment().step + 1, visit.begin, visit.end);
+  const std::int32_t now = std::clamp(focus_.position().step + 1, visit.begin, visit.end);
   painter->fillRect(bar, coming_color);
   painter->fillRect(part(visit.begin, now, 0), done_color);
   if (visit.plane_begin < visit.plane_end) {
@@ -65,8 +65,8 @@ void OrderBar::paint(QPainter* painter, const QStyleOptionViewItem& option,
   } else {
     painter->fillRect(part(visit.plane_begin, visit.plane_begin, 2), theme::paper);
   }
-  if (visit.holds(focus_.moment().step)) {
-    const QRectF here = part(focus_.moment().step, focus_.moment().step + 1, 3);
+  if (visit.holds(focus_.position().step)) {
+    const QRectF here = part(focus_.position().step, focus_.position().step + 1, 3);
     painter->setBrush(Qt::NoBrush);
     painter->setPen(QPen(theme::ink, 2));
     painter->drawRect(here.adjusted(0, -2, 0, 2));

@@ -29,7 +29,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   view_->header()->setStretchLastSection(false);
   view_->header()->setSectionResizeMode(TreeModel::of_order, QHeaderView::Stretch);
   const auto go_to = [this](std::int32_t step) {
-    Moment to = focus_.moment();
+    RunPosition to = focus_.position();
     to.step = step;
     focus_.go_to(to);
   };
@@ -63,18 +63,18 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   set_widths();
 }
 
-void TreeBrowser::show_moment(const std::shared_ptr<const TreeOutline>& outline) {
+void TreeBrowser::show_position(const std::shared_ptr<const TreeOutline>& outline) {
   outline_ = outline;
   if (!isVisible()) {
     return;
   }
   const auto map = focus_.map();
   if (!map || !outline) {
-    model_->show_moment(nullptr, {}, -1);
+    model_->show_position(nullptr, {}, -1);
     opened_.clear();
     return;
   }
-  model_->show_moment(outline, map->record().frame.omega, std::max(focus_.moment().step, 0));
+  model_->show_position(outline, map->record().frame.omega, std::max(focus_.position().step, 0));
   open_path();
   view_->viewport()->update();
 }
@@ -109,7 +109,7 @@ void TreeBrowser::set_widths() {
 
 void TreeBrowser::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  show_moment(outline_);
+  show_position(outline_);
 }
 
 void TreeBrowser::changeEvent(QEvent* event) {

@@ -23,7 +23,7 @@ class TreeBrowser : public QWidget {
   TreeBrowser(Focus& focus, Selection& selection, QWidget* parent = nullptr);
 
   /// Null: there is nothing to show.
-  void show_moment(const std::shared_ptr<const TreeOutline>& outline);
+  void show_position(const std::shared_ptr<const TreeOutline>& outline);
 
  protected:
   void showEvent(QShowEvent* event) override;

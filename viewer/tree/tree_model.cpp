@@ -20,8 +20,8 @@ std::int32_t node_at(const QModelIndex& index) {
 
 }  // namespace
 
-void TreeModel::show_moment(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
-                            std::int32_t step) {
+void TreeModel::show_position(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
+                              std::int32_t step) {
   if (outline != outline_) {
     beginResetModel();
     outline_ = std::move(outline);

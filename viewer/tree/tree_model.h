@@ -21,8 +21,8 @@ class TreeModel : public QAbstractItemModel {
 
   /// Of another tree everything is new; of another direction along the same, sides change places.
   /// The step is not told of by a signal: views paint anew.
-  void show_moment(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
-                   std::int32_t step);
+  void show_position(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
+                     std::int32_t step);
   const TreeVisit& visit(const QModelIndex& index) const;
   const TreeOutline& outline() const { return *outline_; }
   QModelIndex index_of(std::int32_t node, int column = of_plane) const;

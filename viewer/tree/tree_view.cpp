@@ -65,20 +65,20 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
       go_to_step(path_->visit(index.row()).plane_begin);
     }
   });
-  connect(&focus_, &Focus::moved, this, &TreeView::show_moment);
+  connect(&focus_, &Focus::moved, this, &TreeView::show_position);
   connect(&selection_, &Selection::changed, this, [this] {
     show_words();
     table_->viewport()->update();
   });
-  show_moment();
+  show_position();
 }
 
 void TreeView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  show_moment();
+  show_position();
 }
 
-void TreeView::show_moment() {
+void TreeView::show_position() {
   if (!isVisible()) {
     return;
   }
@@ -91,12 +91,12 @@ void TreeView::show_moment() {
       outline_ = std::make_shared<const TreeOutline>(map->loaded->tree);
     }
     // Before the first polygon: the way to it.
-    const std::int32_t step = std::max(focus_.moment().step, 0);
+    const std::int32_t step = std::max(focus_.position().step, 0);
     path_->show_path(outline_, outline_->path_to(step, map->record().frame.omega), step);
     table_->scrollToBottom();
     table_->viewport()->update();
   }
-  browser_->show_moment(outline_);
+  browser_->show_position(outline_);
   show_words();
 }
 
@@ -146,7 +146,7 @@ void TreeView::select_step(std::int32_t step) {
 }
 
 void TreeView::go_to_step(std::int32_t step) {
-  Moment to = focus_.moment();
+  RunPosition to = focus_.position();
   to.step = step;
   focus_.go_to(to);
 }

@@ -29,7 +29,7 @@ class TreeView : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  void show_moment();
+  void show_position();
   void show_words();
   QString words_of_selection() const;
   void select_step(std::int32_t step);

@@ -137,8 +137,8 @@ void ExportActions::write_result(const QString& path) {
   check_result_path(path.toStdString());
   writing_ = true;
   const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
-                                          : window_.session().state() == SessionState::finished;
-  writer_.request({path, snapshot, complete}, UnderWay::goes_on);
+                                          : window_.runner().state() == RunState::finished;
+  writer_.request({path, snapshot, complete}, CurrentJob::finish);
 }
 
 // On the writer's thread.
@@ -170,7 +170,7 @@ void ExportActions::write_map_picture(const QString& path) const {
   if (!focus.map()) {
     throw std::runtime_error("there is no visibility map yet");
   }
-  const std::int32_t step = focus.moment().step - (focus.phase() == Phase::before ? 1 : 0);
+  const std::int32_t step = focus.position().step - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());
   MapPictureOptions options;
   options.patch_colors = window_.colors().patch_colors();

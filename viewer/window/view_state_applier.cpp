@@ -26,7 +26,7 @@ StepFinder find_named(StepName name, PatchId selection) {
     case StepName::event:
       return find_events_of(selection);
     case StepName::fullest:
-      return [](const MapHistory& history, std::int32_t, Way) {
+      return [](const MapHistory& history, std::int32_t, StepOrder) {
         return history.record().fullest_step();
       };
     case StepName::polygon:
@@ -145,9 +145,9 @@ void ViewStateApplier::begin_run() {
   const bool beyond = wish_.solve.kind != Goal::Kind::finished &&
                       passes_done(snapshot->progress, snapshot->kept_passes) > wish_.solve.passes;
   if (beyond || !(snapshot->options == wish_.options.solve)) {
-    window_.session().restart(wish_.options.solve, wish_.solve);
+    window_.runner().restart(wish_.options.solve, wish_.solve);
   } else {
-    window_.session().pursue(wish_.solve);
+    window_.runner().pursue(wish_.solve);
   }
   on_snapshot();
 }
@@ -189,7 +189,7 @@ bool ViewStateApplier::run_has_begun() const {
 
 bool ViewStateApplier::moment_is_there() const {
   return !wish_.focus || wish_.focus->iteration < window_.focus().iterations() ||
-         window_.session().state() == SessionState::finished;
+         window_.runner().state() == RunState::finished;
 }
 
 void ViewStateApplier::on_snapshot() {
@@ -261,7 +261,7 @@ void ViewStateApplier::on_direction() {
   act_ = Act::idle;
   Focus& focus = window_.focus();
   if (const auto* name = std::get_if<StepName>(&wish_.focus->step)) {
-    focus.seek(find_named(*name, window_.selection().patch()), Way::forward);
+    focus.seek(find_named(*name, window_.selection().patch()), StepOrder::forward);
   }
   focus.set_phase(wish_.focus->phase);
 }
@@ -276,16 +276,16 @@ ViewState ViewStateApplier::state() const {
   ViewState state = look();
   state.scene = window_.spec();
   state.options = {snapshot->options, window_.scene_options_in_effect()};
-  const bool finished = window_.session().state() == SessionState::finished ||
-                        window_.session().state() == SessionState::running;
+  const bool finished = window_.runner().state() == RunState::finished ||
+                        window_.runner().state() == RunState::running;
   if (!finished) {
     const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }
   const Focus& focus = window_.focus();
   if (!focus.following() && focus.map()) {
-    const Moment& moment = focus.moment();
-    state.focus = FocusChoice{moment.iteration, moment.direction, moment.step, focus.phase()};
+    const RunPosition& position = focus.position();
+    state.focus = FocusChoice{position.iteration, position.direction, position.step, focus.phase()};
   }
   state.materials = window_.inspection().edits().changes();
   state.selection = window_.selection().patch();
