@@ -5,9 +5,11 @@
 
 namespace transillum {
 
-/// The element of `container` at `id`. Ids of patches, fragments and points are signed 32-bit, so
-/// that -1 can mean "none"; containers are indexed by std::size_t. Unchecked, like operator[].
-/// @param id 0 … size - 1
+/// The element of `container` at index `id`. Ids of patches, fragments and points are signed
+/// 32-bit integers, so that -1 can mean "none"; containers are indexed by std::size_t. Unchecked,
+/// like operator[].
+/// @param container anything with operator[].
+/// @param id 0 … size - 1.
 template <class Container, class Id>
 constexpr decltype(auto) at(Container&& container, Id id) {
   return container[static_cast<std::size_t>(id)];

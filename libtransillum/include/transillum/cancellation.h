@@ -8,15 +8,18 @@
 
 namespace transillum {
 
-/// A wish to stop, shared by all copies. Sticky: once set it stays set.
+/// A cancellation flag shared by all copies. Sticky: once set, it stays set.
 ///
-/// Threads: any thread may set or read any copy at any time. All that may take long, be it the
-/// reading of a file, the building of a tree, a pass or the sums over passes, looks at it at least
-/// every 50 ms and then throws Canceled.
+/// Threads: any thread may set or read any copy at any time. Every long operation (reading a file,
+/// building a tree, a pass, summing passes) checks the flag at least every 50 ms and then throws
+/// Canceled.
 class Cancellation {
  public:
+  /// Sets the flag of this copy and all others.
   void cancel() const { flag_->store(true, std::memory_order_relaxed); }
+  /// Whether the flag is set.
   bool canceled() const { return flag_->load(std::memory_order_relaxed); }
+  /// @throws Canceled if the flag is set.
   void throw_if_canceled() const {
     if (canceled()) {
       throw Canceled();

@@ -8,19 +8,24 @@
 
 namespace transillum {
 
-/// Two patches of one plane, lit on the same side, of which one lies over the other.
+/// Two coplanar patches with the same normal, one of which covers part of the other.
 struct CoplanarOverlap {
-  PatchId upper;  ///< lights and receives where they overlap, see BspTree::order()
-  PatchId lower;
-  double area;  ///< of the overlap, m², less a strip of BspTree::thickness() at its borders; > 0
+  PatchId upper;  ///< the one that emits and receives in the overlap; see BspTree::order()
+  PatchId lower;  ///< the covered one
+  double area;    ///< m², without a border strip as wide as BspTree::thickness(); > 0
 
+  /// Exact comparison of all members.
   friend bool operator==(const CoplanarOverlap&, const CoplanarOverlap&) = default;
 };
 
-/// The overlaps of coplanar patches, by upper, then lower patch; at most about `most` of them.
+/// The overlaps of coplanar patches, sorted by upper, then lower patch.
 ///
-/// Strips narrower than BspTree::thickness() are patches that touch. Patches lit on opposite sides
-/// are the two sides of one surface and no overlap.
+/// An overlap narrower than BspTree::thickness() does not count: such patches touch. Patches with
+/// opposite normals are the two sides of one surface and do not overlap.
+/// @param scene the scene that `tree` was built from.
+/// @param tree BSP tree of `scene`.
+/// @param most the search stops after about this many overlaps.
+/// @param cancellation checked during the search.
 /// @throws Canceled
 std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, const BspTree& tree,
                                                std::size_t most,

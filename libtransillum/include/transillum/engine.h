@@ -14,58 +14,71 @@
 
 namespace transillum {
 
-/// Which algorithm turns a direction into transfers.
+/// The algorithm that computes Transfers from a direction.
 enum class Engine {
-  fast,       ///< each receiver's polygon eaten up by what lies above it, nearest first
-  local,      ///< the local visibility map of section 3.2, the one that can be watched
-  global,     ///< the global visibility map of section 3.1, by CGAL's exact arrangement
-  exact,      ///< the local map in exact numbers: an oracle for small scenes
-  zbuffer,    ///< the generalized z-buffer of section 2: a list of patches a pixel
-  painter,    ///< the painter's algorithm of section 2: one item buffer, painted over and over
-  rays,       ///< parallel lines through the scene by Embree: statistical
-  corrected,  ///< no cutting: what is partly hidden stays whole and is corrected (section 8)
-  hemicube,   ///< no directions: what each patch's middle sees, by solve_by_hemicubes()
+  fast,       ///< subtracts from each receiver's polygon what lies above it, nearest first
+  local,      ///< the local visibility map of section 3.2; can be recorded and stepped through
+  global,     ///< the global visibility map of section 3.1, by an exact arrangement
+  exact,      ///< the local map in exact arithmetic: a reference for small scenes
+  zbuffer,    ///< the generalized z-buffer of section 2: a list of patches per pixel
+  painter,    ///< the painter's algorithm of section 2: one item buffer, painted back to front
+  rays,       ///< parallel lines through the scene: statistical
+  corrected,  ///< no cutting: partly hidden polygons stay whole, areas are corrected (section 8)
+  hemicube,   ///< no directions: item buffers at each patch's center, by solve_by_hemicubes()
 };
+/// The names of the engines as in options and files, in the order of the enumeration.
 const std::vector<std::string>& engine_names();
-/// @throws InputError naming the choices.
+/// The engine called `name`.
+/// @throws InputError listing the choices.
 Engine engine_from_name(const std::string& name);
+/// The name in engine_names().
 const std::string& name_of(Engine engine);
-/// Whether make_engine() has it; not so hemicube.
+/// Whether make_engine() accepts it: all but hemicube.
 bool takes_directions(Engine engine);
 
-/// An engine at work: from a direction omega (unit) to its Transfers. Pure: no shared mutable
-/// state, so any number of threads may call one; the same omega gives the same bits.
-/// @throws Canceled
+/// Computes the Transfers of a direction omega (unit). A pure function without shared mutable
+/// state: any number of threads may call one, and the same omega gives the same bits. Throws
+/// Canceled.
 using TransferEngine = std::function<Transfers(const Vec3& omega, const Cancellation&)>;
 
-/// How the painter's algorithm comes by its order.
+/// How engine painter determines the order of the fragments.
 enum class PaintersOrder {
-  bsp,     ///< the tree's, which always has one
-  newell,  ///< Newell, Newell and Sancha's tests; gives up where patches overlap in a circle
+  bsp,     ///< by the BSP tree; always succeeds
+  newell,  ///< by the tests of Newell, Newell and Sancha; fails where patches overlap cyclically
 };
+/// The names of the orders as in options and files, in the order of the enumeration.
 const std::vector<std::string>& painters_order_names();
-/// @throws InputError naming the choices.
+/// The order called `name`.
+/// @throws InputError listing the choices.
 PaintersOrder painters_order_from_name(const std::string& name);
+/// The name in painters_order_names().
 const std::string& name_of(PaintersOrder order);
 
 /// Options that only some engines read.
 struct EngineOptions {
-  static constexpr int default_resolution = 512, largest_resolution = 16384;
+  static constexpr int default_resolution = 512;    ///< of zbuffer and painter, pixels
+  static constexpr int largest_resolution = 16384;  ///< pixels
 
-  double lines_per_patch = 100;  ///< rays: lines a direction over the number of patches, (0, 1e6]
-  bool gridded = true;           ///< rays: on a jittered grid; else anywhere at random
-  std::uint64_t seed = 1;        ///< rays
-  /// zbuffer, painter: pixels along the longer side of the window, the box round the projected
-  /// scene; 0: default_resolution. rays: the same grid, one line a pixel; 0: by lines_per_patch.
-  /// hemicube: pixels along a side of the cube; 0: HemicubeOptions' default.
+  double lines_per_patch = 100;  ///< rays: lines per direction over number of patches, (0, 1e6]
+  bool gridded = true;           ///< rays: on a jittered grid; else uniformly random
+  std::uint64_t seed = 1;        ///< rays: seed of the positions
+  /// zbuffer, painter: pixels along the longer side of the window, the bounding box of the
+  /// projected scene; 0: default_resolution. rays: the same grid with one line per pixel; 0: by
+  /// lines_per_patch. hemicube: pixels along a side of the cube; 0: HemicubeOptions::resolution's
+  /// default.
   int resolution = 0;
   PaintersOrder order = PaintersOrder::bsp;  ///< painter
 
+  /// Exact comparison of all members.
   friend bool operator==(const EngineOptions&, const EngineOptions&) = default;
 };
 
-/// Keeps scene and tree alive. `tree` is `scene`'s.
-/// @throws InputError where the engine cannot take the scene or an option.
+/// Makes an engine. It keeps scene and tree alive.
+/// @param engine any that takes_directions().
+/// @param scene the scene.
+/// @param tree BSP tree of `scene`.
+/// @param options those that the engine does not read are ignored.
+/// @throws InputError where the engine does not support the scene or an option.
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree, const EngineOptions& options = {});
 

@@ -6,16 +6,17 @@
 
 namespace transillum {
 
-/// A wrong call or bad input. `what()` is one sentence for the user: where (file, line, face)
-/// and what is wrong. The programs print it and exit with status 2.
+/// Invalid input or an invalid argument. `what()` is one sentence for the user that names the place
+/// (file, line, face), the value and the valid range. The programs print it and exit with status 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Thrown out of long work whose Cancellation was set. Carries no message for the user.
+/// Thrown by a long operation after its Cancellation was set. Carries no message for the user.
 class Canceled : public std::exception {
  public:
+  /// Always "canceled".
   const char* what() const noexcept override { return "canceled"; }
 };
 

@@ -5,8 +5,8 @@
 
 namespace transillum {
 
-/// The iteration does not converge: too few directions for so much reflectance. `what()` is one
-/// sentence for the user.
+/// The iteration does not converge: too few directions for the scene's largest reflectance
+/// (eq. 24). `what()` is one sentence for the user.
 class NotConvergent : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The input of every computation. A SceneDescription holds polygons as a file reader, a generator
+// or the caller's own code delivers them; the constructor of Scene checks them and turns faces into
+// patches and convex pieces. load_scene() does both for a file or a built-in scene.
 #pragma once
 
 #include <cstddef>
@@ -14,37 +18,44 @@
 
 namespace transillum {
 
-/// 0-based number of a patch; the caller's, everywhere, to the end.
+/// 0-based number of a patch: the order of the caller's faces, in every interface of the library.
 using PatchId = std::int32_t;
+/// No patch.
 inline constexpr PatchId no_patch = -1;
 /// Index into Scene::points().
 using PointId = std::int32_t;
 
-/// What a diffuse surface does with light.
+/// Optical properties of a diffuse surface.
 struct Material {
-  std::string name;
-  Rgb reflectance;  ///< rho, 0 <= rho < 1 a channel (MTL: Kd)
-  Rgb exitance;     ///< E, emitted, W/m², >= 0 (MTL: Ke)
+  std::string name;  ///< as in the file; not necessarily unique
+  Rgb reflectance;   ///< rho, 0 <= rho < 1 per channel (MTL: Kd)
+  Rgb exitance;      ///< E, emitted, W/m², >= 0 (MTL: Ke)
 };
 
-/// Polygons as a reader or a generator delivers them: not checked yet.
+/// Unchecked polygons, as a reader or a generator delivers them.
 struct SceneDescription {
-  std::string name;  ///< file or built-in, as error messages shall call it
-  std::vector<Vec3> points;
-  std::vector<Material> materials;
-  std::vector<PointId> corners;           ///< all outlines, one after the other
-  std::vector<std::uint32_t> face_begin;  ///< where face f starts in `corners`
-  std::vector<std::int32_t> face_material;
-  std::vector<std::int32_t> face_line;  ///< line of face f in the file, 0 if there is none
-  std::vector<std::string> notes;       ///< the reader's own remarks, for Scene::report()
+  std::string name;                         ///< file or built-in scene; used in error messages
+  std::vector<Vec3> points;                 ///< m
+  std::vector<Material> materials;          ///< referred to by face_material
+  std::vector<PointId> corners;             ///< the outlines of all faces, concatenated
+  std::vector<std::uint32_t> face_begin;    ///< index in `corners` where face f starts
+  std::vector<std::int32_t> face_material;  ///< index in `materials` of face f
+  std::vector<std::int32_t> face_line;      ///< line of face f in the file; 0: none
+  std::vector<std::string> notes;           ///< the reader's warnings, for Scene::report()
 
+  /// Number of faces.
   std::size_t face_count() const { return face_begin.size(); }
+  /// The points of face number `face`, counter-clockwise seen from its front side.
   std::span<const PointId> outline(std::size_t face) const {
     const std::size_t begin = face_begin[face];
     const std::size_t end = face + 1 < face_begin.size() ? face_begin[face + 1] : corners.size();
     return {corners.data() + begin, end - begin};
   }
-  /// Adds a face, counter-clockwise seen from its lit side.
+  /// Appends a face.
+  /// @param outline indices into `points`, counter-clockwise seen from the front side, which is
+  /// the side that emits and receives.
+  /// @param material index into `materials`.
+  /// @param line line number for error messages; 0: none.
   void add_face(std::span<const PointId> outline, int material, int line = 0) {
     face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
     corners.insert(corners.end(), outline.begin(), outline.end());
@@ -56,34 +67,36 @@ struct SceneDescription {
 /// How faces become patches.
 struct SceneOptions {
   bool two_sided = false;     ///< every face gives two opposite patches, front first
-  double max_patch_area = 0;  ///< m²; refine larger faces; 0: leave faces as they are
+  double max_patch_area = 0;  ///< m²; faces larger than this are subdivided; 0: none are
 };
 
 /// A planar polygon of constant radiosity.
 struct Patch {
-  Vec3 normal;            ///< unit, on the lit side
-  double area = 0;        ///< m², > 0
-  Vec3 center;            ///< centroid of the outline's area
-  std::int32_t face = 0;  ///< 0-based order of its face in the file
-  std::int32_t material = 0;
-  std::uint32_t outline_begin = 0, outline_end = 0;  ///< in the scene's outline corners
+  Vec3 normal;                      ///< unit, on the front side
+  double area = 0;                  ///< m², > 0
+  Vec3 center;                      ///< centroid, m
+  std::int32_t face = 0;            ///< 0-based number of its face in the description
+  std::int32_t material = 0;        ///< index into Scene::materials()
+  std::uint32_t outline_begin = 0;  ///< first index in the scene's outline corners
+  std::uint32_t outline_end = 0;    ///< one past the last index
 };
 
-/// A convex piece of a patch, planar to rounding. Pieces of one patch do not overlap.
+/// A convex part of a patch, planar up to rounding. Pieces of one patch do not overlap.
 struct Piece {
-  PatchId patch = no_patch;
-  std::uint32_t begin = 0, end = 0;  ///< in the scene's piece corners
+  PatchId patch = no_patch;  ///< the patch it is a part of
+  std::uint32_t begin = 0;   ///< first index in the scene's piece corners
+  std::uint32_t end = 0;     ///< one past the last index
 };
 
-/// What was found and mended on the way from faces to patches.
+/// What was found and repaired when faces became patches.
 struct SceneReport {
   std::vector<std::string> warnings;    ///< sentences for the user, at most a few dozen
-  std::int64_t faces = 0;               ///< faces in the file
-  std::int64_t dropped_degenerate = 0;  ///< faces without area, left out
+  std::int64_t faces = 0;               ///< faces in the description
+  std::int64_t dropped_degenerate = 0;  ///< faces without area, omitted
   std::int64_t cut_non_planar = 0;      ///< faces cut into triangles
-  std::int64_t refined = 0;             ///< faces cut by max_patch_area
-  std::int64_t unused_points = 0;
-  std::int64_t coincident_faces = 0;  ///< faces with the same points as an earlier one
+  std::int64_t refined = 0;             ///< faces subdivided by SceneOptions::max_patch_area
+  std::int64_t unused_points = 0;       ///< points that no face refers to
+  std::int64_t coincident_faces = 0;    ///< faces with the same points as an earlier one
 };
 
 /// A scene of patches: checked once, then never changed.
@@ -91,36 +104,48 @@ struct SceneReport {
 /// Threads: immutable, so any number of threads may read it.
 class Scene {
  public:
-  /// Checks `description` and makes patches of it.
+  /// Checks `description` and converts its faces to patches.
   /// @throws InputError naming the scene, the line, the face and what is wrong.
   /// @throws Canceled
   Scene(const SceneDescription& description, const SceneOptions& options = {},
         const Cancellation& cancellation = {});
 
+  /// SceneDescription::name.
   const std::string& name() const { return name_; }
+  /// Number of patches.
   PatchId patch_count() const { return static_cast<PatchId>(patches_.size()); }
+  /// All patches, by PatchId.
   const std::vector<Patch>& patches() const { return patches_; }
+  /// Patch i.
   const Patch& patch(PatchId i) const { return at(patches_, i); }
   /// Distinct points: no two have the same coordinates.
   const std::vector<Vec3>& points() const { return points_; }
+  /// Point p, m.
   const Vec3& point(PointId p) const { return at(points_, p); }
-  /// Outline of patch i, counter-clockwise seen from its lit side; may be concave.
+  /// Outline of patch i, counter-clockwise seen from its front side; may be concave.
   std::span<const PointId> outline(PatchId i) const {
     const Patch& p = patch(i);
     return {outline_corners_.data() + p.outline_begin, p.outline_end - p.outline_begin};
   }
+  /// The convex pieces of all patches, by patch.
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Corners of a piece, counter-clockwise seen from the patch's front side.
   std::span<const PointId> corners(const Piece& piece) const {
     return {piece_corners_.data() + piece.begin, piece.end - piece.begin};
   }
+  /// All materials; Patch::material is an index into them.
   const std::vector<Material>& materials() const { return materials_; }
+  /// Material of patch i.
   const Material& material(PatchId i) const { return at(materials_, patch(i).material); }
   /// E of patch i, W/m².
   const Rgb& exitance(PatchId i) const { return material(i).exitance; }
   /// rho of patch i.
   const Rgb& reflectance(PatchId i) const { return material(i).reflectance; }
+  /// Bounding box of all points, m.
   const Bounds& bounds() const { return bounds_; }
+  /// Warnings and counts from the checks.
   const SceneReport& report() const { return report_; }
+  /// The options it was built with.
   const SceneOptions& options() const { return options_; }
 
  private:
@@ -136,22 +161,26 @@ class Scene {
   SceneReport report_;
 };
 
-/// Reads the file or makes the built-in that `spec` names: a path ending in .obj, or
-/// `sphere-flake`, `cornell-box`, `furnace`, `boards`, `rooms`, `stars`, with parameters as in
-/// `sphere-flake:levels=2,slices=17,stacks=8`.
-/// @throws InputError with "did you mean" where a name is nearly right.
+/// Reads a file or generates a built-in scene.
+/// @param spec a path ending in .obj, or the name of a built-in scene (built_in_scenes()), with
+/// parameters as in `sphere-flake:levels=2,slices=17,stacks=8`.
+/// @param cancellation checked while reading.
+/// @throws InputError; for an unknown name similar to a known one the message suggests it.
+/// @throws Canceled
 SceneDescription describe_scene(const std::string& spec, const Cancellation& cancellation = {});
 
-/// describe_scene, then Scene.
+/// describe_scene(), then Scene.
+/// @throws InputError, Canceled
 std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOptions& options = {},
                                         const Cancellation& cancellation = {});
 
-/// A built-in scene, for lists and help.
+/// Name and parameters of a built-in scene, for lists and help.
 struct BuiltInScene {
-  std::string name;
+  std::string name;        ///< as describe_scene() accepts it
   std::string summary;     ///< one sentence
   std::string parameters;  ///< with their defaults, as they may follow the name and a colon
 };
+/// All built-in scenes.
 const std::vector<BuiltInScene>& built_in_scenes();
 
 }  // namespace transillum

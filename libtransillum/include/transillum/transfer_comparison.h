@@ -7,19 +7,21 @@
 
 namespace transillum {
 
-/// How two engines' transfers along one direction differ.
+/// The differences between two engines' transfers along one direction.
 struct TransferComparison {
-  double exchanged = 0, other_exchanged = 0;  ///< m², of all pairs
-  /// Share of what the first exchanges that the other has between the wrong patches or not at all:
-  /// half of all pairs' differences.
+  double exchanged = 0;        ///< m², sum over all pairs of the first
+  double other_exchanged = 0;  ///< m², sum over all pairs of the other
+  /// Half the sum of all pairs' absolute differences, over `exchanged`: the share that the other
+  /// engine assigns to the wrong patches or misses.
   double misplaced = 0;
-  /// A patch: what the engines differ in over all its pairs, m², as receiver or source.
+  /// Per patch: sum of the absolute differences of all pairs in which it is the receiver or the
+  /// source, m².
   std::vector<double> differences;
-  Transfer largest{no_patch, no_patch,
-                   0};  ///< the pair that differs most; first's less the other's
+  /// The pair with the largest absolute difference, and the difference: first minus other, m².
+  Transfer largest{no_patch, no_patch, 0};
 };
 
-/// `other` against `first`; both of the same direction and scene.
+/// Compares `other` with `first`; both of the same direction and scene.
 TransferComparison compare(const Transfers& first, const Transfers& other);
 
 }  // namespace transillum

@@ -8,55 +8,62 @@
 
 namespace transillum {
 
-/// A(i,j,omega) of eq. 14: the area, on the plane perpendicular to omega, where front-facing i
-/// sees back-facing j with nothing between; m², > 0.
+/// A(i,j,omega) of eq. 14: the area, on the plane perpendicular to omega, over which front-facing
+/// patch i sees back-facing patch j with nothing between them.
 struct Transfer {
-  PatchId receiver;
-  PatchId source;
-  double area;
+  PatchId receiver;  ///< i
+  PatchId source;    ///< j
+  double area;       ///< m², > 0
 };
 
-/// How much of a receiver's projection was accounted for, m².
+/// How much of a receiver's projection is accounted for.
 struct Coverage {
-  double projected = 0;  ///< area of the patch's projection, 0 where it does not receive
-  double covered = 0;    ///< of it, where some surface lies above, lit side or back
+  double projected = 0;  ///< area of the patch's projection, m²; 0 where it does not receive
+  double covered = 0;    ///< part of it with some surface above, front or back side, m²
 };
 
-/// What a pass took, for statistics and tests; engines leave at 0 what does not apply.
+/// The work done by one pass, for statistics and tests. Counts that do not apply to an engine stay
+/// 0.
 struct PassCounts {
-  std::int64_t pairs = 0;            ///< polygons compared edge by edge
-  std::int64_t cuts = 0;             ///< of a polygon by a line
-  std::int64_t decisions = 0;        ///< on which side of a line a corner lies
-  std::int64_t exact_decisions = 0;  ///< of them, those that took whole numbers
-  std::int64_t exact_queries = 0;      ///< polygons looked at by pieces, their signs exact
-  std::int64_t pixels = 0;           ///< that patches cover, lines that meet them: of all patches
-  std::int64_t missed = 0;           ///< patches so small or thin that no pixel or line meets them
-  // Seconds of the thread that made the pass.
-  double seconds_order = 0;  ///< ordering and projecting
-  double seconds_bins = 0;   ///< dealing out to bins
-  double seconds_clip = 0;   ///< looking, cutting, adding up
+  std::int64_t pairs = 0;            ///< pairs of polygons compared edge by edge
+  std::int64_t cuts = 0;             ///< cuts of a polygon by a line
+  std::int64_t decisions = 0;        ///< decisions on which side of a line a corner lies
+  std::int64_t exact_decisions = 0;  ///< of them, those made in integer arithmetic
+  std::int64_t exact_queries = 0;    ///< visibility queries by pieces with exact predicates
+  std::int64_t pixels = 0;           ///< pixels covered by a patch, or lines that hit one; summed
+  std::int64_t missed = 0;           ///< patches too small or thin for any pixel or line
+  double seconds_order = 0;          ///< ordering and projecting, s of the pass's thread
+  double seconds_bins = 0;           ///< distributing to bins, s of the pass's thread
+  double seconds_clip = 0;           ///< querying, cutting and summing, s of the pass's thread
 
+  /// Adds all counts and times.
   PassCounts& operator+=(const PassCounts& other);
 };
 
-/// All that one direction tells, and the one currency between engines and solvers.
+/// The result of an engine for one direction, and the only input of the solvers.
 ///
-/// `exchanges` serves two directions: it lists A(i,j,omega), and A(j,i,-omega) is the same number.
+/// `exchanges` serves two directions: it lists A(i,j,omega), which equals A(j,i,-omega).
 struct Transfers {
   Vec3 direction;                   ///< omega: unit, from the receiver toward the source
-  std::vector<Transfer> exchanges;  ///< by receiver, then source; one entry a pair
-  std::vector<Coverage> forward;    ///< a patch: as receiver for omega
-  std::vector<Coverage> backward;   ///< a patch: as receiver for -omega
-  std::vector<double> back_seen;    ///< a patch: area of its back that receivers look at, both ways
-  PassCounts counts;
+  std::vector<Transfer> exchanges;  ///< sorted by receiver, then source; one entry per pair
+  std::vector<Coverage> forward;    ///< per patch: as receiver for omega
+  std::vector<Coverage> backward;   ///< per patch: as receiver for -omega
+  std::vector<double> back_seen;  ///< per patch: m² of its back side that receivers see, for both
+                                  ///< omega and -omega
+  PassCounts counts;              ///< work done
 };
 
-/// What one direction's transfers leave open (method: closure), both ways taken together.
+/// The closure defect of one direction, omega and -omega together: projected area minus everything
+/// visible, over the projected area. 0 up to rounding in a closed scene (ALGORITHM.md, oracle 1).
 struct ClosureDefect {
-  double relative = 0;       ///< largest |projected - covered| / projected, patches seen at >= 1e-6
-  double grazing = 0;        ///< the same over the patch's own area, patches seen at less
-  PatchId worst = no_patch;  ///< where `relative` is reached
+  /// Largest |projected - covered| / projected over the patches at no grazing angle: those whose
+  /// projection is at least 1e-6 of their area.
+  double relative = 0;
+  /// Largest |projected - covered| / area over the others.
+  double grazing = 0;
+  PatchId worst = no_patch;  ///< the patch with the defect `relative`
 };
+/// Computes the closure defect from the coverages of one direction.
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);
 
 }  // namespace transillum
