@@ -35,7 +35,7 @@ void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double si
 
 BoundsRow make_row(double rho, const BoundsQuestion& question, double size_ratio,
                    const Cancellation& cancellation) {
-  const ActualSets& sets = question.sets;
+  const DirectionSetFamily& sets = question.sets;
   const double accuracy = question.accuracy;
   BoundsRow row;
   row.rho = rho;
@@ -58,8 +58,8 @@ BoundsPrediction predict(double rho, const BoundsQuestion& question, double size
   p.eps = measured_quadrature_error(question.sets, question.directions, cancellation);
   p.contraction_bound = contraction_bound(rho, p.eps_bound);
   p.contraction = contraction_bound(rho, p.eps);
-  p.steps_bound = steps_to(question.tolerance, p.contraction_bound);
-  p.steps = steps_to(question.tolerance, p.contraction);
+  p.steps_bound = iterations_to(question.tolerance, p.contraction_bound);
+  p.steps = iterations_to(question.tolerance, p.contraction);
   p.homogeneous_bound = homogeneous_error_bound(rho, p.eps_bound);
   p.homogeneous = homogeneous_error_bound(rho, p.eps);
   p.heterogeneous_bound =

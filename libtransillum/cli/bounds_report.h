@@ -18,7 +18,7 @@ struct BoundsQuestion {
   std::optional<double> size_ratio;  ///< R²/A; else the scene's, or the paper's 150
   double tolerance = 1e-6;           ///< of the iteration
   int directions = 1024;
-  ActualSets sets;
+  DirectionSetFamily sets;
   std::shared_ptr<const Scene> scene;
   std::string run;  ///< statistics of a solve, or empty
 };

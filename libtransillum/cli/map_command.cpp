@@ -104,7 +104,7 @@ int run(const MapCall& call) {
   check_receiver(call, *scene);
   print_warnings(*scene);
   const VisibilityMap map = make_map(call, scene, cancellation);
-  const std::string reason = why_empty(*scene, map);
+  const std::string reason = empty_map_reason(*scene, map);
   if (!reason.empty()) {
     print_message("note: the map is empty, since " + reason);
   }
@@ -135,7 +135,7 @@ Run add_map_command(CLI::App& program) {
       fmt::format("longer side of .svg and .png (default {})", call->picture.size),
       [call](const std::string& text) {
         call->picture.size = static_cast<int>(parse_whole_number(
-            "--size", text, MapPictureOptions::least_size, MapPictureOptions::largest_size));
+            "--size", text, MapPictureOptions::smallest_size, MapPictureOptions::largest_size));
       });
   add_scene_options(command, call->scene_options);
   command

@@ -115,7 +115,7 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name) {
-  return fmt::format("{}: {} (default {})", fmt::join(names, " | "), sentence_of(setting),
+  return fmt::format("{}: {} (default {})", fmt::join(names, " | "), description_of(setting),
                      default_name);
 }
 
@@ -170,7 +170,7 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
       });
   add_order_option(command, options);
   command.add_flag_callback(
-      "--random-lines", [&options] { options.gridded = false; }, sentence_of("random-lines"));
+      "--random-lines", [&options] { options.gridded = false; }, description_of("random-lines"));
 }
 
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {
@@ -186,7 +186,7 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) 
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_flag("--two-sided", options.two_sided, sentence_of("two-sided"));
+  command.add_flag("--two-sided", options.two_sided, description_of("two-sided"));
   add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "leave them whole"),
                     [&options](const std::string& text) {
                       options.max_patch_area = parse_number("--max-patch-area", text);

@@ -31,7 +31,7 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 
 template <typename Default>
 std::string help_of(const std::string& setting, const Default& value) {
-  return fmt::format("{} (default {})", sentence_of(setting), value);
+  return fmt::format("{} (default {})", description_of(setting), value);
 }
 /// The same behind the names that it takes.
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,

@@ -61,7 +61,7 @@ SolveOptions solve_options(const SolveCall& call) {
   options.two_way = !call.one_way;
   // Its changes fall as 1 / steps: the usual tolerance would be met after days.
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
-    options.iterations = options.burn_in + averaged_steps_by_default;
+    options.iterations = options.burn_in + default_averaged_iterations;
   }
   options.validate();
   return options;
@@ -76,7 +76,7 @@ void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
                  fmt::format("{:.1f} passes/s, {} left", progress.passes_per_second,
                              time_text(progress.seconds_left)));
   } else if (progress.iteration > 0) {
-    const auto steps = solver.statistics().steps;
+    const auto steps = solver.statistics().iteration_records;
     display.show(fmt::format("step {}", progress.iteration), -1,
                  fmt::format("change {:.1e}", steps.back().change));
   }
@@ -218,7 +218,7 @@ int run(const SolveCall& call) {
 
 void add_stopping_rules(CLI::App& command, SolveCall& call) {
   auto* iterations = add_parsed_option(
-      command, "--iterations", "K", sentence_of("iterations"), [&call](const std::string& text) {
+      command, "--iterations", "K", description_of("iterations"), [&call](const std::string& text) {
         call.options.iterations =
             static_cast<int>(parse_whole_number("--iterations", text, 1, 1'000'000));
         call.stop_given = true;

@@ -50,11 +50,12 @@ double peak_memory_megabytes() {
 }
 
 std::string convergence_text(const SolveStatistics& statistics) {
-  if (statistics.steps.empty()) {
+  if (statistics.iteration_records.empty()) {
     return "none finished";
   }
   return fmt::format("{}, last change {:.2e}{}", statistics.iterations,
-                     statistics.steps.back().change, statistics.converged ? ", converged" : "");
+                     statistics.iteration_records.back().change,
+                     statistics.converged ? ", converged" : "");
 }
 
 std::string passes_text(const SolveStatistics& s) {
@@ -96,7 +97,7 @@ std::string solve_summary(const Solution& solution) {
   text += row("iterations", convergence_text(s));
   text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",
                                             s.closure_defect_max, 100 * s.escaped));
-  if (!s.steps.empty()) {
+  if (!s.iteration_records.empty()) {
     text += row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }
   text += row("B min, W/m2", color_text(b.low));

@@ -49,15 +49,15 @@ TEST(Bounds, AreTheFormulas) {
 TEST(Bounds, StepsBringTheErrorBelowTheTolerance) {
   for (const double contraction : {0.1, 0.5, 0.62, 0.999}) {
     for (const double tolerance : {0.5, 1e-2, 1e-6}) {
-      const double steps = *steps_to(tolerance, contraction);
+      const double steps = *iterations_to(tolerance, contraction);
       EXPECT_LE(std::pow(contraction, steps), tolerance * (1 + 1e-12));
       EXPECT_GT(std::pow(contraction, steps - 1), tolerance);
     }
   }
-  EXPECT_FALSE(steps_to(1e-6, 1));
-  EXPECT_FALSE(steps_to(1e-6, 1.2));
-  EXPECT_EQ(*steps_to(1e-6, 0), 1);
-  EXPECT_EQ(*steps_to(1, 0.5), 0);
+  EXPECT_FALSE(iterations_to(1e-6, 1));
+  EXPECT_FALSE(iterations_to(1e-6, 1.2));
+  EXPECT_EQ(*iterations_to(1e-6, 0), 1);
+  EXPECT_EQ(*iterations_to(1, 0.5), 0);
 }
 
 /// The smallest M does, and one less does not; however large it is.
@@ -93,10 +93,10 @@ TEST(Bounds, RefuseWhatHasNone) {
   }
 }
 
-TEST(ActualSets, NeedFarFewerDirectionsThanProven) {
-  const ActualSets fibonacci, paper{Sampling::hammersley, 1, {}, false};
+TEST(DirectionSetFamily, NeedFarFewerDirectionsThanProven) {
+  const DirectionSetFamily fibonacci, paper{Sampling::hammersley, 1, {}, false};
   for (const double rho : {0.2, 0.6, 0.9}) {
-    for (const ActualSets& sets : {fibonacci, paper}) {
+    for (const DirectionSetFamily& sets : {fibonacci, paper}) {
       const int contract = *actual_directions_to_contract(sets, rho);
       EXPECT_LE(contract, directions_to_contract(rho));
       EXPECT_LT(contraction_bound(rho, measured_quadrature_error(sets, contract)), 1);
@@ -110,9 +110,9 @@ TEST(ActualSets, NeedFarFewerDirectionsThanProven) {
   EXPECT_FALSE(actual_directions_if_homogeneous({Sampling::random, 1, {}, true}, 0.9, 1e-5));
 }
 
-TEST(ActualSets, EstimateOfTable3FollowsTheMeasuredDiscrepancy) {
+TEST(DirectionSetFamily, EstimateOfTable3FollowsTheMeasuredDiscrepancy) {
   // Where it was measured there is nothing to estimate.
-  const ActualSets sets;
+  const DirectionSetFamily sets;
   for (const int m : {1024, 16384}) {
     const double accuracy = heterogeneous_error_bound(0.5, 9, star_discrepancy(sets.make(m)));
     EXPECT_NEAR(estimated_directions_if_heterogeneous(sets, 0.5, accuracy, 9), m, 1);

@@ -255,7 +255,7 @@ TEST(DirectionsOfStep, MeetEquation46UnlessPlainHammersley) {
     const Sampling sampling = sampling_from_name(name);
     std::vector<StepMeans> means;
     for (int step = 0; step < steps; ++step) {
-      means.push_back(means_over(directions_of_step(sampling, count, 5, step)));
+      means.push_back(means_over(directions_of_iteration(sampling, count, 5, step)));
     }
     const bool fails =
         sampling == Sampling::hammersley || sampling == Sampling::centered_hammersley;
@@ -287,7 +287,7 @@ TEST(DirectionsOfStep, SetsOfOneSequenceTakeEveryPointOnce) {
   for (const Sampling sampling : {Sampling::halton, Sampling::sobol}) {
     std::set<std::pair<double, double>> taken, wanted;
     for (int step = 0; step < 64; ++step) {
-      for (const auto& d : directions_of_step(sampling, 5, 9, step)) {
+      for (const auto& d : directions_of_iteration(sampling, 5, 9, step)) {
         taken.emplace(d.u, d.v);
       }
     }
@@ -303,10 +303,10 @@ TEST(Directions, RefusesWhatItCannotMake) {
     const Sampling sampling = sampling_from_name(name);
     for (const int count : {0, -3, max_directions + 1}) {
       EXPECT_THROW(make_directions(sampling, count, 1), InputError);
-      EXPECT_THROW(directions_of_step(sampling, count, 1, 1), InputError);
+      EXPECT_THROW(directions_of_iteration(sampling, count, 1, 1), InputError);
     }
   }
-  EXPECT_THROW(directions_of_step(Sampling::random, 4, 1, -1), InputError);
+  EXPECT_THROW(directions_of_iteration(Sampling::random, 4, 1, -1), InputError);
   EXPECT_THROW(sampling_from_name("fibonaci"), InputError);
 }
 

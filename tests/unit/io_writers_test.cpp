@@ -191,7 +191,7 @@ TEST_F(IoWriters, StatisticsWriteNullForWhatIsNoNumber) {
   solution_.statistics.iterations = 1;
   solution_.statistics.energy_defect = std::nan("");
   solution_.statistics.closure_defect_max = HUGE_VAL;
-  solution_.statistics.steps = {{0.1 + 0.2, 0, 1e-3}};
+  solution_.statistics.iteration_records = {{0.1 + 0.2, 0, 1e-3}};
   write_statistics(folder_ / "s.json", SolveOptions{}, solution_);
   const auto json = nlohmann::json::parse(read_file(folder_ / "s.json"));
   EXPECT_TRUE(json.at("energy_defect").is_null());

@@ -455,7 +455,7 @@ TEST_F(MapFiles, EmptyMapsAreFilesToo) {
   for (const VisibilityMap& map :
        {map_of_receiver(edge_on, 0), map_of_receiver(from_above, 0), map_from_below(edge_on)}) {
     EXPECT_THAT(map.polygons, IsEmpty());
-    const std::string reason = why_empty(*scene_, map);
+    const std::string reason = empty_map_reason(*scene_, map);
     EXPECT_NE(reason, "");
     for (const char* name : {"m.svg", "m.png", "m.vtp", "m.json"}) {
       write_map(folder_ / name, *scene_, map);
@@ -465,9 +465,10 @@ TEST_F(MapFiles, EmptyMapsAreFilesToo) {
     EXPECT_GT(Picture(folder_ / "m.png").width(), 100);
     EXPECT_THAT(nlohmann::json::parse(read_file(folder_ / "m.json")).at("polygons"), IsEmpty());
   }
-  EXPECT_THAT(why_empty(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
-  EXPECT_THAT(why_empty(*scene_, map_of_receiver(from_above, 0)), HasSubstr("turns its back"));
-  EXPECT_EQ(why_empty(*scene_, of_floor()), "");
+  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
+  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)),
+              HasSubstr("turns its back"));
+  EXPECT_EQ(empty_map_reason(*scene_, of_floor()), "");
 }
 
 TEST_F(MapFiles, EndingsAreChecked) {

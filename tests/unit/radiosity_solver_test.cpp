@@ -31,7 +31,7 @@ TEST(RadiositySolver, GoesByDirectionByIterationAndToTheEnd) {
   EXPECT_FALSE(solver.advance(Until::finished));
   EXPECT_TRUE(solver.progress().finished);
   EXPECT_FALSE(solver.advance(Until::finished));
-  EXPECT_LE(solver.statistics().steps.back().change, 1e-8);
+  EXPECT_LE(solver.statistics().iteration_records.back().change, 1e-8);
 }
 
 TEST(RadiositySolver, PassesByOneAndAllAtOnceGiveTheSameBits) {
@@ -126,8 +126,8 @@ TEST(RadiositySolver, ContractsAsPredicted) {
   const double predicted = solution.statistics.predicted_contraction;
   EXPECT_GT(predicted, 0.5);
   EXPECT_LT(predicted, 0.55);
-  for (std::size_t k = 1; k < solution.statistics.steps.size(); ++k) {
-    EXPECT_LE(solution.statistics.steps[k].contraction, predicted);
+  for (std::size_t k = 1; k < solution.statistics.iteration_records.size(); ++k) {
+    EXPECT_LE(solution.statistics.iteration_records[k].contraction, predicted);
   }
   EXPECT_LE(solution.statistics.iterations,
             static_cast<int>(std::ceil(std::log(1e-10) / std::log(predicted))) + 1);

@@ -66,7 +66,7 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGives) {
        {Normalization::none, Normalization::rows, Normalization::symmetric}) {
     const SolveOptions options{.directions = 200, .normalize = normalize, .tolerance = tight};
     const Solved before = solved(description, options), after = solved(changed, options);
-    const Relit relit =
+    const RelightResult relit =
         relight(*before.scene, before.form_factors, changed.materials, {.tolerance = tight});
     expect_same(relit.radiosity, after.radiosity, 1e-10);
     expect_same(relit.irradiance, after.irradiance, 1e-10);
@@ -93,8 +93,8 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
       ASSERT_FALSE(before.shot->sources.empty());
       several += before.shot->parts.size() > 1;
       ASSERT_EQ(before.shot->sources, after.shot->sources);
-      const Relit relit = relight(*before.scene, before.form_factors, changed.materials,
-                                  {.tolerance = tight, .shot = before.shot.get()});
+      const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
+                                          {.tolerance = tight, .shot = before.shot.get()});
       expect_same(relit.radiosity, after.radiosity, 1e-10);
       expect_same(relit.irradiance, after.irradiance, 1e-10);
     }
@@ -131,8 +131,8 @@ TEST(Relight, KeepsTheSourcesThatWereShot) {
   const Solved before = solved(description, options);
   const Solved after = solved(changed, options, &before.shot->sources);
   EXPECT_EQ(after.shot->power_share, 0);
-  const Relit relit = relight(*before.scene, before.form_factors, changed.materials,
-                              {.tolerance = tight, .shot = before.shot.get()});
+  const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
+                                      {.tolerance = tight, .shot = before.shot.get()});
   expect_same(relit.radiosity, after.radiosity, 1e-10);
 }
 
@@ -216,7 +216,7 @@ TEST(Relight, ComesNearTheMeanOfTheSemiIterativeScheme) {
   const Solved before = solved(changed, options);
   changed.materials = other(changed.materials);
   const Solved after = solved(changed, options);
-  const Relit relit = relight(*before.scene, before.form_factors, changed.materials);
+  const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials);
   double difference = 0, norm = 0;
   for (std::size_t i = 0; i < relit.radiosity.size(); ++i) {
     difference += std::pow(relit.radiosity[i].b - after.radiosity[i].b, 2);
@@ -264,18 +264,18 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
 
 TEST(Relight, ComesBackToTheSolveWithTheScenesOwnMaterials) {
   const Solved s = solved(describe_scene("rooms"), {.directions = 64, .tolerance = tight});
-  const Relit relit = relight(*s.scene, s.form_factors, s.scene->materials(),
-                              {.tolerance = 1e-9, .start = s.radiosity});
-  EXPECT_LE(relit.steps, 2);
+  const RelightResult relit = relight(*s.scene, s.form_factors, s.scene->materials(),
+                                      {.tolerance = 1e-9, .start = s.radiosity});
+  EXPECT_LE(relit.iterations, 2);
   expect_same(relit.radiosity, s.radiosity, 1e-9);
 }
 
 TEST(Relight, IsTheSameBitsForAnyNumberOfThreads) {
   const Solved s = solved(describe_scene("rooms"), {.directions = 32});
   const auto materials = other(s.scene->materials());
-  const Relit one = relight(*s.scene, s.form_factors, materials, {.threads = 1});
-  const Relit three = relight(*s.scene, s.form_factors, materials, {.threads = 3});
-  EXPECT_EQ(one.steps, three.steps);
+  const RelightResult one = relight(*s.scene, s.form_factors, materials, {.threads = 1});
+  const RelightResult three = relight(*s.scene, s.form_factors, materials, {.threads = 3});
+  EXPECT_EQ(one.iterations, three.iterations);
   for (std::size_t i = 0; i < one.radiosity.size(); ++i) {
     EXPECT_EQ(one.radiosity[i], three.radiosity[i]);
     EXPECT_EQ(one.irradiance[i], three.irradiance[i]);
@@ -286,8 +286,9 @@ TEST(Relight, EndsAtTheSamePlaceFromAnyStart) {
   const Solved s = solved(describe_scene("cornell-box"), {.directions = 64});
   const auto materials = other(s.scene->materials());
   const std::vector<Rgb> bright(s.radiosity.size(), Rgb{50, 50, 50});
-  const Relit from_light = relight(*s.scene, s.form_factors, materials, {.tolerance = tight});
-  const Relit from_bright =
+  const RelightResult from_light =
+      relight(*s.scene, s.form_factors, materials, {.tolerance = tight});
+  const RelightResult from_bright =
       relight(*s.scene, s.form_factors, materials, {.tolerance = tight, .start = bright});
   expect_same(from_bright.radiosity, from_light.radiosity, 1e-8);
 }

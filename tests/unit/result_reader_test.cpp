@@ -56,10 +56,10 @@ void expect_same(const Solution& read, const Solution& written) {
   EXPECT_EQ(s.transfers, t.transfers);
   EXPECT_EQ(s.kept_form_factors, t.kept_form_factors);
   EXPECT_EQ(s.energy_defect, t.energy_defect);
-  ASSERT_EQ(s.steps.size(), t.steps.size());
-  for (std::size_t k = 0; k < s.steps.size(); ++k) {
-    EXPECT_EQ(s.steps[k].change, t.steps[k].change);
-    EXPECT_EQ(s.steps[k].contraction, t.steps[k].contraction);
+  ASSERT_EQ(s.iteration_records.size(), t.iteration_records.size());
+  for (std::size_t k = 0; k < s.iteration_records.size(); ++k) {
+    EXPECT_EQ(s.iteration_records[k].change, t.iteration_records[k].change);
+    EXPECT_EQ(s.iteration_records[k].contraction, t.iteration_records[k].contraction);
   }
 }
 

@@ -167,7 +167,7 @@ class LessonFormatTest : public QObject {
     const nlohmann::json defaults = to_json(RunOptions{});
     std::size_t in_files = 0;
     for (const Setting& setting : settings()) {
-      QVERIFY(*setting.type && *setting.sentence);
+      QVERIFY(*setting.type && *setting.description);
       QCOMPARE(defaults.contains(setting.name), setting.in_files);
       if (!setting.in_files) {
         continue;

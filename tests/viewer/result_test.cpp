@@ -42,7 +42,8 @@ class ResultTest : public QObject {
     QVERIFY(snapshot->irradiance == written_.irradiance);
     QCOMPARE(snapshot->progress.iteration, 0);
     QCOMPARE(snapshot->progress.direction, 0);
-    QCOMPARE(snapshot->statistics.steps.size(), written_.statistics.steps.size());
+    QCOMPARE(snapshot->statistics.iteration_records.size(),
+             written_.statistics.iteration_records.size());
     QVERIFY(text(*window, "color_note").contains("Figures of the file r.vtp"));
     QVERIFY(text(*window, "phase").contains("From the file"));
     QVERIFY(window->windowTitle().startsWith("r.vtp"));
@@ -58,7 +59,7 @@ class ResultTest : public QObject {
     QVERIFY(!window->findChild<QCheckBox*>("two_sided")->isEnabled());
     QVERIFY(window->options().scene.two_sided);
     window->findChild<QAction*>("run")->trigger();
-    QVERIFY(wait_for([&] { return window->session().state() == SessionState::finished; }));
+    QVERIFY(wait_for([&] { return window->runner().state() == RunState::finished; }));
     QVERIFY(settles(*window));
     QVERIFY(!window->snapshot()->of_file);
     // The same patches, options and sums.

@@ -139,10 +139,10 @@ class StudyTest : public QObject {
   void changes_stay_below_what_is_predicted() {
     // In a brighter scene eq. 21 promises nothing of 64 directions.
     const SolvedWindow shown("furnace");
-    shown.window->session().run();
+    shown.window->runner().run();
     QVERIFY(wait_for([&] { return shown.window->snapshot()->progress.finished; }));
     const auto snapshot = shown.window->snapshot();
-    const auto& steps = snapshot->statistics.steps;
+    const auto& steps = snapshot->statistics.iteration_records;
     const std::vector<double> predicted = predicted_changes(*snapshot);
     QVERIFY(predicted.size() >= steps.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {

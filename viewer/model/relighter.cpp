@@ -4,56 +4,53 @@
 #include <QMetaObject>
 #include <utility>
 
-#include "transillum/errors.h"
-
 namespace transillum::viewer {
 
 Relighter::Relighter(QObject* parent)
-    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
-        work(task, cancellation);
-      }) {}
+    : QObject(parent),
+      worker_(
+          [this](const Task& task, const Cancellation& cancellation) { work(task, cancellation); },
+          [this](const Task& task, const QString& message) { deliver(task, nullptr, message); }) {}
 
 void Relighter::request(Request request) {
-  // What is under way goes on: while a slider is drawn, a late picture is better than none.
-  worker_.request({std::move(request), ++asked_}, UnderWay::goes_on);
+  // While a slider is dragged, a late picture is better than none.
+  worker_.request({std::move(request), ++newest_}, CurrentJob::finish);
 }
 
 void Relighter::clear() {
   worker_.clear();
-  delivered_ = asked_;
+  delivered_ = newest_;
 }
 
+// On the worker's thread.
 void Relighter::work(const Task& task, const Cancellation& cancellation) {
   const Request& request = task.request;
-  std::shared_ptr<const Relit> light;
-  QString error;
-  try {
-    RelightOptions options;
-    options.tolerance = request.tolerance;
-    options.start = request.start;
-    options.shot = request.shot.get();
-    light = std::make_shared<const Relit>(
-        relight(*request.scene, *request.form_factors, request.materials, options, cancellation));
-  } catch (const Canceled&) {
-    // Nobody waits for it any more.
-  } catch (const std::exception& failure) {
-    error = QString::fromUtf8(failure.what());
-  }
-  QMetaObject::invokeMethod(
-      this,
-      [this, light, error, number = task.number, materials = request.materials] {
-        if (number <= delivered_) {
-          return;  // cleared since
-        }
-        delivered_ = number;
-        if (light) {
-          emit relit(light, materials);
-        }
-        if (!error.isEmpty()) {
-          emit failed(error);
-        }
-      },
-      Qt::QueuedConnection);
+  RelightOptions options;
+  options.tolerance = request.tolerance;
+  options.start = request.start;
+  options.shot = request.shot.get();
+  deliver(task,
+          std::make_shared<const RelightResult>(relight(*request.scene, *request.form_factors,
+                                                        request.materials, options, cancellation)),
+          {});
+}
+
+// On the worker's thread; what it posts runs on the owner's.
+void Relighter::deliver(const Task& task, const std::shared_ptr<const RelightResult>& light,
+                        const QString& error) {
+  const auto emit_result = [this, light, error, number = task.number,
+                            materials = task.request.materials] {
+    if (number <= delivered_) {
+      return;  // cleared since
+    }
+    delivered_ = number;
+    if (light) {
+      emit relit(light, materials);
+    } else {
+      emit failed(error);
+    }
+  };
+  QMetaObject::invokeMethod(this, emit_result, Qt::QueuedConnection);
 }
 
 }  // namespace transillum::viewer

@@ -12,10 +12,10 @@
 
 namespace transillum::viewer {
 
-/// Finds the light of other materials from kept form factors, on a thread of its own; the newest
-/// request wins.
+/// Solves with other materials and stored form factors, on a thread of its own; the newest request
+/// replaces the waiting one, and the running one is finished.
 ///
-/// Threads: the public functions and the signals belong to the thread that made it.
+/// Threads: the public functions and the signals belong to the thread that created it.
 class Relighter : public QObject {
   Q_OBJECT
 
@@ -25,20 +25,20 @@ class Relighter : public QObject {
     std::shared_ptr<const FormFactors> form_factors;
     std::shared_ptr<const DirectLight> shot;  ///< may be null
     std::vector<Material> materials;
-    std::vector<Rgb> start;  ///< B to start from
+    std::vector<Rgb> start;  ///< initial B, W/m², one per patch
     double tolerance = 1e-6;
   };
 
   explicit Relighter(QObject* parent = nullptr);
 
   void request(Request request);
-  /// Gives up what is under way and what waits.
+  /// Cancels the running request, removes the waiting one and drops undelivered results.
   void clear();
-  bool busy() const { return asked_ != delivered_; }
+  bool busy() const { return newest_ != delivered_; }
 
  signals:
-  /// Of `materials`.
-  void relit(std::shared_ptr<const transillum::Relit> light,
+  /// The solution with `materials`.
+  void relit(std::shared_ptr<const transillum::RelightResult> light,
              std::vector<transillum::Material> materials);
   void failed(const QString& message);
 
@@ -48,8 +48,11 @@ class Relighter : public QObject {
     quint64 number;
   };
   void work(const Task& task, const Cancellation& cancellation);
+  /// `light` null: failed with `error`.
+  void deliver(const Task& task, const std::shared_ptr<const RelightResult>& light,
+               const QString& error);
 
-  quint64 asked_ = 0, delivered_ = 0;  // the window's own
+  quint64 newest_ = 0, delivered_ = 0;  // numbers of requests; used by the owner's thread only
 
   RequestWorker<Task> worker_;
 };

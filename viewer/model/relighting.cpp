@@ -10,15 +10,16 @@ namespace transillum::viewer {
 Relighting::Relighting(QObject* parent) : QObject(parent) {
   connect(&edits_, &MaterialEdits::changed, this, &Relighting::ask);
   connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
-  connect(&relighter_, &Relighter::relit, this,
-          [this](const std::shared_ptr<const Relit>& light, std::vector<Material> materials) {
-            if (!edits_.any()) {
-              return;  // undone meanwhile
-            }
-            light_ = light;
-            materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
-            emit changed();
-          });
+  connect(
+      &relighter_, &Relighter::relit, this,
+      [this](const std::shared_ptr<const RelightResult>& light, std::vector<Material> materials) {
+        if (!edits_.any()) {
+          return;  // undone meanwhile
+        }
+        light_ = light;
+        materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
+        emit changed();
+      });
 }
 
 void Relighting::show_scene(const Scene& scene) {
@@ -65,7 +66,7 @@ void Relighting::ask() {
     return;
   }
   if (!obstacle().isEmpty()) {
-    emit form_factors_wanted();
+    emit form_factors_requested();
     return;
   }
   used_ = snapshot_->form_factors;

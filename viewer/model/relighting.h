@@ -34,7 +34,7 @@ class Relighting : public QObject {
  signals:
   /// Other light: what lit() gives has changed.
   void changed();
-  void form_factors_wanted();
+  void form_factors_requested();
   void failed(const QString& message);
 
  private:
@@ -44,7 +44,7 @@ class Relighting : public QObject {
   Relighter relighter_;
   std::shared_ptr<const SolverSnapshot> snapshot_;          ///< the solver's newest
   std::shared_ptr<const FormFactors> used_;                 ///< that were asked with last
-  std::shared_ptr<const Relit> light_;                      ///< null: the solver's own
+  std::shared_ptr<const RelightResult> light_;              ///< null: the solver's own
   std::shared_ptr<const std::vector<Material>> materials_;  ///< of light_
 };
 

@@ -17,14 +17,16 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   const double rate = s.predicted_contraction;
   std::vector<double> predicted;
   // Of other schemes each step has a matrix of its own.
-  if (snapshot.options.scheme != Scheme::fixed || s.steps.empty() || !(rate > 0 && rate < 1)) {
+  if (snapshot.options.scheme != Scheme::fixed || s.iteration_records.empty() ||
+      !(rate > 0 && rate < 1)) {
     return predicted;
   }
   const int wanted = snapshot.options.iterations;
   // As far again as the steps have come: more would leave them no room in a chart.
-  const auto last =
-      wanted > 0 ? static_cast<std::size_t>(wanted) : std::max<std::size_t>(8, 2 * s.steps.size());
-  for (double change = s.steps.front().change; predicted.size() < last; change *= rate) {
+  const auto last = wanted > 0 ? static_cast<std::size_t>(wanted)
+                               : std::max<std::size_t>(8, 2 * s.iteration_records.size());
+  for (double change = s.iteration_records.front().change; predicted.size() < last;
+       change *= rate) {
     predicted.push_back(change);
     if (wanted == 0 && change <= snapshot.options.tolerance) {
       break;
@@ -72,7 +74,7 @@ void ConvergenceView::show_position() {
 
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   std::vector<double> changes;
-  for (const IterationRecord& step : snapshot.statistics.steps) {
+  for (const IterationRecord& step : snapshot.statistics.iteration_records) {
     changes.push_back(step.change);
   }
   std::vector<LogChart::Level> levels;

@@ -30,7 +30,7 @@ bool same(const SceneOptions& a, const SceneOptions& b) {
 
 // As rich text, so that a long one is broken into lines.
 QString tip(const char* setting) {
-  const QString sentence = capitalized(SettingsPanel::tr(sentence_of(setting)));
+  const QString sentence = capitalized(SettingsPanel::tr(description_of(setting)));
   return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
 }
 

@@ -67,9 +67,10 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                       : tr("no replicas"));
   show_needs(snapshot);
   energy_->setText(any_step ? number_text(s.energy_defect) : none);
-  contraction_->setText(s.steps.size() > 1 ? tr("%1, bound %2")
-                                                 .arg(number_text(s.steps.back().contraction),
-                                                      number_text(s.predicted_contraction))
+  contraction_->setText(s.iteration_records.size() > 1
+                            ? tr("%1, bound %2")
+                                  .arg(number_text(s.iteration_records.back().contraction),
+                                       number_text(s.predicted_contraction))
                         : any_pass ? tr("bound %1").arg(number_text(s.predicted_contraction))
                                    : none);
 }

@@ -24,24 +24,24 @@ std::string described(const char* setting, const std::vector<std::string>& names
   for (const std::string& name : names) {
     text += (text.empty() ? "" : " | ") + name;
   }
-  return text + ": " + sentence_of(setting);
+  return text + ": " + description_of(setting);
 }
 
 void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   SolveOptions& solve = line.solve_options;
-  app.add_option("-m,--directions", solve.directions, sentence_of("directions"))
+  app.add_option("-m,--directions", solve.directions, description_of("directions"))
       ->capture_default_str();
   app.add_option("--sampling", words.sampling, described("sampling", sampling_names()))
       ->capture_default_str();
-  app.add_option("--seed", solve.seed, sentence_of("seed"))->capture_default_str();
-  app.add_option("--rotate", solve.rotation, sentence_of("rotate"));
+  app.add_option("--seed", solve.seed, description_of("seed"))->capture_default_str();
+  app.add_option("--rotate", solve.rotation, description_of("rotate"));
   app.add_option("--engine", words.engine, described("engine", engine_names()))
       ->capture_default_str();
-  app.add_option("--resolution", solve.engine_options.resolution, sentence_of("resolution"))
+  app.add_option("--resolution", solve.engine_options.resolution, description_of("resolution"))
       ->check(CLI::Range(1, EngineOptions::largest_resolution));
   auto* one_way =
       app.add_flag("--one-way", words.one_way, "use each direction alone, as the paper does");
-  app.add_flag("--two-way", words.two_way, sentence_of("two-way"))->excludes(one_way);
+  app.add_flag("--two-way", words.two_way, description_of("two-way"))->excludes(one_way);
   app.add_option("--normalize", words.normalize, described("normalize", normalization_names()))
       ->capture_default_str();
   app.add_option("--scheme", words.scheme, described("scheme", scheme_names()))
@@ -49,20 +49,21 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--first-shot", words.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
       ->capture_default_str();
-  app.add_option("--burn-in", solve.burn_in, sentence_of("burn-in"))->capture_default_str();
-  app.add_option("--replicas", solve.replicas, sentence_of("replicas"))->capture_default_str();
-  auto* iterations = app.add_option("--iterations", solve.iterations, sentence_of("iterations"))
+  app.add_option("--burn-in", solve.burn_in, description_of("burn-in"))->capture_default_str();
+  app.add_option("--replicas", solve.replicas, description_of("replicas"))->capture_default_str();
+  auto* iterations = app.add_option("--iterations", solve.iterations, description_of("iterations"))
                          ->check(CLI::PositiveNumber);
-  app.add_option("--tolerance", solve.tolerance, sentence_of("tolerance"))
+  app.add_option("--tolerance", solve.tolerance, description_of("tolerance"))
       ->capture_default_str()
       ->excludes(iterations);
-  app.add_flag("--two-sided", line.scene_options.two_sided, sentence_of("two-sided"));
+  app.add_flag("--two-sided", line.scene_options.two_sided, description_of("two-sided"));
   app.add_option("--max-patch-area", line.scene_options.max_patch_area,
-                 sentence_of("max-patch-area"))
+                 description_of("max-patch-area"))
       ->check(CLI::PositiveNumber);
-  app.add_option("--memory", solve.memory, sentence_of("memory"))
+  app.add_option("--memory", solve.memory, description_of("memory"))
       ->transform(CLI::AsSizeValue(false));
-  app.add_option("--threads", solve.threads, sentence_of("threads"))->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", solve.threads, description_of("threads"))
+      ->check(CLI::NonNegativeNumber);
 }
 
 void finish(CommandLine& line, const Words& words, const CLI::App& app) {

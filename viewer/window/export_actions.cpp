@@ -192,7 +192,7 @@ void ExportActions::write_chart_figures(const QString& path) const {
   write_file_whole(path.toStdString(), [&](std::ostream& out) {
     out.precision(17);
     out << "chart,x,change,quadrature_error\n";
-    const auto& steps = snapshot->statistics.steps;
+    const auto& steps = snapshot->statistics.iteration_records;
     for (std::size_t k = 0; k < steps.size(); ++k) {
       out << "iteration," << k + 1 << ',' << steps[k].change << ",\n";
     }

@@ -13,7 +13,7 @@ QString setting_page() {
     const QString name = setting.name;
     rows += QStringLiteral("<tr><td><b>%1</b></td><td>%2</td><td>%3</td><td>%4</td></tr>")
                 .arg(setting.in_files ? name : name + '*',
-                     capitalized(setting.sentence).toHtmlEscaped(),
+                     capitalized(setting.description).toHtmlEscaped(),
                      QString::fromUtf8(setting.type).toHtmlEscaped(),
                      QString::fromStdString(setting.default_value).toHtmlEscaped());
   }

@@ -23,7 +23,7 @@ double quadrature_error_bound(double directions);
 double contraction_bound(double rho, double eps);
 /// Steps after which the iteration, begun with 0, is within `tolerance` of its limit, relative and
 /// in the maximum norm (eq. 25). None where the contraction is not below 1.
-std::optional<double> steps_to(double tolerance, double contraction);
+std::optional<double> iterations_to(double tolerance, double contraction);
 /// ||B* - B|| / ||B|| in the maximum norm where the environment is nearly homogeneous (eq. 37).
 double homogeneous_error_bound(double rho, double eps);
 /// The same in any environment, by the ratio max R²/A_i of scene to patches and D* (eq. 43).
@@ -49,7 +49,7 @@ struct PaperTables {
 const PaperTables& paper_tables();
 
 /// What a family of sets does in truth, instead of what is proven for Hammersley's.
-struct ActualSets {
+struct DirectionSetFamily {
   Sampling sampling = Sampling::fibonacci;
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> rotation = {};
@@ -58,23 +58,23 @@ struct ActualSets {
   std::vector<DirectionSample> make(int directions) const;
 };
 /// eps of a set: the largest magnitude of eq. 17 over 518 normals spread over the sphere.
-double measured_quadrature_error(const ActualSets& sets, int directions,
+double measured_quadrature_error(const DirectionSetFamily& sets, int directions,
                                  const Cancellation& cancellation = {});
 /// The smallest M up to 65,536 for which eq. 24 holds with the measured eps; none if there is none.
 /// Beyond 256, found by doubling and halving: some smaller M may do by luck.
 /// @throws Canceled
-std::optional<int> actual_directions_to_contract(const ActualSets& sets, double rho,
+std::optional<int> actual_directions_to_contract(const DirectionSetFamily& sets, double rho,
                                                  const Cancellation& cancellation = {});
 /// The same for the bound of eq. 37.
-std::optional<int> actual_directions_if_homogeneous(const ActualSets& sets, double rho,
+std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& sets, double rho,
                                                     double accuracy,
                                                     const Cancellation& cancellation = {});
 
 /// About as many as the bound of eq. 43 asks for with the sets' own D*, measured with 1,024 and
 /// 16,384 directions and continued as a power of M.
 /// @throws Canceled
-double estimated_directions_if_heterogeneous(const ActualSets& sets, double rho, double accuracy,
-                                             double size_ratio,
+double estimated_directions_if_heterogeneous(const DirectionSetFamily& sets, double rho,
+                                             double accuracy, double size_ratio,
                                              const Cancellation& cancellation = {});
 
 /// What of a scene the bounds ask for.

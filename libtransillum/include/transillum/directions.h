@@ -64,8 +64,8 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int e
 ///
 /// Costs O(count + step).
 /// @throws InputError unless 1 <= count <= max_directions and step >= 0.
-std::vector<DirectionSample> directions_of_step(Sampling sampling, int count, std::uint64_t seed,
-                                                int step);
+std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int count,
+                                                     std::uint64_t seed, int step);
 
 /// All turned by one random rotation, uniform among all rotations, and given the points of the
 /// square that belong to them. No seed is the rotation that leaves them where they are.

@@ -17,7 +17,7 @@ namespace transillum {
 /// the four half sides, their bases outward. Column and row run along the cube's x and y; the
 /// patch's normal points at who looks at it with x to the right, y up.
 struct HemicubeImage {
-  PatchId eye = no_patch;
+  PatchId patch = no_patch;
   int resolution = 0;                ///< R
   std::vector<PatchId> items;        ///< a pixel; no_patch: nothing, or a back
   std::vector<double> delta;         ///< a pixel: its form factor
@@ -31,7 +31,7 @@ struct HemicubeImage {
 /// @param tree of `scene`.
 /// @throws InputError as hemicube_form_factors(), Canceled
 HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
-                             const std::shared_ptr<const BspTree>& tree, PatchId eye,
+                             const std::shared_ptr<const BspTree>& tree, PatchId patch,
                              const HemicubeOptions& options, const Cancellation& cancellation = {});
 
 }  // namespace transillum

@@ -14,14 +14,14 @@ namespace transillum {
 
 /// How a map is drawn, where the file is a picture.
 struct MapPictureOptions {
-  static constexpr int least_size = 200, largest_size = 8192;
-  int size = 1200;  ///< pixels along the longer side, least_size to largest_size
+  static constexpr int smallest_size = 200, largest_size = 8192;
+  int size = 1200;  ///< pixels along the longer side, smallest_size to largest_size
   /// sRGB of what shines down, one a patch; empty: by what it emits or reflects.
   std::vector<std::array<std::uint8_t, 3>> patch_colors{};
 };
 
 /// Why there is nothing to see on the map, in a few words; empty where there is something.
-std::string why_empty(const Scene& scene, const VisibilityMap& map);
+std::string empty_map_reason(const Scene& scene, const VisibilityMap& map);
 
 /// check_writable, and @throws InputError unless `path` ends in .svg, .vtp, .png or .json.
 void check_map_path(const std::filesystem::path& path);

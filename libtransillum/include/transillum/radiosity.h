@@ -124,7 +124,7 @@ struct SolveStatistics {
   double rho_max = 0;
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
   PassCounts counts;                 ///< of every direction once, added up
-  std::vector<IterationRecord> steps;
+  std::vector<IterationRecord> iteration_records;  ///< one per iteration
   std::int64_t shot_sources = 0;  ///< patches whose emission was shot first
   double shot_power_share = 0;    ///< of them in all power emitted
   double seconds_load = 0, seconds_bsp = 0, seconds_first_shot = 0, seconds_transfers = 0,

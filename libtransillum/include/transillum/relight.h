@@ -23,10 +23,10 @@ struct RelightOptions {
 };
 
 /// The light of a scene whose surfaces are others.
-struct Relit {
+struct RelightResult {
   std::vector<Rgb> radiosity;   ///< B, W/m², one a patch
   std::vector<Rgb> irradiance;  ///< H, W/m², one a patch
-  int steps = 0;                ///< of the iteration
+  int iterations = 0;           ///< of eq. 11
 };
 
 /// B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials: form factors are of
@@ -39,8 +39,8 @@ struct Relit {
 /// @throws InputError where a material's E or rho is out of range, lists are of wrong lengths, or
 /// the shot's parts have been left out
 /// @throws Canceled, std::runtime_error where 10,000 steps do not get there
-Relit relight(const Scene& scene, const FormFactors& form_factors,
-              const std::vector<Material>& materials, const RelightOptions& options = {},
-              const Cancellation& cancellation = {});
+RelightResult relight(const Scene& scene, const FormFactors& form_factors,
+                      const std::vector<Material>& materials, const RelightOptions& options = {},
+                      const Cancellation& cancellation = {});
 
 }  // namespace transillum

@@ -92,7 +92,7 @@ struct Piece {
 struct SceneReport {
   std::vector<std::string> warnings;    ///< sentences for the user, at most a few dozen
   std::int64_t faces = 0;               ///< faces in the description
-  std::int64_t dropped_degenerate = 0;  ///< faces without area, omitted
+  std::int64_t removed_degenerate = 0;  ///< faces without area, removed
   std::int64_t cut_non_planar = 0;      ///< faces cut into triangles
   std::int64_t refined = 0;             ///< faces subdivided by SceneOptions::max_patch_area
   std::int64_t unused_points = 0;       ///< points that no face refers to

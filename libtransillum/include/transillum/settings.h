@@ -11,7 +11,7 @@ namespace transillum {
 struct Setting {
   const char* name;           ///< of the command line, without dashes, and of files
   const char* type;           ///< what values it takes
-  const char* sentence;       ///< what it does; small letters first, no full stop
+  const char* description;    ///< what it does; small letters first, no full stop
   std::string default_value;  ///< of SolveOptions and SceneOptions, as text
   bool in_files = true;       ///< lessons and sessions name it; else the machine's or an engine's
 };
@@ -19,6 +19,6 @@ struct Setting {
 /// All of SolveOptions, SceneOptions and EngineOptions.
 const std::vector<Setting>& settings();
 /// @throws std::out_of_range where there is no setting `name`
-const char* sentence_of(const std::string& name);
+const char* description_of(const std::string& name);
 
 }  // namespace transillum

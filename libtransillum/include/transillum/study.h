@@ -53,7 +53,7 @@ struct StudySeries {
 std::vector<std::string> names_of(std::span<const StudySeries> series);
 
 /// Steps that the mean of the semi-iterative scheme is usually taken of, after those of burn_in.
-inline constexpr int averaged_steps_by_default = 16;
+inline constexpr int default_averaged_iterations = 16;
 
 struct StudyOptions {
   std::vector<StudySeries> series;
@@ -65,7 +65,7 @@ struct StudyOptions {
   /// that is not.
   bool without_sources = false;
   /// All that the series leave open. For the semi-iterative scheme iterations 0 means those of
-  /// burn_in and averaged_steps_by_default.
+  /// burn_in and default_averaged_iterations.
   SolveOptions solve{.tolerance = 1e-8};
 
   /// The options of one solve.

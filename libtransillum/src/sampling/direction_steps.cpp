@@ -30,8 +30,8 @@ std::uint32_t shuffled_set(std::uint32_t step, std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<DirectionSample> directions_of_step(Sampling sampling, int count, std::uint64_t seed,
-                                                int step) {
+std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int count,
+                                                     std::uint64_t seed, int step) {
   if (step < 0) {
     throw InputError(fmt::format("step {}: steps count from 0", step));
   }

@@ -36,7 +36,7 @@ MapWriter writer_for(const std::filesystem::path& path, const MapPictureOptions&
 
 }  // namespace
 
-std::string why_empty(const Scene& scene, const VisibilityMap& map) {
+std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
   if (!map.polygons.empty()) {
     return {};
   }

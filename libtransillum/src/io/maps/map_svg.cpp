@@ -142,7 +142,7 @@ class SvgFigure {
     if (in_pixels()) {
       add_pixel_marks();
     }
-    const std::string reason = why_empty(scene_, map_);
+    const std::string reason = empty_map_reason(scene_, map_);
     if (reason.empty()) {
       return;
     }

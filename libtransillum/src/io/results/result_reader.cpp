@@ -37,7 +37,7 @@ class ResultReader {
     if (solution.error.replicas > 0) {
       solution.error.standard_error = colors("standard_error");
     }
-    read_steps(solution.statistics.steps);
+    read_steps(solution.statistics.iteration_records);
     return solution;
   }
 

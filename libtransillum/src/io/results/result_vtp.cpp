@@ -89,7 +89,7 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   visit_figures(solution, [&](const char* name, const auto& value) {
     add_field(fields, name, static_cast<double>(value));
   });
-  const auto& steps = solution.statistics.steps;
+  const auto& steps = solution.statistics.iteration_records;
   const int count = static_cast<int>(steps.size());
   add_numbers(fields, "change", count, [&](int k) { return steps[std::size_t(k)].change; });
   add_numbers(fields, "contraction", count,

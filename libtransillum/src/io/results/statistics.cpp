@@ -84,7 +84,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["energy_balance"] = stepped ? Json(statistics.energy_balance) : Json();
   json["rho_max"] = statistics.rho_max;
   json["predicted_contraction"] = statistics.predicted_contraction;
-  const auto& steps = statistics.steps;
+  const auto& steps = statistics.iteration_records;
   json["change"] = list_of(steps, [](const IterationRecord& s) { return s.change; });
   json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });

@@ -80,7 +80,7 @@ double quadrature_error_bound(double directions) {
 
 double contraction_bound(double rho, double eps) { return rho * (1 + eps / pi); }
 
-std::optional<double> steps_to(double tolerance, double contraction) {
+std::optional<double> iterations_to(double tolerance, double contraction) {
   check_positive("tolerance", tolerance);
   if (!(contraction < 1)) {
     return std::nullopt;
@@ -131,19 +131,19 @@ const PaperTables& paper_tables() {
   return tables;
 }
 
-std::vector<DirectionSample> ActualSets::make(int directions) const {
+std::vector<DirectionSample> DirectionSetFamily::make(int directions) const {
   auto samples = make_directions(sampling, directions, seed);
   return rotation ? rotated(std::move(samples), *rotation) : samples;
 }
 
-double measured_quadrature_error(const ActualSets& sets, int directions,
+double measured_quadrature_error(const DirectionSetFamily& sets, int directions,
                                  const Cancellation& cancellation) {
   static const std::vector<Vec3> normals = spread_normals(512);
   return summary_of(quadrature_errors(normals, sets.make(directions), sets.two_way, cancellation))
       .max;
 }
 
-std::optional<int> actual_directions_to_contract(const ActualSets& sets, double rho,
+std::optional<int> actual_directions_to_contract(const DirectionSetFamily& sets, double rho,
                                                  const Cancellation& cancellation) {
   check_rho(rho);
   return smallest_set([&](int m) {
@@ -151,7 +151,7 @@ std::optional<int> actual_directions_to_contract(const ActualSets& sets, double 
   });
 }
 
-std::optional<int> actual_directions_if_homogeneous(const ActualSets& sets, double rho,
+std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& sets, double rho,
                                                     double accuracy,
                                                     const Cancellation& cancellation) {
   check_rho(rho);
@@ -162,8 +162,9 @@ std::optional<int> actual_directions_if_homogeneous(const ActualSets& sets, doub
   });
 }
 
-double estimated_directions_if_heterogeneous(const ActualSets& sets, double rho, double accuracy,
-                                             double size_ratio, const Cancellation& cancellation) {
+double estimated_directions_if_heterogeneous(const DirectionSetFamily& sets, double rho,
+                                             double accuracy, double size_ratio,
+                                             const Cancellation& cancellation) {
   check_rho(rho);
   check_positive("accuracy", accuracy);
   check_positive("size ratio", size_ratio);

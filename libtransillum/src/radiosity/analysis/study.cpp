@@ -273,7 +273,7 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.engine = of.engine;
   options.engine_options.resolution = of.resolution;
   if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
-    options.iterations = options.burn_in + averaged_steps_by_default;
+    options.iterations = options.burn_in + default_averaged_iterations;
   }
   if (rotations > 1) {
     options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));

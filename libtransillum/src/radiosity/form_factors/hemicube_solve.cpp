@@ -93,7 +93,7 @@ Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptio
   statistics.kept_form_factors = true;
   statistics.converged = iteration.converged;
   statistics.predicted_contraction = statistics.rho_max;
-  statistics.steps = std::move(iteration.steps);
+  statistics.iteration_records = std::move(iteration.steps);
   statistics.seconds_total = seconds_since(start);
   solution.scene = std::move(scene);
   solution.radiosity = std::move(iteration.b);

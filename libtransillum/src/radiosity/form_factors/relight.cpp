@@ -28,9 +28,9 @@ void check(const Scene& scene, const FormFactors& form_factors,
 
 }  // namespace
 
-Relit relight(const Scene& scene, const FormFactors& form_factors,
-              const std::vector<Material>& materials, const RelightOptions& options,
-              const Cancellation& cancellation) {
+RelightResult relight(const Scene& scene, const FormFactors& form_factors,
+                      const std::vector<Material>& materials, const RelightOptions& options,
+                      const Cancellation& cancellation) {
   check(scene, form_factors, materials, options.start);
   JacobiIteration iteration(scene, form_factors, materials, options.threads);
   if (options.shot && !options.shot->sources.empty()) {

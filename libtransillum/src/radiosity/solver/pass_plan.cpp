@@ -31,7 +31,7 @@ std::vector<Vec3> PassPlan::directions(int step) const {
   std::vector<Vec3> directions(static_cast<std::size_t>(options_.directions));
   for (int r = 0; r < replicas; ++r) {
     const int count = (options_.directions - r + replicas - 1) / replicas;
-    auto set = renews() ? directions_of_step(options_.sampling, count, options_.seed, step)
+    auto set = renews() ? directions_of_iteration(options_.sampling, count, options_.seed, step)
                         : make_directions(options_.sampling, count, options_.seed);
     if (options_.rotation || replicas > 1) {
       set = rotated(std::move(set),

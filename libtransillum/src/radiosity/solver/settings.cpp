@@ -84,13 +84,13 @@ const std::vector<Setting>& settings() {
   return all;
 }
 
-const char* sentence_of(const std::string& name) {
+const char* description_of(const std::string& name) {
   const auto found = std::find_if(settings().begin(), settings().end(),
                                   [&](const Setting& setting) { return name == setting.name; });
   if (found == settings().end()) {
     throw std::out_of_range("there is no setting " + name);
   }
-  return found->sentence;
+  return found->description;
 }
 
 }  // namespace transillum

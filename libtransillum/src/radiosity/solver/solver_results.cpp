@@ -68,7 +68,7 @@ SolveStatistics RadiositySolver::statistics() const {
   statistics.energy_balance = share(absorbed, emitted);
   statistics.predicted_contraction =
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
-  statistics.steps = s.steps;
+  statistics.iteration_records = s.steps;
   statistics.shot_sources = static_cast<std::int64_t>(s.shot->sources.size());
   statistics.shot_power_share = s.shot->power_share;
   statistics.seconds_bsp = s.seconds_bsp;

@@ -1,0 +1,42 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace transillum {
+
+/// What the caller can change so that a failed solve succeeds. A front end adds a hint that names
+/// its own option or control for it.
+enum class Remedy {
+  none,                                   ///< no setting is known to help
+  directions,                             ///< SolveOptions::directions, larger
+  directions_or_row_normalization,        ///< that, or Normalization::rows
+  directions_or_symmetric_normalization,  ///< that, or Normalization::symmetric
+  memory,                                 ///< SolveOptions::memory, larger
+};
+
+/// A valid solve that fails. `what()` is one sentence for the user, without a hint.
+class SolveError : public std::runtime_error {
+ public:
+  SolveError(const std::string& what, Remedy remedy) : std::runtime_error(what), remedy_(remedy) {}
+  Remedy remedy() const noexcept { return remedy_; }
+
+ private:
+  Remedy remedy_;
+};
+
+/// The iteration does not converge: too few directions for the scene's reflectance.
+class NotConvergent : public SolveError {
+ public:
+  using SolveError::SolveError;
+};
+
+/// Form factors that must be kept take more than SolveOptions::memory (or
+/// HemicubeOptions::memory).
+class MemoryLimitExceeded : public SolveError {
+ public:
+  explicit MemoryLimitExceeded(const std::string& what) : SolveError(what, Remedy::memory) {}
+};
+
+}  // namespace transillum

@@ -1,0 +1,249 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/solve_runner.h"
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QTest>
+#include <QThread>
+
+using namespace transillum;
+using namespace transillum::viewer;
+
+namespace {
+
+// A runner and the newest that it told.
+struct Watched {
+  SolveRunner runner;
+  std::shared_ptr<const SolverSnapshot> snapshot;
+  std::shared_ptr<const LoadedScene> loaded;
+  QString failure;
+  int snapshots = 0;
+
+  Watched() {
+    QObject::connect(&runner, &SolveRunner::snapshot_ready, &runner, [this](auto newest) {
+      snapshot = newest;
+      ++snapshots;
+    });
+    QObject::connect(&runner, &SolveRunner::scene_loaded, &runner,
+                     [this](auto newest) { loaded = newest; });
+    QObject::connect(&runner, &SolveRunner::failed, &runner,
+                     [this](const QString& message, bool) { failure = message; });
+  }
+  void open(const char* scene, int directions, Goal then = {}) {
+    SolveOptions options;
+    options.directions = directions;
+    runner.open({scene, {}, options, then});
+  }
+  bool comes_to(RunState state) {
+    return QTest::qWaitFor([&] { return runner.state() == state; }, 30000);
+  }
+  bool rests_after_opening() {
+    return QTest::qWaitFor([&] { return loaded && runner.state() == RunState::paused; }, 30000);
+  }
+  // Commands are obeyed by another thread: wait until it has begun and is done.
+  bool advances(const std::function<bool(const SolveProgress&)>& there) {
+    return QTest::qWaitFor(
+        [&] {
+          return runner.state() != RunState::running && snapshot && there(snapshot->progress);
+        },
+        30000);
+  }
+};
+
+}  // namespace
+
+class SessionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_scene_opens_and_waits() {
+    Watched w;
+    w.open("furnace", 16);
+    QVERIFY(w.rests_after_opening());
+    QVERIFY(w.snapshot);
+    QCOMPARE(w.snapshot->progress.direction, 0);
+    QCOMPARE(w.snapshot->radiosity.size(), std::size_t(w.loaded->scene->patch_count()));
+  }
+
+  // While the window is busy a scene is solved and another opened and solved.
+  void a_scene_comes_before_its_snapshots() {
+    Watched w;
+    QObject::connect(&w.runner, &SolveRunner::snapshot_ready, &w.runner,
+                     [&w](const auto& newest) { QVERIFY(newest->loaded == w.loaded); });
+    for (int k = 0; k < 2; ++k) {
+      w.open("furnace", 16, {Goal::Kind::finished});
+      QThread::msleep(400);
+    }
+    QVERIFY(w.comes_to(RunState::finished));
+    QTRY_VERIFY(w.snapshot && w.snapshot->loaded == w.loaded);
+    QVERIFY(w.snapshot->progress.finished);
+  }
+
+  void one_direction_is_exactly_one() {
+    Watched w;
+    w.open("furnace", 16);
+    QVERIFY(w.rests_after_opening());
+    for (int expected = 1; expected <= 3; ++expected) {
+      w.runner.advance_one_direction();
+      QVERIFY(w.advances([&](const SolveProgress& p) { return p.direction == expected; }));
+      QTest::qWait(60);
+      QCOMPARE(w.snapshot->progress.direction, expected);
+    }
+  }
+
+  void one_iteration_is_exactly_one() {
+    Watched w;
+    w.open("furnace", 16);
+    QVERIFY(w.rests_after_opening());
+    for (int expected = 1; expected <= 2; ++expected) {
+      w.runner.advance_one_iteration();
+      QVERIFY(w.advances([&](const SolveProgress& p) { return p.iteration == expected; }));
+      QTest::qWait(60);
+      QCOMPARE(w.snapshot->progress.iteration, expected);
+      QCOMPARE(w.snapshot->progress.direction, 0);
+      QCOMPARE(w.snapshot->statistics.iteration_records.size(), std::size_t(expected));
+    }
+  }
+
+  void a_goal_of_passes_is_met_to_the_pass() {
+    Watched w;
+    w.open("furnace", 64, {Goal::Kind::passes, 23});
+    QVERIFY(w.advances([](const SolveProgress& p) { return p.direction == 23; }));
+    QTest::qWait(60);
+    QCOMPARE(w.snapshot->progress.direction, 23);
+    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{23});
+  }
+
+  void run_pause_run_finishes() {
+    Watched w;
+    w.open("cornell-box", 100000, {Goal::Kind::finished});
+    QVERIFY(
+        QTest::qWaitFor([&] { return w.snapshot && w.snapshot->progress.direction > 10; }, 30000));
+    QCOMPARE(w.runner.state(), RunState::running);
+    w.runner.pause();
+    QVERIFY(w.comes_to(RunState::paused));
+    const int at = w.snapshot->progress.direction;
+    QTest::qWait(300);
+    QCOMPARE(w.snapshot->progress.direction, at);  // no pass after the pause
+    w.runner.run();
+    QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > at; }, 30000));
+  }
+
+  void a_solve_converges_to_the_furnace() {
+    Watched w;
+    SolveOptions options;
+    options.directions = 64;
+    options.normalize = Normalization::rows;
+    w.runner.open({"furnace", {}, options, {Goal::Kind::finished}});
+    QVERIFY(w.comes_to(RunState::finished));
+    QTest::qWait(60);
+    QVERIFY(w.snapshot->statistics.converged);
+    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the step with passes
+    for (const Rgb& b : w.snapshot->radiosity) {
+      QVERIFY(std::abs(b.g - 2) < 1e-5);
+    }
+  }
+
+  void stop_goes_back_to_the_start() {
+    Watched w;
+    w.open("cornell-box", 100000, {Goal::Kind::finished});
+    QVERIFY(
+        QTest::qWaitFor([&] { return w.snapshot && w.snapshot->progress.direction > 3; }, 30000));
+    w.runner.stop();
+    QVERIFY(w.advances([](const SolveProgress& p) { return p.direction == 0; }));
+    QCOMPARE(w.runner.state(), RunState::paused);
+  }
+
+  void restart_takes_new_options() {
+    Watched w;
+    w.open("furnace", 16);
+    QVERIFY(w.rests_after_opening());
+    SolveOptions options;
+    options.directions = 24;
+    w.runner.restart(options, {Goal::Kind::iteration});
+    QVERIFY(w.advances([](const SolveProgress& p) { return p.iteration == 1; }));
+    QCOMPARE(w.snapshot->progress.passes, 24);
+  }
+
+  void passes_are_counted_in_every_scheme_data() {
+    QTest::addColumn<int>("scheme");
+    QTest::addColumn<int>("passes");
+    QTest::addColumn<int>("iteration");
+    QTest::addColumn<int>("direction");
+    // Growing takes 16, 32 and then 64 passes a step, half of them from the step before.
+    QTest::newRow("growing, step 1") << static_cast<int>(Scheme::growing) << 7 << 0 << 7;
+    QTest::newRow("growing, step 2") << static_cast<int>(Scheme::growing) << 40 << 1 << 24;
+    QTest::newRow("growing, step 3") << static_cast<int>(Scheme::growing) << 100 << 2 << 52;
+    QTest::newRow("semi-iterative") << static_cast<int>(Scheme::semi_iterative) << 150 << 2 << 22;
+    QTest::newRow("fixed") << static_cast<int>(Scheme::fixed) << 5 * 64 << 5 << 0;
+  }
+
+  void passes_are_counted_in_every_scheme() {
+    QFETCH(const int, scheme);
+    QFETCH(const int, passes);
+    QFETCH(const int, iteration);
+    QFETCH(const int, direction);
+    Watched w;
+    SolveOptions options;
+    options.directions = 64;
+    options.scheme = static_cast<Scheme>(scheme);
+    w.runner.open({"cornell-box", {}, options, {Goal::Kind::passes, passes}});
+    QVERIFY(w.advances([&](const SolveProgress& p) {
+      return p.iteration == iteration && p.direction == direction;
+    }));
+    QCOMPARE(passes_done(w.snapshot->progress, w.snapshot->kept_passes), std::int64_t{passes});
+    // It rests there: what is asked for has been done.
+    w.runner.pursue({Goal::Kind::passes, passes});
+    QTest::qWait(50);
+    QCOMPARE(w.snapshot->progress.direction, direction);
+    QCOMPARE(w.snapshot->progress.iteration, iteration);
+  }
+
+  void a_bad_scene_keeps_the_old_one_solving() {
+    Watched w;
+    w.open("cornell-box", 100000, {Goal::Kind::finished});
+    QVERIFY(
+        QTest::qWaitFor([&] { return w.snapshot && w.snapshot->progress.direction > 3; }, 30000));
+    const auto old_scene = w.loaded;
+    w.open("/no/such/scene.obj", 16);
+    QVERIFY(QTest::qWaitFor([&] { return !w.failure.isEmpty(); }, 30000));
+    QVERIFY2(w.failure.contains("scene.obj"), qPrintable(w.failure));
+    QVERIFY(w.loaded == old_scene);
+    const int at = w.snapshot->progress.direction;
+    QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > at; }, 30000));
+  }
+
+  void a_new_scene_replaces_one_that_solves() {
+    Watched w;
+    w.open("cornell-box", 100000, {Goal::Kind::finished});
+    QVERIFY(
+        QTest::qWaitFor([&] { return w.snapshot && w.snapshot->progress.direction > 3; }, 30000));
+    w.open("furnace", 16, {Goal::Kind::iteration});
+    QVERIFY(w.advances([](const SolveProgress& p) { return p.iteration == 1; }));
+    QCOMPARE(QString::fromStdString(w.loaded->scene->name()), QString("furnace"));
+  }
+
+  void ending_while_solving_is_quick() {
+    auto w = std::make_unique<Watched>();
+    w->open("sphere-flake:levels=1", 100000, {Goal::Kind::finished});
+    QVERIFY(
+        QTest::qWaitFor([&] { return w->snapshot && w->snapshot->progress.direction > 1; }, 30000));
+    QElapsedTimer timer;
+    timer.start();
+    w.reset();
+    QVERIFY2(timer.elapsed() < 2000, qPrintable(QString::number(timer.elapsed())));
+  }
+
+  void ending_while_loading_is_quick() {
+    auto w = std::make_unique<Watched>();
+    w->open("sphere-flake:levels=3", 16);
+    QTest::qWait(200);
+    QElapsedTimer timer;
+    timer.start();
+    w.reset();
+    QVERIFY2(timer.elapsed() < 3000, qPrintable(QString::number(timer.elapsed())));
+  }
+};
+
+QTEST_GUILESS_MAIN(SessionTest)
+#include "solve_runner_test.moc"
