@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The sphere of directions: one point per processed direction (and its opposite in two-way runs),
+// colored by its contribution to the irradiance of the selected patch. Directions and B come from
+// the solver's snapshot, visible areas from PerDirectionVisibility.
 #include "directions/direction_view.h"
 
 #include <QMouseEvent>
@@ -18,10 +22,11 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double reach = 6;  ///< of a click, pixels
+constexpr double click_radius = 6;  ///< pixels
 
-/// Along the color bar: few directions hold a lamp, and most of the light comes from elsewhere.
-double position_of(double share) { return std::sqrt(share); }
+/// Position on the color bar, 0 to 1. The square root keeps the many weak directions apart, beside
+/// the few that lead to a lamp.
+double color_position(double share) { return std::sqrt(share); }
 
 }  // namespace
 
@@ -32,14 +37,14 @@ DirectionView::DirectionView(Focus& focus, Selection& selection, const ColorChoi
       selection_(selection),
       colors_(colors),
       visibility_(visibility) {
-  setToolTip(tr("Drag to turn; click a direction to look along it"));
+  setToolTip(tr("Drag to rotate the sphere; click a point to go to that direction"));
   connect(&focus_, &Focus::moved, this, [this] {
-    ask();
+    request_visibility();
     update();
   });
   connect(&colors_, &ColorChoice::changed, this, qOverload<>(&QWidget::update));
   connect(&selection_, &Selection::changed, this, [this] {
-    ask();
+    request_visibility();
     update();
   });
   connect(&visibility_, &PerDirectionVisibility::grown, this, qOverload<>(&QWidget::update));
@@ -54,7 +59,7 @@ void DirectionView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot
     turn_ = tilt_ = 0;
   }
   snapshot_ = std::move(snapshot);
-  ask();
+  request_visibility();
   update();
 }
 
@@ -66,15 +71,16 @@ void DirectionView::clear() {
 
 void DirectionView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  ask();
+  request_visibility();
 }
 
 int DirectionView::iteration() const {
-  const bool renews = snapshot_->options.scheme == Scheme::semi_iterative;
-  return renews && focus_.map() ? focus_.position().iteration : snapshot_->progress.iteration;
+  const bool new_each_iteration = snapshot_->options.scheme == Scheme::semi_iterative;
+  return new_each_iteration && focus_.map() ? focus_.position().iteration
+                                            : snapshot_->progress.iteration;
 }
 
-int DirectionView::taken() const {
+int DirectionView::directions_done() const {
   if (!snapshot_) {
     return 0;
   }
@@ -86,21 +92,22 @@ int DirectionView::taken() const {
 }
 
 bool DirectionView::needs_visibility() const {
-  return snapshot_ && selection_.patch() != no_patch && taken() > 0 && isVisible();
+  return snapshot_ && selection_.patch() != no_patch && directions_done() > 0 && isVisible();
 }
 
-void DirectionView::ask() {
+void DirectionView::request_visibility() {
   if (!needs_visibility()) {
     return;
   }
   const SolveOptions& options = snapshot_->options;
   visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                       snapshot_->directions_of(iteration()), taken(), selection_.patch()});
+                       snapshot_->directions_of(iteration()), directions_done(),
+                       selection_.patch()});
 }
 
 std::vector<DirectionView::Point> DirectionView::points() const {
   std::vector<Point> points;
-  for (int k = 0; k < taken(); ++k) {
+  for (int k = 0; k < directions_done(); ++k) {
     const Vec3& omega = at(directions(), k);
     points.push_back({omega, k, false});
     if (snapshot_->options.two_way) {
@@ -116,9 +123,10 @@ std::vector<double> DirectionView::received() const {
     return received;
   }
   const auto& found = visibility_.found();
-  const std::size_t count = std::min(found.size(), static_cast<std::size_t>(taken()));
-  for (const ReceivedLight& light : received_light(
-           visibility_.current_request(), {found.data(), count}, snapshot_->radiosity, taken())) {
+  const std::size_t count = std::min(found.size(), static_cast<std::size_t>(directions_done()));
+  for (const ReceivedLight& light :
+       received_light(visibility_.current_request(), {found.data(), count}, snapshot_->radiosity,
+                      directions_done())) {
     received.push_back(luminance(light.irradiance));
   }
   return received;
@@ -126,14 +134,15 @@ std::vector<double> DirectionView::received() const {
 
 QString DirectionView::caption() const {
   if (selection_.patch() == no_patch) {
-    return tr("Select a patch to see which of them light it");
+    return tr("Select a patch to see which directions light it");
   }
   const QString patch = count_text(selection_.patch());
   if (visibility_.complete()) {
-    return tr("Color: what each adds to the irradiance of patch %1").arg(patch);
+    return tr("Color: contribution of each to the irradiance of patch %1").arg(patch);
   }
-  return tr("Looking along them from patch %1: %2 of %3")
-      .arg(patch, count_text(static_cast<int>(visibility_.found().size())), count_text(taken()));
+  return tr("Computing what patch %1 sees: direction %2 of %3")
+      .arg(patch, count_text(static_cast<int>(visibility_.found().size())),
+           count_text(directions_done()));
 }
 
 QRectF DirectionView::caption_rect() const {
@@ -142,7 +151,7 @@ QRectF DirectionView::caption_rect() const {
   return fontMetrics().boundingRect(room, Qt::AlignLeft | Qt::TextWordWrap, caption());
 }
 
-QRectF DirectionView::sphere_room() const {
+QRectF DirectionView::sphere_rect() const {
   const double top = caption_rect().bottom() + 4;
   return {12, top, width() - 24.0, height() - legend_height() - top};
 }
@@ -150,14 +159,14 @@ QRectF DirectionView::sphere_room() const {
 double DirectionView::legend_height() const { return fontMetrics().height() + 28; }
 
 double DirectionView::radius() const {
-  const QRectF room = sphere_room();
+  const QRectF room = sphere_rect();
   return std::max(20.0, 0.5 * std::min(room.width(), room.height() - 12));
 }
 
-QPointF DirectionView::center() const { return sphere_room().center(); }
+QPointF DirectionView::center() const { return sphere_rect().center(); }
 
-/// x to the right, y up, z toward the viewer.
-Vec3 DirectionView::turned(const Vec3& direction) const {
+/// In view coordinates: x to the right, y up, z toward the viewer.
+Vec3 DirectionView::rotated(const Vec3& direction) const {
   const Vec3 d{dot(direction, right_), dot(direction, up_), dot(direction, toward_)};
   const double x = std::cos(turn_) * d.x + std::sin(turn_) * d.z;
   const double z = -std::sin(turn_) * d.x + std::cos(turn_) * d.z;
@@ -165,18 +174,18 @@ Vec3 DirectionView::turned(const Vec3& direction) const {
           std::sin(tilt_) * d.y + std::cos(tilt_) * z};
 }
 
-QPointF DirectionView::place(const Vec3& turned) const {
-  return center() + radius() * QPointF(turned.x, -turned.y);
+QPointF DirectionView::position_of(const Vec3& rotated) const {
+  return center() + radius() * QPointF(rotated.x, -rotated.y);
 }
 
 void DirectionView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.fillRect(rect(), theme::scene_background);
-  if (taken() == 0) {
+  if (directions_done() == 0) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     tr("A point for every direction taken"));
+                     tr("Every processed direction appears here as a point"));
     return;
   }
   draw_sphere(painter);
@@ -192,7 +201,7 @@ void DirectionView::draw_sphere(QPainter& painter) const {
   painter.setBrush(QColor(0x2a, 0x30, 0x38));
   painter.drawEllipse(center(), radius(), radius());
   painter.setBrush(Qt::NoBrush);
-  // The equator and two meridians, the far half fainter.
+  // Three great circles, their far halves fainter.
   for (int circle = 0; circle < 3; ++circle) {
     for (int half = 0; half < 2; ++half) {
       QPainterPath path;
@@ -200,17 +209,17 @@ void DirectionView::draw_sphere(QPainter& painter) const {
       for (int k = 0; k <= 96; ++k) {
         const double a = 2 * std::numbers::pi * k / 96;
         const double c = std::cos(a), s = std::sin(a);
-        const Vec3 at = turned(circle == 0   ? Vec3{c, 0, s}
+        const Vec3 p = rotated(circle == 0   ? Vec3{c, 0, s}
                                : circle == 1 ? Vec3{c, s, 0}
                                              : Vec3{0, c, s});
-        if ((at.z >= 0) != (half == 1)) {
+        if ((p.z >= 0) != (half == 1)) {
           open = false;
           continue;
         }
         if (open) {
-          path.lineTo(place(at));
+          path.lineTo(position_of(p));
         } else {
-          path.moveTo(place(at));
+          path.moveTo(position_of(p));
         }
         open = true;
       }
@@ -225,55 +234,55 @@ void DirectionView::draw_sphere(QPainter& painter) const {
 void DirectionView::draw_points(QPainter& painter, bool front) const {
   const std::vector<Point> shown = points();
   const std::vector<double> power = received();
-  const double most = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
+  const double largest = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
   const double size =
       std::clamp(1.6 * radius() / std::sqrt(static_cast<double>(shown.size())), 1.6, 5.0);
   for (std::size_t k = 0; k < shown.size(); ++k) {
-    const Vec3 at = turned(shown[k].omega);
-    if ((at.z >= 0) != front) {
+    const Vec3 p = rotated(shown[k].omega);
+    if ((p.z >= 0) != front) {
       continue;
     }
     QColor color = theme::on_dark_dim;
-    double grow = 0.6;
+    double scale = 0.6;
     if (k < power.size() && power[k] > 0) {
-      const Color8 c = color_of(colors_.map(), position_of(power[k] / most));
+      const Color8 c = color_of(colors_.map(), color_position(power[k] / largest));
       color = QColor(c[0], c[1], c[2]);
-      grow = 1;
+      scale = 1;
     }
     color.setAlphaF(front ? 1 : 0.25);
     painter.setBrush(color);
-    // The dark end of the map would be lost before the dark ground.
-    painter.setPen(front && grow == 1 ? QPen(theme::on_dark_dim, 0.7) : QPen(Qt::NoPen));
-    painter.drawEllipse(place(at), grow * size, grow * size);
+    // Outlined: the dark end of the color map would vanish on the dark background.
+    painter.setPen(front && scale == 1 ? QPen(theme::on_dark_dim, 0.7) : QPen(Qt::NoPen));
+    painter.drawEllipse(position_of(p), scale * size, scale * size);
   }
 }
 
-/// Where the selected patch looks.
+/// A cross at the normal of the selected patch.
 void DirectionView::draw_normal(QPainter& painter) const {
   if (!needs_visibility()) {
     return;
   }
-  const Vec3 at = turned(snapshot_->loaded->scene->patch(selection_.patch()).normal);
+  const Vec3 p = rotated(snapshot_->loaded->scene->patch(selection_.patch()).normal);
   QColor color = theme::selection;
-  color.setAlphaF(at.z >= 0 ? 1 : 0.4);
+  color.setAlphaF(p.z >= 0 ? 1 : 0.4);
   painter.setPen(QPen(color, 2));
   painter.setBrush(Qt::NoBrush);
-  const QPointF p = place(at);
-  painter.drawLine(p - QPointF(6, 0), p + QPointF(6, 0));
-  painter.drawLine(p - QPointF(0, 6), p + QPointF(0, 6));
+  const QPointF center = position_of(p);
+  painter.drawLine(center - QPointF(6, 0), center + QPointF(6, 0));
+  painter.drawLine(center - QPointF(0, 6), center + QPointF(0, 6));
 }
 
 void DirectionView::draw_focus(QPainter& painter) const {
   const int pass = focus_.position().direction;
-  if (!focus_.map() || pass >= taken()) {
+  if (!focus_.map() || pass >= directions_done()) {
     return;
   }
-  const Vec3 point = turned(at(directions(), pass));
+  const Vec3 point = rotated(at(directions(), pass));
   QColor color = theme::processed;
   color.setAlphaF(point.z >= 0 ? 1 : 0.4);
   painter.setPen(QPen(color, 2));
   painter.setBrush(Qt::NoBrush);
-  painter.drawEllipse(place(point), 7, 7);
+  painter.drawEllipse(position_of(point), 7, 7);
 }
 
 void DirectionView::draw_legend(QPainter& painter) const {
@@ -282,9 +291,10 @@ void DirectionView::draw_legend(QPainter& painter) const {
   bold.setBold(true);
   painter.setFont(bold);
   painter.setPen(theme::on_dark);
-  const QString count = snapshot_->options.two_way
-                            ? tr("%1 directions and their opposites").arg(count_text(taken()))
-                            : tr("%1 directions").arg(count_text(taken()));
+  const QString count =
+      snapshot_->options.two_way
+          ? tr("%1 directions and their opposites").arg(count_text(directions_done()))
+          : tr("%1 directions").arg(count_text(directions_done()));
   painter.drawText(QRect(12, 6, width() - 24, line), Qt::AlignLeft, count);
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
@@ -295,7 +305,7 @@ void DirectionView::draw_legend(QPainter& painter) const {
     return;
   }
 
-  const double most = *std::max_element(power.begin(), power.end());
+  const double largest = *std::max_element(power.begin(), power.end());
   const QRectF bar(12, height() - legend_height() + 6, width() - 24, 10);
   for (int x = 0; x < static_cast<int>(bar.width()); ++x) {
     const Color8 c = color_of(colors_.map(), x / bar.width());
@@ -305,21 +315,21 @@ void DirectionView::draw_legend(QPainter& painter) const {
   const QRectF below(bar.left(), bar.bottom() + 3, bar.width(), line);
   painter.setPen(theme::on_dark);
   painter.drawText(below, Qt::AlignLeft, tr("0"));
-  painter.drawText(below, Qt::AlignRight, tr("%1 W/m²").arg(number_text(most)));
-  // Where a quarter of it lies, as position_of() says.
-  painter.drawText(below, Qt::AlignHCenter, number_text(most / 4));
+  painter.drawText(below, Qt::AlignRight, tr("%1 W/m²").arg(number_text(largest)));
+  // color_position() maps a quarter of the largest value to the middle of the bar.
+  painter.drawText(below, Qt::AlignHCenter, number_text(largest / 4));
 }
 
 std::optional<DirectionView::Point> DirectionView::point_at(const QPointF& where) const {
   std::optional<Point> nearest;
-  double distance = reach;
+  double distance = click_radius;
   for (const Point& point : points()) {
-    const Vec3 at = turned(point.omega);
-    if (at.z < 0) {
+    const Vec3 p = rotated(point.omega);
+    if (p.z < 0) {
       continue;
     }
-    const QPointF off = place(at) - where;
-    const double d = std::hypot(off.x(), off.y());
+    const QPointF offset = position_of(p) - where;
+    const double d = std::hypot(offset.x(), offset.y());
     if (d >= distance) {
       continue;
     }

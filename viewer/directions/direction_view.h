@@ -15,31 +15,32 @@
 
 namespace transillum::viewer {
 
-/// The sphere of directions, with those that the step under way has taken so far, colored by what
-/// the selected patch receives along them. Dragging turns it; a click on a point takes the focus
-/// there.
+/// The sphere of directions with those that the current iteration has processed so far, colored by
+/// what the selected patch receives along each. Dragging rotates it; a click on a point moves the
+/// focus to that direction.
 class DirectionView : public QWidget {
   Q_OBJECT
 
  public:
-  /// `visibility` is shared with others that ask about the selected patch.
+  /// @param visibility shared with other views of the selected patch
   DirectionView(Focus& focus, Selection& selection, const ColorChoice& colors,
                 PerDirectionVisibility& visibility, QWidget* parent = nullptr);
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
-  /// Whether the points have the colors of the selected patch.
+  /// Whether all points are colored for the selected patch.
   bool up_to_date() const { return !needs_visibility() || visibility_.complete(); }
 
-  /// A direction of the run as it stands on the sphere.
+  /// A direction of the run as a point of the sphere.
   struct Point {
     Vec3 omega;
-    int pass;
+    int pass;       ///< from 0
     bool opposite;  ///< -omega of a two-way pass
   };
-  /// Those that are shown, and what the selected patch receives along each, W/m² of its own
-  /// irradiance; empty where no patch is selected or nothing is known yet.
+  /// The points shown.
   std::vector<Point> points() const;
+  /// Contribution of each point to the irradiance of the selected patch (luminance), W/m²; shorter
+  /// than points() while visibility is being computed, empty without a selected patch.
   std::vector<double> received() const;
 
   QSize sizeHint() const override { return {420, 340}; }
@@ -54,12 +55,13 @@ class DirectionView : public QWidget {
 
  private:
   bool needs_visibility() const;
-  void ask();
-  Vec3 turned(const Vec3& direction) const;
-  QPointF place(const Vec3& turned) const;
+  void request_visibility();
+  Vec3 rotated(const Vec3& direction) const;
+  /// In the widget.
+  QPointF position_of(const Vec3& rotated) const;
   QString caption() const;
   QRectF caption_rect() const;
-  QRectF sphere_room() const;
+  QRectF sphere_rect() const;
   double legend_height() const;
   double radius() const;
   QPointF center() const;
@@ -69,10 +71,11 @@ class DirectionView : public QWidget {
   void draw_focus(QPainter& painter) const;
   void draw_legend(QPainter& painter) const;
   std::optional<Point> point_at(const QPointF& where) const;
-  /// The iteration step shown: that in focus where each has directions of its own, else the newest.
+  /// The iteration shown: the one in focus where each has directions of its own, else the newest.
   int iteration() const;
   const std::vector<Vec3>& directions() const { return *snapshot_->directions_of(iteration()); }
-  int taken() const;
+  /// Directions of iteration() that have been processed.
+  int directions_done() const;
 
   Focus& focus_;
   Selection& selection_;

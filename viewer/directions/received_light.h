@@ -13,19 +13,21 @@ namespace transillum::viewer {
 struct ReceivedLight {
   int pass = 0;                  ///< from 0
   bool opposite = false;         ///< along -omega of the pass
-  double cosine = 0;             ///< of the patch's normal with the direction
-  double area = 0;               ///< it sees lit sides of, m² of the plane
-  Rgb irradiance;                ///< added to its H, W/m²
-  PatchId brightest = no_patch;  ///< the source that adds most luminance, if any does
+  double cosine = 0;             ///< between the patch's normal and the direction
+  double area = 0;               ///< of front sides that the patch sees, m² on the plane
+  Rgb irradiance;                ///< contribution to H of the patch, W/m²
+  PatchId brightest = no_patch;  ///< the source of the largest contribution (luminance), if any
 
   friend bool operator==(const ReceivedLight&, const ReceivedLight&) = default;
 };
 
-/// One for each direction of `visible_areas`, in their order, both ways where the run goes both.
-/// @param radiosity B(n), W/m², one a patch
-/// @param passes M; an irradiance is the M-th part of 4/A_i times area and B, summed up
+/// One entry per direction of `visible_areas`, in their order; in a two-way run omega and then
+/// -omega of each pass.
+/// @param radiosity B(n), W/m², one per patch
+/// @param passes M: a contribution is 4/(A_i M) times the sum of visible area times B, with 2M
+///        instead of M in a two-way run
 std::vector<ReceivedLight> received_light(
-    const PerDirectionVisibility::Request& asked,
+    const PerDirectionVisibility::Request& request,
     std::span<const PerDirectionVisibility::VisibleAreas> visible_areas,
     const std::vector<Rgb>& radiosity, int passes);
 

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The table behind ReceivedView: one row per direction, sorted here. Its contents come from
+// received_light().
 #include "directions/received_table.h"
 
 #include <algorithm>
@@ -11,32 +14,32 @@
 namespace transillum::viewer {
 
 void ReceivedTable::show_lights(const std::vector<ReceivedLight>& lights, double patch_area) {
-  std::vector<ReceivedLight> looked_along;
+  std::vector<ReceivedLight> front_lights;
   irradiance_ = {};
   for (const ReceivedLight& light : lights) {
     if (light.cosine <= 0) {
       continue;
     }
-    looked_along.push_back(light);
+    front_lights.push_back(light);
     irradiance_ += light.irradiance;
   }
   patch_area_ = patch_area;
-  sort_lights(looked_along);
-  if (looked_along == lights_) {
+  sort_lights(front_lights);
+  if (front_lights == lights_) {
     return;
   }
-  // A reset in the midst of a double click would lose it: more of the same are put in instead.
-  const int before = rowCount(), after = static_cast<int>(looked_along.size());
+  // Insert rows where possible: a reset between the clicks of a double click would lose it.
+  const int before = rowCount(), after = static_cast<int>(front_lights.size());
   if (before == 0 || after < before) {
     beginResetModel();
-    lights_ = std::move(looked_along);
+    lights_ = std::move(front_lights);
     endResetModel();
     return;
   }
   if (after > before) {
     beginInsertRows({}, before, after - 1);
   }
-  lights_ = std::move(looked_along);
+  lights_ = std::move(front_lights);
   if (after > before) {
     endInsertRows();
   }
@@ -67,7 +70,7 @@ double ReceivedTable::value(const ReceivedLight& light, int column) const {
       return 2 * light.pass + (light.opposite ? 1 : 0);
     case of_area:
       return light.area;
-    case of_seen:
+    case of_visible_share:
       return light.area / (patch_area_ * light.cosine);
     case of_brightest:
       return light.brightest;
@@ -88,7 +91,7 @@ QString ReceivedTable::text(const ReceivedLight& light, int column) const {
     case of_area:
     case of_irradiance:
       return number_text(value(light, column));
-    case of_seen:
+    case of_visible_share:
       return percent(value(light, column));
     case of_share: {
       const double all = luminance(irradiance_);
@@ -128,19 +131,22 @@ QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int
   };
   switch (section) {
     case of_direction:
-      return pick(tr("Direction"), tr("Its number; −ω: the opposite way of the same pass"));
+      return pick(tr("Direction"), tr("Number of the pass; −ω: its opposite direction"));
     case of_area:
-      return pick(tr("Sees, m²"), tr("Area of lit sides that the patch sees, on the plane"));
-    case of_seen:
-      return pick(tr("of it"), tr("The same as a share of the patch's projected area; the rest "
-                                  "are back sides, or nothing"));
+      return pick(tr("Visible, m²"),
+                  tr("Area of front sides that the patch sees, projected onto the plane"));
+    case of_visible_share:
+      return pick(tr("Visible, %"),
+                  tr("The same as a share of the patch's projected area; the rest "
+                     "is back sides or empty"));
     case of_irradiance:
-      return pick(tr("Adds, W/m²"), tr("To the irradiance of the patch (luminance), before any "
-                                       "normalization"));
+      return pick(tr("ΔH, W/m²"),
+                  tr("Contribution to the irradiance H of the patch (luminance), before "
+                     "normalization"));
     case of_share:
-      return pick(tr("Share"), tr("Of what all directions listed add"));
+      return pick(tr("Share"), tr("Share of the sum over all listed directions"));
     default:
-      return pick(tr("From"), tr("The patch that adds most of it"));
+      return pick(tr("Source"), tr("Patch that contributes most"));
   }
 }
 

@@ -9,7 +9,8 @@
 
 namespace transillum::viewer {
 
-/// The directions that a patch looks along, by what it receives there; sorted by any column.
+/// The directions on the front side of a patch and what it receives along each; sorts by any
+/// column.
 class ReceivedTable : public QAbstractTableModel {
   Q_OBJECT
 
@@ -18,19 +19,20 @@ class ReceivedTable : public QAbstractTableModel {
   enum Column {
     of_direction,
     of_area,
-    of_seen,
+    of_visible_share,
     of_irradiance,
     of_share,
     of_brightest,
     column_count
   };
 
-  /// Those of `lights` that the patch looks along. `patch_area` in m².
+  /// Shows those of `lights` that lie on the front side of the patch (positive cosine).
+  /// @param patch_area m²
   void show_lights(const std::vector<ReceivedLight>& lights, double patch_area);
-  /// The rows of this pass stand out; -1: none.
+  /// Emphasizes the rows of this pass; -1: none.
   void set_current_pass(int pass);
   const ReceivedLight& light(int row) const { return at(lights_, row); }
-  /// Of all rows, W/m².
+  /// Sum over all rows, W/m².
   const Rgb& irradiance() const { return irradiance_; }
 
   int rowCount(const QModelIndex& parent = {}) const override;

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Received": computes, for the selected patch, one term of eq. 11 per direction. B is
+// that of the iteration in focus where it was kept, else the newest; visible areas come from
+// PerDirectionVisibility.
 #include "directions/received_view.h"
 
 #include <QHeaderView>
@@ -24,11 +28,11 @@ constexpr int refresh_interval_ms = 400;
 ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& visibility,
                            QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), visibility_(visibility) {
-  words_ = new QLabel;
-  words_->setObjectName("received_words");
-  words_->setWordWrap(true);
-  words_->setContentsMargins(10, 4, 10, 4);
-  words_->setForegroundRole(QPalette::PlaceholderText);
+  caption_ = new QLabel;
+  caption_->setObjectName("received_words");
+  caption_->setWordWrap(true);
+  caption_->setContentsMargins(10, 4, 10, 4);
+  caption_->setForegroundRole(QPalette::PlaceholderText);
   table_ = new ReceivedTable(this);
   view_ = new QTableView;
   view_->setObjectName("received_light");
@@ -42,19 +46,19 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(words_);
+  layout->addWidget(caption_);
   layout->addWidget(view_, 1);
 
-  later_ = new QTimer(this);
-  later_->setSingleShot(true);
-  later_->setInterval(refresh_interval_ms);
-  connect(later_, &QTimer::timeout, this, &ReceivedView::show_lights);
+  refresh_timer_ = new QTimer(this);
+  refresh_timer_->setSingleShot(true);
+  refresh_timer_->setInterval(refresh_interval_ms);
+  connect(refresh_timer_, &QTimer::timeout, this, &ReceivedView::show_lights);
   connect(&visibility_, &PerDirectionVisibility::grown, this, [this] {
-    if (!later_->isActive()) {
-      later_->start();
+    if (!refresh_timer_->isActive()) {
+      refresh_timer_->start();
     }
   });
-  connect(&selection_, &Selection::changed, this, &ReceivedView::ask);
+  connect(&selection_, &Selection::changed, this, &ReceivedView::request_visibility);
   connect(&focus_, &Focus::moved, this, &ReceivedView::show_position);
   connect(view_, &QTableView::clicked, this, [this](const QModelIndex& index) {
     const PatchId source = table_->light(index.row()).brightest;
@@ -73,37 +77,37 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
 }
 
 void ReceivedView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
-  const bool another = !snapshot_ || snapshot_->directions != snapshot->directions;
+  const bool new_directions = !snapshot_ || snapshot_->directions != snapshot->directions;
   snapshot_ = std::move(snapshot);
-  if (another) {
-    ask();
-  } else if (isVisible() && !later_->isActive()) {
-    later_->start();
+  if (new_directions) {
+    request_visibility();
+  } else if (isVisible() && !refresh_timer_->isActive()) {
+    refresh_timer_->start();
   }
 }
 
 void ReceivedView::clear() {
   snapshot_ = nullptr;
-  later_->stop();
+  refresh_timer_->stop();
   show_lights();
 }
 
 void ReceivedView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  ask();
+  request_visibility();
 }
 
-int ReceivedView::taken() const {
+int ReceivedView::directions_done() const {
   const SolveProgress& progress = snapshot_->progress;
-  const bool whole = focus_.position().iteration < progress.iteration;
-  return whole ? snapshot_->passes_of(focus_.position().iteration) : progress.direction;
+  const bool finished = focus_.position().iteration < progress.iteration;
+  return finished ? snapshot_->passes_of(focus_.position().iteration) : progress.direction;
 }
 
-void ReceivedView::ask() {
-  if (isVisible() && snapshot_ && selection_.patch() != no_patch && taken() > 0) {
+void ReceivedView::request_visibility() {
+  if (isVisible() && snapshot_ && selection_.patch() != no_patch && directions_done() > 0) {
     const SolveOptions& options = snapshot_->options;
     visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                         snapshot_->directions_of(focus_.position().iteration), taken(),
+                         snapshot_->directions_of(focus_.position().iteration), directions_done(),
                          selection_.patch()});
   }
   show_lights();
@@ -114,7 +118,7 @@ void ReceivedView::show_position() {
     return;
   }
   if (snapshot_ && selection_.patch() != no_patch) {
-    ask();
+    request_visibility();
   }
 }
 
@@ -125,7 +129,8 @@ void ReceivedView::show_lights() {
   const PatchId patch = selection_.patch();
   if (!snapshot_ || patch == no_patch) {
     table_->show_lights({}, 1);
-    words_->setText(tr("Select a patch to see what each direction adds to its irradiance."));
+    caption_->setText(
+        tr("Select a patch to see what each direction contributes to its irradiance."));
     return;
   }
   if (visibility_.current_request().patch != patch ||
@@ -138,7 +143,7 @@ void ReceivedView::show_lights() {
   const auto& kept = snapshot_->kept_radiosity;
   const bool known = n < kept.size() && kept[n];
   const auto& found = visibility_.found();
-  const int count = std::min(taken(), static_cast<int>(found.size()));
+  const int count = std::min(directions_done(), static_cast<int>(found.size()));
   table_->show_lights(
       received_light(visibility_.current_request(), {found.data(), static_cast<std::size_t>(count)},
                      known ? *kept[n] : snapshot_->radiosity,
@@ -146,15 +151,15 @@ void ReceivedView::show_lights() {
       snapshot_->loaded->scene->patch(patch).area);
   table_->set_current_pass(focus_.map() ? focus_.position().direction : -1);
   const QString what =
-      known ? tr("Iteration %1: what each direction adds to the irradiance of patch %2, together "
+      known ? tr("Iteration %1: contribution of each direction to the irradiance of patch %2; sum "
                  "%3 W/m².")
                   .arg(count_text(focus_.position().iteration + 1))
-            : tr("What each direction adds to the irradiance of patch %1, together %2 W/m².");
-  words_->setText(
-      what.arg(patch).arg(number_text(luminance(table_->irradiance()))) +
-      (count < taken()
-           ? tr(" Looking along them: %1 of %2.").arg(count_text(count), count_text(taken()))
-           : tr(" A double click goes there.")));
+            : tr("Contribution of each direction to the irradiance of patch %1; sum %2 W/m².");
+  caption_->setText(what.arg(patch).arg(number_text(luminance(table_->irradiance()))) +
+                    (count < directions_done()
+                         ? tr(" Computed: %1 of %2 directions.")
+                               .arg(count_text(count), count_text(directions_done()))
+                         : tr(" Double-click a row to go to its direction.")));
 }
 
 }  // namespace transillum::viewer

@@ -15,12 +15,13 @@ namespace transillum::viewer {
 
 class ReceivedTable;
 
-/// The directions of the iteration in focus by what each adds to the selected patch.
+/// A table of the directions of the iteration in focus and what each contributes to the irradiance
+/// of the selected patch.
 class ReceivedView : public QWidget {
   Q_OBJECT
 
  public:
-  /// `visibility` is shared with others that ask about the selected patch.
+  /// @param visibility shared with other views of the selected patch
   ReceivedView(Focus& focus, Selection& selection, PerDirectionVisibility& visibility,
                QWidget* parent = nullptr);
 
@@ -31,20 +32,20 @@ class ReceivedView : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  void ask();
+  void request_visibility();
   void show_lights();
   void show_position();
-  /// Directions of the iteration in focus that have been taken.
-  int taken() const;
+  /// Directions of the iteration in focus that have been processed.
+  int directions_done() const;
 
   Focus& focus_;
   Selection& selection_;
   PerDirectionVisibility& visibility_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
-  QLabel* words_;
+  QLabel* caption_;
   QTableView* view_;
   ReceivedTable* table_;
-  class QTimer* later_;
+  class QTimer* refresh_timer_;  ///< limits how often the table is refilled
 };
 
 }  // namespace transillum::viewer
