@@ -15,10 +15,10 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int held_key = Qt::Key_A;
+constexpr int show_key = Qt::Key_A;
 
-// Letters that go into a line are no commands.
-bool is_typed_into(const QWidget* widget) {
+// Letters typed into an input field are not commands.
+bool is_text_input(const QWidget* widget) {
   return qobject_cast<const QLineEdit*>(widget) || qobject_cast<const QAbstractSpinBox*>(widget) ||
          qobject_cast<const QComboBox*>(widget);
 }
@@ -30,11 +30,12 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   keep_ = new QAction(tr("Keep this run as A"), this);
   keep_->setObjectName("keep_run");
   keep_->setShortcut(Qt::Key_K);
-  keep_->setToolTip(tr("Later runs of as many patches can be compared with it"));
-  show_ = new QAction(tr("Show A (while the key A is down)"), this);
+  keep_->setToolTip(
+      tr("Keep this result as A, to compare later runs with the same number of patches"));
+  show_ = new QAction(tr("Show A (hold key A)"), this);
   show_->setObjectName("show_kept_run");
   show_->setCheckable(true);
-  difference_ = new QAction(tr("Color by the difference to A"), this);
+  difference_ = new QAction(tr("Color by difference from A"), this);
   difference_->setObjectName("show_difference");
   difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
   difference_->setCheckable(true);
@@ -42,12 +43,12 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
     colors_.keep_run();
     if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
       main->statusBar()->showMessage(
-          tr("Kept as A: hold the key A to see it; Shift+K colors by the difference"), 6000);
+          tr("Kept as A: hold key A to show it; Shift+K colors by the difference"), 6000);
     }
   });
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
-  connect(difference_, &QAction::triggered, this, [this](bool wanted) {
-    colors_.set_quantity(wanted ? Quantity::difference : Quantity::radiosity);
+  connect(difference_, &QAction::triggered, this, [this](bool checked) {
+    colors_.set_quantity(checked ? Quantity::difference : Quantity::radiosity);
   });
   connect(&colors_, &ColorChoice::changed, this, &CompareActions::show_state);
   connect(&colors_, &ColorChoice::fitted, this, &CompareActions::show_state);
@@ -71,14 +72,14 @@ void CompareActions::show_state() {
 
 bool CompareActions::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::WindowDeactivate && watched == window_) {
-    colors_.show_kept_run(false);  // the key's release would go elsewhere
+    colors_.show_kept_run(false);  // another window receives the key's release
   } else if (event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease) {
     const auto* key = static_cast<QKeyEvent*>(event);
     const auto* widget = qobject_cast<QWidget*>(watched);
     const bool down = event->type() == QEvent::KeyPress;
-    const bool wanted = key->key() == held_key && !key->isAutoRepeat() && widget &&
-                        widget->window() == window_ && !is_typed_into(widget);
-    if (wanted && (!down || key->modifiers() == Qt::NoModifier)) {
+    const bool applies = key->key() == show_key && !key->isAutoRepeat() && widget &&
+                         widget->window() == window_ && !is_text_input(widget);
+    if (applies && (!down || key->modifiers() == Qt::NoModifier)) {
       colors_.show_kept_run(down);
     }
   }

@@ -10,12 +10,12 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Keeps a run as A; shows it while a key is held down, or how the newest run differs from it.
+/// Keeps a run as A; shows A while a key is held down, or the difference of the newest run from A.
 class CompareActions : public QObject {
   Q_OBJECT
 
  public:
-  /// Keys count while `window` is the active one.
+  /// @param window its keys are handled, while it is active
   CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent = nullptr);
 
   void add_to(QMenu& menu) const;

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Materials": sliders for E and rho of one material. A moved slider changes
+// MaterialEdits; Relighting then finds the new B from the solve's form factors.
 #include "patches/material_panel.h"
 
 #include <QComboBox>
@@ -7,23 +10,33 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "transillum/at.h"
 #include "widgets/channel_sliders.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-constexpr double most_reflectance = 0.99;
+constexpr double largest_reflectance = 0.99;
 
-// The slider's end: some way above what the scene has, so that a dark material can be lit too.
-double most_exitance(const std::vector<Material>& materials) {
-  double most = 0;
+// The upper end of the exitance sliders: above every exitance of the scene, and not 0.
+double slider_exitance(const std::vector<Material>& materials) {
+  double largest = 0;
   for (const Material& material : materials) {
-    most = std::max(most, max_abs(material.exitance));
+    largest = std::max(largest, max_abs(material.exitance));
   }
-  return most > 0 ? 4 * most : 10;
+  return largest > 0 ? 4 * largest : 10;
+}
+
+QLabel* make_note(const char* name) {
+  auto* note = new QLabel;
+  note->setObjectName(QString::fromLatin1(name));
+  note->setWordWrap(true);
+  note->setForegroundRole(QPalette::PlaceholderText);
+  return note;
 }
 
 }  // namespace
@@ -31,61 +44,67 @@ double most_exitance(const std::vector<Material>& materials) {
 MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
                              const ColorChoice& colors, QWidget* parent)
     : QWidget(parent), relighting_(relighting), selection_(selection), colors_(colors) {
+  obstacle_ = make_note("material_words");
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 6, 12, 6);
+  layout->setSpacing(6);
+  layout->addLayout(make_choice());
+  layout->addWidget(obstacle_);
+  layout->addWidget(make_sliders());
+  layout->addStretch(1);
+  connect_edits();
+  show_state();
+}
+
+QLayout* MaterialPanel::make_choice() {
   material_ = new QComboBox;
   material_->setObjectName("material");
   material_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   material_->setMinimumContentsLength(6);
-  words_ = new QLabel;
-  words_->setObjectName("material_words");
-  words_->setWordWrap(true);
-  words_->setForegroundRole(QPalette::PlaceholderText);
-  reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
-  exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
   restore_ = new QPushButton(tr("As in the scene"));
   restore_->setObjectName("restore_materials");
-  restore_->setToolTip(tr("Take back all changes of materials"));
-  sliders_ = new QWidget;
-  sliders_->setToolTip(tr("B follows from the kept form factors, without a new pass"));
-  auto* column = new QVBoxLayout(sliders_);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  account_ = new QLabel;
-  account_->setObjectName("material_account");
-  account_->setWordWrap(true);
-  account_->setForegroundRole(QPalette::PlaceholderText);
-  column->addWidget(account_);
-  column->addWidget(reflectance_);
-  column->addWidget(exitance_);
-  exposure_ = new QLabel(tr("Auto exposure hides this: untick Auto."));
-  exposure_->setToolTip(
-      tr("The picture is exposed anew for every light. Auto stands above the scene."));
-  exposure_->setObjectName("material_exposure");
-  exposure_->setWordWrap(true);
-  column->addWidget(exposure_);
-
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 6, 12, 6);
-  layout->setSpacing(6);
+  restore_->setToolTip(tr("Undo all changes to materials"));
   auto* choice = new QHBoxLayout;
   choice->setSpacing(6);
   choice->addWidget(material_, 1);
   choice->addWidget(restore_);
-  layout->addLayout(choice);
-  layout->addWidget(words_);
-  layout->addWidget(sliders_);
-  layout->addStretch(1);
+  return choice;
+}
 
+QWidget* MaterialPanel::make_sliders() {
+  reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
+  exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
+  account_ = make_note("material_account");
+  exposure_ = new QLabel(tr("Auto exposure hides this: turn off Auto."));
+  exposure_->setToolTip(
+      tr("Automatic exposure adjusts the picture to each change of E. Auto is above the scene."));
+  exposure_->setObjectName("material_exposure");
+  exposure_->setWordWrap(true);
+
+  sliders_ = new QWidget;
+  sliders_->setToolTip(
+      tr("Change the material; B is recomputed from the form factors, without a "
+         "new pass"));
+  auto* column = new QVBoxLayout(sliders_);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addWidget(account_);
+  column->addWidget(reflectance_);
+  column->addWidget(exitance_);
+  column->addWidget(exposure_);
+  return sliders_;
+}
+
+void MaterialPanel::connect_edits() {
   MaterialEdits& edits = relighting_.edits();
   for (ChannelSliders* sliders : {reflectance_, exitance_}) {
     connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
   }
   connect(reflectance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
-    const auto m = static_cast<std::size_t>(material());
-    edits.set(material(), edits.materials()[m].exitance, value);
+    edits.set(material(), at(edits.materials(), material()).exitance, value);
   });
   connect(exitance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
-    const auto m = static_cast<std::size_t>(material());
-    edits.set(material(), value, edits.materials()[m].reflectance);
+    edits.set(material(), value, at(edits.materials(), material()).reflectance);
   });
   connect(restore_, &QPushButton::clicked, &edits, &MaterialEdits::restore);
   connect(material_, qOverload<int>(&QComboBox::currentIndexChanged), this,
@@ -97,7 +116,6 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
       material_->setCurrentIndex(scene_->patch(patch).material);
     }
   });
-  show_state();
 }
 
 int MaterialPanel::material() const { return material_->currentIndex(); }
@@ -114,8 +132,8 @@ void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
 void MaterialPanel::show_state() {
   const QString obstacle = relighting_.obstacle();
   sliders_->setEnabled(obstacle.isEmpty() && material() >= 0);
-  words_->setText(obstacle);
-  words_->setHidden(obstacle.isEmpty());
+  obstacle_->setText(obstacle);
+  obstacle_->setHidden(obstacle.isEmpty());
   account_->setText(relighting_.account());
   account_->setHidden(account_->text().isEmpty());
   exposure_->setVisible(exposure_hides_change());
@@ -132,11 +150,11 @@ bool MaterialPanel::exposure_hides_change() const {
 
 void MaterialPanel::show_material() {
   const MaterialEdits& edits = relighting_.edits();
-  const auto m = static_cast<std::size_t>(material());
   restore_->setEnabled(edits.any());
-  if (material() >= 0 && m < edits.materials().size()) {
-    reflectance_->show_value(edits.materials()[m].reflectance, most_reflectance);
-    exitance_->show_value(edits.materials()[m].exitance, most_exitance(edits.originals()));
+  if (material() >= 0 && material() < std::ssize(edits.materials())) {
+    const Material& shown = at(edits.materials(), material());
+    reflectance_->show_value(shown.reflectance, largest_reflectance);
+    exitance_->show_value(shown.exitance, slider_exitance(edits.originals()));
   }
   show_state();
 }

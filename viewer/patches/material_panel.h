@@ -10,13 +10,14 @@
 
 class QComboBox;
 class QLabel;
+class QLayout;
 class QPushButton;
 
 namespace transillum::viewer {
 
 class ChannelSliders;
 
-/// E and rho of a material by sliders: the light follows without a new pass.
+/// Sliders for E and rho of a material; B is recomputed without a new pass.
 class MaterialPanel : public QWidget {
   Q_OBJECT
 
@@ -25,12 +26,15 @@ class MaterialPanel : public QWidget {
                 QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
-  /// There may be form factors now.
+  /// To be called when form factors may have become available.
   void show_state();
 
  private:
+  QLayout* make_choice();
+  QWidget* make_sliders();
+  void connect_edits();
   void show_material();
-  /// Whether the picture is exposed so that changed lamps look the same.
+  /// Whether automatic exposure compensates a change of E, so that the picture stays the same.
   bool exposure_hides_change() const;
   int material() const;
 
@@ -39,9 +43,9 @@ class MaterialPanel : public QWidget {
   const ColorChoice& colors_;
   std::shared_ptr<const Scene> scene_;
   QComboBox* material_;
-  QLabel* words_;
-  QLabel* account_;  ///< what the light is found from
-  QLabel* exposure_;
+  QLabel* obstacle_;  ///< why materials cannot be changed now
+  QLabel* account_;   ///< what B is computed from
+  QLabel* exposure_;  ///< shown while exposure_hides_change()
   QWidget* sliders_;
   ChannelSliders *reflectance_, *exitance_;
   QPushButton* restore_;

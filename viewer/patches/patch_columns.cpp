@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The columns of the two patch tables, computed from a snapshot.
 #include "patches/patch_columns.h"
 
 #include <QCoreApplication>
@@ -19,7 +21,7 @@ using Kind = PatchColumn::Kind;
 
 QString tr(const char* text) { return QCoreApplication::translate("PatchColumns", text); }
 
-// What value(i) is for each of the patches.
+// The column of value(i) over all patches i.
 template <class Value>
 PatchColumn column(const std::vector<PatchId>& patches, QString title, QString tip,
                    std::string csv_name, Kind kind, const Value& value) {
@@ -35,16 +37,16 @@ PatchColumn column(const std::vector<PatchId>& patches, QString title, QString t
   return result;
 }
 
-// Words in the order of the alphabet, so that their numbers sort.
+// Names are numbered alphabetically, so that sorting by number sorts by name.
 PatchColumn material_column(const std::vector<PatchId>& patches, const Scene& scene) {
   std::map<QString, int> names;
   for (const Material& material : scene.materials()) {
     names.emplace(QString::fromStdString(material.name), 0);
   }
-  QStringList words;
+  QStringList sorted;
   for (auto& [name, number] : names) {
-    number = words.size();
-    words << name;
+    number = sorted.size();
+    sorted << name;
   }
   std::vector<int> number_of_material;
   for (const Material& material : scene.materials()) {
@@ -53,7 +55,7 @@ PatchColumn material_column(const std::vector<PatchId>& patches, const Scene& sc
   PatchColumn result =
       column(patches, tr("Material"), tr("Material of the patch"), "material", Kind::word,
              [&](PatchId i) { return at(number_of_material, scene.patch(i).material); });
-  result.words = words;
+  result.words = sorted;
   return result;
 }
 
@@ -95,12 +97,12 @@ PatchRows rows_of_all(const SolverSnapshot& snapshot) {
   add_quantity(Quantity::irradiance, "H");
   add(tr("Area, m²"), tr("Area of the patch"), "area", Kind::number,
       [&](PatchId i) { return scene.patch(i).area; });
-  add(tr("Face"), tr("Its face in the file, from 0"), "face", Kind::integer,
+  add(tr("Face"), tr("Its face in the file, counted from 0"), "face", Kind::integer,
       [&](PatchId i) { return scene.patch(i).face; });
   add_quantity(Quantity::form_factor_sum, "F_sum");
   const std::vector<int> fragments = fragment_counts(*snapshot.loaded);
-  add(tr("Fragments"), tr("How many parts the BSP tree has cut it into"), "fragments",
-      Kind::integer, [&](PatchId i) { return at(fragments, i); });
+  add(tr("Fragments"), tr("Number of fragments after the BSP tree"), "fragments", Kind::integer,
+      [&](PatchId i) { return at(fragments, i); });
   add_quantity(Quantity::error, "SE");
   add_quantity(Quantity::last_change, "change");
   return rows;
@@ -110,18 +112,17 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   const Scene& scene = *snapshot.loaded->scene;
   const std::vector<double> from = form_factors_from(*snapshot.form_factors, i);
   const std::vector<double> to = form_factors_to(*snapshot.form_factors, i);
-  const auto of = [](const auto& values, PatchId j) { return at(values, j); };
   const auto received = [&](PatchId j) {
-    return scene.patch(i).area * of(from, j) * of(snapshot.radiosity, j);
+    return scene.patch(i).area * at(from, j) * at(snapshot.radiosity, j);
   };
   PatchRows rows;
-  double all = 0;
+  double total = 0;
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
-    if (!(of(from, j) > 0 || of(to, j) > 0)) {
+    if (!(at(from, j) > 0 || at(to, j) > 0)) {
       continue;
     }
     rows.patches.push_back(j);
-    all += luminance(received(j));
+    total += luminance(received(j));
   }
   const auto add = [&](const QString& title, const QString& tip, const char* csv_name, Kind kind,
                        const auto& value) {
@@ -129,18 +130,20 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   };
   rows.columns.push_back(patch_column(rows.patches));
   rows.columns.push_back(material_column(rows.patches, scene));
-  add(tr("F i→j"), tr("How much of what the selected patch i can see is this patch j"), "F_ij",
-      Kind::number, [&](PatchId j) { return of(from, j); });
+  add(tr("F i→j"),
+      tr("Form factor: the share of the power sent by the selected patch i that reaches j"), "F_ij",
+      Kind::number, [&](PatchId j) { return at(from, j); });
   add(tr("Received, W"), tr("Power that i receives from j: A_i F_ij B_j"), "received",
       Kind::channels, received);
-  add(tr("Share, %"), tr("Of all that i receives, by luminance"), "share_percent", Kind::number,
-      [&](PatchId j) { return all > 0 ? 100 * luminance(received(j)) / all : 0.0; });
-  add(tr("F j→i"), tr("How much of what j can see is i"), "F_ji", Kind::number,
-      [&](PatchId j) { return of(to, j); });
+  add(tr("Share, %"), tr("Share of the total that i receives, by luminance"), "share_percent",
+      Kind::number,
+      [&](PatchId j) { return total > 0 ? 100 * luminance(received(j)) / total : 0.0; });
+  add(tr("F j→i"), tr("Form factor: the share of the power sent by j that reaches i"), "F_ji",
+      Kind::number, [&](PatchId j) { return at(to, j); });
   add(tr("Sent, W"), tr("Power that j receives from i: A_j F_ji B_i"), "sent", Kind::channels,
-      [&](PatchId j) { return scene.patch(j).area * of(to, j) * of(snapshot.radiosity, i); });
+      [&](PatchId j) { return scene.patch(j).area * at(to, j) * at(snapshot.radiosity, i); });
   add(tr("B, W/m²"), tr("Radiosity of j"), "B", Kind::channels,
-      [&](PatchId j) { return of(snapshot.radiosity, j); });
+      [&](PatchId j) { return at(snapshot.radiosity, j); });
   return rows;
 }
 

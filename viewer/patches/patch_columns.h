@@ -8,17 +8,18 @@
 
 namespace transillum::viewer {
 
+/// Contents of a PatchTable.
 struct PatchRows {
   std::vector<PatchId> patches;
   std::vector<PatchColumn> columns;
 };
 
-/// All that a snapshot tells of every patch.
+/// Every patch of the scene with all quantities that the snapshot has.
 PatchRows rows_of_all(const SolverSnapshot& snapshot);
 
-/// The patches that exchange light with patch i, and how much: F both ways, the power that i
-/// receives from each (A_i F_ij B_j, W) and its share of all, and the power that it sends back
-/// (A_j F_ji B_i). Wants the snapshot's form factors.
+/// The patches that exchange light with patch i: F_ij and F_ji, the power that i receives from each
+/// (A_i F_ij B_j, W), its share of the total, and the power that i sends to each (A_j F_ji B_i, W).
+/// Requires the snapshot's form factors.
 PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i);
 
 }  // namespace transillum::viewer

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
@@ -30,11 +31,12 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   form_factor_sum_ = values_->add_row(tr("Σ F"), {});
   exitance_->setToolTip(tr("Emitted exitance: red, green, blue"));
   reflectance_->setToolTip(tr("Diffuse reflectance: red, green, blue"));
-  radiosity_->setToolTip(tr("Radiosity, estimated so far: red, green, blue"));
-  form_factor_sum_->setToolTip(tr("Sum of the form factors so far; near 1 where enclosed"));
+  radiosity_->setToolTip(tr("Current estimate of the radiosity: red, green, blue"));
+  form_factor_sum_->setToolTip(
+      tr("Current sum of the form factors F_ij over j; near 1 in a closed scene"));
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
-  swatch_->setToolTip(tr("The color that the scene shows it in"));
+  swatch_->setToolTip(tr("Color of the patch in the scene view"));
   values_->add_wide(swatch_);
 
   auto* layout = new QVBoxLayout(this);
@@ -62,8 +64,7 @@ void PatchInspector::show_patch() {
   }
   const Scene& scene = *snapshot_->loaded->scene;
   const Patch& p = scene.patch(patch);
-  const auto index = static_cast<std::size_t>(patch);
-  // Numbers are shown as the files have them, without thousands apart.
+  // Written as in files, without group separators.
   id_->setText(QString::number(patch));
   face_->setText(QString::number(p.face));
   material_->setText(QString::fromStdString(scene.material(patch).name));
@@ -72,9 +73,9 @@ void PatchInspector::show_patch() {
   normal_->setText(vector_text(p.normal));
   exitance_->setText(rgb_text(material_of(*snapshot_, patch).exitance));
   reflectance_->setText(rgb_text(material_of(*snapshot_, patch).reflectance));
-  radiosity_->setText(rgb_text(snapshot_->radiosity[index]));
-  form_factor_sum_->setText(QString::number(snapshot_->form_factor_sums[index], 'f', 6));
-  const Color8 c = colors_.patch_colors()[index];
+  radiosity_->setText(rgb_text(at(snapshot_->radiosity, patch)));
+  form_factor_sum_->setText(QString::number(at(snapshot_->form_factor_sums, patch), 'f', 6));
+  const Color8 c = at(colors_.patch_colors(), patch);
   swatch_->setStyleSheet(
       QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")
           .arg(QColor(c[0], c[1], c[2]).name()));

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 class ValueGrid;
 
-/// All there is to know of the selected patch.
+/// The geometry, material and current results of the selected patch.
 class PatchInspector : public QWidget {
   Q_OBJECT
 

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The model of the two patch tables: sorts, searches and writes as CSV what patch_columns computes.
 #include "patches/patch_table.h"
 
 #include <QLocale>
@@ -43,7 +45,7 @@ void PatchTable::set_contents(std::vector<PatchId> patches, std::vector<PatchCol
       std::equal(columns.begin(), columns.end(), columns_.begin(),
                  [](const auto& a, const auto& b) { return a.title == b.title; });
   if (same_columns && patches == patches_) {
-    // The view keeps its place, whatever the new values do to the order.
+    // No reset, so that the view keeps its scroll position and selection.
     columns_ = std::move(columns);
     arrange();
     return;
@@ -88,7 +90,7 @@ void PatchTable::arrange() {
     const PatchColumn& column = at(columns_, sorted_by_);
     std::vector<double> keys(patches_.size());
     for (const int entry : shown) {
-      // NaN would break the order.
+      // NaN would violate the strict weak order.
       const double key = key_of(column, entry);
       at(keys, entry) = std::isnan(key) ? -HUGE_VAL : key;
     }
@@ -172,7 +174,7 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
       if (column.kind == PatchColumn::Kind::word) {
         return word_of(column, entry);
       }
-      // Numbers of patches are shown as the files have them, without thousands apart.
+      // Written as in files, without group separators.
       if (column.kind == PatchColumn::Kind::integer) {
         return QString::number(static_cast<qint64>(key_of(column, entry)));
       }

@@ -11,41 +11,43 @@
 
 namespace transillum::viewer {
 
-/// What a table tells of each of its patches.
+/// A column of a patch table: one value per patch.
 struct PatchColumn {
   enum class Kind {
     integer,
     number,
     channels,  ///< sorted and shown by luminance
-    word       ///< the number of one of `words`
+    word       ///< index into `words`
   };
   QString title;
   QString tip;
   std::string csv_name;  ///< channels add _r, _g, _b
   Kind kind = Kind::number;
-  std::vector<Rgb> values;  ///< one a row, in red alone but for channels
+  std::vector<Rgb> values;  ///< one per patch; only red is used, except for channels
   QStringList words = {};
 };
 
-/// Patches as a table, sorted and searched without moving its values: quick for many thousands.
+/// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of
+/// rows stay fast.
 class PatchTable : public QAbstractTableModel {
   Q_OBJECT
 
  public:
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// `patches` have a row of `columns` each. Order and search stay.
+  /// Replaces the contents; order and search stay.
+  /// @param columns each with one value per entry of `patches`
   void set_contents(std::vector<PatchId> patches, std::vector<PatchColumn> columns);
-  /// Shows what has this in a word, or whose patch number begins with it; empty shows all.
+  /// Shows only patches with `text` in a word column, or whose number begins with it; empty: all.
   void set_search(const QString& text);
 
-  /// The patch of a shown row.
+  /// The patch in a shown row.
   PatchId patch(int row) const;
-  /// Where a patch is shown, or -1.
+  /// The row that shows a patch, or -1.
   int row_of(PatchId patch) const;
-  /// Patches, shown or not.
+  /// Number of patches, shown or not.
   int size() const { return static_cast<int>(patches_.size()); }
-  /// A header line and the shown rows in their order; numbers read back bit for bit.
+  /// Writes a header line and the shown rows in their order; numbers read back bit for bit.
   void write_csv(std::ostream& out) const;
 
   int rowCount(const QModelIndex& parent = {}) const override;
@@ -63,7 +65,7 @@ class PatchTable : public QAbstractTableModel {
   QString search_;
   int sorted_by_ = -1;
   Qt::SortOrder order_ = Qt::AscendingOrder;
-  std::vector<int> shown_;  ///< a row: its place in patches_
+  std::vector<int> shown_;  ///< per shown row: its index in patches_
 };
 
 }  // namespace transillum::viewer

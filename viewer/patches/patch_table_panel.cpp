@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Patches". Snapshots arrive often while a solve runs; the tables are refilled a few
+// times a second at most, and only while the panel is visible.
 #include "patches/patch_table_panel.h"
 
 #include <QHBoxLayout>
@@ -26,7 +29,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int refresh_interval_ms = 400;
-constexpr int share_column = 4;  // of the partners
+constexpr int share_column = 4;  // of the table of partners
 
 }  // namespace
 
@@ -38,13 +41,13 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
   search_->setClearButtonEnabled(true);
   auto* export_button = new QPushButton(tr("Export…"));
   export_button->setObjectName("export_table");
-  export_button->setToolTip(tr("Write this table, as it is sorted and searched, as CSV"));
+  export_button->setToolTip(tr("Write the shown rows as CSV"));
   tabs_->setDocumentMode(true);
   all_ = add_page(tr("All patches"), "patch_table");
-  partners_ = add_page(tr("Partners of the selected"), "partner_table");
+  partners_ = add_page(tr("Partners of selection"), "partner_table");
   partners_.view->sortByColumn(share_column, Qt::DescendingOrder);
-  later_ = new QTimer(this);
-  later_->setSingleShot(true);
+  refresh_timer_ = new QTimer(this);
+  refresh_timer_->setSingleShot(true);
 
   auto* row = new QHBoxLayout;
   row->setContentsMargins(10, 8, 10, 6);
@@ -68,15 +71,15 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
     if (table.rowCount() == 0) {
       return;
     }
-    // A number means that patch, though the numbers of others begin so too.
+    // A number selects that patch, even where other numbers with the same prefix come first.
     bool is_number = false;
     const PatchId number = search_->text().trimmed().toInt(&is_number);
     selection_.select(is_number && table.row_of(number) >= 0 ? number : table.patch(0));
-    search_->clear();  // else it would hide that patch's partners
+    search_->clear();  // it would filter the table of partners too
   });
   connect(export_button, &QPushButton::clicked, this, &PatchTablePanel::choose_csv);
   connect(tabs_, &QTabWidget::currentChanged, this, &PatchTablePanel::refresh);
-  connect(later_, &QTimer::timeout, this, &PatchTablePanel::refresh);
+  connect(refresh_timer_, &QTimer::timeout, this, &PatchTablePanel::refresh);
   connect(&selection_, &Selection::changed, this, [this] {
     if (!watched_) {
       return;
@@ -90,9 +93,9 @@ PatchTablePanel::PatchTablePanel(Selection& selection, QWidget* parent)
 
 PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char* name) {
   const Page page{new PatchTable(this), new QTableView, new QLabel};
-  page.words->setWordWrap(true);
-  page.words->setContentsMargins(10, 4, 10, 4);
-  page.words->setForegroundRole(QPalette::PlaceholderText);
+  page.caption->setWordWrap(true);
+  page.caption->setContentsMargins(10, 4, 10, 4);
+  page.caption->setForegroundRole(QPalette::PlaceholderText);
   page.view->setObjectName(QString::fromLatin1(name));
   page.view->setModel(page.table);
   page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -105,12 +108,12 @@ PatchTablePanel::Page PatchTablePanel::add_page(const QString& title, const char
   auto* layout = new QVBoxLayout(widget);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(page.words);
+  layout->addWidget(page.caption);
   layout->addWidget(page.view, 1);
   tabs_->addTab(widget, title);
   connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this, page](const QModelIndex& index) {
-            // Partners are of the selected patch: another selected would change the list at once.
+            // Not in the table of partners: selecting another patch would replace its contents.
             if (index.isValid() && page.view->hasFocus() && page.table == all_.table) {
               selection_.select(page.table->patch(index.row()));
             }
@@ -132,8 +135,8 @@ const PatchTablePanel::Page& PatchTablePanel::current() const {
 
 void PatchTablePanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
-  if (watched_ && !later_->isActive()) {
-    later_->start(refresh_interval_ms);
+  if (watched_ && !refresh_timer_->isActive()) {
+    refresh_timer_->start(refresh_interval_ms);
   }
 }
 
@@ -160,7 +163,7 @@ void PatchTablePanel::refresh() {
     return;
   }
   if (current().table == partners_.table) {
-    emit form_factors_wanted();
+    emit form_factors_requested();
     show_partners();
   } else if (snapshot_) {
     PatchRows rows = rows_of_all(*snapshot_);
@@ -202,16 +205,17 @@ void PatchTablePanel::count_rows() {
                ? tr("%1 patches").arg(count_text(table.size()))
                : tr("%1 of %2 patches").arg(count_text(table.rowCount()), count_text(table.size()));
   };
-  all_.words->setText(snapshot_ ? count(*all_.table) : tr("Open a scene to list its patches."));
+  all_.caption->setText(snapshot_ ? count(*all_.table) : tr("Open a scene to list its patches."));
   const PatchId patch = selection_.patch();
   if (!snapshot_ || patch == no_patch) {
-    partners_.words->setText(tr("Click a patch to list whom it exchanges light with."));
+    partners_.caption->setText(tr("Select a patch to list those that it exchanges light with."));
   } else if (!snapshot_->form_factors) {
-    partners_.words->setText(why_no_form_factors(*snapshot_));
+    partners_.caption->setText(why_no_form_factors(*snapshot_));
   } else {
-    partners_.words->setText(tr("Patch i = %1 exchanges light with %2. A double click goes to one.")
-                                 .arg(patch)
-                                 .arg(count(*partners_.table)));
+    partners_.caption->setText(
+        tr("Patch i = %1 exchanges light with %2. Double-click a row to select its patch.")
+            .arg(patch)
+            .arg(count(*partners_.table)));
   }
 }
 

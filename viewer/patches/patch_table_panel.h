@@ -17,8 +17,8 @@ namespace transillum::viewer {
 
 class PatchTable;
 
-/// Tables of all patches and of the selected patch's partners, to be sorted, searched, and written
-/// as CSV. A click selects a patch; what is selected elsewhere is marked.
+/// Two tables, of all patches and of the partners of the selected patch, which can be sorted,
+/// searched and written as CSV. A click selects a patch; the selected patch is highlighted.
 class PatchTablePanel : public QWidget {
   Q_OBJECT
 
@@ -27,23 +27,23 @@ class PatchTablePanel : public QWidget {
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
-  /// Nothing is filled in while nobody looks.
+  /// While the panel is hidden, its tables are not filled.
   void set_watched(bool watched);
-  /// Puts the cursor where one types what to look for.
+  /// Moves the keyboard focus to the search field.
   void begin_search();
-  /// Writes the shown table as it is sorted and searched.
-  /// @throws std::runtime_error naming the file where it cannot be written.
+  /// Writes the shown rows of the current table in their order.
+  /// @throws std::runtime_error naming the file, if it cannot be written
   void write_csv(const QString& path) const;
 
  signals:
-  void form_factors_wanted();
+  void form_factors_requested();
   void failed(const QString& message);
 
  private:
   struct Page {
     PatchTable* table;
     QTableView* view;
-    QLabel* words;
+    QLabel* caption;
   };
   Page add_page(const QString& title, const char* name);
   const Page& current() const;
@@ -59,7 +59,7 @@ class PatchTablePanel : public QWidget {
   QTabWidget* tabs_;
   Page all_, partners_;
   bool watched_ = false;
-  QTimer* later_;  ///< tables are filled anew a few times a second at most
+  QTimer* refresh_timer_;  ///< limits how often tables are refilled
 };
 
 }  // namespace transillum::viewer
