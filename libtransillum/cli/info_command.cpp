@@ -69,7 +69,7 @@ void print_size_and_light(const Scene& scene) {
 
 void print_mended(const SceneReport& report) {
   const std::pair<const char*, std::int64_t> counts[] = {
-      {"dropped, no area", report.dropped_degenerate},
+      {"dropped, no area", report.removed_degenerate},
       {"cut, not planar", report.cut_non_planar},
       {"cut, too large", report.refined},
       {"unused points", report.unused_points},

@@ -21,7 +21,7 @@ bool is_closed(const Outlines& faces, const SceneOptions& options = {}) {
   return is_closed_surface(Scene(test::polygons(cube_points, faces), options));
 }
 
-TEST(ClosedSurface, IsACube) {
+TEST(ClosedSurface, CubeIsClosed) {
   EXPECT_TRUE(is_closed(cube));
   Outlines inward = cube;
   for (auto& outline : inward) {
@@ -30,34 +30,34 @@ TEST(ClosedSurface, IsACube) {
   EXPECT_TRUE(is_closed(inward));
 }
 
-TEST(ClosedSurface, IsNotACubeWithoutAFace) {
+TEST(ClosedSurface, CubeWithoutAFaceIsOpen) {
   for (std::size_t missing = 0; missing < cube.size(); ++missing) {
     Outlines open = cube;
     open.erase(open.begin() + static_cast<std::ptrdiff_t>(missing));
     EXPECT_FALSE(is_closed(open));
-    // Seen from both sides, what is left is a shell.
+    // With two-sided faces the remaining faces form a closed shell.
     EXPECT_TRUE(is_closed(open, {.two_sided = true}));
   }
 }
 
-TEST(ClosedSurface, IsNotACubeWithAFaceTurnedRound) {
-  for (std::size_t turned = 0; turned < cube.size(); ++turned) {
-    Outlines torn = cube;
-    std::reverse(torn[turned].begin(), torn[turned].end());
-    EXPECT_FALSE(is_closed(torn));
+TEST(ClosedSurface, CubeWithAReversedFaceIsOpen) {
+  for (std::size_t face = 0; face < cube.size(); ++face) {
+    Outlines inconsistent = cube;
+    std::reverse(inconsistent[face].begin(), inconsistent[face].end());
+    EXPECT_FALSE(is_closed(inconsistent));
   }
 }
 
-TEST(ClosedSurface, IsASheetOfTwoSides) {
+TEST(ClosedSurface, TwoSidedSheetIsClosed) {
   EXPECT_FALSE(is_closed({{0, 1, 2, 3}}));
   EXPECT_TRUE(is_closed({{0, 1, 2, 3}}, {.two_sided = true}));
   EXPECT_TRUE(is_closed({{0, 1, 2, 3}, {3, 2, 1, 0}}));
-  // Twice the same side is none.
+  // The same side twice is not closed.
   EXPECT_FALSE(is_closed({{0, 1, 2, 3}, {0, 1, 2, 3}}));
 }
 
-TEST(ClosedSurface, IsWhatMeetsAtACommonEdgeToo) {
-  // The cube, and a sheet of two sides on one of its edges.
+TEST(ClosedSurface, ClosedSurfacesMayShareAnEdge) {
+  // The cube, and a two-sided triangle on one of its edges.
   Outlines with_fin = cube;
   with_fin.push_back({0, 1, 6});
   with_fin.push_back({6, 1, 0});
@@ -66,8 +66,8 @@ TEST(ClosedSurface, IsWhatMeetsAtACommonEdgeToo) {
   EXPECT_FALSE(is_closed(with_fin));
 }
 
-TEST(ClosedSurface, IsNotWhatHasATJunction) {
-  // The bottom and its neighbor share an edge that one of them has in two parts: point 8.
+TEST(ClosedSurface, SurfaceWithATJunctionIsOpen) {
+  // The bottom and its neighbor share an edge that point 8 splits in one of them.
   Outlines torn = cube;
   torn[0] = {0, 3, 2, 1, 8};
   EXPECT_FALSE(is_closed(torn));
@@ -75,7 +75,7 @@ TEST(ClosedSurface, IsNotWhatHasATJunction) {
   EXPECT_TRUE(is_closed(torn));
 }
 
-TEST(ClosedSurface, IsWhatTheBuiltInsAreMadeOf) {
+TEST(ClosedSurface, OfBuiltIns) {
   EXPECT_TRUE(is_closed_surface(*load_scene("sphere-flake")));
   EXPECT_TRUE(is_closed_surface(*load_scene("sphere-flake:levels=0")));
   EXPECT_TRUE(is_closed_surface(*load_scene("boards", {.two_sided = true})));

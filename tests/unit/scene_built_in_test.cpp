@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The built-in scenes: patch counts, areas, closedness, geometry, and errors in their names and
+// parameters.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,12 +16,12 @@ using testing::HasSubstr;
 struct Expected {
   const char* spec;
   PatchId patches;
-  double area;  ///< m², 0: not known in closed form
+  double area;  ///< m²; 0: not known in closed form
 };
 
 class BuiltIns : public testing::TestWithParam<Expected> {};
 
-TEST_P(BuiltIns, HaveTheirPatchesAndNothingToReport) {
+TEST_P(BuiltIns, HaveExpectedPatchesAndNoWarnings) {
   const auto scene = load_scene(GetParam().spec);
   EXPECT_EQ(scene->patch_count(), GetParam().patches);
   EXPECT_EQ(scene->report().faces, GetParam().patches);
@@ -35,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"sphere-flake:levels=2,slices=17,stacks=8", 19'976, 0},
                     Expected{"sphere-flake:levels=0,slices=3,stacks=2", 6 + 256, 0},
                     Expected{"sphere-flake:levels=1,slices=4,stacks=3", 13 * 12 + 256, 0},
-                    // Floors are cut around what stands on them, in as many parts as the cuts make.
+                    // Floors are split around what stands on them.
                     Expected{"cornell-box", 27, 0}, Expected{"cornell-box:open=1", 26, 0},
                     Expected{"furnace", 12, 6 * 4 + 2 * (0.75 * 0.5 + 0.5 * 1 + 0.75 * 1)},
                     Expected{"boards", 10 + 5 * 6, 0}, Expected{"boards:n=3", 10 + 3 * 6, 0},
@@ -43,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Expected{"rooms:n=0,rooms=1", 10, 2 * (4 * 5 + (4 + 5) * 2.75)},
                     Expected{"stars", 127, 0}));
 
-/// Every edge has as many faces along it as against it.
+/// Every edge is used by as many faces in one direction as in the other.
 bool is_watertight(const Scene& scene) {
   std::map<std::pair<PointId, PointId>, int> balance;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -68,8 +70,8 @@ TEST(BuiltInScenes, AreWatertight) {
   }
 }
 
-/// What looks up on the floor, and what looks up on top of the blocks, makes one whole floor.
-TEST(BuiltInScenes, LeaveTheFloorOutUnderWhatStandsOnIt) {
+/// The floor parts and the tops of the blocks together have the area of the whole floor.
+TEST(BuiltInScenes, HaveNoFloorUnderBlocks) {
   struct Floor {
     const char* spec;
     Vec3 up;
@@ -141,7 +143,7 @@ TEST(SphereFlake, SpheresTouchTheirParents) {
   EXPECT_NEAR(nearest, 4.0 / 3 * 1.0514622242382672, 1e-12);
 }
 
-TEST(CornellBox, HasItsLightInTheCeilingLookingDown) {
+TEST(CornellBox, HasItsLightInTheCeilingFacingDown) {
   const auto scene = load_scene("cornell-box");
   int lights = 0;
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
@@ -156,7 +158,7 @@ TEST(CornellBox, HasItsLightInTheCeilingLookingDown) {
   EXPECT_EQ(lights, 1);
 }
 
-TEST(Furnace, GlowsEverywhere) {
+TEST(Furnace, EmitsEverywhere) {
   const auto scene = load_scene("furnace");
   for (PatchId i = 0; i < scene->patch_count(); ++i) {
     EXPECT_EQ(scene->exitance(i), (Rgb{1, 1, 1}));
@@ -164,15 +166,13 @@ TEST(Furnace, GlowsEverywhere) {
   }
 }
 
-TEST(Boards, LieEachOverTheNext) {
+TEST(Boards, OverlapCyclically) {
   const auto scene = load_scene("boards:n=5");
-  // Faces 10 + 6k …: board k; its points of one end are above those of the next one's other end.
+  // Board k has faces 10 + 6k …; its far end is above the near end of the next board.
   const auto center_height = [&](int board, bool far_end) {
-    double sum = 0;
-    // Walls of a block come in the order near, right, far, left.
+    // Walls of a block are in the order near, right, far, left.
     const Patch& end = scene->patch(10 + 6 * board + (far_end ? 2 : 0));
-    sum = end.center.z;
-    return sum;
+    return end.center.z;
   };
   for (int k = 0; k < 5; ++k) {
     EXPECT_GT(center_height(k, true), center_height((k + 1) % 5, false) + 0.1);
@@ -196,41 +196,41 @@ TEST(BuiltInScenes, DescribeTheirParameters) {
   }
 }
 
-std::string said(const std::string& spec) {
+std::string error_of(const std::string& spec) {
   return test::refusal([&] { describe_scene(spec); });
 }
 
-TEST(BuiltInScenes, NearlyRightNamesAreAskedBack) {
-  EXPECT_EQ(said("sphere-flak"),
-            "sphere-flak: no such file, and no such built-in scene; did you mean \"sphere-flake\"? "
-            "Built-in are sphere-flake, cornell-box, furnace, boards, rooms, stars.");
-  EXPECT_THAT(said("cornel-box"), HasSubstr("did you mean \"cornell-box\"?"));
-  EXPECT_THAT(said("room"), HasSubstr("did you mean \"rooms\"?"));
-  EXPECT_THAT(said("cornell_box:open=1"), HasSubstr("did you mean \"cornell-box\"?"));
-  EXPECT_EQ(said("teapot"),
-            "teapot: no such file, and no such built-in scene. "
-            "Built-in are sphere-flake, cornell-box, furnace, boards, rooms, stars.");
-  EXPECT_THAT(said(""), HasSubstr("no such built-in scene"));
-  EXPECT_THAT(said(std::string(100'000, 'x')), HasSubstr("no such"));
+TEST(BuiltInScenes, MisspelledNamesGetASuggestion) {
+  EXPECT_EQ(error_of("sphere-flak"),
+            "sphere-flak: no such file or built-in scene; did you mean \"sphere-flake\"? "
+            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars.");
+  EXPECT_THAT(error_of("cornel-box"), HasSubstr("did you mean \"cornell-box\"?"));
+  EXPECT_THAT(error_of("room"), HasSubstr("did you mean \"rooms\"?"));
+  EXPECT_THAT(error_of("cornell_box:open=1"), HasSubstr("did you mean \"cornell-box\"?"));
+  EXPECT_EQ(error_of("teapot"),
+            "teapot: no such file or built-in scene. "
+            "Built-in scenes: sphere-flake, cornell-box, furnace, boards, rooms, stars.");
+  EXPECT_THAT(error_of(""), HasSubstr("no such file or built-in scene"));
+  EXPECT_THAT(error_of(std::string(100'000, 'x')), HasSubstr("no such"));
 }
 
-TEST(BuiltInScenes, WrongParametersAreSaidSo) {
+TEST(BuiltInScenes, WrongParametersAreReported) {
   EXPECT_EQ(
-      said("sphere-flake:level=3"),
-      "sphere-flake: no parameter `level`; did you mean \"levels\"?; there are "
-      "levels (0 … 5, default 2), slices (3 … 4096, default 17), stacks (2 … 4096, default 8)");
-  EXPECT_EQ(said("furnace:n=3"), "furnace: no parameter `n`; it takes none");
-  EXPECT_EQ(said("sphere-flake:levels=6"),
+      error_of("sphere-flake:level=3"),
+      "sphere-flake: unknown parameter `level`; did you mean \"levels\"?; available: "
+      "levels (0 to 5, default 2), slices (3 to 4096, default 17), stacks (2 to 4096, default 8)");
+  EXPECT_EQ(error_of("furnace:n=3"), "furnace: unknown parameter `n`; the scene has no parameters");
+  EXPECT_EQ(error_of("sphere-flake:levels=6"),
             "sphere-flake: parameter `levels` is `6`, but must be a whole number from 0 to 5");
   for (const char* value : {"", "x", "2.5", "-1", "99999999999999999999", "2 "}) {
-    EXPECT_THAT(said(std::string("sphere-flake:levels=") + value),
+    EXPECT_THAT(error_of(std::string("sphere-flake:levels=") + value),
                 HasSubstr("must be a whole number from 0 to 5"));
   }
-  EXPECT_THAT(said("rooms:n"), HasSubstr("parameter `n` has no value; write n=24"));
-  EXPECT_EQ(said("rooms:n=3,n=3"), "rooms: parameter `n` is given twice");
-  EXPECT_THAT(said("rooms:n=3,"), HasSubstr("no parameter ``"));
-  EXPECT_THAT(said("sphere-flake:levels=5,slices=4096,stacks=4096"),
-              HasSubstr("faces are more than"));
+  EXPECT_THAT(error_of("rooms:n"), HasSubstr("parameter `n` has no value; example: n=24"));
+  EXPECT_EQ(error_of("rooms:n=3,n=3"), "rooms: parameter `n` is given twice");
+  EXPECT_THAT(error_of("rooms:n=3,"), HasSubstr("unknown parameter ``"));
+  EXPECT_THAT(error_of("sphere-flake:levels=5,slices=4096,stacks=4096"),
+              HasSubstr("faces exceed the limit"));
 }
 
 }  // namespace

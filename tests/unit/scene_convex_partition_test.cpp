@@ -24,18 +24,18 @@ double area(const Outline& outline, const auto& corners) {
   return sum;
 }
 
-TEST(ConvexPartition, TellsConvexOutlines) {
+TEST(ConvexPartition, RecognizesConvexOutlines) {
   EXPECT_TRUE(is_convex(square));
   EXPECT_TRUE(is_convex(Outline{{0, 0}, {.5, 0}, {1, 0}, {1, 1}, {0, 1}, {0, .5}}));
   EXPECT_FALSE(is_convex(Outline(square.rbegin(), square.rend()))) << "clockwise";
-  EXPECT_FALSE(is_convex(pentagram)) << "turns left everywhere, but twice round";
+  EXPECT_FALSE(is_convex(pentagram)) << "turns left everywhere, but winds twice";
   EXPECT_FALSE(is_convex(Outline{{0, 0}, {2, 0}, {1, 0}, {1, 1}})) << "a spike";
   EXPECT_FALSE(is_convex(Outline{{0, 0}, {1, 0}, {2, 0}})) << "no area";
   EXPECT_FALSE(is_convex(Outline{{0, 0}, {2, 0}, {1, .5}, {2, 2}, {0, 2}}));
 }
 
 TEST(ConvexPartition, IsExactWhereRoundingDecides) {
-  // 0.1 + 2^-55 is not a double: the third point is right of the line by less than rounding.
+  // The third point is off the line by less than the rounding of the products.
   const double up = std::nextafter(0.5, 1.0);
   EXPECT_EQ(exact_turn({0, 0}, {12, 12}, {0.5, up}), 1);
   EXPECT_EQ(exact_turn({0, 0}, {12, 12}, {up, 0.5}), -1);
@@ -43,12 +43,12 @@ TEST(ConvexPartition, IsExactWhereRoundingDecides) {
   EXPECT_EQ(exact_turn({1e30, 1e30}, {2e30, 2e30}, {3e30, std::nextafter(3e30, 1e31)}), 1);
 }
 
-TEST(ConvexPartition, TellsSimpleOutlines) {
+TEST(ConvexPartition, RecognizesSimpleOutlines) {
   EXPECT_TRUE(is_simple(square));
   EXPECT_FALSE(is_simple(pentagram));
 }
 
-TEST(ConvexPartition, CutsConcaveOutlinesIntoFewConvexParts) {
+TEST(ConvexPartition, SplitsConcaveOutlinesIntoFewConvexParts) {
   const int n = 200;
   Outline star;
   for (int i = 0; i < n; ++i) {
@@ -56,7 +56,7 @@ TEST(ConvexPartition, CutsConcaveOutlinesIntoFewConvexParts) {
     star.push_back({r * std::cos(angle), r * std::sin(angle)});
   }
   const std::vector<CornerList> parts = convex_partition(star);
-  EXPECT_LE(parts.size(), 4u * (n / 4 + 1)) << "half the corners are notches; 2 a cut";
+  EXPECT_LE(parts.size(), 4u * (n / 4 + 1)) << "half the corners are reflex; 2 per cut";
   double sum = 0;
   for (const CornerList& part : parts) {
     Outline corners;
@@ -83,7 +83,7 @@ TEST(ConvexPartition, TriangulatesOutlinesThatTouchThemselves) {
   EXPECT_DOUBLE_EQ(sum, 8 - 2);
 }
 
-TEST(ConvexPartition, GivesNothingForCrossingOutlines) {
+TEST(ConvexPartition, IsEmptyForCrossingOutlines) {
   EXPECT_TRUE(triangulate(pentagram).empty());
   EXPECT_TRUE(convex_partition(pentagram).empty());
   EXPECT_TRUE(triangulate(Outline{{0, 0}, {1, 1}, {2, 2}}).empty());

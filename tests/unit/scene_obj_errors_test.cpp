@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Errors of the OBJ and MTL readers: each malformed file gives one line with file, line and reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ struct Row {
   const char* name;
   std::string obj;
   std::string mtl;
-  std::vector<std::string> said;  ///< parts of the sentence; the first comes after the folder
+  std::vector<std::string> expected;  ///< parts of the message
 };
 
 std::vector<Row> rows() {
@@ -38,7 +39,7 @@ std::vector<Row> rows() {
       {"Infinity", "v 0 0 -inf\n", "", {"s.obj:1: vertex 1: `-inf` is not a finite"}},
       {"Overflow", "v 0 0 1e999\n", "", {"s.obj:1: vertex 1: `1e999` is not a finite"}},
       {"TooLarge", "v 0 0 1e200\n", "", {"s.obj:1: vertex 1: `1e200`"}},
-      {"TwoCoordinates", "v 0 0\n", "", {"s.obj:1: vertex 1: needs three coordinates"}},
+      {"TwoCoordinates", "v 0 0\n", "", {"s.obj:1: vertex 1: three coordinates are required"}},
       {"IndexTooLarge",
        square + "f 1 2 3\nf 1 2 5\n",
        "",
@@ -64,32 +65,32 @@ std::vector<Row> rows() {
       {"CornerOnlySlash", square + "f / 2 3\n", "", {"s.obj:5: face 0: `/` is not a corner"}},
       {"CornerWithFormFeed", square + "f 1 2 3\f9\n", "", {"s.obj:5: face 0: vertex index 9"}},
       {"ContinuedLine", square + "f 1 2 \\\n 3 9\n", "", {"s.obj:5: face 0: vertex index 9"}},
-      {"SelfCrossing", square + "f 1 3 2 4\n", "", {"s.obj:5: face 0: its outline crosses itself"}},
+      {"SelfCrossing", square + "f 1 3 2 4\n", "", {"s.obj:5: face 0: the outline crosses itself"}},
       {"SelfCrossingWithArea",
        "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 -1 0\nf 1 2 3 4\nv 0 5 0\nf 1 2 5\n",
        "",
-       {"s.obj:5: face 0: its outline crosses itself"}},
+       {"s.obj:5: face 0: the outline crosses itself"}},
       {"Pentagram",
        "v 0 3 0\nv -2 -3 0\nv 3 1 0\nv -3 1 0\nv 2 -3 0\nf 1 2 3 4 5\n",
        "",
-       {"s.obj:6: face 0: its outline crosses itself"}},
+       {"s.obj:6: face 0: the outline crosses itself"}},
       {"NoArea",
        "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n",
        "",
-       {"s.obj:4: face 0: it has no area; there is"}},
+       {"s.obj:4: face 0: no area; the scene has no patches"}},
       {"TwoCorners",
        square + "f 1 2\n",
        "",
-       {"s.obj:5: face 0: it has 2 corners, but needs at least 3; there is nothing to light"}},
+       {"s.obj:5: face 0: 2 corners, but at least 3 are required; the scene has no patches"}},
       {"ManyWithoutArea",
        square + "f 1\nf 1 2 1\n",
        "",
-       {"s.obj:5: face 0: it has 1 corner, but needs at least 3, nor has any other face an area"}},
+       {"s.obj:5: face 0: 1 corner, but at least 3 are required, and no other face has an area"}},
       {"MissingMtl",
        "mtllib gone.mtl\n" + square + "f 1 2 3\n",
        "",
-       {"s.obj:1: the MTL file `gone.mtl` is missing"}},
-      {"MtlIsAFolder", "mtllib .\n" + square + "f 1 2 3\n", "", {"is not a plain file"}},
+       {"s.obj:1: MTL file `gone.mtl` not found"}},
+      {"MtlIsAFolder", "mtllib .\n" + square + "f 1 2 3\n", "", {"is not a regular file"}},
       {"MtllibWithoutName", "mtllib\n", "", {"s.obj:1: mtllib has no file name"}},
       {"UnknownMaterial",
        lib + square + "usemtl whit\nf 1 2 3\n",
@@ -98,7 +99,7 @@ std::vector<Row> rows() {
       {"MaterialWithoutMtl",
        square + "usemtl white\nf 1 2 3\n",
        "",
-       {"s.obj:5: material `white` is not defined: there is no MTL file"}},
+       {"s.obj:5: material `white` is not defined: the file names no MTL file"}},
       {"UsemtlWithoutName", square + "usemtl\nf 1 2 3\n", "", {"s.obj:5: usemtl has no name"}},
       {"ReflectanceOne",
        lib + square + "usemtl white\nf 1 2 3\n",
@@ -123,7 +124,7 @@ std::vector<Row> rows() {
       {"KdGarbage",
        lib + square + "usemtl w\nf 1 2 3\n",
        "newmtl w\nKd spectral file.rfl\n",
-       {"s.mtl:2: material `w`: Kd needs three numbers"}},
+       {"s.mtl:2: material `w`: Kd requires three numbers"}},
       {"KdWord",
        lib + square + "usemtl w\nf 1 2 3\n",
        "newmtl w\nKd .5 half .5\n",
@@ -141,7 +142,7 @@ std::vector<Row> rows() {
 
 class ObjErrors : public testing::TestWithParam<Row> {};
 
-TEST_P(ObjErrors, SayWhereAndWhat) {
+TEST_P(ObjErrors, NamePlaceAndReason) {
   const Row& row = GetParam();
   const test::TemporaryFolder folder;
   const std::string file = folder.write("s.obj", row.obj);
@@ -149,63 +150,63 @@ TEST_P(ObjErrors, SayWhereAndWhat) {
     folder.write("s.mtl", row.mtl);
   }
   const std::string said = test::refusal([&] { load_scene(file); });
-  EXPECT_THAT(said, StartsWith(folder.path().string() + "/"));
-  for (const std::string& part : row.said) {
-    EXPECT_THAT(said, HasSubstr(part));
+  EXPECT_THAT(message, StartsWith(folder.path().string() + "/"));
+  for (const std::string& part : row.expected) {
+    EXPECT_THAT(message, HasSubstr(part));
   }
-  EXPECT_EQ(said.find('\n'), std::string::npos) << "one line";
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scene, ObjErrors, testing::ValuesIn(rows()),
                          [](const auto& row) { return row.param.name; });
 
-TEST(ObjFile, ThatIsMissingIsSaidSo) {
+TEST(ObjFile, MissingIsReported) {
   EXPECT_EQ(test::refusal([] { load_scene("nowhere/gone.obj"); }),
             "nowhere/gone.obj: no such file");
 }
 
-TEST(ObjFile, OfAnotherFormatIsSaidSo) {
+TEST(ObjFile, OtherFormatIsReported) {
   const test::TemporaryFolder folder;
   const std::string file = folder.write("s.stl", "solid\n");
   EXPECT_EQ(test::refusal([&] { load_scene(file); }),
-            file + ": only files that end in .obj can be read");
+            file + ": not a scene file; scene files end in .obj");
 }
 
-TEST(ObjFile, ThatIsAFolderIsSaidSo) {
+TEST(ObjFile, FolderIsReported) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "d.obj");
   EXPECT_THAT(test::refusal([&] { load_scene((folder.path() / "d.obj").string()); }),
-              HasSubstr("d.obj: is not a plain file"));
+              HasSubstr("d.obj: is not a regular file"));
 }
 
-TEST(ObjFile, OfTwoGigabytesIsRefusedUnread) {
+TEST(ObjFile, TwoGigabytesAreRefusedUnread) {
   const test::TemporaryFolder folder;
   const std::string file = folder.write("s.obj", "v 0 0 0\n");
-  std::filesystem::resize_file(file, std::uintmax_t{2} << 30);  // a hole: takes no space
+  std::filesystem::resize_file(file, std::uintmax_t{2} << 30);  // a sparse file: uses no disk space
   EXPECT_THAT(test::refusal([&] { load_scene(file); }),
-              HasSubstr("s.obj: has 2147483648 bytes, but at most 1073741824 are read"));
+              HasSubstr("s.obj: file has 2147483648 bytes; the limit is 1073741824"));
 }
 
-TEST(ObjFile, WithAFaceOfManyCornersNeitherHangsNorCrashes) {
+TEST(ObjFile, FaceWithManyCornersNeitherHangsNorCrashes) {
   const test::TemporaryFolder folder;
   std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf";
   for (int i = 0; i < 300'000; ++i) {
     text += i % 3 == 0 ? " 1" : i % 3 == 1 ? " 2" : " 3";
   }
   EXPECT_THAT(test::refusal([&] { load_scene(folder.write("s.obj", text + "\n")); }),
-              HasSubstr("s.obj:4: face 0: its outline crosses itself"));
+              HasSubstr("s.obj:4: face 0: the outline crosses itself"));
 }
 
-TEST(ObjFile, WithALongLineOfGarbageNeitherHangsNorCrashes) {
+TEST(ObjFile, LongLineOfGarbageNeitherHangsNorCrashes) {
   const test::TemporaryFolder folder;
   const std::string garbage(8'000'000, '/');
   const std::string said =
       test::refusal([&] { load_scene(folder.write("s.obj", "v 0 0 0\nf " + garbage)); });
-  EXPECT_THAT(said, HasSubstr("s.obj:2: face 0: `//////"));
-  EXPECT_LT(said.size(), 400u);
+  EXPECT_THAT(message, HasSubstr("s.obj:2: face 0: `//////"));
+  EXPECT_LT(message.size(), 400u);
 }
 
-TEST(ObjFile, StopsWhenCanceled) {
+TEST(ObjFile, ReadingStopsWhenCanceled) {
   const test::TemporaryFolder folder;
   std::string text;
   for (int i = 0; i < 10'000; ++i) {

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The OBJ reader accepts all dialects of valid files, and the OBJ writer writes files that it reads
+// back bit for bit.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +24,7 @@ SceneDescription read(const std::string& obj, const std::string& mtl = "") {
   return describe_scene(folder.write("s.obj", obj));
 }
 
-TEST(ObjReader, KeepsPolygonsAndTheirOrderOverGroupsObjectsAndMaterials) {
+TEST(ObjReader, KeepsPolygonsAndTheirOrderAcrossGroupsObjectsAndMaterials) {
   const SceneDescription d =
       read("mtllib s.mtl\no one\n" + square +
                "v 2 2 0\ng a b\nusemtl red\nf 1 2 3 4\ng\nusemtl blue\nf 1 2 3\ns off\n"
@@ -38,7 +40,7 @@ TEST(ObjReader, KeepsPolygonsAndTheirOrderOverGroupsObjectsAndMaterials) {
   EXPECT_TRUE(d.notes.empty());
 }
 
-TEST(ObjReader, TakesIndicesOfTexturesAndNormalsAndNegativeOnes) {
+TEST(ObjReader, AcceptsTextureNormalAndNegativeIndices) {
   const SceneDescription d = read(square +
                                   "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\n"
                                   "f 1/1 2/1 3/1\nf -4 -3/-1 -2//-1\nv 9 9 9\nf -1 -3 -2\n");
@@ -49,11 +51,11 @@ TEST(ObjReader, TakesIndicesOfTexturesAndNormalsAndNegativeOnes) {
   EXPECT_THAT(d.outline(4), ElementsAre(4, 2, 3));
 }
 
-TEST(ObjReader, TakesVerticesThatComeAfterTheirFaces) {
+TEST(ObjReader, AcceptsVerticesAfterTheirFaces) {
   EXPECT_THAT(read("f 1 2 3\n" + square).outline(0), ElementsAre(0, 1, 2));
 }
 
-TEST(ObjReader, TakesLineEndsOfAllSystemsCommentsBlanksAndContinuations) {
+TEST(ObjReader, AcceptsLineEndsOfAllSystemsCommentsBlanksAndContinuations) {
   const std::string plain = square + "f 1 2 3 4\n";
   std::string crlf, cr;
   for (const char c : plain) {
@@ -70,8 +72,8 @@ TEST(ObjReader, TakesLineEndsOfAllSystemsCommentsBlanksAndContinuations) {
   }
 }
 
-TEST(ObjReader, TakesTheNearestDoubleOfEveryNumber) {
-  // Numbers on which tinyobjloader's own arithmetic is off by units in the last place.
+TEST(ObjReader, ReadsTheNearestDoubleOfEveryNumber) {
+  // Numbers for which tinyobjloader's own arithmetic is wrong in the last place.
   const SceneDescription d = read(
       "mtllib s.mtl\nv 0.1 2.2250738585072014e-308 123456789.123456789\nv 1 0 0\n"
       "v 0 1.7976931348623157e-300 1e-999\nusemtl m\nf 1 2 3\n",
@@ -82,7 +84,7 @@ TEST(ObjReader, TakesTheNearestDoubleOfEveryNumber) {
   EXPECT_EQ(d.materials[0].exitance, (Rgb{9007199254740993.0, 5e-324, 0.30000000000000004}));
 }
 
-TEST(ObjReader, TakesNamesWithBlanksAndNumberSigns) {
+TEST(ObjReader, AcceptsNamesWithBlanksAndNumberSigns) {
   const test::TemporaryFolder folder;
   folder.write("my scene.mtl", "newmtl Material #25\nKd .1 .2 .3\n");
   const SceneDescription d = describe_scene(
@@ -91,7 +93,7 @@ TEST(ObjReader, TakesNamesWithBlanksAndNumberSigns) {
   EXPECT_EQ(d.materials[0].name, "Material #25");
 }
 
-TEST(ObjReader, TakesSeveralLibrariesOfOneLine) {
+TEST(ObjReader, AcceptsSeveralLibrariesInOneLine) {
   const test::TemporaryFolder folder;
   folder.write("a.mtl", "newmtl a\nKd .1 .1 .1\n");
   folder.write("b.mtl", "newmtl b\nKd .2 .2 .2\n");
@@ -100,32 +102,33 @@ TEST(ObjReader, TakesSeveralLibrariesOfOneLine) {
   EXPECT_THAT(d.face_material, ElementsAre(1, 0));
 }
 
-TEST(ObjReader, LeavesUnusedMaterialsUnchecked) {
+TEST(ObjReader, DoesNotCheckUnusedMaterials) {
   EXPECT_NO_THROW(read("mtllib s.mtl\n" + square + "usemtl a\nf 1 2 3\n",
                        "newmtl a\nKd .1 .1 .1\nnewmtl b\nKd 1 1 1\n"));
 }
 
-TEST(ObjReader, SaysWhatItLeavesOutOrMakesUp) {
+TEST(ObjReader, ReportsWhatItIgnoresOrAssumes) {
   const SceneDescription d = read("mtllib s.mtl\n" + square + "l 1 2\nf 1 2 3\ncurv 0 1 1 2\n",
                                   "newmtl a\nmap_Kd x.png\nnewmtl a\nKd .1 .1 .1\n");
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:6: lines of the kind `l` are left out")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:8: lines of the kind `curv` are left out")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture maps such as map_Kd are left out")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:3: material `a` is defined again")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:1: material `a` has no Kd")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:6: keyword `l` is not supported; line ignored")));
   EXPECT_THAT(d.notes,
-              Contains(HasSubstr("1 faces have no material (usemtl); they get rho = 0.5")));
+              Contains(HasSubstr("s.obj:8: keyword `curv` is not supported; line ignored")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture map map_Kd is ignored")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:3: material `a` is already defined")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:1: material `a` has no Kd")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("1 of 1 faces have no material (usemtl); rho = 0.5")));
 }
 
-TEST(ObjReader, CountsFacesOfTooFewCornersAsDegenerate) {
+TEST(ObjReader, CountsFacesWithTooFewCornersAsDegenerate) {
   const test::TemporaryFolder folder;
   const auto scene = load_scene(folder.write("s.obj", square + "f 1 2\nf\nf 1 2 3\nf 2\n"));
   EXPECT_EQ(scene->patch_count(), 1);
   EXPECT_EQ(scene->patch(0).face, 2);
   EXPECT_EQ(scene->report().faces, 4);
-  EXPECT_EQ(scene->report().dropped_degenerate, 3);
-  EXPECT_THAT(scene->report().warnings,
-              Contains(HasSubstr("s.obj:5: face 0: it has 2 corners, but needs at least 3")));
+  EXPECT_EQ(scene->report().removed_degenerate, 3);
+  EXPECT_THAT(
+      scene->report().warnings,
+      Contains(HasSubstr("s.obj:5: face 0: 2 corners, but at least 3 are required; face removed")));
 }
 
 void expect_same(const SceneDescription& a, const SceneDescription& b) {
@@ -141,7 +144,7 @@ void expect_same(const SceneDescription& a, const SceneDescription& b) {
   }
 }
 
-TEST(ObjWriter, WritesEveryBuiltInSoThatItReadsBackBitForBit) {
+TEST(ObjWriter, EveryBuiltInReadsBackBitForBit) {
   for (const BuiltInScene& b : built_in_scenes()) {
     SCOPED_TRACE(b.name);
     const test::TemporaryFolder folder;
@@ -151,7 +154,7 @@ TEST(ObjWriter, WritesEveryBuiltInSoThatItReadsBackBitForBit) {
   }
 }
 
-TEST(ObjWriter, KeepsNamesThatAreNoLinesApartAndReadable) {
+TEST(ObjWriter, ReplacesCharactersThatNamesCannotHave) {
   SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   d.materials = {{"a\nb", {}, {}}, {"", {}, {}}, {" c \\", {}, {}}, {"", {}, {}}};
   d.face_material = {3};
@@ -163,7 +166,7 @@ TEST(ObjWriter, KeepsNamesThatAreNoLinesApartAndReadable) {
   EXPECT_THAT(back.face_material, ElementsAre(3));
 }
 
-TEST(ObjWriter, LeavesNothingBehindWhereItCannotWrite) {
+TEST(ObjWriter, LeavesNoFileIfItCannotWrite) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "out.mtl");
   const SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// From faces to patches: welding, areas, convex pieces, non-planar and degenerate faces, two-sided
+// faces, warnings and refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +21,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-/// Each piece has area, faces as its patch does and turns nowhere right; areas add.
+/// Each piece is convex and oriented as its patch, and the areas of the pieces add up to the
+/// patch's.
 void expect_sound_pieces(const Scene& scene) {
   std::vector<double> area(static_cast<std::size_t>(scene.patch_count()));
   for (const Piece& piece : scene.pieces()) {
@@ -71,19 +74,19 @@ TEST(ScenePatches, WeldEqualPointsWithMinusZeroAsZero) {
   }
 }
 
-TEST(ScenePatches, DropRepeatedPointsAndKeepStraightOnes) {
+TEST(ScenePatches, RemoveRepeatedCornersAndKeepStraightOnes) {
   const Scene scene(
       polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 0}}));
   EXPECT_THAT(scene.outline(0), SizeIs(5));
   EXPECT_THAT(scene.pieces(), SizeIs(1));
 }
 
-TEST(ScenePatches, LeaveOutFacesWithoutAreaAndCountThem) {
+TEST(ScenePatches, RemoveFacesWithoutAreaAndCountThem) {
   const Scene scene(polygons({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, 0, 1e-17}},
                              {{0, 1, 3}, {0, 1, 2}, {0, 0, 1}, {0, 3, 4}, {}}));
   EXPECT_EQ(scene.patch_count(), 1);
   EXPECT_EQ(scene.patch(0).face, 1);
-  EXPECT_EQ(scene.report().dropped_degenerate, 4);
+  EXPECT_EQ(scene.report().removed_degenerate, 4);
 }
 
 TEST(ScenePatches, KeepThinFacesThatHaveArea) {
@@ -93,8 +96,9 @@ TEST(ScenePatches, KeepThinFacesThatHaveArea) {
 
 std::vector<Vec3> bent_square(double off) { return {{0, 0, 0}, {1, 0, 0}, {1, 1, off}, {0, 1, 0}}; }
 
-// They were taken for crossing themselves: their area is little of the products it comes from.
-TEST(ScenePatches, KeepQuadrilateralsOfATenMillionthsWidth) {
+// The area is the small difference of large products; such quadrilaterals were once refused as
+// crossing themselves.
+TEST(ScenePatches, KeepQuadrilateralsOfRelativeWidth1eMinus7) {
   const Scene scene(polygon({{-0.93879856506340864, 0.27196618361825475, 0.041234870875667406},
                              {0.78580605615928334, -0.088742516725631299, -0.90514144642816285},
                              {0.78580602476888761, -0.088742447006912112, -0.90514153020474153},
@@ -106,7 +110,7 @@ TEST(ScenePatches, KeepQuadrilateralsOfATenMillionthsWidth) {
   EXPECT_NEAR(area, 2.26844e-7, 1e-11);
 }
 
-TEST(ScenePatches, BentQuadrilateralsStayWholeByDegrees) {
+TEST(ScenePatches, BentQuadrilateralsAreSplitDependingOnTheirDeviation) {
   const Scene flat(polygon(bent_square(1e-16)));
   EXPECT_EQ(flat.patch_count(), 1);
   EXPECT_THAT(flat.pieces(), SizeIs(1));
@@ -120,11 +124,11 @@ TEST(ScenePatches, BentQuadrilateralsStayWholeByDegrees) {
   EXPECT_EQ(bent.patch(0).face, 0);
   EXPECT_EQ(bent.patch(1).face, 0);
   EXPECT_EQ(bent.report().cut_non_planar, 1);
-  EXPECT_THAT(bent.report().warnings, Contains(HasSubstr("test: face 0: it is not planar")));
+  EXPECT_THAT(bent.report().warnings, Contains(HasSubstr("test: face 0: not planar")));
 }
 
-/// Of a face a thousand kilometers long and a meter wide, a meter off its plane is no rounding.
-TEST(ScenePatches, LongFacesAreNotPlanarByTheirLengthAlone) {
+/// For a face 1000 km long and 1 m wide, a deviation of 1 m is not rounding.
+TEST(ScenePatches, PlanarityOfLongFacesDependsOnTheirWidth) {
   const Scene scene(polygon({{1e6, 1e6, 1e6},
                              {1e6 + 0.7, 1e6 + 0.1, 0.1},
                              {1e6 + 0.6, 1e6 + 0.9, 1e6 + 0.4},
@@ -133,8 +137,8 @@ TEST(ScenePatches, LongFacesAreNotPlanarByTheirLengthAlone) {
   EXPECT_EQ(scene.patch_count(), 2);
 }
 
-/// Their coordinates' rounding is more of them than of others.
-TEST(ScenePatches, SmallFacesFarAwayStayWhole) {
+/// The rounding of their coordinates is large relative to their size.
+TEST(ScenePatches, SmallFacesFarFromTheOriginAreNotSplit) {
   const Scene scene(polygon({{1e6, 1e6, 1e6},
                              {1e6 + 1e-3, 1e6, 1e6 + 1e-3},
                              {1e6 + 1e-3, 1e6 + 1e-3, 1e6 + 1.3e-3},
@@ -143,14 +147,14 @@ TEST(ScenePatches, SmallFacesFarAwayStayWhole) {
   EXPECT_EQ(scene.patch_count(), 1);
 }
 
-TEST(ScenePatches, QuadrilateralsThatCrossOnlyWhenFlattenedAreTwoTriangles) {
+TEST(ScenePatches, QuadrilateralsWhoseProjectionCrossesItselfAreTwoTriangles) {
   // Folded by more than a right angle.
   const Scene scene(polygon({{0, 0, 0}, {2, 0, 0}, {0.2, 0.1, 2}, {0, 2, 0}}));
   EXPECT_EQ(scene.patch_count(), 2);
 }
 
-TEST(ScenePatches, TakeOutlinesThatTouchThemselvesAtABridge) {
-  // A square with a square hole, hung on a bridge that is walked twice.
+TEST(ScenePatches, AcceptOutlinesThatTouchThemselvesAtABridge) {
+  // A square with a square hole, connected by a bridge that the outline passes twice.
   const Scene scene(polygons(
       {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}},
       {{0, 1, 2, 3, 0, 4, 5, 6, 7, 4}}));
@@ -159,19 +163,19 @@ TEST(ScenePatches, TakeOutlinesThatTouchThemselvesAtABridge) {
   expect_sound_pieces(scene);
 }
 
-TEST(ScenePatches, RefuseAnOutlineThatWindsBothWays) {
-  // An 8 whose loops meet in a corner; of different size, so that area is left.
-  const std::string said = test::refusal([] {
+TEST(ScenePatches, RefuseOutlinesWithLoopsOfOppositeOrientation) {
+  // An 8 whose loops meet at a corner; of different sizes, so the total area is not 0.
+  const std::string message = test::refusal([] {
     const Scene scene(polygons({{0, 0, 0}, {2, 2, 0}, {2, -2, 0}, {-1, 1, 0}, {-1, -1, 0}},
                                {{0, 2, 1, 0, 3, 4}}));
-    EXPECT_EQ(scene.patch_count(), 1) << "these wind the same way";
+    EXPECT_EQ(scene.patch_count(), 1) << "these loops have the same orientation";
     const Scene eight(polygons({{0, 0, 0}, {2, 2, 0}, {2, -2, 0}, {-1, 1, 0}, {-1, -1, 0}},
                                {{0, 2, 1, 0, 4, 3}}));
   });
-  EXPECT_EQ(said, "test: face 0: its outline crosses itself");
+  EXPECT_EQ(message, "test: face 0: the outline crosses itself");
 }
 
-TEST(ScenePatches, FacingEverywhichWayGetPiecesThatFaceTheSame) {
+TEST(ScenePatches, InEveryOrientationHavePiecesOfTheSameOrientation) {
   const std::vector<Vec3> star{{0, 2, 0},  {-.5, .5, 0}, {-2, 0, 0}, {-.5, -.5, 0},
                                {0, -2, 0}, {.5, -.5, 0}, {2, 0, 0},  {.5, .5, 0}};
   for (int turn = 0; turn < 6; ++turn) {
@@ -195,24 +199,23 @@ TEST(ScenePatches, CountCoincidentFacesAndUnusedPoints) {
                              {{0, 1, 2}, {2, 1, 3}, {1, 2, 0}}));
   EXPECT_EQ(scene.report().coincident_faces, 2);
   EXPECT_EQ(scene.report().unused_points, 1);
-  EXPECT_THAT(scene.report().warnings,
-              Contains(HasSubstr("face 1: it has the same points as face 0")));
+  EXPECT_THAT(scene.report().warnings, Contains(HasSubstr("face 1: same points as face 0")));
   EXPECT_THAT(scene.report().warnings, Contains(HasSubstr("1 of 5 vertices are not used")));
   EXPECT_THAT(scene.points(), SizeIs(3));
 }
 
-TEST(ScenePatches, WarnAboutTheFirstFewOfAKindOnly) {
+TEST(ScenePatches, WarnOnlyAboutTheFirstFewOfAKind) {
   SceneDescription d = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   for (int i = 0; i < 1000; ++i) {
     d.add_face(std::vector<PointId>{0, 1, 1}, 0);
   }
   const Scene scene(d);
-  EXPECT_EQ(scene.report().dropped_degenerate, 1000);
+  EXPECT_EQ(scene.report().removed_degenerate, 1000);
   EXPECT_THAT(scene.report().warnings, SizeIs(11));
-  EXPECT_EQ(scene.report().warnings.back(), "and 990 more faces without area, left out");
+  EXPECT_EQ(scene.report().warnings.back(), "and 990 more faces without area, removed");
 }
 
-TEST(ScenePatches, OfTwoSidedFacesAreOppositePairsFrontFirst) {
+TEST(ScenePatches, TwoSidedFacesGiveOppositePairsFrontFirst) {
   const Scene scene(polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}),
                     {.two_sided = true});
   ASSERT_EQ(scene.patch_count(), 2);
@@ -224,7 +227,7 @@ TEST(ScenePatches, OfTwoSidedFacesAreOppositePairsFrontFirst) {
   expect_sound_pieces(scene);
 }
 
-TEST(ScenePatches, RefuseWhatNoReaderWouldLetThrough) {
+TEST(ScenePatches, RefuseInvalidDescriptions) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SceneDescription d = polygon({{0, 0, 0}, {1, 0, nan}, {0, 1, 0}});
   EXPECT_EQ(test::refusal([&] { Scene{d}; }),

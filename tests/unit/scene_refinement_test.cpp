@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// SceneOptions::max_patch_area: cells of triangles, rectangles and concave faces, shared points
+// along edges, and limits.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -12,7 +14,7 @@ Scene refined(const SceneDescription& d, double max_area, bool two_sided = false
   return Scene(d, {.two_sided = two_sided, .max_patch_area = max_area});
 }
 
-TEST(Refinement, CutsARectangleIntoEqualNearlySquareCells) {
+TEST(Refinement, DividesARectangleIntoEqualNearlySquareCells) {
   const Scene scene = refined(test::polygon({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}}), 0.25);
   EXPECT_EQ(scene.patch_count(), 16);
   EXPECT_EQ(scene.report().refined, 1);
@@ -23,7 +25,7 @@ TEST(Refinement, CutsARectangleIntoEqualNearlySquareCells) {
   EXPECT_EQ(scene.points().size(), 9u * 3);
 }
 
-TEST(Refinement, CutsATriangleIntoSimilarOnes) {
+TEST(Refinement, DividesATriangleIntoSimilarOnes) {
   const Scene scene = refined(test::polygon({{0, 0, 0}, {3, 0, 0}, {0, 3, 3}}), 1);
   EXPECT_EQ(scene.patch_count(), 9);
   for (const Patch& p : scene.patches()) {
@@ -32,7 +34,7 @@ TEST(Refinement, CutsATriangleIntoSimilarOnes) {
   EXPECT_EQ(scene.points().size(), 10u);
 }
 
-TEST(Refinement, KeepsAreasAndTheirBoundForEveryBuiltIn) {
+TEST(Refinement, KeepsTotalAreaAndLimitForEveryBuiltIn) {
   for (const BuiltInScene& b : built_in_scenes()) {
     SCOPED_TRACE(b.name);
     const SceneDescription d = describe_scene(b.name);
@@ -44,14 +46,14 @@ TEST(Refinement, KeepsAreasAndTheirBoundForEveryBuiltIn) {
     std::int32_t face = 0;
     for (const Patch& p : fine.patches()) {
       EXPECT_LE(p.area, bound * (1 + 1e-8));
-      EXPECT_GE(p.face, face) << "faces stay in order";
+      EXPECT_GE(p.face, face) << "the order of faces is kept";
       face = p.face;
     }
   }
 }
 
-TEST(Refinement, GivesBothSidesOfAnEdgeTheSamePoints) {
-  // Two rectangles with a common edge of awkward coordinates, walked in opposite senses.
+TEST(Refinement, SharesPointsAlongCommonEdges) {
+  // Two rectangles with a common edge of non-dyadic coordinates, in opposite directions.
   const Vec3 a{0.1, 0.2, 0.3}, b{1.3, 0.7, 0.3}, up{0, 0, 1.7}, side{0.5, -1.2, 0};
   const Scene scene = refined(
       test::polygons({a, b, b + up, a + up, b + side, a + side}, {{0, 1, 2, 3}, {1, 0, 5, 4}}),
@@ -68,7 +70,7 @@ TEST(Refinement, GivesBothSidesOfAnEdgeTheSamePoints) {
     shared += second.count(p);
   }
   EXPECT_GE(shared, 4u);
-  // No two points are near one another without being one.
+  // No two different points are close to each other.
   for (std::size_t i = 0; i < scene.points().size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GT(norm(scene.points()[i] - scene.points()[j]), 1e-6);
@@ -76,7 +78,7 @@ TEST(Refinement, GivesBothSidesOfAnEdgeTheSamePoints) {
   }
 }
 
-TEST(Refinement, ComesBeforeTwoSides) {
+TEST(Refinement, PrecedesTheDoublingOfTwoSidedFaces) {
   const Scene scene =
       refined(test::polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), 0.25, true);
   ASSERT_EQ(scene.patch_count(), 8);
@@ -86,20 +88,21 @@ TEST(Refinement, ComesBeforeTwoSides) {
   }
 }
 
-TEST(Refinement, CutsConcaveFaces) {
+TEST(Refinement, DividesConcaveFaces) {
   const Scene scene = refined(
       test::polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}), 0.1);
   EXPECT_NEAR(test::total_area(scene), 3, 1e-13);
   EXPECT_GE(scene.patch_count(), 30);
 }
 
-TEST(Refinement, RefusesMorePatchesThanItCanHold) {
+TEST(Refinement, RefusesTooManyPatches) {
   const SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   EXPECT_NE(test::refusal([&] { refined(d, 1e-9); }).find("more than 50000000 patches"),
             std::string::npos);
   EXPECT_NE(test::refusal([&] { refined(d, 1e-300); }).find("more than 50000000 patches"),
             std::string::npos);
-  EXPECT_NE(test::refusal([&] { refined(d, -1); }).find("max-patch-area is -1"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { refined(d, -1); }).find("maximum patch area is -1"),
+            std::string::npos);
 }
 
 }  // namespace

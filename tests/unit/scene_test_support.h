@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+// Small scene descriptions and measurements of scenes for the scene tests.
+
 #include <memory>
 #include <string>
 
@@ -10,7 +12,7 @@
 
 namespace transillum::test {
 
-/// A description of faces over points, of one gray material.
+/// A description with the given points and faces and one gray material.
 inline SceneDescription polygons(const std::vector<Vec3>& points,
                                  const std::vector<std::vector<PointId>>& faces) {
   SceneDescription description;
@@ -22,7 +24,7 @@ inline SceneDescription polygons(const std::vector<Vec3>& points,
   }
   return description;
 }
-/// One face over all points.
+/// A description with one face that uses all points in order.
 inline SceneDescription polygon(const std::vector<Vec3>& points) {
   std::vector<PointId> outline;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -31,7 +33,7 @@ inline SceneDescription polygon(const std::vector<Vec3>& points) {
   return polygons(points, {outline});
 }
 
-/// Newell's vector of an outline: twice its area along its normal.
+/// Newell vector of an outline: its normal times twice its area.
 inline Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
   Vec3 sum;
   for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -88,7 +88,7 @@ class ColorChoiceTest : public QObject {
   void a_selection_colors_its_form_factors_anew() {
     Selection selection;
     ColorChoice colors(selection);
-    QSignalSpy wanted(&colors, &ColorChoice::form_factors_wanted);
+    QSignalSpy wanted(&colors, &ColorChoice::form_factors_requested);
     colors.fit(solved("cornell-box"));
     colors.set_quantity(Quantity::form_factor_from);
     QCOMPARE(wanted.count(), 1);

@@ -126,8 +126,8 @@ class CompareTest : public QObject {
     QVERIFY(wait_for([&] { return shown.text("compare_words").contains("patch 14 sees"); }));
     QVERIFY(wait_for([&] { return view->up_to_date(); }));
     const auto* hemicube = view->findChildren<HemicubeView*>().last();
-    QVERIFY(hemicube->isVisible() && hemicube->sight());
-    QCOMPARE(hemicube->sight()->request.eye, 14);
+    QVERIFY(hemicube->isVisible() && hemicube->comparison());
+    QCOMPARE(hemicube->comparison()->request.eye, 14);
     const auto* picture =
         static_cast<const DifferencePicture*>(view->findChild<QWidget*>("difference_picture"));
     const double wrong = picture->share(14);

@@ -193,7 +193,7 @@ class InspectTest : public QObject {
     shown.part<QPushButton>("solve_with_replicas")->click();
     QVERIFY(wait_for([&] {
       return shown.window->snapshot()->error.replicas == 8 &&
-             shown.window->session().state() == SessionState::finished;
+             shown.window->runner().state() == RunState::finished;
     }));
     QCOMPARE(shown.window->snapshot()->options.directions, 32);
     QVERIFY(!button->isVisible());
@@ -228,7 +228,7 @@ class InspectTest : public QObject {
     QVERIFY(shown.ready);
     shown.trigger("keep_run");
     shown.window->colors().set_automatic_exposure(false);
-    shown.window->session().advance_one_iteration();
+    shown.window->runner().advance_one_iteration();
     QVERIFY(wait_for([&] {
       return shown.window->snapshot()->progress.iteration == 2 && shown.window->settled();
     }));

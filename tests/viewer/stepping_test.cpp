@@ -192,7 +192,7 @@ class SteppingTest : public QObject {
     s.trigger("map_newell");
     QVERIFY(s.settles());
     const auto pixels = s.map_view->canvas()->pixels();
-    QVERIFY2(pixels->failure.find("overlap in a circle") != std::string::npos,
+    QVERIFY2(pixels->failure.find("overlap in a cycle") != std::string::npos,
              pixels->failure.c_str());
     QVERIFY(s.text("map_text").contains("gave up"));
     const QImage picture = s.map_view->canvas()->grab().toImage();

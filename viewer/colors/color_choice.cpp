@@ -36,10 +36,10 @@ void ColorChoice::set_quantity(Quantity quantity) {
     return;
   }
   quantity_ = quantity;
-  forget_range();
+  reset_range();
   change();
   if (traits_of(quantity).of_selection) {
-    emit form_factors_wanted();
+    emit form_factors_requested();
   }
 }
 
@@ -48,7 +48,7 @@ void ColorChoice::set_mode(ColorMode mode) {
     return;
   }
   mode_ = mode;
-  forget_range();
+  reset_range();
   change();
 }
 
@@ -66,7 +66,7 @@ void ColorChoice::set_logarithmic(bool logarithmic) {
   }
   scale_.logarithmic = logarithmic;
   if (range_rule_ != RangeRule::fixed) {
-    forget_range();
+    reset_range();
   }
   change();
 }
@@ -141,7 +141,7 @@ void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool other_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
   if (other_scene && range_rule_ != RangeRule::fixed) {
-    forget_range();
+    reset_range();
   }
   refit();
   emit fitted();
@@ -152,7 +152,7 @@ void ColorChoice::change() {
   emit changed();
 }
 
-void ColorChoice::forget_range() {
+void ColorChoice::reset_range() {
   range_is_known_ = false;
   // What was typed in for another quantity means nothing.
   if (range_rule_ == RangeRule::fixed) {
@@ -212,8 +212,8 @@ void ColorChoice::fit_range() {
     }
     range_is_known_ = true;
   }
-  scale_.mend_range();
-  scale_.look_beyond(values_.values);
+  scale_.repair_range();
+  scale_.find_out_of_range(values_.values);
 }
 
 void ColorChoice::color() {

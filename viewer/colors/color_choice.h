@@ -75,14 +75,14 @@ class ColorChoice : public QObject {
  signals:
   void changed();  ///< every picture must be colored anew
   void fitted();
-  void form_factors_wanted();
+  void form_factors_requested();
   void kept_run_changed();
 
  private:
   void refit();
   void fit_range();
   void color();
-  void forget_range();
+  void reset_range();
   void change();
 
   const Selection& selection_;

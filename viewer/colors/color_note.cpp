@@ -47,7 +47,7 @@ ColorNote::ColorNote(const ColorChoice& colors, QWidget* parent) : QFrame(parent
   layout->setSpacing(10);
   layout->addWidget(words_, 1);
   layout->addWidget(replicas_);
-  connect(replicas_, &QPushButton::clicked, this, &ColorNote::replicas_wanted);
+  connect(replicas_, &QPushButton::clicked, this, &ColorNote::replicas_requested);
   connect(&colors_, &ColorChoice::changed, this, &ColorNote::show_note);
   connect(&colors_, &ColorChoice::fitted, this, &ColorNote::show_note);
   hide();

@@ -19,7 +19,7 @@ class ColorNote : public QFrame {
   explicit ColorNote(const ColorChoice& colors, QWidget* parent = nullptr);
 
  signals:
-  void replicas_wanted();
+  void replicas_requested();
 
  private:
   void show_note();

@@ -164,7 +164,7 @@ void ColorScale::fit_range(const Scene& scene, std::span<const Rgb> radiosity) {
   fit_range_where(radiosity, [&](std::size_t i) {
     return max_abs(scene.exitance(static_cast<PatchId>(i))) == 0;
   });
-  look_beyond(radiosity);
+  find_out_of_range(radiosity);
 }
 
 void ColorScale::fit_range(std::span<const Rgb> values, bool balanced) {
@@ -182,10 +182,10 @@ void ColorScale::fit_range(std::span<const Rgb> values, bool balanced) {
   } else {
     fit_range_where(values, [](std::size_t) { return true; });
   }
-  look_beyond(values);
+  find_out_of_range(values);
 }
 
-void ColorScale::mend_range() {
+void ColorScale::repair_range() {
   if (logarithmic && !(high > 0)) {
     high = 1;
   }
@@ -197,7 +197,7 @@ void ColorScale::mend_range() {
   }
 }
 
-void ColorScale::look_beyond(std::span<const Rgb> values) {
+void ColorScale::find_out_of_range(std::span<const Rgb> values) {
   above = below = false;
   for (const Rgb& rgb : values) {
     const double v = value(rgb);

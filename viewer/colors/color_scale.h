@@ -48,9 +48,9 @@ class ColorScale {
   /// The same, to the largest of all; where they are `balanced` the map's middle is 0.
   void fit_range(std::span<const Rgb> values, bool balanced = false);
   /// Widens or narrows the range as far as must be: low < high, and 0 < low where logarithmic.
-  void mend_range();
+  void repair_range();
   /// Finds whether some values lie beyond the range.
-  void look_beyond(std::span<const Rgb> values);
+  void find_out_of_range(std::span<const Rgb> values);
   /// Sets the exposure such that what does not emit is well lit: the 95th percentile by area
   /// comes out nearly white. A scene where all patches emit counts them all.
   void fit_exposure(const Scene& scene, std::span<const Rgb> radiosity);

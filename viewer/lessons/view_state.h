@@ -12,7 +12,7 @@
 #include "colors/quantity.h"
 #include "model/material_edits.h"
 #include "model/run_options.h"
-#include "model/solver_session.h"
+#include "model/solve_runner.h"
 #include "state/algorithm_state.h"
 #include "state/focus.h"
 #include "state/initial_view.h"

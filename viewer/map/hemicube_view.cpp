@@ -25,9 +25,11 @@ const QColor nothing_lit{0x43, 0x4a, 0x55};
 HemicubeView::HemicubeView(const Selection& selection, QWidget* parent)
     : QWidget(parent),
       selection_(selection),
-      worker_([this](const Order& order, const Cancellation& cancellation) {
-        work(order, cancellation);
-      }) {
+      worker_([this](const Order& order,
+                     const Cancellation& cancellation) { work(order, cancellation); },
+              [this](const Order& order, const QString& message) {
+                post_failure(message, order.number);
+              }) {
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -66,43 +68,43 @@ void HemicubeView::work(const Order& order, const Cancellation& cancellation) {
   const auto post = [this](auto message) {
     QMetaObject::invokeMethod(this, std::move(message), Qt::QueuedConnection);
   };
-  try {
-    const auto sight = see_by_hemicube(order.request, cancellation);
-    const bool last = !order.request.differences;
-    post([this, sight, number = order.number, last] { take(sight, number, last); });
-    if (last) {
-      return;
-    }
-    const auto progress = [&](double share) {
-      post([this, share, number = order.number] {
-        if (number != asked_.number) {
-          return;
-        }
-        progress_ = share;
-        emit shown();
-      });
-    };
-    const auto compared = with_exact(*sight, cancellation, progress);
-    post([this, compared, number = order.number] { take(compared, number, true); });
-  } catch (const Canceled&) {
-    throw;
-  } catch (const std::exception& error) {
-    post([this, words = QString::fromUtf8(error.what()), number = order.number] {
+  const auto comparison = render_hemicube(order.request, cancellation);
+  const bool last = !order.request.differences;
+  post([this, comparison, number = order.number, last] { take(comparison, number, last); });
+  if (last) {
+    return;
+  }
+  const auto progress = [&](double share) {
+    post([this, share, number = order.number] {
       if (number != asked_.number) {
         return;
       }
-      failure_ = words;
-      take(nullptr, number, true);
+      progress_ = share;
+      emit shown();
     });
-  }
+  };
+  const auto compared = with_exact(*comparison, cancellation, progress);
+  post([this, compared, number = order.number] { take(compared, number, true); });
 }
 
-void HemicubeView::take(std::shared_ptr<const HemicubeComparison> sight, quint64 number,
+// On the worker's thread; what it posts runs on the window's.
+void HemicubeView::post_failure(const QString& message, quint64 number) {
+  const auto show = [this, message, number] {
+    if (number != asked_.number) {
+      return;
+    }
+    failure_ = message;
+    take(nullptr, number, true);
+  };
+  QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+}
+
+void HemicubeView::take(std::shared_ptr<const HemicubeComparison> comparison, quint64 number,
                         bool last) {
   if (number != asked_.number) {
     return;  // something else is wanted by now
   }
-  sight_ = std::move(sight);
+  comparison_ = std::move(comparison);
   if (last) {
     done_ = number;
   }
@@ -111,16 +113,16 @@ void HemicubeView::take(std::shared_ptr<const HemicubeComparison> sight, quint64
 }
 
 bool HemicubeView::by_difference() const {
-  return sight_ && content_.differences && !sight_->exact.empty();
+  return comparison_ && content_.differences && !comparison_->exact.empty();
 }
 
 /// x to the left, as one sees it from inside; y up.
 void HemicubeView::draw_cross() {
   update();
-  if (!sight_ || !content_.patch_colors) {
+  if (!comparison_ || !content_.patch_colors) {
     return;
   }
-  const HemicubeImage& image = sight_->image;
+  const HemicubeImage& image = comparison_->image;
   const int size = image.cross();
   cross_ = QImage(size, size, QImage::Format_RGB32);
   cross_.fill(theme::scene_background);
@@ -134,7 +136,7 @@ void HemicubeView::draw_cross() {
       const PatchId patch = image.items[*pixel];
       QRgb color = nothing_lit.rgb();
       if (patch != no_patch && by_difference()) {
-        color = color_of_surplus(sight_->surplus(patch)).rgb();
+        color = color_of_surplus(comparison_->surplus(patch)).rgb();
       } else if (patch != no_patch) {
         const Color8& c = at((*content_.patch_colors), patch);
         color = qRgb(c[0], c[1], c[2]);
@@ -150,15 +152,15 @@ QRectF HemicubeView::place() const {
 }
 
 std::optional<std::size_t> HemicubeView::pixel_at(const QPointF& position) const {
-  if (!sight_ || !place().contains(position)) {
+  if (!comparison_ || !place().contains(position)) {
     return std::nullopt;
   }
-  const int size = sight_->image.cross();
+  const int size = comparison_->image.cross();
   const auto cell = [size](double share) {
     return std::clamp(static_cast<int>(share * size), 0, size - 1);
   };
   const QPointF at = (position - place().topLeft()) / place().width();
-  return sight_->image.pixel_at(size - 1 - cell(at.x()), size - 1 - cell(at.y()));
+  return comparison_->image.pixel_at(size - 1 - cell(at.x()), size - 1 - cell(at.y()));
 }
 
 QString HemicubeView::words() const {
@@ -168,20 +170,22 @@ QString HemicubeView::words() const {
   if (!content_.loaded || selection_.patch() == no_patch) {
     return tr("Select a patch, on which a hemicube is to stand");
   }
-  if (!sight_) {
+  if (!comparison_) {
     return tr("Drawing what patch %1 sees…").arg(selection_.patch());
   }
-  const QString eye = tr("On patch %1").arg(sight_->request.eye);
+  const QString eye = tr("On patch %1").arg(comparison_->request.eye);
   if (!content_.differences) {
-    return tr("%1: %2 pixels").arg(eye).arg(sight_->image.items.size());
+    return tr("%1: %2 pixels").arg(eye).arg(comparison_->image.items.size());
   }
-  if (sight_->exact.empty()) {
+  if (comparison_->exact.empty()) {
     return tr("%1: finding exact form factors… %2 %").arg(eye).arg(100 * progress_, 0, 'f', 0);
   }
-  const QString wrong =
-      tr("%1: %2 % of what is seen is wrong").arg(eye).arg(100 * sight_->wrong_share(), 0, 'g', 2);
-  return sight_->missed() == 0 ? wrong
-                               : tr("%1, %2 patches missed").arg(wrong).arg(sight_->missed());
+  const QString wrong = tr("%1: %2 % of what is seen is wrong")
+                            .arg(eye)
+                            .arg(100 * comparison_->wrong_share(), 0, 'g', 2);
+  return comparison_->missed() == 0
+             ? wrong
+             : tr("%1, %2 patches missed").arg(wrong).arg(comparison_->missed());
 }
 
 bool HemicubeView::event(QEvent* event) {
@@ -190,16 +194,17 @@ bool HemicubeView::event(QEvent* event) {
   }
   const auto* help = static_cast<QHelpEvent*>(event);
   const auto pixel = pixel_at(help->pos());
-  const PatchId patch = pixel ? sight_->image.items[*pixel] : no_patch;
+  const PatchId patch = pixel ? comparison_->image.items[*pixel] : no_patch;
   if (patch == no_patch) {
     QToolTip::hideText();
     return true;
   }
   const auto k = static_cast<std::size_t>(patch);
-  QString text =
-      tr("Patch %1: form factor %2").arg(patch).arg(number_text(sight_->image.form_factors[k]));
-  if (!sight_->exact.empty()) {
-    text += tr(", exactly %1").arg(number_text(sight_->exact[k]));
+  QString text = tr("Patch %1: form factor %2")
+                     .arg(patch)
+                     .arg(number_text(comparison_->image.form_factors[k]));
+  if (!comparison_->exact.empty()) {
+    text += tr(", exactly %1").arg(number_text(comparison_->exact[k]));
   }
   QToolTip::showText(help->globalPos(), text, this);
   return true;
@@ -208,7 +213,7 @@ bool HemicubeView::event(QEvent* event) {
 void HemicubeView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
-  if (!sight_) {
+  if (!comparison_) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
                      words());

@@ -32,7 +32,7 @@ class HemicubeView : public QWidget {
   void clear();
   bool up_to_date() const { return done_ == asked_.number; }
   /// What is shown; null where nothing is.
-  std::shared_ptr<const HemicubeComparison> sight() const { return sight_; }
+  std::shared_ptr<const HemicubeComparison> comparison() const { return comparison_; }
   /// What there is to say of it.
   QString words() const;
 
@@ -52,7 +52,8 @@ class HemicubeView : public QWidget {
   };
   void ask();
   void work(const Order& order, const Cancellation& cancellation);
-  void take(std::shared_ptr<const HemicubeComparison> sight, quint64 number, bool last);
+  void post_failure(const QString& message, quint64 number);
+  void take(std::shared_ptr<const HemicubeComparison> comparison, quint64 number, bool last);
   void draw_cross();
   bool by_difference() const;
   /// Where the cross is drawn, logical pixels.
@@ -61,7 +62,7 @@ class HemicubeView : public QWidget {
 
   const Selection& selection_;
   Content content_;
-  std::shared_ptr<const HemicubeComparison> sight_;
+  std::shared_ptr<const HemicubeComparison> comparison_;
   QString failure_;
   double progress_ = 0;  ///< of the exact form factors
   QImage cross_;         ///< a pixel a cell

@@ -27,16 +27,24 @@ constexpr std::chrono::milliseconds longest_wait{20};
 MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
     : QWidget(parent),
       selection_(selection),
-      painter_([this](const Order& order, const Cancellation& cancellation) {
-        auto picture = std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
-        {
-          const std::lock_guard lock(arrived_.mutex);
-          arrived_.picture = std::move(picture);
-          arrived_.number = order.number;
-        }
-        arrived_.changed.notify_one();
-        QMetaObject::invokeMethod(this, &MapCanvas::take_arrived, Qt::QueuedConnection);
-      }) {
+      painter_(
+          [this](const Order& order, const Cancellation& cancellation) {
+            auto picture =
+                std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
+            {
+              const std::lock_guard lock(arrived_.mutex);
+              arrived_.picture = std::move(picture);
+              arrived_.number = order.number;
+            }
+            arrived_.changed.notify_one();
+            QMetaObject::invokeMethod(this, &MapCanvas::take_arrived, Qt::QueuedConnection);
+          },
+          [this](const Order& order, const QString& message) {
+            const auto show = [this, message, number = order.number] {
+              show_failure(message, number);
+            };
+            QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
+          }) {
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
@@ -57,6 +65,7 @@ void MapCanvas::clear() {
   content_ = {};
   region_ = {};
   picture_ = nullptr;
+  failure_.clear();
   painter_.clear();
   painted_ = ++asked_.number;  // what is still on its way is late
   zoom_ = 1;
@@ -130,7 +139,7 @@ void MapCanvas::repaint_map() {
       {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
        content_.pixels, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
       asked_.number + 1};
-  painter_.request(asked_, wanted ? UnderWay::given_up : UnderWay::goes_on);
+  painter_.request(asked_, wanted ? CurrentJob::cancel : CurrentJob::finish);
 }
 
 void MapCanvas::take_arrived() {
@@ -142,6 +151,17 @@ void MapCanvas::take_arrived() {
     painted_ = arrived_.number;
     picture_ = arrived_.picture;
   }
+  failure_.clear();
+  update();
+  emit painted();
+}
+
+void MapCanvas::show_failure(const QString& message, quint64 number) {
+  if (!content_.map || number <= painted_) {
+    return;
+  }
+  painted_ = number;
+  failure_ = message;
   update();
   emit painted();
 }
@@ -180,6 +200,10 @@ std::optional<Vec2> MapCanvas::point_at(const QPointF& position) const {
 void MapCanvas::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
+  if (!failure_.isEmpty() && content_.map && !picture_) {
+    draw_failure(painter, failure_);
+    return;
+  }
   if (!picture_ || !content_.map) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
@@ -194,8 +218,12 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   const QPointF corner = now.middle - share * painted.middle;
   painter.drawImage(QRectF(corner, share * picture_->request.size), picture_->image);
   painter.setRenderHint(QPainter::Antialiasing);
+  if (!failure_.isEmpty()) {
+    draw_failure(painter, failure_);
+    return;
+  }
   if (pixels() && !pixels()->failure.empty()) {
-    draw_failure(painter);
+    draw_failure(painter, QString::fromStdString(pixels()->failure));
     return;
   }
   draw_selection(painter, now);
@@ -206,11 +234,10 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   draw_legend(painter);
 }
 
-void MapCanvas::draw_failure(QPainter& painter) const {
+void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
   painter.setPen(theme::on_dark);
   painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-                   tr("Nothing is drawn, for the engine gave up:\n\n%1")
-                       .arg(QString::fromStdString(pixels()->failure)));
+                   tr("Nothing is drawn, for the engine gave up:\n\n%1").arg(failure));
 }
 
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {

@@ -85,7 +85,8 @@ class MapCanvas : public QWidget {
   void repaint_map();
   void take_arrived();
   void wait_for_picture();
-  void draw_failure(QPainter& painter) const;
+  void show_failure(const QString& message, quint64 number);
+  void draw_failure(QPainter& painter, const QString& failure) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
@@ -108,7 +109,8 @@ class MapCanvas : public QWidget {
     quint64 number = 0;
   };
   Order asked_;          // the newest
-  quint64 painted_ = 0;  // number of the order that picture_ answers
+  quint64 painted_ = 0;  // number of the order that picture_ or failure_ answers
+  QString failure_;      // why there is no picture; else empty
   /// The painter's newest picture.
   struct Arrived {
     std::mutex mutex;

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Runs two engines on one direction (or on one row of form factors), times them, and compares their
+// transfers. Input: an EngineComparer::Request from the window; output: an EngineComparison.
 #include "model/engine_comparer.h"
 
 #include <QMetaObject>
@@ -16,14 +19,14 @@ namespace transillum::viewer {
 
 namespace {
 
-/// Of this thread, on a processor: what others do does not count.
+/// Processor time of this thread.
 double thread_seconds() {
   std::timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// One direction, twice where that is short: the first run of an engine finds its memory.
+/// Runs fast engines twice, because the first run includes memory allocation.
 Transfers run_direction(const EngineComparer::Request& request, EngineComparison::Side& side,
                         const TransferEngine& engine, const Cancellation& cancellation) {
   Transfers transfers;
@@ -35,13 +38,13 @@ Transfers run_direction(const EngineComparer::Request& request, EngineComparison
   return transfers;
 }
 
-/// A_i F_ij of the eye by all directions of the run.
+/// A_i F_ij of patch i = `eye` for all j, m², from all directions of the solve run.
 std::vector<double> row_by_directions(const EngineComparer::Request& request,
                                       const TransferEngine& engine,
                                       const Cancellation& cancellation) {
   std::vector<double> row(static_cast<std::size_t>(request.loaded->scene->patch_count()));
-  const double ways = request.two_way ? 2 : 1;
-  const double weight = 4 / (ways * static_cast<double>(request.directions->size()));
+  const double directions_per_pass = request.two_way ? 2 : 1;
+  const double weight = 4 / (directions_per_pass * static_cast<double>(request.directions->size()));
   for (const Vec3& omega : *request.directions) {
     for (const Transfer& t : engine(omega, cancellation).exchanges) {
       if (t.receiver == request.eye) {
@@ -68,7 +71,7 @@ std::vector<double> row_by_hemicube(const EngineComparer::Request& request, int 
   return row;
 }
 
-/// What the eye exchanges with all others, as if along one direction that sees all of it.
+/// A row A_i F_ij as the transfers of one direction, with A_i as the projected area.
 Transfers as_transfers(const EngineComparer::Request& request, const std::vector<double>& row) {
   Transfers transfers;
   transfers.forward.resize(row.size());
@@ -96,7 +99,7 @@ Transfers find_transfers(const EngineComparer::Request& request, EngineCompariso
     return run_direction(request, side, engine(), cancellation);
   }
   if (request.eye == no_patch) {
-    throw std::runtime_error("select a patch: what it sees will be compared");
+    throw std::runtime_error("select a patch: its row of form factors will be compared");
   }
   const double start = thread_seconds();
   const std::vector<double> row = side.engine == Engine::hemicube
@@ -106,7 +109,8 @@ Transfers find_transfers(const EngineComparer::Request& request, EngineCompariso
   return as_transfers(request, row);
 }
 
-/// Fills in what is known of one engine; throws Canceled only.
+/// Runs one engine and fills in `side`; an engine's failure goes to side.failure.
+/// @throws Canceled
 Transfers run_engine(const EngineComparer::Request& request, EngineComparison::Side& side,
                      const Cancellation& cancellation) {
   Transfers transfers;
@@ -129,8 +133,8 @@ Transfers run_engine(const EngineComparer::Request& request, EngineComparison::S
   return transfers;
 }
 
-/// Of each patch that the eye sees by one engine at least, half of what it sees by the one that
-/// sees more: a patch seen by one alone is wholly seen otherwise.
+/// Per patch j, half the larger of A_i F_ij by the two engines, m²; of the eye i: A_i. This is the
+/// area that differences are relative to: a patch seen by one engine only differs wholly.
 std::vector<double> seen_areas(const Transfers& first, const Transfers& other, PatchId eye) {
   std::vector<double> seen(first.forward.size());
   for (const Transfers* transfers : {&first, &other}) {
@@ -144,8 +148,7 @@ std::vector<double> seen_areas(const Transfers& first, const Transfers& other, P
   return seen;
 }
 
-EngineComparison compare_engines(const EngineComparer::Request& request,
-                                 const Cancellation& cancellation) {
+EngineComparison without_results(const EngineComparer::Request& request) {
   EngineComparison comparison;
   comparison.loaded = request.loaded;
   comparison.direction = request.direction;
@@ -153,6 +156,12 @@ EngineComparison compare_engines(const EngineComparer::Request& request,
   comparison.first.resolution = request.first_resolution;
   comparison.other.engine = request.other;
   comparison.other.resolution = request.other_resolution;
+  return comparison;
+}
+
+EngineComparison compare_engines(const EngineComparer::Request& request,
+                                 const Cancellation& cancellation) {
+  EngineComparison comparison = without_results(request);
   const Transfers first = run_engine(request, comparison.first, cancellation);
   const Transfers other = run_engine(request, comparison.other, cancellation);
   if (!comparison.ok()) {
@@ -173,9 +182,16 @@ EngineComparison compare_engines(const EngineComparer::Request& request,
 }  // namespace
 
 EngineComparer::EngineComparer(QObject* parent)
-    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
-        work(task, cancellation);
-      }) {}
+    : QObject(parent),
+      worker_(
+          [this](const Task& task, const Cancellation& cancellation) {
+            deliver(task, compare_engines(task.request, cancellation));
+          },
+          [this](const Task& task, const QString& message) {
+            EngineComparison failed = without_results(task.request);
+            failed.first.failure = message.toStdString();
+            deliver(task, std::move(failed));
+          }) {}
 
 void EngineComparer::request(Request request) { worker_.request({std::move(request), ++number_}); }
 
@@ -184,8 +200,9 @@ void EngineComparer::clear() {
   worker_.clear();
 }
 
-void EngineComparer::work(const Task& task, const Cancellation& cancellation) {
-  auto done = std::make_shared<const EngineComparison>(compare_engines(task.request, cancellation));
+// On the worker's thread; what it posts runs on the owner's.
+void EngineComparer::deliver(const Task& task, EngineComparison comparison) {
+  auto done = std::make_shared<const EngineComparison>(std::move(comparison));
   QMetaObject::invokeMethod(
       this,
       [this, number = task.number, done = std::move(done)] {

@@ -12,30 +12,30 @@
 
 namespace transillum::viewer {
 
-/// Two engines on the same direction; or, where one of them is a hemicube and knows none, what one
-/// patch sees by both, over all directions of the run.
+/// Two engines on the same direction. If one is a hemicube, which has no direction: the row of one
+/// patch by both engines, over all directions of the solve run.
 struct EngineComparison {
   struct Side {
     Engine engine = Engine::fast;
     int resolution = 0;        ///< EngineOptions::resolution
-    double seconds = 0;        ///< processor time of the direction, or row; one thread
-    std::size_t pairs = 0;     ///< that exchange light
-    double covered_share = 0;  ///< of all that receives, what has a surface above it
-    std::string failure;       ///< why there is nothing of it
+    double seconds = 0;        ///< processor time of the direction or row, one thread
+    std::size_t pairs = 0;     ///< number of pairs of patches that exchange light
+    double covered_share = 0;  ///< covered over projected area of all receivers, 0 to 1
+    std::string failure;       ///< why the engine gave no result; empty on success
   };
   std::shared_ptr<const LoadedScene> loaded;
   Vec3 direction;
-  PatchId eye = no_patch;  ///< whose row was compared, if one was
+  PatchId eye = no_patch;  ///< patch whose row was compared; no_patch: a direction was compared
   Side first, other;
-  TransferComparison transfers;   ///< where neither failed; of a row A_i F_ij, m²
-  std::vector<double> projected;  ///< a patch: its area on the plane, m²; or half of A_i F_ij
+  TransferComparison transfers;   ///< set if ok(); of a row: A_i F_ij, m²
+  std::vector<double> projected;  ///< per patch: its area on the plane, m²; or half of A_i F_ij
 
   bool ok() const { return first.failure.empty() && other.failure.empty(); }
 };
 
 /// Compares engines on a thread of its own; the newest request wins.
 ///
-/// Threads: the public functions and the signal belong to the thread that made it.
+/// Threads: the public functions and the signal belong to the thread that created it.
 class EngineComparer : public QObject {
   Q_OBJECT
 
@@ -43,10 +43,10 @@ class EngineComparer : public QObject {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
     Vec3 direction;
-    EngineOptions options;  ///< but for the resolution
+    EngineOptions options;  ///< except the resolution
     Engine first = Engine::fast, other = Engine::corrected;
     int first_resolution = 0, other_resolution = 0;
-    // Where one is a hemicube:
+    // If one is a hemicube:
     PatchId eye = no_patch;
     std::shared_ptr<const std::vector<Vec3>> directions;
     bool two_way = true;
@@ -58,10 +58,11 @@ class EngineComparer : public QObject {
   explicit EngineComparer(QObject* parent = nullptr);
 
   void request(Request request);
-  /// Gives up what is under way.
+  /// Cancels the running request; nothing more is delivered.
   void clear();
 
  signals:
+  /// A failure is in `comparison->first.failure` or `other.failure`.
   void compared(std::shared_ptr<const transillum::viewer::EngineComparison> comparison);
 
  private:
@@ -69,9 +70,9 @@ class EngineComparer : public QObject {
     Request request;
     quint64 number;
   };
-  void work(const Task& task, const Cancellation& cancellation);
+  void deliver(const Task& task, EngineComparison comparison);
 
-  quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
+  quint64 number_ = 0;  ///< of the newest request; results of others are dropped
   RequestWorker<Task> worker_;
 };
 

@@ -17,7 +17,8 @@ QString tr(const char* text) { return QCoreApplication::translate("FormFactors",
 std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i) {
   std::vector<double> row(form_factors.row_begin.size() - 1);
   const auto row_of_i = static_cast<std::size_t>(i);
-  for (std::size_t k = form_factors.row_begin[row_of_i]; k < form_factors.row_begin[row_of_i + 1]; ++k) {
+  for (std::size_t k = form_factors.row_begin[row_of_i]; k < form_factors.row_begin[row_of_i + 1];
+       ++k) {
     at(row, form_factors.source[k]) = form_factors.value[k];
   }
   return row;
@@ -39,12 +40,12 @@ std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) 
 
 QString why_no_form_factors(const SolverSnapshot& snapshot) {
   if (snapshot.progress.iteration == 0) {
-    return tr("There are form factors when the first iteration is done.");
+    return tr("Form factors are available after the first iteration.");
   }
   if (!snapshot.form_factors_fit) {
-    return tr("The form factors take more memory than they may.");
+    return tr("The form factors exceed the memory limit.");
   }
-  return tr("The form factors are being put together …");
+  return tr("Assembling the form factors…");
 }
 
 }  // namespace transillum::viewer

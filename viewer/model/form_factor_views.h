@@ -8,12 +8,12 @@
 
 namespace transillum::viewer {
 
-/// F_ij for all j, one a patch.
+/// F_ij of patch i for all j, one per patch.
 std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i);
-/// F_ji for all j, one a patch.
+/// F_ji for all j and patch i, one per patch.
 std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i);
 
-/// What to tell where a snapshot has no form factors.
+/// The reason, for the user, why a snapshot has no form factors.
 QString why_no_form_factors(const SolverSnapshot& snapshot);
 
 }  // namespace transillum::viewer

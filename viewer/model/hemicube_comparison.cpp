@@ -33,7 +33,7 @@ int HemicubeComparison::missed() const {
   return count;
 }
 
-std::shared_ptr<const HemicubeComparison> see_by_hemicube(
+std::shared_ptr<const HemicubeComparison> render_hemicube(
     const HemicubeComparison::Request& request, const Cancellation& cancellation) {
   HemicubeOptions options;
   options.resolution = request.resolution;
@@ -44,12 +44,12 @@ std::shared_ptr<const HemicubeComparison> see_by_hemicube(
                          {}});
 }
 
-std::shared_ptr<const HemicubeComparison> with_exact(const HemicubeComparison& sight,
+std::shared_ptr<const HemicubeComparison> with_exact(const HemicubeComparison& image_only,
                                                      const Cancellation& cancellation,
                                                      const std::function<void(double)>& progress) {
-  auto result = std::make_shared<HemicubeComparison>(sight);
-  result->exact =
-      exact_form_factors(*sight.request.loaded->scene, sight.request.eye, cancellation, progress);
+  auto result = std::make_shared<HemicubeComparison>(image_only);
+  result->exact = exact_form_factors(*image_only.request.loaded->scene, image_only.request.eye,
+                                     cancellation, progress);
   return result;
 }
 

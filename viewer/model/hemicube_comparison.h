@@ -10,7 +10,7 @@
 
 namespace transillum::viewer {
 
-/// What a hemicube on a patch sees, and how right it is. Immutable.
+/// The image of a hemicube on a patch, and its form factors compared with exact ones. Immutable.
 struct HemicubeComparison {
   struct Request {
     std::shared_ptr<const LoadedScene> loaded;
@@ -22,23 +22,24 @@ struct HemicubeComparison {
   };
   Request request;
   HemicubeImage image;
-  std::vector<double> exact;  ///< F_ij of the eye's patch, a patch; empty: not known
+  std::vector<double> exact;  ///< F_ij with i = request.eye, one per patch j; empty: not computed
 
-  /// How much more of patch j is seen than there is, over the larger of both, -1 to 1.
+  /// (F_hemicube - F_exact) / max(F_hemicube, F_exact) of patch j, -1 to 1. Requires `exact`.
   double surplus(PatchId j) const;
-  /// Of all that is seen, the share that is another patch in truth.
+  /// Sum of |F_hemicube - F_exact| over the sum of both, 0 to 1. Requires `exact`.
   double wrong_share() const;
-  /// Patches that no pixel shows though F_ij > 0.
+  /// Number of patches with exact F_ij > 0 that are in no pixel.
   int missed() const;
 };
 
-/// The image alone, in a blink where there are few patches. Any thread.
+/// The image without exact form factors. Any thread.
 /// @throws InputError, Canceled
-std::shared_ptr<const HemicubeComparison> see_by_hemicube(
+std::shared_ptr<const HemicubeComparison> render_hemicube(
     const HemicubeComparison::Request& request, const Cancellation& cancellation);
-/// The same with exact form factors beside, which may take seconds.
+/// `image_only` and exact form factors, which may take seconds. Any thread.
+/// @param progress called with the share that is done, 0 to 1
 /// @throws Canceled
-std::shared_ptr<const HemicubeComparison> with_exact(const HemicubeComparison& sight,
+std::shared_ptr<const HemicubeComparison> with_exact(const HemicubeComparison& image_only,
                                                      const Cancellation& cancellation,
                                                      const std::function<void(double)>& progress);
 

@@ -2,20 +2,17 @@
 #pragma once
 
 #include <QObject>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <thread>
 
 #include "model/recorded_map.h"
-#include "transillum/cancellation.h"
+#include "support/request_worker.h"
 
 namespace transillum::viewer {
 
-/// Records visibility maps beside the solver, on a thread of its own; the newest request wins.
+/// Records visibility maps on a thread of its own, beside the solver; the newest request replaces
+/// the waiting one, and the map being recorded is finished.
 ///
-/// Threads: the public functions and the signals belong to the thread that made it.
+/// Threads: the public functions and the signals belong to the thread that created it.
 class MapRecorder : public QObject {
   Q_OBJECT
 
@@ -25,36 +22,33 @@ class MapRecorder : public QObject {
     Vec3 omega;
     int iteration = 0;     ///< from 0
     int direction = 0;     ///< from 0: number of the pass
-    int passes = 0;        ///< of the step: M
-    bool patient = false;  ///< may wait, to leave time to the solver
+    int passes = 0;        ///< M, of the iteration
+    bool patient = false;  ///< waits for the pause after the last map, to leave time to the solver
   };
 
   explicit MapRecorder(QObject* parent = nullptr);
-  ~MapRecorder() override;
 
   void request(Request request);
-  /// Gives up what is under way and what waits.
+  /// Cancels the running request, removes the waiting one and drops undelivered results.
   void clear();
-  /// Whether a map that was asked for has not been delivered yet.
-  bool busy() const { return asked_ != delivered_; }
+  /// Whether a requested map has not been delivered yet.
+  bool busy() const { return newest_ != delivered_; }
 
  signals:
   void recorded(std::shared_ptr<const transillum::viewer::RecordedMap> map);
   void failed(const QString& message);
 
  private:
-  void work();
+  struct Task {
+    Request request;
+    quint64 number;
+  };
+  void work(const Task& task, const Cancellation& cancellation);
   void deliver(const std::shared_ptr<const RecordedMap>& map, const QString& error, quint64 number);
 
-  quint64 asked_ = 0, delivered_ = 0;  // the window's own
+  quint64 newest_ = 0, delivered_ = 0;  // numbers of requests; used by the owner's thread only
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::optional<Request> request_;
-  quint64 request_number_ = 0;
-  bool quit_ = false;
-  Cancellation cancellation_;
-  std::thread worker_;
+  RequestWorker<Task> worker_;
 };
 
 }  // namespace transillum::viewer

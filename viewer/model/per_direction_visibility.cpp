@@ -29,50 +29,51 @@ PerDirectionVisibility::VisibleAreas visible_areas_of(PatchId patch, const Trans
 }  // namespace
 
 PerDirectionVisibility::PerDirectionVisibility(QObject* parent)
-    : QObject(parent), worker_([this](const Task& task, const Cancellation& cancellation) {
-        try {
-          look(task, cancellation);
-        } catch (const std::exception&) {
-          // Canceled, or the engine's failure, which the solver has told already.
-        }
-      }) {}
+    : QObject(parent),
+      worker_(
+          [this](const Task& task, const Cancellation& cancellation) { work(task, cancellation); },
+          [this](const Task& task, const QString& message) {
+            post_failure(message, task.number);
+          }) {}
 
 void PerDirectionVisibility::request(Request request) {
-  const bool goes_on = request.patch == wanted_.patch && request.directions == wanted_.directions &&
-                       request.two_way == wanted_.two_way && request.engine == wanted_.engine;
-  if (goes_on && request.count <= wanted_.count) {
+  const bool continues = request.patch == request_.patch &&
+                         request.directions == request_.directions &&
+                         request.two_way == request_.two_way && request.engine == request_.engine;
+  if (continues && request.count <= request_.count) {
     return;
   }
-  if (!goes_on) {
+  if (!continues) {
     found_.clear();
   }
-  wanted_ = request;
-  // What is under way is dropped: it would come back later with more.
+  request_ = request;
+  // Cancels the running job: the new one continues after the last delivered direction.
   worker_.request({std::move(request), static_cast<int>(found_.size()), ++number_});
 }
 
 void PerDirectionVisibility::clear() {
-  wanted_ = {};
+  request_ = {};
   found_.clear();
   ++number_;
   worker_.clear();
 }
 
-void PerDirectionVisibility::look(const Task& task, const Cancellation& cancellation) {
+void PerDirectionVisibility::work(const Task& task, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
   const Request& request = task.request;
-  const bool same = engine_ && engine_of_.patch == request.patch &&
-                    engine_of_.loaded == request.loaded && engine_of_.engine == request.engine &&
-                    engine_of_.engine_options == request.engine_options;
+  const bool same = engine_ && engine_request_.patch == request.patch &&
+                    engine_request_.loaded == request.loaded &&
+                    engine_request_.engine == request.engine &&
+                    engine_request_.engine_options == request.engine_options;
   if (!same) {
     engine_ = make_patch_engine(request.engine, request.loaded->scene, request.loaded->tree,
                                 request.patch, request.engine_options);
-    engine_of_ = request;
+    engine_request_ = request;
   }
   std::vector<VisibleAreas> more;
   auto delivered = Clock::now();
   for (int k = task.first; k < request.count; ++k) {
-    const Vec3& omega = at((*request.directions), k);
+    const Vec3& omega = at(*request.directions, k);
     more.push_back(visible_areas_of(request.patch, engine_(omega, cancellation), request.two_way));
     const bool last = k + 1 == request.count;
     if (!last && Clock::now() - delivered < std::chrono::milliseconds(200)) {
@@ -96,6 +97,15 @@ void PerDirectionVisibility::deliver(std::vector<VisibleAreas> more, quint64 num
     found_.push_back(std::move(areas));
   }
   emit grown();
+}
+
+void PerDirectionVisibility::post_failure(const QString& message, quint64 number) {
+  const auto emit_failure = [this, message, number] {
+    if (number == number_) {
+      emit failed(message);
+    }
+  };
+  QMetaObject::invokeMethod(this, emit_failure, Qt::QueuedConnection);
 }
 
 }  // namespace transillum::viewer

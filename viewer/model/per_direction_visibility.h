@@ -11,10 +11,10 @@
 
 namespace transillum::viewer {
 
-/// What one patch sees along each direction of a run, found beside the solver on a thread of its
-/// own; the newest request wins. What was found for the same patch and run is kept.
+/// What one patch sees along each direction of a solve run, computed on a thread of its own beside
+/// the solver; the newest request wins. Results for the same patch and run are kept.
 ///
-/// Threads: the public functions and the signals belong to the thread that made it.
+/// Threads: the public functions and the signals belong to the thread that created it.
 class PerDirectionVisibility : public QObject {
   Q_OBJECT
 
@@ -34,40 +34,42 @@ class PerDirectionVisibility : public QObject {
     EngineOptions engine_options;
     bool two_way = true;
     std::shared_ptr<const std::vector<Vec3>> directions;
-    int count = 0;  ///< of the directions, the first so many
+    int count = 0;  ///< how many of `directions`, from the first
     PatchId patch = no_patch;
   };
 
   explicit PerDirectionVisibility(QObject* parent = nullptr);
 
   void request(Request request);
-  /// Gives up what is under way, and forgets what was found.
+  /// Cancels the running request and drops all results.
   void clear();
-  /// A direction each, the first ones of the run, for the patch asked for last.
+  /// Results of the current request so far, one per direction, from the first.
   const std::vector<VisibleAreas>& found() const { return found_; }
-  const Request& current_request() const { return wanted_; }
-  bool complete() const { return static_cast<int>(found_.size()) >= wanted_.count; }
+  const Request& current_request() const { return request_; }
+  bool complete() const { return static_cast<int>(found_.size()) >= request_.count; }
 
  signals:
-  void grown();
+  void grown();  ///< found() has more directions
+  void failed(const QString& message);
 
  private:
   struct Task {
     Request request;
-    int first;  ///< direction that is not found yet
+    int first;  ///< direction without a result
     quint64 number;
   };
-  void look(const Task& task, const Cancellation& cancellation);
+  void work(const Task& task, const Cancellation& cancellation);
   void deliver(std::vector<VisibleAreas> more, quint64 number);
+  void post_failure(const QString& message, quint64 number);
 
-  // The window's own.
-  Request wanted_;
+  // Used by the owner's thread only.
+  Request request_;
   std::vector<VisibleAreas> found_;
-  quint64 number_ = 0;  ///< of the newest request; what belongs to another is dropped
+  quint64 number_ = 0;  ///< of the newest request; results of others are dropped
 
-  // The worker's own: what it looked with last.
+  // Used by the worker's thread only.
   TransferEngine engine_;
-  Request engine_of_;
+  Request engine_request_;  ///< that engine_ was created for
 
   RequestWorker<Task> worker_;
 };

@@ -12,9 +12,9 @@ namespace transillum::viewer {
 struct RecordedMap {
   std::shared_ptr<const LoadedScene> loaded;
   MapHistory history;
-  int iteration = 0;  ///< from 0; any, where all iteration steps have the same directions
-  int direction = 0;  ///< from 0: number of the pass within an iteration step
-  int passes = 0;     ///< of the step: M
+  int iteration = 0;  ///< from 0; arbitrary if all iterations have the same directions
+  int direction = 0;  ///< from 0: number of the pass within the iteration
+  int passes = 0;     ///< M, of the iteration
 
   const MapRecord& record() const { return history.record(); }
   const MapRecord::Row& row(std::int32_t r) const { return history.row(r); }

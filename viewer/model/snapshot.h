@@ -90,6 +90,6 @@ inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
 }
 
 /// What the session is doing.
-enum class SessionState { empty, loading, paused, running, finished };
+enum class RunState { empty, loading, paused, running, finished };
 
 }  // namespace transillum::viewer

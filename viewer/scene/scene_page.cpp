@@ -43,7 +43,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   color_controls_->add_tool(camera_);
 
   auto* note = new ColorNote(colors);
-  connect(note, &ColorNote::replicas_wanted, this, &ScenePage::replicas_wanted);
+  connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
 
   auto* scene = new QWidget;
   auto* with_bar = new QHBoxLayout;

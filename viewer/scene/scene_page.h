@@ -40,7 +40,7 @@ class ScenePage : public QWidget {
   void open_clicked();
   void lesson_clicked();
   void built_in_clicked(const QString& name);
-  void replicas_wanted();
+  void replicas_requested();
 
  private:
   CameraBookmarks bookmarks_;

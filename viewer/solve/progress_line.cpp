@@ -79,7 +79,7 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
 }
 
 void ProgressLine::show_loading(const QString& phase, double share) {
-  if (state_ != SessionState::loading) {
+  if (state_ != RunState::loading) {
     return;
   }
   phase_->setText(phase + QStringLiteral("…"));
@@ -90,9 +90,9 @@ void ProgressLine::show_loading(const QString& phase, double share) {
   time_->clear();
 }
 
-void ProgressLine::show_state(SessionState state) {
+void ProgressLine::show_state(RunState state) {
   state_ = state;
-  if (state == SessionState::empty) {
+  if (state == RunState::empty) {
     phase_->setText(tr("No scene"));
     bar_->setVisible(false);
   }
@@ -105,15 +105,15 @@ void ProgressLine::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot)
 }
 
 void ProgressLine::show_solve() {
-  if (!snapshot_ || state_ == SessionState::loading) {
+  if (!snapshot_ || state_ == RunState::loading) {
     return;
   }
   const SolveProgress& progress = snapshot_->progress;
-  const bool running = state_ == SessionState::running;
+  const bool running = state_ == RunState::running;
   const bool within_step = progress.direction > 0 && progress.direction < progress.passes;
   bar_->setVisible(!snapshot_->of_file);
   bar_->setRange(0, std::max(progress.passes, 1));
-  bar_->setValue(state_ == SessionState::finished || (!within_step && progress.iteration > 0)
+  bar_->setValue(state_ == RunState::finished || (!within_step && progress.iteration > 0)
                      ? progress.passes
                      : progress.direction);
 
@@ -122,7 +122,7 @@ void ProgressLine::show_solve() {
                                .arg(count_text(progress.iteration + 1),
                                     count_text(progress.direction), count_text(progress.passes))
                          : tr("%1 done").arg(iterations_text(progress.iteration));
-  if (state_ == SessionState::finished) {
+  if (state_ == RunState::finished) {
     phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
                                                      : tr("Done after %1, %2 s"))
                         .arg(iterations_text(progress.iteration),

@@ -20,13 +20,13 @@ class ProgressLine : public QWidget {
 
   void show_scene(const LoadedScene& loaded);
   void show_loading(const QString& phase, double share);
-  void show_state(SessionState state);
+  void show_state(RunState state);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
   void show_solve();
 
-  SessionState state_ = SessionState::empty;
+  RunState state_ = RunState::empty;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* scene_;
   QLabel* phase_;

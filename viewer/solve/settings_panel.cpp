@@ -83,7 +83,7 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   order_->setObjectName("painters_order");
   order_->addItems({tr("BSP tree"), tr("Newell's tests")});
   order_->setToolTip(
-      tr("Who is painted first\nBSP tree: cuts what overlaps in a circle, so there always is an "
+      tr("Who is painted first\nBSP tree: cuts what overlaps in a cycle, so there always is an "
          "order\nNewell's tests: cut nothing, and give up on such circles"));
   ways_ = new QComboBox;
   ways_->addItems({tr("Both ways"), tr("One way, as the paper")});

@@ -40,7 +40,7 @@ SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   connect(one_direction_, &QAction::triggered, this, &SolveActions::one_direction);
   connect(one_iteration_, &QAction::triggered, this, &SolveActions::one_iteration);
   connect(stop_, &QAction::triggered, this, &SolveActions::stop);
-  show_state(SessionState::empty, true);
+  show_state(RunState::empty, true);
 }
 
 void SolveActions::add_to(QMenu& menu) const {
@@ -55,14 +55,14 @@ void SolveActions::add_to(QToolBar& bar) const {
   }
 }
 
-void SolveActions::show_state(SessionState state, bool at_start) {
-  const bool paused = state == SessionState::paused;
-  const bool running = state == SessionState::running;
+void SolveActions::show_state(RunState state, bool at_start) {
+  const bool paused = state == RunState::paused;
+  const bool running = state == RunState::running;
   run_->setEnabled(paused);
   pause_->setEnabled(running);
   one_direction_->setEnabled(paused || running);
   one_iteration_->setEnabled(paused || running);
-  stop_->setEnabled(state == SessionState::loading || running || state == SessionState::finished ||
+  stop_->setEnabled(state == RunState::loading || running || state == RunState::finished ||
                     (paused && !at_start));
 }
 

@@ -21,7 +21,7 @@ class SolveActions : public QObject {
   void add_to(QMenu& menu) const;
   void add_to(QToolBar& bar) const;
   /// Offers what makes sense.
-  void show_state(SessionState state, bool at_start);
+  void show_state(RunState state, bool at_start);
 
  signals:
   void run();

@@ -5,7 +5,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "model/study_session.h"
+#include "model/study_runner.h"
 
 namespace transillum::viewer {
 

@@ -62,7 +62,7 @@ QTableWidget* make_table() {
 }  // namespace
 
 StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
-    : QDialog(parent), session_(cache) {
+    : QDialog(parent), runner_(cache) {
   setWindowTitle(tr("Study of directions – transillum"));
   setWindowFlags(windowFlags() | Qt::WindowMaximizeButtonHint);
   banner_ = new Banner;
@@ -77,8 +77,8 @@ StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
   layout->addWidget(banner_);
   layout->addLayout(row, 1);
   resize(1180, 760);
-  connect(&session_, &StudySession::snapshot_ready, this, &StudyDialog::show_snapshot);
-  connect(&session_, &StudySession::failed, this,
+  connect(&runner_, &StudyRunner::snapshot_ready, this, &StudyDialog::show_snapshot);
+  connect(&runner_, &StudyRunner::failed, this,
           [this](const QString& message) { banner_->say(Banner::Kind::error, message); });
   show_scene(nullptr);
 }
@@ -155,7 +155,7 @@ void StudyDialog::present() {
 }
 
 void StudyDialog::show_scene(std::shared_ptr<const LoadedScene> loaded) {
-  session_.stop();
+  runner_.stop();
   loaded_ = std::move(loaded);
   running_ = false;
   snapshot_ = nullptr;
@@ -177,12 +177,12 @@ void StudyDialog::set_solve(const SolveOptions& solve) { choices_->set_solve(sol
 
 void StudyDialog::run_or_stop() {
   if (running_) {
-    session_.stop();
+    runner_.stop();
     return;
   }
   banner_->dismiss();
   running_ = true;
-  session_.start({loaded_, choices_->options()});
+  runner_.start({loaded_, choices_->options()});
   show_buttons();
   show_phase();
 }

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "model/study_session.h"
+#include "model/study_runner.h"
 
 class QComboBox;
 class QLabel;
@@ -50,7 +50,7 @@ class StudyDialog : public QDialog {
   ErrorMeasure measure() const;
   bool has_points() const { return snapshot_ && !snapshot_->study.points.empty(); }
 
-  StudySession session_;
+  StudyRunner runner_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const StudySnapshot> snapshot_;
   bool running_ = false;

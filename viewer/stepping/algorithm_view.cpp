@@ -25,16 +25,16 @@ QLabel* heading(const QString& text) {
   return label;
 }
 
-// Long lines break below their own beginning.
-QLabel* code_line(const QString& words, int indent) {
-  auto* label = new QLabel(words);
+// Wrapped lines keep their indentation.
+QLabel* code_line(const QString& text, int indent) {
+  auto* label = new QLabel(text);
   label->setWordWrap(true);
   label->setContentsMargins(14 + 16 * indent, 1, 8, 1);
   return label;
 }
 
-QString i_text(PatchId i, double area, const QString& faces) {
-  return AlgorithmView::tr("%1, A = %2 m², %3").arg(QString::number(i), number_text(area), faces);
+QString role_text(bool front_facing) {
+  return front_facing ? AlgorithmView::tr("receiver") : AlgorithmView::tr("source");
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
     : QWidget(parent), focus_(focus), selection_(selection) {
   kind_ = new ElidedComboBox;
   kind_->setObjectName("map_kind");
-  kind_->addItem(tr("by a local visibility map (section 3.2)"));
-  kind_->addItem(tr("by a global visibility map (section 3.1)"));
+  kind_->addItem(tr("Local visibility map (section 3.2)"));
+  kind_->addItem(tr("Global visibility map (section 3.1)"));
   kind_->setMinimumContentsLength(20);
   kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   auto* chooser = new QHBoxLayout;
@@ -95,55 +95,55 @@ QWidget* AlgorithmView::make_local_values() {
       values_->add_row(tr("n, d"), {},
                        tr("Iteration and direction; n counts from 0, as in the paper: it is "
                           "what iteration n + 1 starts from"));
-  i_ = values_->add_row(tr("i"), {}, tr("The patch whose polygon is processed"));
+  i_ = values_->add_row(tr("i"), {}, tr("The patch whose fragment this step processes"));
   i_->setObjectName("value_i");
-  map_ = values_->add_row(tr("V"), {}, tr("Fragments of the map, before and after the step"));
-  lists_ = values_->add_row(tr("I, O"), {}, tr("Fragments of the inside and of the outside list"));
+  map_ = values_->add_row(tr("V"), {}, tr("Number of polygons of V before and after the step"));
+  lists_ = values_->add_row(tr("I, O"), {}, tr("Number of polygons in the inside list and in the outside list"));
   j_ = values_->add_row(tr("j, A(j)"), tr("m²"),
-                        tr("The selected patch of those that light i, or the one that does most; "
-                           "the area that i sees of it"));
+                        tr("The selected patch if i receives from it, or else the patch with the "
+                           "largest A(j), the area of j that i sees"));
   j_->setObjectName("value_j");
   weight_ =
-      values_->add_row(tr("J_d, M"), {}, tr("Weight and number of directions; a pass serves two"));
+      values_->add_row(tr("J_d, M"), {}, tr("Weight and number of directions; a two-way pass counts as two"));
   radiosity_ = values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
   gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
-                               tr("What the step adds to B_i(n+1), before any normalization"));
+                               tr("Amount that the step adds to B_i(n+1), before row normalization"));
   gathered_->setObjectName("value_gathered");
-  for (QLabel* long_one : {i_, radiosity_, gathered_}) {
-    long_one->setWordWrap(true);
+  for (QLabel* value : {i_, radiosity_, gathered_}) {
+    value->setWordWrap(true);
   }
   return values_;
 }
 
 QWidget* AlgorithmView::make_region_values() {
   region_hint_ =
-      new QLabel(tr("Click the map: the region under the point, marked there, stands for all. "
-                    "Stepping goes down its list."));
+      new QLabel(tr("Click the map to choose a region R, which is then highlighted. Stepping goes "
+                    "down its list L."));
   region_hint_->setWordWrap(true);
   region_hint_->setForegroundRole(QPalette::PlaceholderText);
   region_values_ = new ValueGrid;
   region_values_->layout()->setContentsMargins(12, 10, 12, 4);
   region_ = region_values_->add_row(
-      tr("R"), tr("m"), tr("The point clicked, along u and v; the map marks the region round it"));
+      tr("R"), tr("m"), tr("The point clicked (u, v); the map highlights the region around it"));
   region_area_ = region_values_->add_row(
       tr("A(R)"), tr("m²"),
-      tr("Area of the region round the point, up to the next edges of polygons, seen or hidden"));
+      tr("Area of the region around the point, bounded by all polygon edges, visible or hidden"));
   region_area_->setObjectName("value_region_area");
-  region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches over R, the highest first"));
+  region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches that cover R, the nearest to the source first"));
   region_list_->setWordWrap(true);
   region_list_->setObjectName("value_region_list");
-  region_i_ = region_values_->add_row(tr("i"), {}, tr("Of L, the last that has been processed"));
+  region_i_ = region_values_->add_row(tr("i"), {}, tr("The patch of L that was processed last"));
   region_i_->setObjectName("value_region_i");
   region_j_ = region_values_->add_row(tr("j, Σ A(R)"), tr("m²"),
-                                      tr("The next above i; what i sees of it in all regions"));
+                                      tr("The next patch above i; the area of it that i sees in all regions"));
   region_j_->setObjectName("value_region_j");
   region_radiosity_ =
       region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
   region_gathered_ = region_values_->add_row(
-      tr("+="), tr("W/m²"), tr("What R adds to B_i(n+1), before any normalization"));
+      tr("+="), tr("W/m²"), tr("Amount that R adds to B_i(n+1), before row normalization"));
   region_gathered_->setObjectName("value_region_gathered");
-  for (QLabel* three : {region_radiosity_, region_gathered_}) {
-    three->setWordWrap(true);
+  for (QLabel* value : {region_radiosity_, region_gathered_}) {
+    value->setWordWrap(true);
   }
   auto* box = new QWidget;
   auto* layout = new QVBoxLayout(box);
@@ -210,13 +210,13 @@ void AlgorithmView::show_position() {
 }
 
 void AlgorithmView::show_region(const RegionState& state) {
-  constexpr std::size_t most_listed = 24;
+  constexpr std::size_t max_listed = 24;
   const QString none = QStringLiteral("–");
   QStringList list;
-  for (std::size_t k = 0; k < std::min(state.list.size(), most_listed); ++k) {
+  for (std::size_t k = 0; k < std::min(state.list.size(), max_listed); ++k) {
     list << QString::number(state.list[k]);
   }
-  if (state.list.size() > most_listed) {
+  if (state.list.size() > max_listed) {
     list << QStringLiteral("…");
   }
   region_->setText(list.isEmpty()
@@ -225,13 +225,11 @@ void AlgorithmView::show_region(const RegionState& state) {
   region_list_->setText(list.isEmpty() ? none : list.join(QStringLiteral(", ")));
   region_i_->setText(state.i == no_patch
                          ? none
-                         : tr("%1, %2").arg(QString::number(state.i), state.front_facing
-                                                                          ? tr("faces the light")
-                                                                          : tr("shines down")));
+                         : tr("%1, %2").arg(QString::number(state.i), role_text(state.front_facing)));
   region_j_->setText(state.j == no_patch ? none
                      : state.exchanges
                          ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))
-                         : tr("%1, no light").arg(state.j));
+                         : tr("%1, no exchange").arg(state.j));
   region_area_->setText(state.region ? number_text(state.region->area) : none);
   region_radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
   region_gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
@@ -244,8 +242,9 @@ void AlgorithmView::show_values(const AlgorithmState& state) {
   position_->setText(
       focus_.map() ? tr("%1, %2").arg(position.iteration).arg(count_text(position.direction + 1))
                    : none);
-  i_->setText(any ? i_text(state.i, state.area_i,
-                           state.front_facing ? tr("faces the light") : tr("shines down"))
+  i_->setText(any ? tr("%1, A = %2 m², %3")
+                        .arg(QString::number(state.i), number_text(state.area_i),
+                             role_text(state.front_facing))
                   : none);
   map_->setText(any ? tr("%1 → %2").arg(count_text(state.map_before), count_text(state.map_after))
                     : none);

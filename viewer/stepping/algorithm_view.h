@@ -16,20 +16,20 @@ namespace transillum::viewer {
 
 class ValueGrid;
 
-/// The paper's pseudo-code with the line in focus marked, and what its variables hold.
+/// The paper's pseudo-code with the current lines highlighted, and the values of its variables.
 class AlgorithmView : public QWidget {
   Q_OBJECT
 
  public:
   AlgorithmView(const Focus& focus, const Selection& selection, QWidget* parent = nullptr);
 
-  /// Whose pseudo-code is shown.
+  /// Which map's pseudo-code is shown.
   MapKind kind() const;
   void set_kind(MapKind kind);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  signals:
-  /// R of the global map, where it is the one shown and a point has been chosen.
+  /// Region R of the global map; nothing with the local map or without a probed point.
   void region_shown(const std::optional<transillum::MapRegion>& region);
 
  private:
@@ -46,7 +46,7 @@ class AlgorithmView : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::vector<QLabel*> lines_;  ///< as algorithm_code()
   QComboBox* kind_;
-  std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the one or the other map
+  std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the local or the global map
   ValueGrid *values_, *region_values_;
   QLabel *position_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
   QLabel *region_, *region_area_, *region_list_, *region_i_, *region_j_, *region_radiosity_,

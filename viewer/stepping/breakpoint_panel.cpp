@@ -34,11 +34,11 @@ constexpr Choice choices[] = {
     {Kind::patch, QT_TRANSLATE_NOOP("BreakpointPanel", "patch takes part"), nullptr, ""},
     {Kind::cut, QT_TRANSLATE_NOOP("BreakpointPanel", "patch is cut"), nullptr, ""},
     {Kind::pair, QT_TRANSLATE_NOOP("BreakpointPanel", "pair exchanges light"), nullptr, ""},
-    {Kind::small_fragment, QT_TRANSLATE_NOOP("BreakpointPanel", "fragment smaller than"), "m²",
+    {Kind::small_fragment, QT_TRANSLATE_NOOP("BreakpointPanel", "polygon smaller than"), "m²",
      "1e-9"},
     {Kind::open_receiver, QT_TRANSLATE_NOOP("BreakpointPanel", "closure defect above"), "",
      "1e-10"},
-    {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "fragments in V above"), "", "1000"},
+    {Kind::large_map, QT_TRANSLATE_NOOP("BreakpointPanel", "polygons of V above"), "", "1000"},
 };
 
 QAction* make_action(QObject* parent, const char* name, const QString& text,
@@ -57,9 +57,9 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
     : QWidget(parent), focus_(focus), selection_(selection), breakpoints_(breakpoints) {
   run_back_ =
       make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
-                  tr("Back to the last step where a breakpoint holds"));
-  run_on_ = make_action(this, "run_on", tr("Run on"), Qt::Key_F9,
-                        tr("On to the next step where a breakpoint holds"));
+                  tr("Run back to the previous breakpoint"));
+  run_on_ = make_action(this, "run_on", tr("Run forward"), Qt::Key_F9,
+                        tr("Run forward to the next breakpoint"));
   connect(run_on_, &QAction::triggered, this, [this] { run(StepOrder::forward); });
   connect(run_back_, &QAction::triggered, this, [this] { run(StepOrder::backward); });
 
@@ -67,7 +67,7 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   list_->setObjectName("breakpoint_list");
   list_->setFrameShape(QFrame::NoFrame);
   list_->setMinimumHeight(48);
-  hint_ = new QLabel(tr("None yet; F9 runs on to where one holds."));
+  hint_ = new QLabel(tr("No breakpoints. Add one, then press F9."));
   hint_->setWordWrap(true);
   hint_->setContentsMargins(10, 4, 10, 4);
   hint_->setForegroundRole(QPalette::PlaceholderText);
@@ -101,8 +101,8 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   delete_key->setContext(Qt::WidgetShortcut);
   connect(delete_key, &QShortcut::activated, this, &BreakpointPanel::remove_current);
   list_->setContextMenuPolicy(Qt::CustomContextMenu);
-  list_->setToolTip(tr("Right button: run to where this one holds, switched on or not"));
-  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::offer_runs);
+  list_->setToolTip(tr("Right-click a breakpoint to run to it, even if it is disabled"));
+  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::show_run_menu);
   connect(&breakpoints_, &Breakpoints::changed, this, &BreakpointPanel::show_list);
   connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
@@ -127,7 +127,7 @@ QWidget* BreakpointPanel::make_new_row() {
     box->setObjectName(QString::fromLatin1(name));
     box->setRange(0, std::numeric_limits<PatchId>::max());
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setToolTip(tr("Number of a patch; a selected one is put in by itself"));
+    box->setToolTip(tr("Patch number; selecting a patch fills it in"));
     return box;
   };
   patch_ = patch_box("breakpoint_patch");
@@ -169,7 +169,7 @@ void BreakpointPanel::add_to(QMenu& menu) const {
   menu.addAction(run_back_);
 }
 
-void BreakpointPanel::offer_runs(const QPoint& position) {
+void BreakpointPanel::show_run_menu(const QPoint& position) {
   const int row = list_->indexAt(position).row();
   if (row < 0 || !focus_.map()) {
     return;
@@ -181,9 +181,9 @@ void BreakpointPanel::offer_runs(const QPoint& position) {
   auto* menu = new QMenu(this);
   menu->setObjectName("breakpoint_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  menu->addAction(tr("Run back to the last time this was true"), this,
+  menu->addAction(tr("Run back to the previous step where this is true"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::backward); });
-  menu->addAction(tr("Run to the next time this is true"), this,
+  menu->addAction(tr("Run forward to the next step where this is true"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::forward); });
   menu->popup(list_->viewport()->mapToGlobal(position));
 }
@@ -226,11 +226,11 @@ void BreakpointPanel::show_state() {
   run_on_->setEnabled(can_run);
   run_back_->setEnabled(can_run);
   remove_->setEnabled(list_->currentRow() >= 0);
-  mark_what_holds();
+  mark_current();
   add_->setEnabled(choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput());
 }
 
-void BreakpointPanel::mark_what_holds() {
+void BreakpointPanel::mark_current() {
   const QSignalBlocker quiet(list_);
   const auto map = focus_.map();
   const std::int32_t step = focus_.position().step;
@@ -239,7 +239,7 @@ void BreakpointPanel::mark_what_holds() {
     const bool here =
         map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
     QListWidgetItem* item = list_->item(row);
-    item->setText(here ? tr("%1: here").arg(text_of(breakpoint)) : text_of(breakpoint));
+    item->setText(here ? tr("%1: true here").arg(text_of(breakpoint)) : text_of(breakpoint));
     QFont font = list_->font();
     font.setBold(here);
     item->setFont(font);

@@ -18,7 +18,8 @@ class QToolButton;
 
 namespace transillum::viewer {
 
-/// The list of breakpoints, a row to add one, and running to the next and the last.
+/// The list of breakpoints, a row to add one, and actions that run to the next and the previous
+/// one.
 class BreakpointPanel : public QWidget {
   Q_OBJECT
 
@@ -31,10 +32,10 @@ class BreakpointPanel : public QWidget {
  private:
   QWidget* make_new_row();
   void show_list();
-  void offer_runs(const QPoint& position);
+  void show_run_menu(const QPoint& position);
   void show_inputs();
   void show_state();
-  void mark_what_holds();
+  void mark_current();
   void add_new();
   void remove_current();
   void run(StepOrder order);

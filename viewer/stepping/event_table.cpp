@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 void EventTable::set_events(std::vector<StepEvent> events) {
   if (events == events_) {
-    return;  // a reset in the midst of a double click would lose it
+    return;  // a reset between its two clicks would lose a double-click
   }
   beginResetModel();
   events_ = std::move(events);
@@ -89,20 +89,20 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     return {};
   }
   if (role == Qt::ToolTipRole && section == of_parts) {
-    return tr("How many parts of the cut fragment are left in V");
+    return tr("Number of pieces of the cut polygon that stay in V");
   }
   if (role == Qt::ToolTipRole && section == of_area) {
-    return tr("On the transillumination plane: of the polygon, or of the part above it");
+    return tr("On the transillumination plane: of the fragment, or of what it covers of the patch above");
   }
   if (role == Qt::ToolTipRole && section == of_pair) {
-    return tr("All that the one receives from the other along this direction");
+    return tr("Area over which the two patches exchange light along this direction");
   }
   if (role != Qt::DisplayRole) {
     return {};
   }
   switch (section) {
     case of_step:
-      return tr("Polygon");
+      return tr("Step");
     case of_below:
       return tr("Patch");
     case of_kind:
@@ -112,7 +112,7 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     case of_area:
       return tr("Area, m²");
     case of_parts:
-      return tr("Left");
+      return tr("Pieces left");
     default:
       return tr("Pair, m²");
   }

@@ -9,7 +9,7 @@
 
 namespace transillum::viewer {
 
-/// Events as a table: step, patch, what it does, to which patch, on how much area.
+/// Events as a table: step, its patch, the event, the patch above, their areas.
 class EventTable : public QAbstractTableModel {
   Q_OBJECT
 
@@ -18,7 +18,7 @@ class EventTable : public QAbstractTableModel {
   enum Column { of_step, of_below, of_kind, of_above, of_area, of_parts, of_pair, column_count };
 
   void set_events(std::vector<StepEvent> events);
-  /// The events of this step stand out.
+  /// Shows the events of this step in bold.
   void set_current_step(std::int32_t step);
   const StepEvent& event(int row) const { return at(events_, row); }
   /// The last row of a step at or before `step`, or -1.

@@ -13,32 +13,32 @@ StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
   constexpr StepOrder on = StepOrder::forward, back = StepOrder::backward;
   QAction* previous_direction =
       add("previous_direction", tr("Previous direction"), Qt::Key_BracketLeft,
-          tr("The same step of the direction before"), &S::direction, back);
+          tr("Go to the same step of the previous direction"), &S::direction, back);
   QAction* previous_exchange =
       add("previous_exchange", tr("Previous exchange"), QKeySequence(QStringLiteral("Shift+T")),
-          tr("Back to a polygon that sees light above it"), &S::exchange, back);
+          tr("Go back to a step that exchanges light"), &S::exchange, back);
   previous_event_ = add(
       "previous_event", tr("Previous event of the patch"), QKeySequence(QStringLiteral("Shift+N")),
-      tr("Back to a step that cut, covered or lit the selected patch"), &S::event, back);
-  QAction* step_back = add("step_back", tr("One polygon back"), Qt::Key_Comma,
-                           tr("Undo one polygon"), &S::step, back);
-  add("phase_back", tr("One phase back"), Qt::Key_M,
-      tr("Back within the step: V after, its parts, V before"), &S::phase, back);
-  QAction* phase_on = add("phase_on", tr("One phase on"), Qt::Key_Slash,
-                          tr("On within the step: V before, its parts, V after"), &S::phase, on);
+      tr("Go back to a step that processes, cuts or covers the selected patch"), &S::event, back);
+  QAction* step_back = add("step_back", tr("Previous step"), Qt::Key_Comma,
+                           tr("Undo one step"), &S::step, back);
+  add("phase_back", tr("Previous phase"), Qt::Key_M,
+      tr("Go back one phase of the step: after, split, before"), &S::phase, back);
+  QAction* phase_on = add("phase_on", tr("Next phase"), Qt::Key_Slash,
+                          tr("Go forward one phase of the step: before, split, after"), &S::phase, on);
   QAction* step_on =
-      add("step_on", tr("One polygon on"), Qt::Key_Period, tr("Process one polygon"), &S::step, on);
+      add("step_on", tr("Next step"), Qt::Key_Period, tr("Process one fragment"), &S::step, on);
   next_event_ =
       add("next_event", tr("Next event of the patch"), Qt::Key_N,
-          tr("On to a step that cuts, covers or lights the selected patch"), &S::event, on);
+          tr("Go forward to a step that processes, cuts or covers the selected patch"), &S::event, on);
   QAction* next_exchange = add("next_exchange", tr("Next exchange"), Qt::Key_T,
-                               tr("On to a polygon that sees light above it"), &S::exchange, on);
+                               tr("Go forward to a step that exchanges light"), &S::exchange, on);
   QAction* next_direction = add("next_direction", tr("Next direction"), Qt::Key_BracketRight,
-                                tr("The same step of the next direction"), &S::direction, on);
+                                tr("Go to the same step of the next direction"), &S::direction, on);
   add("previous_iteration", tr("Previous iteration"), Qt::Key_BraceLeft,
-      tr("The same moment of the iteration before"), &S::iteration, back);
+      tr("Go to the same direction and step of the previous iteration"), &S::iteration, back);
   add("next_iteration", tr("Next iteration"), Qt::Key_BraceRight,
-      tr("The same moment of the next iteration"), &S::iteration, on);
+      tr("Go to the same direction and step of the next iteration"), &S::iteration, on);
 
   using theme::Icon;
   buttons_ = {previous_direction, previous_exchange, previous_event_, step_back, phase_on, step_on,
@@ -50,11 +50,11 @@ StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
     buttons_[k]->setIcon(theme::icon(icons[k]));
   }
 
-  newest_ = new QAction(theme::icon(Icon::newest), tr("Follow the newest"), this);
+  newest_ = new QAction(theme::icon(Icon::newest), tr("Follow newest"), this);
   newest_->setObjectName("follow_newest");
   newest_->setCheckable(true);
   newest_->setShortcut(Qt::Key_F);
-  newest_->setToolTip(tr("Show each new direction after the step at which most of it shines (F)"));
+  newest_->setToolTip(tr("Show each new direction as it is solved, at the step with most sources in V (F)"));
   connect(newest_, &QAction::triggered, &focus_, &Focus::set_following);
   connect(&focus_, &Focus::target_changed, this, &StepActions::show_state);
   connect(&focus_, &Focus::moved, this, &StepActions::show_state);

@@ -14,7 +14,7 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// The ways from one moment of a run to another, as a menu, as buttons and as keys.
+/// Actions that move the focus through a run: menu items, buttons and keys.
 class StepActions : public QObject {
   Q_OBJECT
 
@@ -22,7 +22,7 @@ class StepActions : public QObject {
   StepActions(Focus& focus, Selection& selection, QObject* parent = nullptr);
 
   void add_to(QMenu& menu) const;
-  /// Those with an icon, from the first to the last in time; newest() comes apart.
+  /// The actions with an icon, from those that go back to those that go forward, without newest().
   std::vector<QAction*> buttons() const { return buttons_; }
   QAction* newest() const { return newest_; }
 

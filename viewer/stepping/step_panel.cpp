@@ -42,9 +42,9 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
 
 StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   Tab tab{new EventTable(this), new QTableView, new QLabel};
-  tab.words->setWordWrap(true);
-  tab.words->setContentsMargins(10, 4, 10, 4);
-  tab.words->setForegroundRole(QPalette::PlaceholderText);
+  tab.text->setWordWrap(true);
+  tab.text->setContentsMargins(10, 4, 10, 4);
+  tab.text->setForegroundRole(QPalette::PlaceholderText);
   tab.view->setObjectName(QString::fromLatin1(name));
   tab.view->setModel(tab.table);
   tab.view->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -58,7 +58,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addWidget(tab.words);
+  layout->addWidget(tab.text);
   layout->addWidget(tab.view, 1);
   tabs_->addTab(page, title);
   connect(tab.view, &QTableView::clicked, this, [this, tab](const QModelIndex& index) {
@@ -92,8 +92,8 @@ void StepPanel::show_step_tab() {
   if (map) {
     events = events_of_step(map->history, focus_.position().step);
   }
-  step_.words->setText(events.empty() ? tr("Before the first polygon nothing has happened.")
-                                      : tr("What polygon %1 met in V; a click selects a patch.")
+  step_.text->setText(events.empty() ? tr("No events before the first step.")
+                                      : tr("Events of step %1. Click one to select its patch.")
                                             .arg(count_text(focus_.position().step + 1)));
   step_.table->set_events(std::move(events));
 }
@@ -108,9 +108,9 @@ void StepPanel::show_patch_tab() {
     if (map) {
       events = events_of_patch(map->history, patch);
     }
-    patch_.words->setText(
-        patch == no_patch ? tr("Select a patch to see what this direction does to it.")
-                          : tr("All that direction %1 does to patch %2; a double click goes there.")
+    patch_.text->setText(
+        patch == no_patch ? tr("Select a patch to list its events along this direction.")
+                          : tr("Events of direction %1 for patch %2. Double-click one to go to its step.")
                                 .arg(count_text(map ? map->direction + 1 : 0))
                                 .arg(patch));
     patch_.table->set_events(std::move(events));
@@ -131,12 +131,12 @@ void StepPanel::show_line_tab() {
   const auto exchanges = std::count_if(events.begin(), events.end(), [](const StepEvent& event) {
     return event.kind == StepEvent::Kind::exchange;
   });
-  line_.words->setText(
-      !focus_.probe() ? tr("Click the map: the patches along that line are listed here.")
+  line_.text->setText(
+      !focus_.probe() ? tr("Click the map to list the patches along a line parallel to ω.")
       : events.empty()
-          ? tr("The line meets no patch.")
-          : tr("The patches along the line, from the light down; %1 of them receive there: by the "
-               "fragment under the point, and as a pair along this direction.")
+          ? tr("The line hits no patch.")
+          : tr("Patches along the line, the nearest to the source first; %1 of them receive light "
+               "there. Areas: of the fragment at the point, and of the whole pair.")
                 .arg(exchanges));
   line_.table->set_events(std::move(events));
   line_.table->set_current_step(focus_.position().step);

@@ -15,7 +15,8 @@ namespace transillum::viewer {
 
 class EventTable;
 
-/// What happened: in the step, to the selected patch, and along one line of the map.
+/// Tables of events: of the current step, of the selected patch, and along one line parallel to
+/// omega.
 class StepPanel : public QWidget {
   Q_OBJECT
 
@@ -23,11 +24,11 @@ class StepPanel : public QWidget {
   StepPanel(Focus& focus, Selection& selection, QWidget* parent = nullptr);
 
  private:
-  /// One tab: a table, words above it, and what they were made for.
+  /// One tab: a table with a line of text above it.
   struct Tab {
     EventTable* table;
     QTableView* view;
-    QLabel* words;
+    QLabel* text;
   };
   Tab add_tab(const QString& title, const char* name);
   void show_events();
@@ -39,7 +40,7 @@ class StepPanel : public QWidget {
   Selection& selection_;
   QTabWidget* tabs_;
   Tab step_, patch_, line_;
-  std::shared_ptr<const RecordedMap> listed_map_;  ///< what patch_ lists
+  std::shared_ptr<const RecordedMap> listed_map_;  ///< listed in patch_
   PatchId listed_patch_ = no_patch;
 };
 

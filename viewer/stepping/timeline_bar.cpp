@@ -38,7 +38,8 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   text_ = new ClauseLabel;
   text_->setObjectName("timeline_text");
   stop_ = new QToolButton;
-  stop_->setText(tr("Stop searching"));
+  stop_->setText(tr("Stop search"));
+  stop_->setToolTip(tr("Stop the search (Esc)"));
   stop_->setObjectName("stop_seeking");
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
   QToolButton* newest = button_of(actions.newest());
@@ -59,11 +60,11 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   connect(&focus_, &Focus::target_changed, this, &TimelineBar::show_position);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
     if (!found) {
-      text_->set_clauses({tr("Nothing found in all directions of the run")});
+      text_->set_clauses({tr("Not found in any direction of the run")});
     }
   });
   connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {
-    text_->set_clauses({tr("The search was stopped: nothing found in the %1 directions so far")
+    text_->set_clauses({tr("Search stopped; directions searched without a match: %1")
                             .arg(count_text(searched))});
   });
   show_position();
@@ -80,7 +81,7 @@ void TimelineBar::show_position() {
   stop_->setVisible(focus_.seeking());
   if (focus_.seeking()) {
     text_->set_clauses(
-        {tr("Searching direction %1 …").arg(count_text(focus_.target().direction + 1))});
+        {tr("Searching direction %1…").arg(count_text(focus_.target().direction + 1))});
     return;
   }
   const auto map = focus_.map();
@@ -90,21 +91,20 @@ void TimelineBar::show_position() {
   }
   const std::int32_t k = focus_.position().step;
   if (k < 0) {
-    text_->set_clauses({tr("Before the first polygon: V is empty")});
+    text_->set_clauses({tr("Before the first step: V is empty")});
     return;
   }
   const MapHistory::Step& step = map->history.step(k);
-  const QString patch = tr("polygon of patch <b>%1</b>").arg(step.patch);
   if (step.row == MapRecord::no_row) {
-    text_->set_clauses({tr("%1 is seen edge-on and takes no part").arg(patch)});
-  } else {
-    text_->set_clauses(
-        {patch + QLatin1Char(' ') +
-             (step.front_facing ? tr("faces the light and receives") : tr("shines down")),
-         tr("cuts %1, exchanges light with %2")
-             .arg(count_text(step.cut), count_text(step.exchanges)),
-         tr("V has %1 fragments").arg(count_text(step.map_size))});
+    text_->set_clauses({tr("Patch <b>%1</b> is edge-on: skipped").arg(step.patch)});
+    return;
   }
+  const QString facing = step.front_facing ? tr("Patch <b>%1</b> faces ω (receiver)")
+                                           : tr("Patch <b>%1</b> faces away from ω (source)");
+  text_->set_clauses({tr("%1; it cuts %2 pieces of V")
+                          .arg(facing.arg(step.patch), count_text(step.cut)),
+                      tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
+                      tr("V has %1 polygons").arg(count_text(step.map_size))});
 }
 
 }  // namespace transillum::viewer

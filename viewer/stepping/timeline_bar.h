@@ -16,7 +16,7 @@ class ClauseLabel;
 class StepActions;
 class TimelineLanes;
 
-/// Where in the run the window looks, and how to get elsewhere.
+/// The position in the run that the window shows, and the controls to change it.
 class TimelineBar : public QWidget {
   Q_OBJECT
 

@@ -15,10 +15,10 @@ namespace transillum::viewer {
 
 namespace {
 
-// Left and right of a lane.
-double name_room() { return 78 * theme::scale(); }
-double value_room() { return 128 * theme::scale(); }
-double line() { return 18 * theme::scale(); }  // height of the upper lanes
+// Widths of the text left and right of a lane.
+double name_width() { return 78 * theme::scale(); }
+double value_width() { return 128 * theme::scale(); }
+double lane_height() { return 18 * theme::scale(); }  // height of the upper lanes
 
 }  // namespace
 
@@ -26,8 +26,9 @@ TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent
     : QWidget(parent), focus_(focus), selection_(selection) {
   setFocusPolicy(Qt::StrongFocus);
   setToolTip(
-      tr("Press or drag to go to a moment; with Shift a pixel is one polygon.\n"
-         "Arrow keys: one polygon; with Ctrl one direction; Page up and down: a twentieth"));
+      tr("Click or drag to go to an iteration, direction or step; with Shift, one pixel is one step.\n"
+         "Arrow keys: one step, with Ctrl one direction. Page Up and Page Down: a twentieth of the "
+         "steps."));
   connect(&focus_, &Focus::moved, this, [this] {
     if (focus_.map() != counted_) {
       count_columns();
@@ -50,12 +51,12 @@ void TimelineLanes::set_progress(int iteration, int directions) {
 }
 
 QRectF TimelineLanes::rect_of(Lane lane) const {
-  const double width_left = std::max(width() - name_room() - value_room(), 20.0);
+  const double width_left = std::max(width() - name_width() - value_width(), 20.0);
   const double top = lane == Lane::iterations   ? 3
-                     : lane == Lane::directions ? 3 + line()
-                                                : 7 + 2 * line();
-  const double bottom = lane == Lane::steps ? height() - 5 : top + line() - 4;
-  return {name_room(), top, width_left, bottom - top};
+                     : lane == Lane::directions ? 3 + lane_height()
+                                                : 7 + 2 * lane_height();
+  const double bottom = lane == Lane::steps ? height() - 5 : top + lane_height() - 4;
+  return {name_width(), top, width_left, bottom - top};
 }
 
 double TimelineLanes::position(const QRectF& lane, int k, int count) {
@@ -67,7 +68,7 @@ int TimelineLanes::index(const QRectF& lane, double x, int count) {
   return std::clamp(static_cast<int>(std::floor(share * count)), 0, std::max(count - 1, 0));
 }
 
-// The lane of steps begins with the empty map before the first.
+// The lane of steps begins with the empty map before the first step.
 int TimelineLanes::count_of(Lane lane) const {
   switch (lane) {
     case Lane::iterations:
@@ -130,7 +131,7 @@ void TimelineLanes::paintEvent(QPaintEvent*) {
   draw_lane(painter, Lane::directions, tr("Direction"), index_at(Lane::directions),
             count_of(Lane::directions), value(Lane::directions, index_at(Lane::directions) + 1));
   const int steps = std::max(count_of(Lane::steps) - 1, 0);
-  draw_lane(painter, Lane::steps, tr("Polygon"), index_at(Lane::steps), count_of(Lane::steps),
+  draw_lane(painter, Lane::steps, tr("Step"), index_at(Lane::steps), count_of(Lane::steps),
             focus_.map() ? tr("%1 of %2").arg(count_text(index_at(Lane::steps)), count_text(steps))
                          : QString());
 }
@@ -139,10 +140,10 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
                               const QString& value) const {
   const QRectF rect = rect_of(lane);
   painter.setPen(theme::ink_dim);
-  const QRectF name_rect(10, rect.top() - 4, name_room() - 18, std::min(rect.height() + 8, 26.0));
+  const QRectF name_rect(10, rect.top() - 4, name_width() - 18, std::min(rect.height() + 8, 26.0));
   painter.drawText(name_rect, Qt::AlignVCenter | Qt::AlignLeft, name);
   painter.setPen(theme::ink);
-  const QRectF value_rect(rect.right() + 10, name_rect.top(), value_room() - 14,
+  const QRectF value_rect(rect.right() + 10, name_rect.top(), value_width() - 14,
                           name_rect.height());
   painter.drawText(value_rect, Qt::AlignVCenter | Qt::AlignLeft, value);
 
@@ -152,7 +153,6 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
   if (count == 0 || focus_.passes() == 0) {
     return;
   }
-  // What has been computed so far.
   QRectF done = rect;
   const bool newest = focus_.target().iteration >= done_iteration_;
   if (lane == Lane::directions && newest) {
@@ -164,7 +164,7 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
   } else {
     draw_columns(painter);
   }
-  // Few cells are told apart.
+  // Separators, if the cells are wide enough.
   if (count > 1 && rect.width() / count > 5) {
     painter.setPen(QPen(theme::window, 1));
     for (int k = 1; k < count; ++k) {
@@ -186,12 +186,11 @@ void TimelineLanes::draw_columns(QPainter& painter) const {
     most = std::max(most, column.cuts);
   }
   painter.setRenderHint(QPainter::Antialiasing, false);
-  const double room = lane.height() - 9;  // marks lie above, the selected patch's below
+  const double room = lane.height() - 9;  // breakpoints are above, the selected patch's ticks below
   const double base = lane.bottom() - 4;
   const auto height = [&](int count) {
     return room * std::sqrt(count / static_cast<double>(most));
   };
-  // Few steps have room for wide bars.
   const double cell = lane.width() / std::max(count_of(Lane::steps), 1);
   const double width = std::max(std::floor(cell) - 1, 1.0);
   const auto draw_bar = [&](double x, int count, const QColor& color) {
@@ -274,8 +273,8 @@ void TimelineLanes::scrub(double x) {
 
 void TimelineLanes::keyPressEvent(QKeyEvent* event) {
   const bool by_direction = event->modifiers() & Qt::ControlModifier;
-  const auto move = [&](int way) {
-    by_direction ? focus_.direction_by(way) : static_cast<void>(focus_.step_by(way));
+  const auto move = [&](int by) {
+    by_direction ? focus_.direction_by(by) : static_cast<void>(focus_.step_by(by));
   };
   const int page = std::max(count_of(Lane::steps) / 20, 1);
   switch (event->key()) {

@@ -10,8 +10,8 @@
 
 namespace transillum::viewer {
 
-/// The time of a run in three lanes: iteration steps, the directions of one, the polygons of one of
-/// those. Press or drag goes to a moment; with Shift held, a pixel is one unit.
+/// A run in three lanes: its iterations, the directions of one iteration, the steps of one direction.
+/// A click or drag moves the focus; with Shift held, one pixel is one index of the lane.
 class TimelineLanes : public QWidget {
   Q_OBJECT
 
@@ -19,18 +19,18 @@ class TimelineLanes : public QWidget {
   TimelineLanes(Focus& focus, Selection& selection, QWidget* parent = nullptr);
 
   enum class Lane { iterations, directions, steps };
-  /// Where a lane lies, in logical pixels.
+  /// The rectangle of a lane, in logical pixels.
   QRectF rect_of(Lane lane) const;
-  /// The position on its lane of the `k`-th of `count`, and back.
+  /// The x coordinate of index `k` of `count` on a lane, and back.
   static double position(const QRectF& lane, int k, int count);
   static int index(const QRectF& lane, double x, int count);
 
-  /// Steps to be marked above the lane of steps, of each history shown.
+  /// Returns the steps to mark in the lane of steps; called with each history shown.
   using Marks = std::function<std::vector<std::int32_t>(const MapHistory&)>;
   void set_marks(Marks marks);
-  /// Anew, where what the marks depend on has changed.
+  /// Recomputes the columns; to be called when the result of the marks function has changed.
   void count_columns();
-  /// How many directions of the newest iteration step are done.
+  /// Number of directions of the newest iteration that are done.
   void set_progress(int iteration, int directions);
 
   QSize sizeHint() const override { return {900, 84}; }
@@ -45,7 +45,7 @@ class TimelineLanes : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  /// What the steps of one pixel column did.
+  /// Totals of the steps in one pixel column.
   struct Column {
     int cuts = 0, exchanges = 0;
     bool selected = false, marked = false;
@@ -61,7 +61,7 @@ class TimelineLanes : public QWidget {
   Selection& selection_;
   Marks marks_;
   int done_iteration_ = 0, done_directions_ = 0;
-  std::shared_ptr<const RecordedMap> counted_;  ///< what columns_ are of
+  std::shared_ptr<const RecordedMap> counted_;  ///< the map that columns_ are of
   std::vector<Column> columns_;
   bool scrubbing_ = false;
   Lane scrubbed_ = Lane::steps;

@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QString>
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -8,24 +11,44 @@
 #include <thread>
 #include <utility>
 
+#include "support/failure_text.h"
 #include "support/thread_priority.h"
 #include "transillum/cancellation.h"
+#include "transillum/errors.h"
 
 namespace transillum::viewer {
 
-/// What becomes of the work under way when something newer is asked for.
-enum class UnderWay { given_up, goes_on };
+/// What a new request does to the job that is running.
+enum class CurrentJob { cancel, finish };
 
-/// A thread of its own that does what was asked for last.
+/// When a request's job begins: as soon as the worker is free, or after the pause as well.
+enum class Start { at_once, after_pause };
+
+/// The pause between the end of a job and a request with Start::after_pause: the longer of the two.
+struct Pause {
+  std::chrono::milliseconds shortest{0};
+  int job_times = 0;  ///< multiples of the last job's duration
+};
+
+/// A thread that runs a job for the newest request; requests that have not begun are replaced.
 ///
-/// Threads: its functions may be called by any; the work is done by its own. Where the work uses
-/// members of its owner, they must outlive it: declare it last.
+/// Threads: the public functions may be called from any thread; the job and the failure handler run
+/// on the worker's own. The members of the owner that they use must outlive the worker: declare the
+/// worker last.
 template <class Request>
 class RequestWorker {
  public:
-  /// `work` may throw Canceled, and nothing else.
-  explicit RequestWorker(std::function<void(const Request&, const Cancellation&)> work)
-      : work_(std::move(work)), thread_([this] { run(); }) {}
+  /// May throw anything; Canceled ends it without a message.
+  using Job = std::function<void(const Request&, const Cancellation&)>;
+  /// Called on the worker's thread with the request whose job threw, and a message for the user.
+  using FailureHandler = std::function<void(const Request&, const QString& message)>;
+
+  RequestWorker(Job job, FailureHandler failed, Pause pause = {})
+      : job_(std::move(job)),
+        failed_(std::move(failed)),
+        pause_(pause),
+        thread_([this] { run(); }) {}
+  /// Cancels the running job and waits for it.
   ~RequestWorker() {
     {
       const std::lock_guard lock(mutex_);
@@ -38,50 +61,78 @@ class RequestWorker {
   RequestWorker(const RequestWorker&) = delete;
   RequestWorker& operator=(const RequestWorker&) = delete;
 
-  /// Takes the place of what still waits.
-  void request(Request request, UnderWay under_way = UnderWay::given_up) {
+  /// Replaces the waiting request, if any.
+  void request(Request request, CurrentJob current = CurrentJob::cancel,
+               Start start = Start::at_once) {
     {
       const std::lock_guard lock(mutex_);
-      if (under_way == UnderWay::given_up) {
+      if (current == CurrentJob::cancel) {
         cancellation_.cancel();
       }
-      request_ = std::move(request);
+      waiting_ = std::move(request);
+      start_ = start;
     }
     wake_.notify_one();
   }
-  /// Gives up what is under way, and what waits; returns the latter.
+  /// Cancels the running job and removes the waiting request, which is returned.
   std::optional<Request> clear() {
     const std::lock_guard lock(mutex_);
     cancellation_.cancel();
-    return std::exchange(request_, std::nullopt);
+    return std::exchange(waiting_, std::nullopt);
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void run() {
-    give_way_to_the_window();
+    lower_thread_priority();
+    Clock::time_point pause_end = Clock::now();
     std::unique_lock lock(mutex_);
     while (true) {
-      wake_.wait(lock, [this] { return quit_ || request_; });
+      wake_.wait(lock, [this] { return quit_ || waiting_; });
+      // A newer request may replace the waiting one during the pause.
+      wake_.wait_until(lock, pause_end,
+                       [this] { return quit_ || (waiting_ && start_ == Start::at_once); });
       if (quit_) {
         return;
       }
-      const Request request = *std::exchange(request_, std::nullopt);
+      if (!waiting_) {
+        continue;  // cleared during the pause
+      }
+      const Request request = *std::exchange(waiting_, std::nullopt);
       cancellation_ = Cancellation();
       const Cancellation cancellation = cancellation_;
       lock.unlock();
-      try {
-        work_(request, cancellation);
-      } catch (const Canceled&) {
-        // Nobody waits for it any more.
-      }
+      const Clock::time_point begin = Clock::now();
+      run_job(request, cancellation);
+      const Clock::time_point end = Clock::now();
+      pause_end =
+          end + std::max<Clock::duration>(pause_.shortest, pause_.job_times * (end - begin));
       lock.lock();
     }
   }
 
-  const std::function<void(const Request&, const Cancellation&)> work_;
-  std::mutex mutex_;  // guards all below but the thread
+  void run_job(const Request& request, const Cancellation& cancellation) {
+    try {
+      try {
+        job_(request, cancellation);
+      } catch (const Canceled&) {
+        // The requester no longer needs the result.
+      } catch (...) {
+        failed_(request, current_failure_text());
+      }
+    } catch (...) {
+      // No memory for the message either: the next request may succeed.
+    }
+  }
+
+  const Job job_;
+  const FailureHandler failed_;
+  const Pause pause_;
+  std::mutex mutex_;  // guards all below except the thread
   std::condition_variable wake_;
-  std::optional<Request> request_;
+  std::optional<Request> waiting_;
+  Start start_ = Start::at_once;  // of waiting_
   bool quit_ = false;
   Cancellation cancellation_;
   std::thread thread_;

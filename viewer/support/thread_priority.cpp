@@ -9,7 +9,7 @@
 
 namespace transillum::viewer {
 
-void give_way_to_the_window() {
+void lower_thread_priority() {
 #ifdef __linux__
   // Linux keeps a nice value a thread, and new threads inherit it: so do the solver's workers.
   // If the system refuses, the window is merely less prompt. With 19 a machine with other jobs left

@@ -4,6 +4,6 @@
 namespace transillum::viewer {
 
 /// Makes the calling thread, and the threads that it will start, give way to the window.
-void give_way_to_the_window();
+void lower_thread_priority();
 
 }  // namespace transillum::viewer

@@ -74,7 +74,10 @@ int last_frame_in(const QString& folder) {
 ExportActions::ExportActions(MainWindow& window)
     : QObject(&window),
       window_(window),
-      writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); }) {
+      writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); },
+              [this](const ResultToWrite& result, const QString& message) {
+                report_written(result, message);
+              }) {
   using E = ExportActions;
   add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
   add("export_result", tr("Result…"),
@@ -144,14 +147,14 @@ void ExportActions::write_result(const QString& path) {
 // On the writer's thread.
 void ExportActions::write(const ResultToWrite& result) {
   const SolverSnapshot& snapshot = *result.snapshot;
-  QString failure;
-  try {
-    transillum::write_result(result.path.toStdString(),
-                             {snapshot.loaded->scene, snapshot.radiosity, snapshot.irradiance,
-                              snapshot.error, snapshot.statistics, result.complete});
-  } catch (const std::exception& error) {
-    failure = QString::fromStdString(error.what());
-  }
+  transillum::write_result(result.path.toStdString(),
+                           {snapshot.loaded->scene, snapshot.radiosity, snapshot.irradiance,
+                            snapshot.error, snapshot.statistics, result.complete});
+  report_written(result, {});
+}
+
+// On the writer's thread.
+void ExportActions::report_written(const ResultToWrite& result, const QString& failure) {
   QMetaObject::invokeMethod(
       this,
       [this, failure, path = result.path] {

@@ -74,6 +74,8 @@ class ExportActions : public QObject {
     bool complete;
   };
   void write(const ResultToWrite& result);
+  /// `failure` empty: written.
+  void report_written(const ResultToWrite& result, const QString& failure);
   RequestWorker<ResultToWrite> writer_;
 };
 

@@ -7,7 +7,7 @@
 #include <QMenuBar>
 #include <utility>
 
-#include "model/solver_session.h"
+#include "model/solve_runner.h"
 #include "patches/compare_actions.h"
 #include "patches/material_panel.h"
 #include "patches/patch_table_panel.h"
@@ -17,17 +17,17 @@
 namespace transillum::viewer {
 
 InspectionPanels::InspectionPanels(Selection& selection, ColorChoice& colors,
-                                   SolverSession& session, QWidget* window)
+                                   SolveRunner& runner, QWidget* window)
     : QObject(window) {
   materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
   compare_ = new CompareActions(colors, window, this);
-  connect(&colors, &ColorChoice::form_factors_wanted, &session, &SolverSession::want_form_factors);
-  connect(&relighting_, &Relighting::form_factors_wanted, &session,
-          &SolverSession::want_form_factors);
-  connect(tables_, &PatchTablePanel::form_factors_wanted, &session,
-          &SolverSession::want_form_factors);
+  connect(&colors, &ColorChoice::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(&relighting_, &Relighting::form_factors_requested, &runner,
+          &SolveRunner::include_form_factors);
+  connect(tables_, &PatchTablePanel::form_factors_requested, &runner,
+          &SolveRunner::include_form_factors);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
   connect(&relighting_, &Relighting::failed, this, &InspectionPanels::failed);
   connect(&relighting_, &Relighting::changed, this, [this] {
@@ -43,7 +43,7 @@ void InspectionPanels::add_materials_to(DockLayouts& docks) {
   // Tells of tabs behind others too, which are "visible" all the time.
   connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
     if (visible) {
-      emit relighting_.form_factors_wanted();
+      emit relighting_.form_factors_requested();
     }
   });
 }

@@ -18,7 +18,7 @@ class CompareActions;
 class DockLayouts;
 class MaterialPanel;
 class PatchTablePanel;
-class SolverSession;
+class SolveRunner;
 
 /// What serves to look into a scene beside its picture: tables of patches, materials to be changed,
 /// runs to be compared; with their docks and menus.
@@ -26,7 +26,7 @@ class InspectionPanels : public QObject {
   Q_OBJECT
 
  public:
-  InspectionPanels(Selection& selection, ColorChoice& colors, SolverSession& session,
+  InspectionPanels(Selection& selection, ColorChoice& colors, SolveRunner& runner,
                    QWidget* window);
 
   void add_materials_to(DockLayouts& docks);

@@ -85,7 +85,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   step_actions_ = new StepActions(focus_, selection_, this);
   study_ =
       new StudyDialog(remember ? ReferenceCache::default_folder() : std::filesystem::path(), this);
-  inspection_ = new InspectionPanels(selection_, colors_, session_, this);
+  inspection_ = new InspectionPanels(selection_, colors_, runner_, this);
   files_ = new FileActions(*this);
   exports_ = new ExportActions(*this);
   make_center();
@@ -94,7 +94,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), re
   progress_ = new ProgressLine;
   statusBar()->addWidget(progress_, 1);
   statusBar()->setSizeGripEnabled(false);
-  connect_session();
+  connect_runner();
   breakpoints_.set_undo_stack(&inspection_->edits().undo_stack());
   page_->bookmarks().set_undo_stack(&inspection_->edits().undo_stack());
   stage_ = new ViewStateApplier(*this);
@@ -180,7 +180,7 @@ void MainWindow::make_docks() {
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(lesson_panel_, &LessonPanel::open_clicked, this, &MainWindow::choose_lesson);
   connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
-  connect(page_, &ScenePage::replicas_wanted, this, &MainWindow::solve_with_replicas);
+  connect(page_, &ScenePage::replicas_requested, this, &MainWindow::solve_with_replicas);
   connect(map_dock_, &QDockWidget::visibilityChanged, this,
           [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
   connect(&breakpoints_, &Breakpoints::changed, timeline_->lanes(), &TimelineLanes::count_columns);
@@ -261,24 +261,25 @@ void MainWindow::fill_open_menu(QMenu& menu) {
   }
 }
 
-void MainWindow::connect_session() {
-  connect(&session_, &SolverSession::state_changed, this, &MainWindow::show_state);
-  connect(&session_, &SolverSession::scene_loaded, this, &MainWindow::show_loaded);
-  connect(&session_, &SolverSession::snapshot_ready, this, &MainWindow::show_snapshot);
-  connect(&session_, &SolverSession::load_progressed, progress_, &ProgressLine::show_loading);
-  connect(&session_, &SolverSession::failed, this, [this](const QString& message, bool bad_input) {
+void MainWindow::connect_runner() {
+  connect(&runner_, &SolveRunner::state_changed, this, &MainWindow::show_state);
+  connect(&runner_, &SolveRunner::scene_loaded, this, &MainWindow::show_loaded);
+  connect(&runner_, &SolveRunner::snapshot_ready, this, &MainWindow::show_snapshot);
+  connect(&runner_, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
+  connect(&runner_, &SolveRunner::failed, this, [this](const QString& message, bool bad_input) {
     show_failure(message);
     emit failed(message, bad_input);
   });
   connect(inspection_, &InspectionPanels::light_changed, this, &MainWindow::show_snapshot);
   connect(inspection_, &InspectionPanels::failed, this, &MainWindow::show_failure);
   connect(&focus_feed_, &FocusFeed::failed, this, &MainWindow::show_failure);
+  connect(&visibility_, &PerDirectionVisibility::failed, this, &MainWindow::show_failure);
 
   connect(actions_, &SolveActions::run, this, &MainWindow::run);
-  connect(actions_, &SolveActions::pause, &session_, &SolverSession::pause);
-  connect(actions_, &SolveActions::one_direction, &session_, &SolverSession::advance_one_direction);
-  connect(actions_, &SolveActions::one_iteration, &session_, &SolverSession::advance_one_iteration);
-  connect(actions_, &SolveActions::stop, &session_, &SolverSession::stop);
+  connect(actions_, &SolveActions::pause, &runner_, &SolveRunner::pause);
+  connect(actions_, &SolveActions::one_direction, &runner_, &SolveRunner::advance_one_direction);
+  connect(actions_, &SolveActions::one_iteration, &runner_, &SolveRunner::advance_one_iteration);
+  connect(actions_, &SolveActions::stop, &runner_, &SolveRunner::stop);
 }
 
 void MainWindow::restore_layout() {
@@ -317,7 +318,7 @@ void MainWindow::open(const QString& spec, Goal then) {
   page_->banner()->dismiss();
   asked_spec_ = spec.toStdString();
   asked_scene_options_ = settings_->scene_options();
-  session_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
+  runner_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
 }
 
 RunOptions MainWindow::options() const {
@@ -412,7 +413,7 @@ void MainWindow::run() {
   if (at_start() && settings_->differ_from_effect()) {
     solve_anew();
   } else {
-    session_.run();
+    runner_.run();
   }
 }
 
@@ -423,7 +424,7 @@ void MainWindow::solve_anew() {
   page_->banner()->dismiss();
   const SceneOptions scene = settings_->scene_options();
   if (shows(spec_, scene)) {
-    session_.restart(settings_->solve_options(), {Goal::Kind::finished});
+    runner_.restart(settings_->solve_options(), {Goal::Kind::finished});
   } else {
     open(QString::fromStdString(spec_));
   }
@@ -501,24 +502,24 @@ void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   algorithm_->show_snapshot(snapshot_);
   summary_->show_snapshot(*snapshot_);
   progress_->show_snapshot(snapshot_);
-  actions_->show_state(session_.state(), at_start());
+  actions_->show_state(runner_.state(), at_start());
   timeline_->show_snapshot(*snapshot_);
   focus_feed_.show_snapshot(snapshot_);
   // A large scene is refreshed less often, so that the window has time for its user.
-  session_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
+  runner_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
   emit snapshot_shown();
 }
 
-void MainWindow::show_state(SessionState state) {
+void MainWindow::show_state(RunState state) {
   progress_->show_state(state);
   actions_->show_state(state, at_start());
-  scene_view_->set_smooth(state != SessionState::running);
-  settings_->set_restart_enabled(loaded_ && state != SessionState::loading);
+  scene_view_->set_smooth(state != RunState::running);
+  settings_->set_restart_enabled(loaded_ && state != RunState::loading);
 }
 
 bool MainWindow::settled() const {
   const bool resting =
-      session_.state() == SessionState::paused || session_.state() == SessionState::finished;
+      runner_.state() == RunState::paused || runner_.state() == RunState::finished;
   return resting && snapshot_ && stage_->arrived() && inspection_->up_to_date() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }

@@ -9,7 +9,7 @@
 #include "lessons/session_file.h"
 #include "model/per_direction_visibility.h"
 #include "model/run_options.h"
-#include "model/solver_session.h"
+#include "model/solve_runner.h"
 #include "state/breakpoints.h"
 #include "state/focus.h"
 #include "state/focus_feed.h"
@@ -88,7 +88,7 @@ class MainWindow : public QMainWindow {
 
   /// Whether the worker rests and every view shows the newest there is.
   bool settled() const;
-  SolverSession& session() { return session_; }
+  SolveRunner& runner() { return runner_; }
   Focus& focus() { return focus_; }
   Breakpoints& breakpoints() { return breakpoints_; }
   Selection& selection() { return selection_; }
@@ -118,7 +118,7 @@ class MainWindow : public QMainWindow {
   void make_docks();
   void make_menus();
   void fill_open_menu(QMenu& menu);
-  void connect_session();
+  void connect_runner();
   void restore_layout();
   void choose_lesson();
   void run();
@@ -126,7 +126,7 @@ class MainWindow : public QMainWindow {
   void solve_with_replicas();
   void show_loaded(std::shared_ptr<const LoadedScene> loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
-  void show_state(SessionState state);
+  void show_state(RunState state);
   bool at_start() const;
   /// Whether the window may close: unsaved notes are asked about.
   bool notes_may_go();
@@ -134,7 +134,7 @@ class MainWindow : public QMainWindow {
   const bool remember_;
   Selection selection_;
   ColorChoice colors_{selection_};
-  SolverSession session_;
+  SolveRunner runner_;
   Focus focus_;
   FocusFeed focus_feed_{focus_};
   Breakpoints breakpoints_;

@@ -10,30 +10,34 @@
 
 namespace transillum {
 
-/// What engine corrected believes of V: it cuts nothing and keeps no shapes, so fragments are
-/// whole, each with how much of it counts as open from below.
+/// The state of V in engine corrected, which cuts nothing: whole projected fragments, each with the
+/// part of its area that the engine takes as visible from below.
 struct CorrectedMap {
+  /// A projected fragment.
   struct Part {
-    PatchId patch;
-    bool front_facing;         ///< it receives, and shows its back: nobody asks what is open of it
-    double area;               ///< of its projection, m², > 0
-    double open;               ///< of that, what the engine takes as open, m²; may be below 0
-    double exact;              ///< what is open of it, m²
-    std::uint32_t begin, end;  ///< in `corners`
+    PatchId patch;        ///< of the fragment
+    bool front_facing;    ///< it receives; its back is visible, and `open` is not used
+    double area;          ///< of its projection, m², > 0
+    double open;          ///< visible part according to the engine, m²; may be negative
+    double exact;         ///< visible part, exact, m²
+    std::uint32_t begin;  ///< first index in `corners`
+    std::uint32_t end;    ///< one past the last index
   };
 
-  PlaneFrame frame;
-  std::vector<Part> parts;  ///< in the order of the steps, those farthest toward omega first
-  std::vector<Vec2> corners;
+  PlaneFrame frame;           ///< of the direction
+  std::vector<Part> parts;    ///< in the order of the steps: farthest along omega first
+  std::vector<Vec2> corners;  ///< of all parts
 
+  /// Corners of a part.
   std::span<const Vec2> outline(const Part& part) const {
     return {corners.data() + part.begin, part.end - part.begin};
   }
-  /// Of what is open, by the engine or in truth, the share that is so by one of them alone.
+  /// The area that is visible according to exactly one of engine and exact map, over the area
+  /// visible according to either.
   double wrong_share() const;
 };
 
-/// After step `step` (-1: before the first) of a recorded direction.
+/// The state of engine corrected after step `step` (-1: before the first) of a recorded direction.
 /// @throws Canceled
 CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
                                  const std::shared_ptr<const BspTree>& tree,

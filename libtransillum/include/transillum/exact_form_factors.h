@@ -9,11 +9,16 @@
 
 namespace transillum {
 
-/// F_ij of one patch i to every patch j, without directions or pixels: to compare engines with.
-/// Where nothing stands between two patches it is exact; else the smaller of them is taken as many
-/// points, from each of which the other is seen exactly (first_shot.h). Sums to 1 in a closed scene
-/// but for those points. Takes N pairs; one partly hidden costs as what stands between.
-/// `progress`, if given, hears the share done, in [0,1], now and then on the calling thread.
+/// F_ij of one patch i to every patch j, without directions or pixels: a reference for engines.
+///
+/// Exact where nothing stands between two patches. Otherwise the smaller of them is sampled at many
+/// points, from each of which the other's visible part is computed exactly (first_shot.h). In a
+/// closed scene the sum is 1 up to that sampling. Takes one computation per patch j; its cost for a
+/// partly hidden pair grows with the number of polygons between them.
+/// @param scene the scene.
+/// @param i the patch.
+/// @param cancellation checked during computation.
+/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
 /// @throws Canceled
 std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const Cancellation& cancellation = {},

@@ -11,48 +11,57 @@
 
 namespace transillum {
 
-/// From this R²/A on a source counts as small: of 2,048 directions fewer than one meets it from a
-/// point half a scene away.
+/// Default threshold of R²/A from which a source counts as small: of 2,048 directions, fewer than
+/// one on average meets it from a point half a scene away.
 inline constexpr double small_source_ratio = 1000;
 
-/// The ratio that a command line names: `auto`, that above; a number from 0; or `none`.
-/// @throws InputError naming the choices.
+/// The threshold called `name`: `auto` (small_source_ratio), a number >= 0, or `none`.
+/// @returns nothing for `none`.
+/// @throws InputError listing the choices.
 std::optional<double> first_shot_from_name(const std::string& name);
 
-/// The patches of small bright sources, rising (paper, section 5.2). A source is all emitting
-/// patches that hang together by common points; it is small where R²/A >= `ratio`, R the scene's
-/// diagonal and A the source's area, and bright where it has 1/10,000 of all power emitted.
-/// @param ratio >= 0; 0 takes all bright sources.
+/// The patches of small bright sources (paper, section 5.2). A source is a set of emitting patches
+/// connected by shared points. It is small if R²/A >= `ratio`, where R is the scene's diagonal and
+/// A the source's area, and bright if it emits at least 1/10,000 of the scene's power.
+/// @param scene the scene.
+/// @param ratio >= 0; 0 selects all bright sources.
+/// @returns patches, ascending.
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio = small_source_ratio);
 
-/// The light that some sources send directly to all patches.
+/// The direct light from some sources to all patches.
 struct DirectLight {
-  /// What the sources of one material bring.
+  /// The contribution of the sources of one material.
   struct Part {
-    int material = 0;
-    std::vector<double> irradiance;  ///< H for an exitance of 1, one a patch
+    int material = 0;                ///< index into Scene::materials()
+    std::vector<double> irradiance;  ///< H for an exitance of 1, one per patch
   };
 
-  std::vector<Rgb> irradiance;   ///< H, W/m², one a patch
-  std::vector<Rgb> exitance;     ///< E of the sources, 0 for other patches: what has been shot
-  std::vector<PatchId> sources;  ///< rising
-  double power_share = 0;        ///< of the sources in all power emitted
-  std::vector<Part> parts;       ///< by rising material; none where they would take over 256 MiB
+  std::vector<Rgb> irradiance;   ///< H, W/m², one per patch
+  std::vector<Rgb> exitance;     ///< E of the sources, which has been shot; 0 for other patches
+  std::vector<PatchId> sources;  ///< ascending
+  double power_share = 0;        ///< power of the sources over all power emitted
+  std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
 };
 
-/// Shoots the emission of `sources` onto all patches by exact form factors, of whole polygons where
-/// nothing stands between, else of points of the smaller polygon with exact shadows. Time grows as
-/// sources times patches times what stands between. `progress`, if given, hears the share done, in
-/// [0,1], now and then on the calling thread.
+/// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons
+/// where nothing stands between, else by points of the smaller polygon with exact shadows
+/// (decisions/0022-first-shot.md). Time grows as sources times patches times polygons between them.
+/// @param scene the scene.
+/// @param sources find_small_sources(), or any emitting patches, ascending.
 /// @param threads 0: all cores; the result does not depend on it.
+/// @param cancellation checked during computation.
+/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
 /// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},
                   const std::function<void(double)>& progress = {});
 
-/// The light of the same sources where the scene's materials are others, from the parts of `light`;
-/// it has no parts itself.
-/// @throws InputError where `light` is of another scene, or its parts have been left out.
+/// The direct light of the same sources after a change of materials, from the parts of `light`. The
+/// result has no parts.
+/// @param light of `scene`.
+/// @param scene the scene.
+/// @param materials as many as the scene has, in the same order.
+/// @throws InputError where `light` belongs to another scene or has no parts.
 DirectLight with_materials(const DirectLight& light, const Scene& scene,
                            const std::vector<Material>& materials);
 

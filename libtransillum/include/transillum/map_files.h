@@ -12,31 +12,39 @@
 
 namespace transillum {
 
-/// How a map is drawn, where the file is a picture.
+/// Options of write_map() for pictures (.svg, .png).
 struct MapPictureOptions {
-  static constexpr int smallest_size = 200, largest_size = 8192;
-  int size = 1200;  ///< pixels along the longer side, smallest_size to largest_size
-  /// sRGB of what shines down, one a patch; empty: by what it emits or reflects.
+  static constexpr int smallest_size = 200;  ///< pixels
+  static constexpr int largest_size = 8192;  ///< pixels
+  int size = 1200;  ///< pixels along the longer side, smallest_size … largest_size
+  /// sRGB of each patch's front side; empty: by its exitance or reflectance.
   std::vector<std::array<std::uint8_t, 3>> patch_colors{};
 };
 
-/// Why there is nothing to see on the map, in a few words; empty where there is something.
+/// Why the map is empty, as a phrase for the user; empty if it is not.
 std::string empty_map_reason(const Scene& scene, const VisibilityMap& map);
 
-/// check_writable, and @throws InputError unless `path` ends in .svg, .vtp, .png or .json.
+/// Checks that `path` is writable and ends in .svg, .vtp, .png or .json.
+/// @throws InputError
 void check_map_path(const std::filesystem::path& path);
 
-/// Writes the map as the ending of `path` says, whole or not at all. `scene` is the map's.
+/// Writes the map in the format given by the extension of `path`, completely or not at all.
 ///
-/// .svg: a figure with title, legend and scale bar; a path a patch, of class `patch pN front` or
-///   `patch pN back`, with its area in `data-area` (m², sum of its polygons) and a tool tip.
-/// .png: the same polygons without words, smoothed; what they mean is in its text fields.
-/// .vtp: polygons at z = 0 of the plane's coordinates, cell arrays patch, front, area.
-/// .json: frame, receiver and polygons; numbers read back bit for bit.
-/// Of a map drawn in pixels rectangles of pixels take the polygons' place, and pictures mark where
-/// it differs from the exact one (.vtp: cells whose array `difference` is 1; .json: `differences`).
-/// Pictures are seen along omega, so u points to the left and v up.
-/// @throws InputError as check_map_path; std::runtime_error where it cannot be written.
+/// - .svg: a figure with title, legend and scale bar; one path per patch, of class
+///   `patch pN front` or `patch pN back`, with its area in `data-area` (m², sum of its polygons)
+///   and a tool tip.
+/// - .png: the same polygons, anti-aliased and without text; the title is in its text chunks.
+/// - .vtp: polygons at z = 0 in plane coordinates, with cell arrays patch, front, area.
+/// - .json: frame, receiver and polygons; numbers read back bit for bit.
+///
+/// For a map drawn in pixels, rectangles of pixels take the place of the polygons, and the
+/// differences from the exact map are marked (.vtp: cell array `difference` is 1; .json:
+/// `differences`). Pictures show the plane seen along omega, so u points to the left and v up.
+/// @param path the file to write.
+/// @param scene the scene of `map`.
+/// @param map any.
+/// @param options of pictures.
+/// @throws InputError as check_map_path; std::runtime_error if the file cannot be written.
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options = {});
 

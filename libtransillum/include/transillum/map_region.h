@@ -8,18 +8,21 @@
 
 namespace transillum {
 
-/// A region of the global visibility map (paper, section 3.1): all of the plane that a path can
-/// reach without crossing the edge of a fragment. Over it the same fragments lie above one another.
+/// A region R of the global visibility map (paper, section 3.1): a maximal connected part of the
+/// plane that contains no edge of a projected fragment. The same fragments cover all of its points.
 struct MapRegion {
   double area = 0;  ///< A(R), m²
-  /// Convex polygons that do not overlap, and make it up.
+  /// Convex polygons that do not overlap and whose union is the region.
   std::vector<std::vector<Vec2>> parts;
 };
 
-/// The region of a direction's map that `point` lies in, to rounding of the history's corners.
-/// Nothing where no fragment lies over the point, where it lies on an edge, or where the region's
-/// surroundings fall into more than 2,000 pieces. Time grows with the fragments, and with the
-/// square of those pieces.
+/// The region of the global visibility map that contains `point`, up to the rounding of the
+/// history's corners. Time grows with the number of fragments, and with the square of the number of
+/// parts examined.
+/// @param history of a direction.
+/// @param point of the transillumination plane.
+/// @returns nothing if no fragment covers the point, if it lies on an edge, or if its neighborhood
+/// is cut into more than 2,000 parts.
 std::optional<MapRegion> region_at(const MapHistory& history, const Vec2& point);
 
 }  // namespace transillum

@@ -122,11 +122,11 @@ struct SolveStatistics {
   double energy_defect = 0;   ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter (oracle 4)
   double energy_balance = 0;  ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
   double rho_max = 0;
-  double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
-  PassCounts counts;                 ///< of every direction once, added up
+  double predicted_contraction = 0;                ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
+  PassCounts counts;                               ///< of every direction once, added up
   std::vector<IterationRecord> iteration_records;  ///< one per iteration
-  std::int64_t shot_sources = 0;  ///< patches whose emission was shot first
-  double shot_power_share = 0;    ///< of them in all power emitted
+  std::int64_t shot_sources = 0;                   ///< patches whose emission was shot first
+  double shot_power_share = 0;                     ///< of them in all power emitted
   double seconds_load = 0, seconds_bsp = 0, seconds_first_shot = 0, seconds_transfers = 0,
          seconds_iterate = 0, seconds_total = 0;
 };

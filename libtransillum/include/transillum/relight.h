@@ -11,34 +11,38 @@
 
 namespace transillum {
 
+/// Options of relight().
 struct RelightOptions {
-  double tolerance =
-      1e-6;  ///< stop where no patch changes by more than this share of the largest B
-  /// B to start from, W/m², one a patch; empty: E. The nearer it is, the fewer steps.
+  double tolerance = 1e-6;  ///< stop when no patch changes by more than this times the largest B
+  /// Initial B, W/m², one per patch; empty: E. The closer to the result, the fewer iterations.
   std::span<const Rgb> start = {};
-  /// The first shot of the solve that the form factors are of (RadiositySolver::direct_light()),
-  /// if it made one: its sources stay those that are shot.
+  /// The first shot of the solve run that the form factors come from
+  /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
-/// The light of a scene whose surfaces are others.
+/// The result of relight().
 struct RelightResult {
-  std::vector<Rgb> radiosity;   ///< B, W/m², one a patch
-  std::vector<Rgb> irradiance;  ///< H, W/m², one a patch
+  std::vector<Rgb> radiosity;   ///< B, W/m², one per patch
+  std::vector<Rgb> irradiance;  ///< H, W/m², one per patch
   int iterations = 0;           ///< of eq. 11
 };
 
-/// B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials: form factors are of
-/// the geometry alone, so those that a solve has kept serve again and no pass is made. Jacobi
-/// iteration; a step takes time as there are form factors.
-/// @param form_factors of `scene`, as RadiositySolver::form_factors() gives them. Those of the
-/// semi-iterative scheme are of the directions of all its steps, and B is what a solve with all of
-/// them at once gives, where the scheme's own is a mean over steps: both approach the same.
-/// @param materials as many as the scene has, in its order.
-/// @throws InputError where a material's E or rho is out of range, lists are of wrong lengths, or
-/// the shot's parts have been left out
-/// @throws Canceled, std::runtime_error where 10,000 steps do not get there
+/// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11) with E and rho of other materials. Form factors
+/// depend on the geometry only, so those kept by a solve run are reused and no pass is made. Jacobi
+/// iteration; the time of an iteration is proportional to the number of form factors.
+/// @param scene the scene.
+/// @param form_factors of `scene`, from RadiositySolver::form_factors(). Those of the
+/// semi-iterative scheme average the directions of all its iterations: the result is B for all
+/// these directions at once, while the scheme's own B is a mean over iterations; both have the same
+/// limit.
+/// @param materials as many as the scene has, in the same order.
+/// @param options tolerance, initial B, first shot and threads.
+/// @param cancellation checked between iterations.
+/// @throws InputError where a material's E or rho is out of range, a list has the wrong length, or
+/// the shot has no parts
+/// @throws Canceled; std::runtime_error after 10,000 iterations
 RelightResult relight(const Scene& scene, const FormFactors& form_factors,
                       const std::vector<Material>& materials, const RelightOptions& options = {},
                       const Cancellation& cancellation = {});

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Visibility maps as data: the plane perpendicular to a direction, the recorded history of one
+// direction (MapRecord), and a map for files and pictures (VisibilityMap). The interactive viewer
+// and the writers of map_files.h work on these.
 #pragma once
 
 #include <cstdint>
@@ -10,106 +14,127 @@
 
 namespace transillum {
 
-/// A point of the transillumination plane, meters along PlaneFrame::u and v.
+/// A point of the transillumination plane.
 struct Vec2 {
-  double x = 0, y = 0;
+  double x = 0;  ///< m along PlaneFrame::u
+  double y = 0;  ///< m along PlaneFrame::v
 };
 
-/// The plane perpendicular to a direction. u, v and omega form a right-handed orthonormal frame.
+/// The transillumination plane: perpendicular to a direction omega. u, v and omega form a
+/// right-handed orthonormal frame.
 struct PlaneFrame {
-  Vec3 origin;
-  Vec3 u, v, omega;
+  Vec3 origin;  ///< a point of the plane, m
+  Vec3 u;       ///< first axis of the plane, unit
+  Vec3 v;       ///< second axis of the plane, unit
+  Vec3 omega;   ///< the direction, unit; "above" means farther along it
 
+  /// Coordinates of the projection of p along omega.
   Vec2 project(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
 };
 /// The frame that the engines use for `omega`: the same bits each time.
 PlaneFrame plane_frame(const Scene& scene, const Vec3& omega);
 
-/// The history of one direction, as a table: every fragment of the visibility map once, with the
-/// step that made it and the step that consumed it. Step k processes order[k].
+/// The history of one direction as a table: every polygon that was ever in the local visibility map
+/// V, with the step that made it and the step that consumed it. Step k processes order[k].
 ///
-/// The map V after step k is the filter made <= k < consumed. The inside list of step k holds the
-/// rows made and consumed at k; the outside list those with a parent that were made at k and
-/// consumed later. So stepping back needs no undo.
+/// The map V after step k consists of the rows with made <= k < consumed. The inside list of step k
+/// consists of the rows made and consumed at k; its outside list of the rows with a parent that
+/// were made at k and consumed later. Stepping back therefore needs no undo.
 struct MapRecord {
+  /// Row::consumed of a row that is still in V after the last step.
   static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+  /// No row.
   static constexpr std::int32_t no_row = -1;
 
+  /// A convex polygon of the plane and its lifetime in V.
   struct Row {
-    PatchId patch;             ///< whose surface it is
-    std::int32_t made;         ///< step
-    std::int32_t consumed;     ///< step, or `never`
-    std::int32_t parent;       ///< row it was cut from, or no_row for a polygon new at its step
-    bool front_facing;         ///< it receives for omega and shows its back to what lies below
-    std::uint32_t begin, end;  ///< in `corners`
+    PatchId patch;          ///< the patch whose projection it is a part of
+    std::int32_t made;      ///< step that made it
+    std::int32_t consumed;  ///< step that removed it from V, or `never`
+    std::int32_t parent;    ///< row it was cut from; no_row for the polygon that entered at `made`
+    bool front_facing;      ///< the patch receives for omega; its back is visible from below
+    std::uint32_t begin;    ///< first index in `corners`
+    std::uint32_t end;      ///< one past the last index
   };
 
-  PlaneFrame frame;
-  std::vector<FragmentId> order;    ///< BSP fragments, as processed
-  std::vector<PatchId> step_patch;  ///< the patch that step k processes
-  std::vector<Row> rows;
-  std::vector<Vec2> corners;
+  PlaneFrame frame;                 ///< of the direction
+  std::vector<FragmentId> order;    ///< BSP fragments in the order processed
+  std::vector<PatchId> step_patch;  ///< per step: the patch of its fragment
+  std::vector<Row> rows;            ///< in the order made
+  std::vector<Vec2> corners;        ///< of all rows
 
+  /// Number of steps: fragments processed.
   std::int32_t step_count() const { return static_cast<std::int32_t>(order.size()); }
+  /// Corners of a row's polygon.
   std::span<const Vec2> outline(const Row& row) const {
     return {corners.data() + row.begin, row.end - row.begin};
   }
-  /// Of the row's polygon, m².
+  /// Area of the row's polygon, m².
   double area(const Row& row) const;
-  /// Whether point `p` of the plane lies in the row's polygon or on its edge.
+  /// Whether point `p` of the plane lies inside the row's polygon or on its boundary.
   bool covers(const Row& row, const Vec2& p) const;
-  /// The numbers of the rows that make up V after step k (-1: before the first).
+  /// The numbers of the rows that form V after step `step` (-1: before the first).
   std::vector<std::int32_t> map_after(std::int32_t step) const;
-  /// The step after which what shines down in V (is back facing) makes the most of a picture: the
-  /// largest product of its rows and its area. Later, what receives covers it more and more.
+  /// The step whose V makes the most informative picture: the one with the largest product of the
+  /// number and the total area of its back-facing (emitting) rows. In later steps front-facing rows
+  /// cover more and more of them.
   std::int32_t fullest_step() const;
 };
 
-/// Runs the local map engine on one direction and keeps its history. The transfers are the same
-/// bits as the engine's.
-/// @throws Canceled
+/// The result of the local map engine for one direction, with its history.
 struct RecordedDirection {
-  Transfers transfers;
-  MapRecord record;
+  Transfers transfers;  ///< the same bits as those of the engine
+  MapRecord record;     ///< how they were found
 };
+/// Runs the local map engine on one direction and records its history.
+/// @param scene the scene.
+/// @param tree BSP tree of `scene`.
+/// @param omega unit.
+/// @param cancellation checked between steps.
+/// @throws Canceled
 RecordedDirection record_local_map(const Scene& scene, const BspTree& tree, const Vec3& omega,
                                    const Cancellation& cancellation = {});
 
-/// What is seen of a scene along one direction, upward: convex polygons of the transillumination
+/// What is visible along one direction omega, upward: convex polygons of the transillumination
 /// plane that do not overlap (paper, section 3). For files and pictures; map_files.h writes it.
 struct VisibilityMap {
+  /// A convex polygon of the map.
   struct Polygon {
-    PatchId patch;             ///< whose surface it is
-    bool front_facing;         ///< it receives, and shows its back here; else it shines down
-    double area;               ///< m², >= 0
-    std::uint32_t begin, end;  ///< in `corners`
+    PatchId patch;        ///< the visible patch
+    bool front_facing;    ///< its back is visible and it receives; else its front, and it emits
+    double area;          ///< m², >= 0
+    std::uint32_t begin;  ///< first index in `corners`
+    std::uint32_t end;    ///< one past the last index
   };
 
-  PlaneFrame frame;
-  PatchId receiver = no_patch;      ///< who looks up; no_patch: somebody below the whole scene
-  std::vector<Polygon> polygons;    ///< by patch, then in the order they were made
-  std::vector<Polygon> window;      ///< the receiver's own; outside `polygons` nothing is above it
-  std::vector<Vec2> corners;        ///< of polygons and window, counter-clockwise as u turns to v
-  std::vector<Transfer> exchanges;  ///< who sees whom along the direction, by receiver
+  PlaneFrame frame;               ///< of the direction
+  PatchId receiver = no_patch;    ///< the map is that of this patch; no_patch: from below the scene
+  std::vector<Polygon> polygons;  ///< sorted by patch, then in the order made
+  std::vector<Polygon> window;    ///< the receiver's projection; parts of it not covered by
+                                  ///< `polygons` have nothing above
+  std::vector<Vec2> corners;      ///< of polygons and window, counter-clockwise from u to v
+  std::vector<Transfer> exchanges;  ///< all exchanges along the direction, sorted by receiver
 
-  /// Of a map drawn in pixels (pixel_map.h).
+  /// Additional data of a map drawn in pixels (pixel_map.h).
   struct Pixels {
-    double side = 0;                   ///< meters; 0: the map is exact, and nothing below
-    std::vector<Vec2> borders;         ///< between different patches: ends of lines, two by two
-    std::vector<Polygon> differences;  ///< where not what is there is shown; corners in `corners`
+    double side = 0;            ///< of a pixel, m; 0: the map is exact, and the lists are empty
+    std::vector<Vec2> borders;  ///< line segments between different patches: pairs of end points
+    std::vector<Polygon> differences;  ///< where the pixels differ from the exact map; corners in
+                                       ///< `corners`
   };
-  Pixels pixels;
+  Pixels pixels;  ///< of a map drawn in pixels
 
+  /// Corners of a polygon.
   std::span<const Vec2> outline(const Polygon& polygon) const {
     return {corners.data() + polygon.begin, polygon.end - polygon.begin};
   }
 };
 /// V after step `step` (-1: before the first), without exchanges.
 VisibilityMap map_after(const MapRecord& record, std::int32_t step);
-/// V after the last step: what is seen from below the scene.
+/// V after the last step: what is visible from below the scene.
 VisibilityMap map_from_below(const RecordedDirection& direction);
-/// What patch `receiver` of the scene sees: the inside lists of the steps that process it. Without
-/// a window, and empty, where it is edge-on or faces away.
+/// What patch `receiver` sees along the direction: the inside lists of the steps that process it.
+/// Empty, also the window, if the patch is edge-on or back-facing.
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver);
 
 }  // namespace transillum

@@ -12,8 +12,8 @@
 
 namespace transillum {
 
-/// The enumerator that stands where `name` stands among `names`.
-/// @throws InputError that names the choices; `what` is what they are choices of.
+/// The enumerator whose index is that of `name` in `names`.
+/// @throws InputError that lists the choices; `what` says what they are, such as "engine".
 template <class Choice>
 Choice choice_from_name(const std::vector<std::string>& names, const char* what,
                         const std::string& name) {

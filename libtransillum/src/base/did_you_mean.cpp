@@ -10,7 +10,7 @@
 namespace transillum {
 namespace {
 
-/// Levenshtein's distance: insertions, deletions and replacements.
+/// Levenshtein distance: number of insertions, deletions and replacements.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -29,7 +29,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
-  // Comparing takes time in proportion to the length of the word, so that is bounded.
+  // The time grows with the length of the word, so the length is limited.
   if (word.empty() || word.size() > 64) {
     return {};
   }

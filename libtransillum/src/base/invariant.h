@@ -6,7 +6,7 @@
 
 namespace transillum {
 
-/// Something that can only be wrong by a fault of ours.
+/// A violated invariant: a bug of this library.
 class InvariantError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -14,7 +14,7 @@ class InvariantError : public std::logic_error {
 
 }  // namespace transillum
 
-/// States what always holds. Checked in builds with TRANSILLUM_CHECKS (the whole test run).
+/// Asserts an invariant. Checked only in builds with TRANSILLUM_CHECKS (all tests use one).
 #ifdef TRANSILLUM_CHECKS
 #define TRANSILLUM_INVARIANT(condition, what)                                                    \
   do {                                                                                           \

@@ -14,11 +14,11 @@ namespace transillum {
 namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
-constexpr std::int32_t lines_between_looks = 4096;
+constexpr std::int32_t lines_between_cancellation_checks = 4096;
 
 bool is_comment(std::string_view line) { return trimmed(line).starts_with('#'); }
 
-bool gives_name(std::string_view keyword) {
+bool has_name_argument(std::string_view keyword) {
   return keyword == "usemtl" || keyword == "newmtl" || keyword == "mtllib";
 }
 
@@ -31,7 +31,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
     throw InputError(path.string() + ": no such file");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    throw InputError(path.string() + ": is not a plain file");
+    throw InputError(path.string() + ": is not a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
@@ -39,7 +39,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
   }
   if (size > limit) {
     throw InputError(
-        fmt::format("{}: has {} bytes, but at most {} are read", path.string(), size, limit));
+        fmt::format("{}: file has {} bytes; the limit is {}", path.string(), size, limit));
   }
   std::ifstream file(path, std::ios::binary);
   std::string text(static_cast<std::size_t>(size), '\0');
@@ -48,7 +48,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
     throw InputError(path.string() + ": cannot be read");
   }
   if (text.find('\0') != std::string::npos) {
-    throw InputError(path.string() + ": is a binary file, not text");
+    throw InputError(path.string() + ": is a binary file, not a text file");
   }
   return text;
 }
@@ -96,7 +96,7 @@ std::optional<double> parse_number(std::string_view word) {
   if (end != last || word.empty()) {
     return {};
   }
-  // Too large or too small for a double: strtod tells which, infinity or (nearly) zero.
+  // Too large or too small for a double: strtod returns infinity or (nearly) zero.
   if (error == std::errc::result_out_of_range) {
     return std::strtod(std::string(word).c_str(), nullptr);
   }
@@ -106,8 +106,8 @@ std::optional<double> parse_number(std::string_view word) {
   return value;
 }
 
-LineFeed::LineFeed(std::string_view text, Look look, const Cancellation& cancellation)
-    : text_(text), look_(std::move(look)), cancellation_(cancellation) {
+LineFeed::LineFeed(std::string_view text, Filter filter, const Cancellation& cancellation)
+    : text_(text), filter_(std::move(filter)), cancellation_(cancellation) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text_.starts_with(byte_order_mark)) {
     position_ = byte_order_mark.size();
@@ -127,7 +127,7 @@ bool LineFeed::next_line() {
     const bool pair = end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n';
     position_ = end + (pair ? 2 : 1);
     ++lines_read_;
-    // A comment ends with its line, even where it quotes a path of another system.
+    // A comment ends with its line, even if it ends with a backslash (of a Windows path).
     continued = !line_.empty() && line_.back() == '\\' && !is_comment(line_);
     if (continued) {
       line_.back() = ' ';
@@ -138,7 +138,7 @@ bool LineFeed::next_line() {
 
 LineFeed::int_type LineFeed::underflow() {
   while (next_line()) {
-    if (line_number_ % lines_between_looks == 0) {
+    if (line_number_ % lines_between_cancellation_checks == 0) {
       cancellation_.throw_if_canceled();
     }
     TextLine line{line_number_, {}, {}};
@@ -149,22 +149,22 @@ LineFeed::int_type LineFeed::underflow() {
     const std::size_t end = std::min(content.find_first_of(blanks), content.size());
     line.keyword = content.substr(0, end);
     line.rest = trimmed(content.substr(end));
-    // Names may hold a #, as in "Material #25".
-    if (!gives_name(line.keyword)) {
+    // Names may contain a #, as in "Material #25".
+    if (!has_name_argument(line.keyword)) {
       line.rest = trimmed(line.rest.substr(0, line.rest.find('#')));
     }
-    if (!look_(line)) {
+    if (!filter_(line)) {
       continue;
     }
-    // What the parser gets is the line as it was looked at: one blank, no comment, and no kind
-    // of blank that it takes for a part of a word.
-    std::string handed(line.keyword);
-    handed += ' ';
-    handed += line.rest;
+    // The parser gets the line as the filter did, without comments, and without the kinds of
+    // blanks that it would take for part of a word.
+    std::string passed(line.keyword);
+    passed += ' ';
+    passed += line.rest;
     std::replace_if(
-        handed.begin(), handed.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
-    handed += '\n';
-    line_ = std::move(handed);
+        passed.begin(), passed.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
+    passed += '\n';
+    line_ = std::move(passed);
     setg(line_.data(), line_.data(), line_.data() + line_.size());
     return traits_type::to_int_type(line_.front());
   }

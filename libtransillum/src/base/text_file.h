@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+// Text files and their lines: reading a whole file, splitting lines into words and numbers, and a
+// stream that filters lines before a parser gets them.
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,39 +18,39 @@
 
 namespace transillum {
 
-/// Largest scene file (OBJ or MTL) that is read, in bytes.
+/// Largest scene file (OBJ or MTL) accepted, in bytes.
 inline constexpr std::uintmax_t largest_scene_file = std::uintmax_t{1} << 30;
 
 /// The text of a file.
-/// @throws InputError where it is missing, no plain file, unreadable, larger than `limit` bytes,
+/// @throws InputError if it is missing, not a regular file, unreadable, larger than `limit` bytes,
 /// or binary.
 std::string read_text_file(const std::filesystem::path& path, std::uintmax_t limit);
 
-/// The text that a message quotes: no control characters, not too long.
+/// `text` in backquotes for a message: control characters replaced, at most 40 bytes.
 std::string in_quotes(std::string_view text);
-/// Without blanks at either end.
+/// Without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 /// The words between blanks.
 void split_words(std::string_view text, std::vector<std::string_view>& words);
 
-/// The nearest double to a decimal number, also "nan" and "inf"; nothing where it is no number.
+/// The double nearest to a decimal number, also "nan" and "inf"; empty if `word` is not a number.
 std::optional<double> parse_number(std::string_view word);
 
-/// A line of a file: continued lines (a backslash at the end) are one.
+/// A logical line of a file: lines joined by a backslash at the end count as one.
 struct TextLine {
-  std::int32_t number = 0;  ///< of its first line, from 1
+  std::int32_t number = 0;  ///< of its first physical line, from 1
   std::string_view keyword;
   std::string_view rest;  ///< trimmed
 };
 
-/// Hands the lines of a text to a parser one at a time, so that what the parser calls back about
-/// belongs to the line that was handed out last, and every line is looked at before it is parsed.
+/// A stream buffer that passes a text to a parser one line at a time. Every line goes through a
+/// filter before it is parsed, and the parser's callbacks refer to the line passed last.
 class LineFeed : public std::streambuf {
  public:
-  /// Looks at a line; returns whether the parser shall see it.
-  using Look = std::function<bool(const TextLine&)>;
+  /// Inspects a line; returns whether to pass it to the parser.
+  using Filter = std::function<bool(const TextLine&)>;
 
-  LineFeed(std::string_view text, Look look, const Cancellation& cancellation);
+  LineFeed(std::string_view text, Filter filter, const Cancellation& cancellation);
 
  protected:
   int_type underflow() override;
@@ -57,7 +60,7 @@ class LineFeed : public std::streambuf {
   bool next_line();
 
   std::string_view text_;
-  Look look_;
+  Filter filter_;
   const Cancellation& cancellation_;
   std::size_t position_ = 0;
   std::int32_t lines_read_ = 0;

@@ -8,25 +8,25 @@
 
 namespace transillum {
 
-/// What a worker makes of one direction.
+/// The result of one pass.
 struct Pass {
   Transfers transfers;
-  ExchangeSums::Run run;  ///< where the pass is to be kept
+  ExchangeSums::Run run;  ///< empty unless exchanges are to be kept
   ClosureDefect closure;
 };
 
-/// Makes passes on several threads and hands them over in their order.
+/// Makes passes on several threads and delivers them in order.
 class PassRunner {
  public:
-  /// @param threads >= 1; more than the machine has are used as well.
+  /// @param threads >= 1; may exceed the number of cores.
   explicit PassRunner(int threads) : threads_(threads) {}
 
-  /// Makes passes `first` to `last` - 1. `make` is called on any thread, and must not read what
-  /// `absorb` writes; `absorb` gets them in order, on one thread at a time, and returns false to
-  /// ask for no more: those under way, two a thread at most, still come.
-  /// An exception of either is thrown here, after what came before it was absorbed.
+  /// Makes passes `first` to `last` - 1. `make` is called on any thread and must not read what
+  /// `add` writes. `add` receives the passes in order, on one thread at a time, and returns false
+  /// to stop: passes under way, at most two per thread, are still added.
+  /// An exception of either is rethrown here, after the passes before it have been added.
   void run(int first, int last, const std::function<Pass(int)>& make,
-           const std::function<bool(int, Pass)>& absorb) const;
+           const std::function<bool(int, Pass)>& add) const;
 
  private:
   int threads_;

@@ -39,7 +39,7 @@ const std::vector<Setting>& settings() {
          fmt::format("{}, hemicube 64", EngineOptions::default_resolution)},
         {"lines", "a number", "for the engine rays: lines a patch and direction",
          fmt::to_string(engine.lines_per_patch), false},
-        {"order", "a name", "of the painter; newell gives up where patches overlap in a circle",
+        {"order", "a name", "of the painter; newell gives up where patches overlap in a cycle",
          name_of(engine.order), false},
         {"random-lines", "yes or no",
          "for the engine rays: lines anywhere instead of one in each cell of a grid",

@@ -1,138 +1,79 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// RadiositySolver::Impl: the parts of a solver and the order in which they are used. Each part has
+// one job and a header of its own; solver_state.cpp has the iteration, solver_results.cpp what is
+// read from it, radiosity_solver.cpp the public class.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <memory>
-#include <vector>
 
-#include "radiosity/solver/exchange_sums.h"
+#include "radiosity/solver/iteration_history.h"
+#include "radiosity/solver/iteration_under_way.h"
+#include "radiosity/solver/kept_exchanges.h"
 #include "radiosity/solver/pass_plan.h"
 #include "radiosity/solver/pass_runner.h"
+#include "radiosity/solver/pass_statistics.h"
 #include "radiosity/solver/radiosity_iterate.h"
-#include "radiosity/solver/running_mean.h"
-#include "radiosity/solver/visible_areas.h"
+#include "radiosity/solver/replicas.h"
+#include "radiosity/solver/solver_input.h"
+#include "radiosity/solver/solver_timing.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
 
-/// All that a solver knows, and what it does step by step. RadiositySolver is its face.
 struct RadiositySolver::Impl {
-  // What is solved, and how.
-  std::shared_ptr<const Scene> scene;
-  SolveOptions options;
-  std::shared_ptr<const BspTree> tree;
-  Cancellation cancellation;
-  TransferEngine engine;
-  PassPlan plan;
-  int threads = 1;
+  SolverInput input;
+  PassPlan plan;                ///< which direction each pass takes
+  RadiosityIterate whole;       ///< B from all passes
+  Replicas replicas;            ///< B from each replica's passes
+  KeptExchanges kept;           ///< exchanges of the passes so far
+  PassStatistics statistics;    ///< measured along each direction once
+  IterationUnderWay iteration;  ///< in progress
+  IterationHistory history;     ///< finished iterations, and the answer so far
+  SolverTiming timing;
 
-  // The step under way.
-  bool begun = false;
-  std::vector<Vec3> directions;  ///< in the order of the passes
-  int taken_over = 0;            ///< passes that it has from kept sums
-  std::vector<Rgb> estimate;     ///< of B
-  std::vector<double> estimate_changes;
-  double step_seconds = 0;
+  explicit Impl(SolverInput solver_input);
 
-  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros where there is none
-  double seconds_first_shot = 0;
-
-  // B of all passes, and of each replica's.
-  RadiosityIterate whole;
-  std::vector<RadiosityIterate> replicas;
-
-  // The steps before.
-  RunningMean mean_b, mean_h;  ///< where the scheme is semi-iterative
-  std::vector<RunningMean> replica_means;
-  std::vector<Rgb> b, h;  ///< the answer so far
-  std::vector<IterationRecord> steps;
-  double last_absolute_change = 0;
-  bool finished = false, converged = false;
-
-  // Learned from each direction once.
-  SeenAreas areas;
-  std::vector<ExchangeSums> sums;  ///< a replica each, or one
-  bool keeps_renewed = false;      ///< also where each step has directions of its own
-  SeenAreas renewed_areas;         ///< of the passes of all steps in `sums` then
-  std::vector<double> facing_area, back_seen;
-  std::vector<double> quadrature_errors;  ///< after each of the passes in `areas`
-  double closure_relative = 0, closure_grazing = 0, covered = 0, seen = 0;
-  std::int64_t transfer_count = 0;
-  PassCounts counts;
-
-  double energy_defect = 0;
-  std::int64_t passes_made = 0;
-  double seconds_bsp = 0, seconds_transfers = 0, seconds_iterate = 0;
-
-  Impl(std::shared_ptr<const Scene> solved, const SolveOptions& how,
-       std::shared_ptr<const BspTree> ready_tree, const Cancellation& stop,
-       std::shared_ptr<const DirectLight> ready_shot);
-
-  /// The first shot's light; shoots where that is still to be done.
-  const std::shared_ptr<const DirectLight>& light_of_shot();
-
-  int ways() const { return options.two_way ? 2 : 1; }
-  int step() const { return static_cast<int>(steps.size()); }
-  /// Passes that the step under way takes, and that it has.
-  int wanted() const { return plan.passes(step()); }
-  int done() const { return begun ? whole.passes() : 0; }
-  /// Whether passes are to be kept, were there the memory.
-  bool wants_sums() const { return !plan.renews() || keeps_renewed; }
-  bool keeps_sums() const;
-  /// What the passes in `sums` have seen.
-  const SeenAreas& kept_areas() const { return plan.renews() ? renewed_areas : areas; }
-  KeptSums all_sums() const;
-  std::size_t replica_of(int k) const { return static_cast<std::size_t>(k) % sums.size(); }
-
-  /// Calls visit(iterate, its sums) for B of all passes and of each replica's.
+  /// Number of passes of the iteration under way, and how many of them are done.
+  int passes_needed() const { return plan.passes(history.size()); }
+  int passes_done() const { return iteration.begun ? whole.passes() : 0; }
+  /// Whether pass k of the iteration under way is the first along its direction, if the first
+  /// `known` directions were used before. Any thread may call it.
+  bool is_first_along(int k, int known) const { return plan.renews() || k >= known; }
+  /// Areas of the passes whose exchanges are kept.
+  const VisibleAreaSums& kept_areas() const {
+    return plan.renews() ? kept.renewed_areas() : statistics.areas();
+  }
+  /// Calls visit(iterate, its sums) for B of all passes, then of each replica.
   template <class Visit>
   void for_each_iterate(Visit visit) {
-    visit(whole, all_sums());
-    for (std::size_t r = 0; r < replicas.size(); ++r) {
-      visit(replicas[r], KeptSums{&sums[r]});
-    }
+    visit(whole, kept.all());
+    replicas.for_each(
+        [&](RadiosityIterate& iterate, std::size_t r) { visit(iterate, kept.of_replica(r)); });
   }
 
-  /// Takes over what kept sums have of this step; the rest is left to passes.
-  void begin_step();
-  /// Whether pass k of the step under way is the first along its direction, given that the first
-  /// `known` have been learned from. Any thread may ask.
-  bool is_new(int k, int known) const { return plan.renews() || k >= known; }
-  /// A pure function of k and `known`, the passes that were learned from before.
-  Pass make_pass(int k, int known) const;
-  /// Adds pass k to the step under way; in order of the passes, on one thread at a time.
-  void absorb(int k, Pass pass);
-  /// What needs to be learned from each direction only once.
-  void learn(const Pass& pass);
-  void keep(int k, ExchangeSums::Run run);
-  /// @throws std::runtime_error where kept sums are wanted and there are none.
-  void check_memory() const;
-  /// Returns how much the estimate changes, relative to its largest value.
-  double find_estimate();
-  /// B(n+1) from what was gathered, and the rule of eq. 25.
-  void finish_step();
-  /// Whether the steps so far count for nothing in the mean.
-  bool in_burn_in() const { return plan.renews() && mean_b.count == 0; }
-  /// The answer of the semi-iterative scheme; returns how much the step has changed it.
-  double average();
-  /// Power received against power sent, before any scaling of rows (oracle 4).
-  void measure_energy();
-  /// Too few directions for so much reflectance make rows sum to more than 1/rho.
-  void check_contraction() const;
-
-  /// One pass on this thread.
+  /// Starts an iteration from the kept sums, if any; the rest is left to passes.
+  void begin_iteration();
+  /// One pass, on this thread. Returns what the observer returns.
   bool advance_direction(const RadiositySolver& self, const Observer& observer);
-  /// All passes that the step still lacks, over all threads; absorbed in order, so the sums are
-  /// the same bits whatever the number of threads.
+  /// All passes that the iteration still needs, on all threads. They are added in order, so the
+  /// sums have the same bits for any number of threads. Returns false if the observer did.
   bool advance_passes(const RadiositySolver& self, const Observer& observer);
+  /// A pure function of k and `known`, as in is_first_along().
+  Pass make_pass(int k, int known) const;
+  /// Adds pass k; in the order of the passes, on one thread at a time.
+  void add_pass(int k, Pass pass);
+  /// Updates the estimate of B. Returns its change over its largest value.
+  double update_estimate();
+  /// B(n+1) from what was gathered, and the stopping rule (eq. 25).
+  void finish_iteration();
+  /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
+  double energy_defect() const;
+
+  SolveProgress progress() const;
+  SolveStatistics solve_statistics() const;
+  FormFactors form_factors() const;
+  ErrorEstimate error_estimate() const;
 };
-
-/// Relative to `scale`, where there is any.
-inline double share(double part, double scale) { return scale > 0 ? part / scale : 0.0; }
-
-inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace transillum

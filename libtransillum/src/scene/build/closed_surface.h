@@ -5,9 +5,9 @@
 
 namespace transillum {
 
-/// Whether every edge of a patch is run along by as many patches one way as the other. Then the
-/// patches are closed surfaces, each with a lit side: a walk in space that goes through them from
-/// lit side to back, say, comes back to where it began through as many from back to lit side.
+/// Whether every edge is used by as many patches in one direction as in the other. Then the patches
+/// form closed surfaces with consistently oriented lit sides: a closed path in space crosses them
+/// from the lit side to the back as often as from the back to the lit side.
 bool is_closed_surface(const Scene& scene);
 
 }  // namespace transillum

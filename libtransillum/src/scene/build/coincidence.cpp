@@ -51,7 +51,7 @@ std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
     const auto first =
         end - i > 1 ? point_set(description, welded, hashed[i].second) : std::vector<PointId>();
     for (std::size_t k = i + 1; k < end; ++k) {
-      // Other sets with the same hash are left out of the count: one in 2^64.
+      // Different sets with the same hash (one pair in 2^64) are not compared with each other.
       if (point_set(description, welded, hashed[k].second) == first) {
         pairs.emplace_back(hashed[k].second, hashed[i].second);
       }

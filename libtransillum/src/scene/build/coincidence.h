@@ -8,8 +8,8 @@
 
 namespace transillum {
 
-/// Pairs (later face, earliest face with the same set of distinct points), by the later.
-/// `welded` gives each point of the description its number among the distinct ones.
+/// Pairs (face, earliest face with the same set of distinct points), sorted by the first.
+/// @param welded for each point of the description its number among the distinct ones
 std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
     const SceneDescription& description, const std::vector<PointId>& welded);
 

@@ -26,7 +26,7 @@ void check_points(const SceneDescription& description) {
           fmt::format("{}: vertex {}: a coordinate is not a finite number", description.name, i));
     }
     if (max_abs(p) > largest_coordinate) {
-      throw InputError(fmt::format("{}: vertex {}: coordinate {} is beyond {}", description.name, i,
+      throw InputError(fmt::format("{}: vertex {}: coordinate {} exceeds {}", description.name, i,
                                    max_abs(p), largest_coordinate));
     }
   }
@@ -44,13 +44,13 @@ void check_faces(const SceneDescription& description) {
     }
     const std::int32_t material = description.face_material[f];
     if (material < 0 || material >= material_count) {
-      throw InputError(fmt::format("{}material {} is out of range, there are {}",
+      throw InputError(fmt::format("{}material {} is out of range, there are {} materials",
                                    face_place(description, f), material, material_count));
     }
   }
 }
 
-/// Only those in use: a library of materials may hold others.
+/// Checks only the materials in use: an MTL file may contain others.
 void check_used_materials(const SceneDescription& description) {
   std::vector<bool> used(description.materials.size());
   for (const std::int32_t m : description.face_material) {

@@ -7,17 +7,18 @@
 
 namespace transillum {
 
-/// Coordinates beyond this would overflow in areas and volumes.
+/// Largest magnitude of a coordinate, m; beyond it areas and volumes would overflow.
 inline constexpr double largest_coordinate = 1e60;
 
-/// "name:line: face N: ", the beginning of every sentence about a face; N counts from 0, as in
+/// "name:line: face N: ", the beginning of every message about a face; N counts from 0, as in
 /// the results.
 std::string face_place(const SceneDescription& description, std::size_t face);
 
-/// @throws InputError beginning with `place` unless 0 <= rho < 1 and 0 <= E < infinity.
+/// Checks 0 <= rho < 1 and 0 <= E < infinity.
+/// @throws InputError beginning with `place`.
 void check_material(const Material& material, const std::string& place);
 
-/// Whatever can be wrong before the shape of faces is looked at.
+/// Checks all of a description but the shapes of its faces: coordinates, indices, materials.
 /// @throws InputError
 void check_description(const SceneDescription& description);
 

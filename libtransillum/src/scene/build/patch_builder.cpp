@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/invariant.h"
 #include "scene/build/coincidence.h"
@@ -16,10 +17,16 @@ namespace transillum {
 namespace {
 
 constexpr double epsilon = 0x1p-52;
-/// Shares of a face's size, and of its width, beyond which it is not one planar polygon any more.
+/// Largest deviation of a planar face from its plane, relative to its diameter and to its width.
 constexpr double largest_deviation_by_diameter = 1e-6;
 constexpr double largest_deviation_by_width = 1e-3;
-constexpr std::size_t faces_between_looks = 256;
+constexpr std::size_t faces_between_cancellation_checks = 256;
+
+CornerList all_corners(std::size_t n) {
+  CornerList all(n);
+  std::iota(all.begin(), all.end(), CornerList::value_type{0});
+  return all;
+}
 
 double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::uint32_t> corners) {
   const PlanePoint& o = plane[corners[0]];
@@ -32,13 +39,9 @@ double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::ui
   return 0.5 * doubled;
 }
 
-/// An outline that touches itself may turn both ways round, as an 8 does. Then the parts by the
-/// even-odd rule are more than what the outline goes round.
+/// Whether the parts have the outline's area. They do not if an outline that touches itself has
+/// loops of opposite orientation, as an 8 has: parts by the even-odd rule have more area.
 bool same_area(const std::vector<PlanePoint>& plane, const std::vector<CornerList>& parts) {
-  CornerList whole(plane.size());
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    whole[i] = static_cast<std::uint32_t>(i);
-  }
   double sum = 0, reach = 0;
   for (const CornerList& part : parts) {
     sum += signed_area(plane, part);
@@ -46,9 +49,9 @@ bool same_area(const std::vector<PlanePoint>& plane, const std::vector<CornerLis
   for (const PlanePoint& p : plane) {
     reach = std::max({reach, std::abs(p[0] - plane[0][0]), std::abs(p[1] - plane[0][1])});
   }
-  // A sliver's area is little of the products that it is the difference of.
+  // A sliver's area is the small difference of large products.
   const double rounding = 0x1p-50 * static_cast<double>(plane.size()) * reach * reach;
-  return std::abs(signed_area(plane, whole) - sum) <= 1e-9 * sum + rounding;
+  return std::abs(signed_area(plane, all_corners(plane.size())) - sum) <= 1e-9 * sum + rounding;
 }
 
 std::vector<PointId> pick(const std::vector<PointId>& outline, const CornerList& corners) {
@@ -57,14 +60,6 @@ std::vector<PointId> pick(const std::vector<PointId>& outline, const CornerList&
     picked.push_back(outline[c]);
   }
   return picked;
-}
-
-CornerList all_corners(std::size_t n) {
-  CornerList all(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    all[i] = static_cast<std::uint32_t>(i);
-  }
-  return all;
 }
 
 }  // namespace
@@ -85,15 +80,15 @@ void PatchBuilder::build() {
   report.faces = static_cast<std::int64_t>(description_.face_count());
   report.warnings = description_.notes;
   for (std::size_t f = 0; f < description_.face_count(); ++f) {
-    if (f % faces_between_looks == 0) {
+    if (f % faces_between_cancellation_checks == 0) {
       cancellation_.throw_if_canceled();
     }
     add_face(f);
   }
   if (patches.empty()) {
-    throw InputError(face_place(description_, 0) + lack_of_area(0) +
-                     (description_.face_count() > 1 ? ", nor has any other face an area" : "") +
-                     "; there is nothing to light");
+    throw InputError(face_place(description_, 0) + no_area_reason(0) +
+                     (description_.face_count() > 1 ? ", and no other face has an area" : "") +
+                     "; the scene has no patches");
   }
   count_coincident();
   count_unused();
@@ -106,9 +101,9 @@ void PatchBuilder::add_face(std::size_t face) {
   const PolygonShape shape = measure(table.points(), outline);
   if (shape.degenerate) {
     if (is_bow_tie(table.points(), outline)) {
-      refuse_crossing(face);
+      throw_crossing(face);
     }
-    drop(face);
+    remove(face);
   } else if (!is_planar(shape)) {
     add_triangles(face, outline, shape);
   } else {
@@ -133,30 +128,31 @@ PatchBuilder::Outline PatchBuilder::welded_outline(std::size_t face) {
   return outline;
 }
 
-void PatchBuilder::drop(std::size_t face) {
-  ++report.dropped_degenerate;
-  warnings_.add("faces without area, left out",
-                face_place(description_, face) + lack_of_area(face) + "; it is left out");
+void PatchBuilder::remove(std::size_t face) {
+  ++report.removed_degenerate;
+  warnings_.add("faces without area, removed",
+                face_place(description_, face) + no_area_reason(face) + "; face removed");
 }
 
-std::string PatchBuilder::lack_of_area(std::size_t face) const {
+std::string PatchBuilder::no_area_reason(std::size_t face) const {
   const std::size_t corners = description_.outline(face).size();
   if (corners >= 3) {
-    return "it has no area";
+    return "no area";
   }
-  return fmt::format("it has {} corner{}, but needs at least 3", corners, corners == 1 ? "" : "s");
+  return fmt::format("{} corner{}, but at least 3 are required", corners, corners == 1 ? "" : "s");
 }
 
 void PatchBuilder::add_triangles(std::size_t face, const Outline& outline,
                                  const PolygonShape& shape) {
   ++report.cut_non_planar;
-  warnings_.add("faces that are not planar, cut into triangles",
-                fmt::format("{}it is not planar: a corner is {:.3g} m off; cut into triangles",
-                            face_place(description_, face), shape.deviation));
+  warnings_.add(
+      "non-planar faces, split into triangles",
+      fmt::format("{}not planar (a corner is {:.3g} m off the plane); split into triangles",
+                  face_place(description_, face), shape.deviation));
   const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
   std::vector<CornerList> triangles;
   if (outline.size() == 4 && !is_simple(plane)) {
-    // A quadrilateral so bent that it crosses itself when flattened is still two triangles.
+    // A quadrilateral bent so much that its projection crosses itself is still two triangles.
     triangles = {{0, 1, 2}, {0, 2, 3}};
   } else {
     triangles = triangles_of(face, plane);
@@ -202,31 +198,32 @@ void PatchBuilder::refine(std::size_t face, const Outline& outline, const Polygo
     const Outline corners = pick(outline, part);
     const double area = measure(table.points(), corners).area;
     const CellGrid grid = choose_grid(table.points(), corners, area, options_.max_patch_area);
-    check_room(face, grid.cell_count());
+    check_patch_limit(face, grid.cell_count());
     for (const Outline& cell : make_cells(table, grid)) {
       cancellation_.throw_if_canceled();
       const PolygonShape cell_shape = measure(table.points(), cell);
       if (cell_shape.degenerate) {
-        throw InputError(face_place(description_, face) +
-                         "max-patch-area is too small for the precision of its coordinates");
+        throw InputError(
+            face_place(description_, face) +
+            "the maximum patch area is too small for the precision of the coordinates");
       }
       add_patch(face, cell, cell_shape, convex_pieces(face, cell, cell_shape));
     }
   }
 }
 
-void PatchBuilder::check_room(std::size_t face, std::int64_t more) const {
+void PatchBuilder::check_patch_limit(std::size_t face, std::int64_t more) const {
   const std::int64_t sides = options_.two_sided ? 2 : 1;
-  if (static_cast<std::int64_t>(patches.size()) + sides * more > most_patches) {
-    throw InputError(fmt::format("{}more than {} patches; is max-patch-area {} m² too small?",
-                                 face_place(description_, face), most_patches,
-                                 options_.max_patch_area));
+  if (static_cast<std::int64_t>(patches.size()) + sides * more > max_patches) {
+    throw InputError(
+        fmt::format("{}more than {} patches; is the maximum patch area of {} m² too small?",
+                    face_place(description_, face), max_patches, options_.max_patch_area));
   }
 }
 
 void PatchBuilder::add_patch(std::size_t face, const Outline& outline, const PolygonShape& shape,
                              const std::vector<CornerList>& parts) {
-  check_room(face, 1);
+  check_patch_limit(face, 1);
   const auto id = static_cast<PatchId>(patches.size());
   Patch& patch = patches.emplace_back();
   patch.normal = shape.normal;
@@ -275,7 +272,7 @@ void PatchBuilder::add_opposite() {
   }
 }
 
-/// Rounding alone makes no face crooked, however thin it is.
+/// A deviation that rounding explains makes no face non-planar, however thin the face is.
 bool PatchBuilder::is_planar(const PolygonShape& shape) const {
   const double width = shape.area / shape.diameter;
   return is_flat(shape) || (shape.deviation <= largest_deviation_by_diameter * shape.diameter &&
@@ -312,21 +309,21 @@ std::vector<CornerList> PatchBuilder::checked(std::size_t face,
                                               const std::vector<PlanePoint>& plane,
                                               std::vector<CornerList> parts) const {
   if (parts.empty() || !same_area(plane, parts)) {
-    refuse_crossing(face);
+    throw_crossing(face);
   }
   return parts;
 }
 
-void PatchBuilder::refuse_crossing(std::size_t face) const {
-  throw InputError(face_place(description_, face) + "its outline crosses itself");
+void PatchBuilder::throw_crossing(std::size_t face) const {
+  throw InputError(face_place(description_, face) + "the outline crosses itself");
 }
 
 void PatchBuilder::count_coincident() {
   for (const auto& [later, earlier] : coincident_faces(description_, welded_)) {
     ++report.coincident_faces;
-    warnings_.add("faces on the points of an earlier one",
-                  fmt::format("{}it has the same points as face {}",
-                              face_place(description_, later), earlier));
+    warnings_.add(
+        "faces with the same points as an earlier one",
+        fmt::format("{}same points as face {}", face_place(description_, later), earlier));
   }
 }
 

@@ -1,6 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+// From the faces of a checked SceneDescription to patches, their convex pieces and the report of
+// what was repaired. Faces without area are removed, non-planar ones split into triangles, large
+// ones refined (SceneOptions::max_patch_area).
+
 #include <span>
 #include <string>
 #include <vector>
@@ -11,14 +15,16 @@
 
 namespace transillum {
 
-/// Makes patches and their convex pieces of the faces of a checked description.
+/// Builds the patches of a Scene and their convex pieces from a checked description. The public
+/// members are the results of build().
 class PatchBuilder {
  public:
-  /// More patches than this are refused.
-  static constexpr std::int64_t most_patches = 50'000'000;
+  /// Limit of the number of patches.
+  static constexpr std::int64_t max_patches = 50'000'000;
 
   PatchBuilder(const SceneDescription& description, const SceneOptions& options,
                const Cancellation& cancellation);
+  /// @throws InputError, Canceled
   void build();
 
   PointTable table;
@@ -33,34 +39,38 @@ class PatchBuilder {
   static constexpr std::size_t no_face = static_cast<std::size_t>(-1);
 
   void add_face(std::size_t face);
+  /// The face's corners as points of `table`, without repeated ones.
   Outline welded_outline(std::size_t face);
-  void drop(std::size_t face);
-  /// Why a face that is dropped has none.
-  std::string lack_of_area(std::size_t face) const;
-  /// Cuts a face that is not planar into triangles; each becomes a face's part of its own.
+  void remove(std::size_t face);
+  /// Why the face has no area, for messages.
+  std::string no_area_reason(std::size_t face) const;
+  /// Splits a non-planar face into triangles and adds each as a part.
   void add_triangles(std::size_t face, const Outline& outline, const PolygonShape& shape);
-  /// A planar part of a face: one patch, or many where it is to be refined.
+  /// Adds a planar part of a face as one patch, or as many patches if it is to be refined.
   void add_part(std::size_t face, const Outline& outline, const PolygonShape& shape);
   void refine(std::size_t face, const Outline& outline, const PolygonShape& shape);
   void add_patch(std::size_t face, const Outline& outline, const PolygonShape& shape,
                  const std::vector<CornerList>& parts);
+  /// Adds the back side of the last patch (SceneOptions::two_sided).
   void add_opposite();
-  void check_room(std::size_t face, std::int64_t more) const;
+  /// @throws InputError if `more` patches would exceed max_patches.
+  void check_patch_limit(std::size_t face, std::int64_t more) const;
 
   bool is_planar(const PolygonShape& shape) const;
   bool is_flat(const PolygonShape& shape) const;
-  /// The outline's convex pieces; flat ones to rounding.
-  /// @throws InputError where the outline crosses itself.
+  /// The outline's convex pieces, each planar to rounding.
+  /// @throws InputError if the outline crosses itself.
   std::vector<CornerList> convex_pieces(std::size_t face, const Outline& outline,
                                         const PolygonShape& shape) const;
   std::vector<CornerList> triangles_of(std::size_t face,
                                        const std::vector<PlanePoint>& plane) const;
 
-  /// The parts, if they are what the outline goes round.
+  /// `parts`, if they cover what the outline encloses.
+  /// @throws InputError otherwise: the outline crosses itself.
   std::vector<CornerList> checked(std::size_t face, const std::vector<PlanePoint>& plane,
                                   std::vector<CornerList> parts) const;
 
-  [[noreturn]] void refuse_crossing(std::size_t face) const;
+  [[noreturn]] void throw_crossing(std::size_t face) const;
 
   void count_coincident();
   void count_unused();
@@ -68,8 +78,8 @@ class PatchBuilder {
   const SceneDescription& description_;
   const SceneOptions& options_;
   const Cancellation& cancellation_;
-  std::vector<PointId> welded_;  // a point of the description: its number in the table, or -1
-  double flatness_ = 0;          // meters; within it a polygon counts as planar
+  std::vector<PointId> welded_;  // for each point of the description its number in `table`, or -1
+  double flatness_ = 0;          // deviation within which a polygon counts as planar, m
   std::size_t last_refined_ = no_face;
   Warnings warnings_;
 };

@@ -40,7 +40,7 @@ PointId PointTable::id_of(const Vec3& position) {
   if (2 * points_.size() >= slots_.size()) {
     grow();
   }
-  // Adding 0 turns -0 into 0, so that equal points have equal bits.
+  // Adding 0 turns -0 into 0, so equal points have equal bits.
   const Vec3 p{position.x + 0.0, position.y + 0.0, position.z + 0.0};
   const std::size_t slot = slot_of(p);
   if (slots_[slot] == free_slot) {

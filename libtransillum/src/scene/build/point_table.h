@@ -7,11 +7,11 @@
 
 namespace transillum {
 
-/// Distinct points by their exact coordinates; -0 counts as 0.
+/// Assigns one number to all points with exactly the same coordinates; -0 equals 0.
 class PointTable {
  public:
-  /// The number of the point there, new or known.
-  /// @throws InputError when there are more points than PointId can number.
+  /// The number of the point at `position`, added if it is new.
+  /// @throws InputError if there are more points than PointId can number.
   PointId id_of(const Vec3& position);
   const std::vector<Vec3>& points() const { return points_; }
   std::vector<Vec3> take() { return std::move(points_); }
@@ -21,7 +21,7 @@ class PointTable {
   std::size_t slot_of(const Vec3& position) const;
 
   std::vector<Vec3> points_;
-  std::vector<PointId> slots_;  // open addressing; -1: free
+  std::vector<PointId> slots_;  // hash table with open addressing; -1: free
 };
 
 }  // namespace transillum

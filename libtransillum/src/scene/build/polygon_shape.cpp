@@ -37,7 +37,7 @@ PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outl
   const std::size_t n = outline.size();
   const Vec3 origin = corner(0);
   Bounds box;
-  Vec3 mean;  // relative to the first corner, so that a far origin costs no digits
+  Vec3 mean;  // relative to the first corner: no cancellation far from the origin
   Vec3 doubled;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 p = corner(i);
@@ -92,7 +92,7 @@ std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const 
   plane.reserve(outline.size());
   for (const PointId id : outline) {
     const Vec3& p = at(points, id);
-    // Exchanging the two axes that are left turns the outline round where it faces away.
+    // Swapping the two remaining axes reverses the orientation if the normal is negative.
     if (z >= x && z >= y) {
       plane.push_back(normal.z > 0 ? PlanePoint{p.x, p.y} : PlanePoint{p.y, p.x});
     } else if (x >= y) {

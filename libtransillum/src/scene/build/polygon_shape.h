@@ -9,25 +9,25 @@
 
 namespace transillum {
 
-/// What is measured of a polygon in space.
+/// Measurements of a polygon in space.
 struct PolygonShape {
-  Vec3 normal;           ///< unit, Newell's; zero where there is no area
-  double area = 0;       ///< m²
-  Vec3 center;           ///< centroid of the area
-  double diameter = 0;   ///< diagonal of the bounding box, m
-  double deviation = 0;  ///< distance from the mean plane to the corner farthest from it, m
-  double max_coordinate = 0;
-  /// No wider than its coordinates are precise: what area there is says nothing.
+  Vec3 normal;                ///< unit vector by Newell's method; zero if degenerate
+  double area = 0;            ///< m²
+  Vec3 center;                ///< centroid of the area
+  double diameter = 0;        ///< diagonal of the bounding box, m
+  double deviation = 0;       ///< distance from the mean plane to the corner farthest from it, m
+  double max_coordinate = 0;  ///< largest magnitude, m
+  /// No wider than the precision of its coordinates: its area is meaningless.
   bool degenerate = true;
 };
 PolygonShape measure(std::span<const Vec3> points, std::span<const PointId> outline);
 
-/// Whether an outline without area is that of a bow tie, whose loops cancel each other: planar,
-/// its corners all different, but not on one line.
+/// Whether an outline without area is a bow tie, whose loops cancel: planar, all corners different
+/// and not collinear.
 bool is_bow_tie(std::span<const Vec3> points, std::span<const PointId> outline);
 
-/// The outline in the plane, by leaving out the axis nearest to the normal: coordinates stay
-/// exact, and it turns counter-clockwise.
+/// Projects an outline to a plane by dropping the axis nearest to the normal: coordinates stay
+/// exact, and the result is counter-clockwise.
 std::vector<PlanePoint> drop_axis(std::span<const Vec3> points, std::span<const PointId> outline,
                                   const Vec3& normal);
 

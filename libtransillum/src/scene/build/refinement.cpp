@@ -9,24 +9,24 @@
 namespace transillum {
 namespace {
 
-constexpr double most_divisions = 1e8;
+constexpr double max_divisions = 1e8;
 
-/// An area that exceeds its bound by rounding only needs no further cut.
+/// An area that exceeds its limit by rounding only needs no further division.
 constexpr double slack = 1 - 1e-9;
 
 double length(const std::vector<Vec3>& points, PointId a, PointId b) {
   return norm(at(points, a) - at(points, b));
 }
 
-int divisions(double wanted) {
-  return static_cast<int>(std::clamp(std::ceil(wanted * slack), 1.0, most_divisions));
+int divisions(double required) {
+  return static_cast<int>(std::clamp(std::ceil(required * slack), 1.0, max_divisions));
 }
 
 Vec3 bilinear(const std::array<Vec3, 4>& c, double u, double v) {
   return (1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[3] + u * c[2]);
 }
 
-/// The area of the largest cell is in a corner, as the Jacobian of the bilinear map is linear.
+/// The largest cell is at a corner, since the Jacobian of the bilinear map is linear.
 double largest_cell_area(const std::array<Vec3, 4>& c, int columns, int rows) {
   const double du = 1.0 / columns, dv = 1.0 / rows;
   double largest = 0;
@@ -49,7 +49,7 @@ std::array<Vec3, 4> four_corners(const std::vector<Vec3>& points,
   return corners;
 }
 
-/// The k-th of n equal steps from a to b.
+/// The point a + k/n (b - a), computed from the end with the smaller number.
 PointId point_on_edge(PointTable& table, PointId a, PointId b, int k, int n) {
   if (k == 0) {
     return a;
@@ -108,7 +108,7 @@ std::vector<std::vector<PointId>> triangle_cells(PointTable& table, const CellGr
   const auto corner = [&](int i) { return at(table.points(), at(o, i)); };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
   const int n = grid.columns;
-  // Row j has n - j + 1 points, i steps toward b and j steps toward c.
+  // Row j has n - j + 1 points; point (i, j) is a + i/n (b - a) + j/n (c - a).
   const auto point = [&](int i, int j) {
     if (j == 0) {
       return point_on_edge(table, o[0], o[1], i, n);
@@ -159,11 +159,11 @@ CellGrid choose_grid(const std::vector<Vec3>& points, std::vector<PointId> outli
   grid.columns = divisions(std::sqrt(cells * (width / height)));
   grid.rows = divisions(cells / grid.columns);
   const std::array<Vec3, 4> corners = four_corners(points, o);
-  while (grid.columns < most_divisions && grid.rows < most_divisions &&
+  while (grid.columns < max_divisions && grid.rows < max_divisions &&
          largest_cell_area(corners, grid.columns, grid.rows) * slack > max_area) {
-    // Grow by a share, so that a very fine grid is found in few steps.
-    int& wider = width / grid.columns > height / grid.rows ? grid.columns : grid.rows;
-    wider += 1 + wider / 64;
+    // Grow by a factor, so that a very fine grid takes few rounds.
+    int& coarser = width / grid.columns > height / grid.rows ? grid.columns : grid.rows;
+    coarser += 1 + coarser / 64;
   }
   return grid;
 }

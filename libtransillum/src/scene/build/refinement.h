@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+// Refinement of large faces into grids of smaller patches (SceneOptions::max_patch_area).
+
 #include <array>
 #include <vector>
 
@@ -8,7 +10,7 @@
 
 namespace transillum {
 
-/// A regular cut of a triangle or a convex quadrilateral into cells.
+/// A regular subdivision of a triangle or a convex quadrilateral into cells.
 struct CellGrid {
   std::vector<PointId> outline;  ///< three or four corners
   int columns = 1;               ///< divisions of edge 0-1; of every edge of a triangle
@@ -19,13 +21,13 @@ struct CellGrid {
   }
 };
 
-/// The coarsest grid whose cells are no larger than `max_area`: nearly square cells in a
+/// The coarsest grid whose cells are no larger than `max_area` (m²): nearly square cells in a
 /// quadrilateral, similar triangles in a triangle.
 CellGrid choose_grid(const std::vector<Vec3>& points, std::vector<PointId> outline, double area,
                      double max_area);
 
-/// The outlines of the cells, row by row. New points go into `table`; those on an edge depend on
-/// its end points and division only, so that the faces on both sides share them to the bit.
+/// The outlines of the cells, row by row. New points are added to `table`; those on an edge depend
+/// only on its end points and number of divisions, so adjacent faces share them bit for bit.
 std::vector<std::vector<PointId>> make_cells(PointTable& table, const CellGrid& grid);
 
 }  // namespace transillum

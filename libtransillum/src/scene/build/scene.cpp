@@ -14,7 +14,7 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
              const Cancellation& cancellation)
     : name_(description.name), options_(options), materials_(description.materials) {
   if (!(options.max_patch_area >= 0 && std::isfinite(options.max_patch_area))) {
-    throw InputError(fmt::format("max-patch-area is {} m², but must be finite and >= 0",
+    throw InputError(fmt::format("the maximum patch area is {} m², but must be finite and >= 0",
                                  options.max_patch_area));
   }
   check_description(description);

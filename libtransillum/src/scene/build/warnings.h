@@ -8,15 +8,16 @@
 
 namespace transillum {
 
-/// Sentences for the user, only the first few of each kind and how many more there are.
+/// Warnings for the user: the first few of each kind, then only their number.
 class Warnings {
  public:
   static constexpr std::int64_t shown_of_a_kind = 10;
 
-  /// `kind` completes "and 7 more …".
+  /// @param kind completes "and 7 more …"
+  /// @param sentence without a final period
   void add(const std::string& kind, const std::string& sentence);
   std::int64_t count(const std::string& kind) const;
-  /// In the order the kinds first came up.
+  /// Grouped by kind, in the order in which the kinds first occurred.
   std::vector<std::string> sentences() const;
 
  private:

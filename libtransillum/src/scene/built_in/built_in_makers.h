@@ -6,8 +6,8 @@
 
 namespace transillum {
 
-// The built-in scenes. Each is closed: from the lit side of any face, every ray meets a face.
-// Meters.
+// The built-in scenes, in meters. Each is closed: from the lit side of any face, every ray hits a
+// face.
 
 void make_sphere_flake(SceneMaker& maker, const ParameterValues& values,
                        const Cancellation& cancellation);

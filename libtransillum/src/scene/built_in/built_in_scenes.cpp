@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The table of the built-in scenes, and describe_scene(): from the text that names a scene to a
+// built-in or a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,35 +24,32 @@ struct BuiltIn {
 const std::vector<BuiltIn>& registry() {
   static const std::vector<BuiltIn> all{
       {"sphere-flake",
-       "Spheres on a sphere, a third of its size each, inside a sky of two colors.",
+       "A sphere with smaller spheres on it, each a third of its size, inside a sky of two colors.",
        {{"levels", 2, 0, 5}, {"slices", 17, 3, 4096}, {"stacks", 8, 2, 4096}},
        make_sphere_flake},
       {"cornell-box",
-       "The measured room with a red and a green wall, two blocks and a light in the ceiling; "
-       "its open side is a black wall, or missing with open=1.",
+       "The measured room with a red and a green wall, two blocks and a light in the ceiling. "
+       "Its open side is closed by a black wall, unless open=1.",
        {{"open", 0, 0, 1}},
        make_cornell_box},
       {"furnace",
-       "A box in a closed box, all E = 1 and rho = 0.5, so that B = 2 everywhere.",
+       "A box inside a closed box, with E = 1 and rho = 0.5 everywhere, so B = 2 everywhere.",
        {},
        make_furnace},
       {"boards",
-       "A ring of n boards in a room, each over the next and under the one before.",
+       "A ring of n boards in a room, each overlapping the next: a cyclic order.",
        {{"n", 5, 3, 24}},
        make_boards},
       {"rooms",
-       "A row of rooms joined by doorways, with n boxes among them.",
+       "A row of rooms connected by doorways, with n boxes on their floors.",
        {{"n", 24, 0, 2'000'000}, {"rooms", 3, 1, 1000}, {"seed", 1, 0, 1'000'000'000}},
        make_rooms},
-      {"stars",
-       "A room with n small, bright, separated sources.",
-       {{"n", 12, 1, 1000}},
-       make_stars},
+      {"stars", "A room with n small, bright light sources.", {{"n", 12, 1, 1000}}, make_stars},
   };
   return all;
 }
 
-/// The ending in lower case, where the name ends like a file's: ".obj", but not "=2.5".
+/// The file name's ending in lower case if it consists of letters: ".obj", but not "=2.5".
 std::string file_ending(const std::string& spec) {
   std::string ending = std::filesystem::path(spec).extension().string();
   for (char& c : ending) {
@@ -64,7 +63,7 @@ std::string file_ending(const std::string& spec) {
   return ending.size() > 1 ? ending : std::string();
 }
 
-/// A path, rather than the name of a built-in.
+/// Whether `spec` is a path rather than the name of a built-in.
 bool names_a_file(const std::string& spec) {
   std::error_code ignored;
   return spec.find('/') != std::string::npos || !file_ending(spec).empty() ||
@@ -77,10 +76,11 @@ SceneDescription read_file(const std::string& spec, const Cancellation& cancella
     throw InputError(spec + ": no such file");
   }
   if (file_ending(spec) == ".vtp") {
-    throw InputError(spec + ": is a result, which transillum-viewer opens; a scene ends in .obj");
+    throw InputError(spec +
+                     ": is a result file (open it in transillum-viewer); scene files end in .obj");
   }
   if (file_ending(spec) != ".obj") {
-    throw InputError(spec + ": only files that end in .obj can be read");
+    throw InputError(spec + ": not a scene file; scene files end in .obj");
   }
   return read_obj(spec, cancellation);
 }
@@ -127,9 +127,9 @@ SceneDescription describe_scene(const std::string& spec, const Cancellation& can
     return read_file(spec, cancellation);
   }
   const std::vector<std::string> names = built_in_names();
-  throw InputError(fmt::format(
-      "{}: no such file, and no such built-in scene{} Built-in are {}.", spec,
-      nearest_name(name, names).empty() ? "." : did_you_mean(name, names), fmt::join(names, ", ")));
+  throw InputError(fmt::format("{}: no such file or built-in scene{} Built-in scenes: {}.", spec,
+                               nearest_name(name, names).empty() ? "." : did_you_mean(name, names),
+                               fmt::join(names, ", ")));
 }
 
 }  // namespace transillum

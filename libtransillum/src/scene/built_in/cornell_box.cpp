@@ -9,8 +9,8 @@ namespace transillum {
 namespace {
 
 /// The published measurements are in millimeters: Cornell University Program of Computer
-/// Graphics, "The Cornell Box: Physical measurements". There the red wall's corners lie up to 6 mm
-/// out of a plane; here the room is a true box.
+/// Graphics, "The Cornell Box: Physical measurements". There the red wall's corners are up to 6 mm
+/// off a plane; here the room is an exact box.
 using Millimeters = std::array<double, 3>;
 
 class CornellBox {
@@ -71,7 +71,7 @@ class CornellBox {
     }
     add({lamp.begin(), lamp.end()}, light_);
   }
-  /// It stands on the floor: no bottom.
+  /// A block on the floor, without a bottom.
   void add_block(const std::vector<Millimeters>& foot, double top) {
     const auto raised = [top](const Millimeters& p) { return Millimeters{p[0], top, p[2]}; };
     add({raised(foot[0]), raised(foot[1]), raised(foot[2]), raised(foot[3])}, white_);

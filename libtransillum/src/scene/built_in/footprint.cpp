@@ -10,14 +10,14 @@ namespace {
 
 using Outline = std::vector<Vec3>;
 
-/// Distance of p from the line a b, > 0 on the left; nothing nearer than rounding counts.
+/// Distance of p from the line a b, > 0 on the left; 0 if within rounding.
 double distance_left(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& up) {
   const double distance = dot(cross(b - a, p - a), up) / norm(b - a);
   return std::abs(distance) < 1e-12 * norm(b - a) ? 0.0 : distance;
 }
 
-/// The parts of a convex outline to the right and to the left of the line a b; empty, or a
-/// line's worth of corners, where there is none.
+/// The parts of a convex outline to the right and to the left of the line a b; a part without area
+/// has fewer than three corners.
 std::pair<Outline, Outline> split(const Outline& outline, const Vec3& a, const Vec3& b,
                                   const Vec3& up) {
   Outline right, left;
@@ -40,6 +40,7 @@ std::pair<Outline, Outline> split(const Outline& outline, const Vec3& a, const V
   return {right, left};
 }
 
+/// Whether an edge of `by` separates the two convex outlines.
 bool separated(const Outline& by, const Outline& other, const Vec3& up) {
   for (std::size_t i = 0; i < by.size(); ++i) {
     const Vec3& a = by[i];
@@ -74,12 +75,12 @@ std::vector<Outline> floor_around_all(const Outline& floor, const std::vector<Ou
                                       const Vec3& up) {
   std::vector<Outline> parts{floor};
   for (const Outline& footprint : footprints) {
-    std::vector<Outline> left_over;
+    std::vector<Outline> remaining;
     for (const Outline& part : parts) {
       auto around = floor_around(part, footprint, up);
-      std::move(around.begin(), around.end(), std::back_inserter(left_over));
+      std::move(around.begin(), around.end(), std::back_inserter(remaining));
     }
-    parts = std::move(left_over);
+    parts = std::move(remaining);
   }
   return parts;
 }

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Built-in scene `rooms`: a row of equal rooms with doorways between them, a light in each ceiling,
+// and boxes on the floors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +21,7 @@ struct Materials {
 
 double left_end(int room) { return room * (length + partition); }
 
-/// A wall with a doorway at x, seen from the side of smaller x: one concave polygon.
+/// A wall with a doorway at x, facing -x: one concave polygon.
 std::vector<Vec3> doorway_wall(double x) {
   return {{x, 0, 0},
           {x, 0, height},
@@ -40,7 +42,7 @@ std::vector<Vec3> reversed(std::vector<Vec3> outline) {
   return outline;
 }
 
-/// The floor has the corners of the doorways too, so that no gap opens along them.
+/// The floor has the corners of the doorways too, so no T-junctions form along them.
 std::vector<Vec3> floor_outline(double x0, double x1, bool door_at_x0, bool door_at_x1) {
   std::vector<Vec3> outline{{x0, 0, 0}, {x1, 0, 0}};
   if (door_at_x1) {
@@ -67,7 +69,7 @@ void add_room(SceneMaker& maker, int room, int rooms, const Materials& m) {
   maker.face(last ? blank_wall(x1) : doorway_wall(x1), last ? m.blue : m.wall);
 }
 
-/// The passage through the partition behind a room.
+/// The passage through the partition between `room` and the next.
 void add_passage(SceneMaker& maker, int room, const Materials& m) {
   const double x0 = left_end(room) + length, x1 = x0 + partition;
   const double l = door_left, r = door_right, t = door_top;
@@ -77,10 +79,10 @@ void add_passage(SceneMaker& maker, int room, const Materials& m) {
   maker.face(std::vector<Vec3>{{x0, r, 0}, {x1, r, 0}, {x1, r, t}, {x0, r, t}}, m.wall);
 }
 
-/// In [0,1); the same on every machine, which the standard's distributions are not.
+/// In [0,1); the same on every machine, unlike the distributions of the standard library.
 double unit_random(std::mt19937& random) { return static_cast<double>(random()) * 0x1p-32; }
 
-/// A box turned about the vertical, within a square cell of the floor.
+/// A box rotated about the vertical, within a square cell of the floor.
 SceneMaker::Block random_box(std::mt19937& random, const Vec3& middle, double cell) {
   const double reach = 0.45 * cell;  // from the middle to a corner, at most
   const double turn = 2 * std::numbers::pi * unit_random(random);
@@ -93,8 +95,8 @@ SceneMaker::Block random_box(std::mt19937& random, const Vec3& middle, double ce
       middle - half_a * ahead - half_b * side, 2 * half_a * ahead, 2 * half_b * side, {0, 0, tall}};
 }
 
-/// The floor of a room and `count` boxes spread over it, in rows: each box on a cell of its own,
-/// so that the floor is cut around it alone.
+/// The floor of a room and `count` boxes in rows, each on its own cell of the floor, so that only
+/// this cell is cut around it.
 void add_floor(SceneMaker& maker, int room, int rooms, int count, std::mt19937& random,
                const Materials& m) {
   const double x0 = left_end(room);

@@ -9,12 +9,12 @@ namespace transillum {
 
 SceneMaker::MaterialNumber SceneMaker::material(const std::string& name, const Rgb& reflectance,
                                                 const Rgb& exitance) {
-  made_.materials.push_back({name, reflectance, exitance});
-  return static_cast<MaterialNumber>(made_.materials.size()) - 1;
+  description_.materials.push_back({name, reflectance, exitance});
+  return static_cast<MaterialNumber>(description_.materials.size()) - 1;
 }
 
 void SceneMaker::face(const std::vector<PointId>& outline, MaterialNumber material) {
-  made_.add_face(outline, material);
+  description_.add_face(outline, material);
 }
 
 void SceneMaker::face(const std::vector<Vec3>& outline, MaterialNumber material) {
@@ -26,10 +26,10 @@ void SceneMaker::face(const std::vector<Vec3>& outline, MaterialNumber material)
 }
 
 void SceneMaker::walls(const Block& b, Facing facing, MaterialNumber material) {
-  const std::array<std::array<int, 2>, 4> round{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  const std::array<std::array<int, 2>, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto [ax, ay] = round[i];
-    const auto [bx, by] = round[(i + 1) % 4];
+    const auto [ax, ay] = corners[i];
+    const auto [bx, by] = corners[(i + 1) % 4];
     std::vector<Vec3> outline{b.at(ax, ay, 0), b.at(bx, by, 0), b.at(bx, by, 1), b.at(ax, ay, 1)};
     if (facing == Facing::inward) {
       std::reverse(outline.begin(), outline.end());
@@ -69,7 +69,7 @@ void SceneMaker::block(const Block& b, Facing facing, MaterialNumber material) {
 void SceneMaker::lit_ceiling(const Rectangle& room, const Rectangle& lamp, double z,
                              MaterialNumber ceiling, MaterialNumber light) {
   const auto corners = [z](const Rectangle& r) {
-    // Clockwise seen from above, so counter-clockwise from below.
+    // Clockwise seen from above, counter-clockwise seen from below.
     return std::array<Vec3, 4>{
         {{r.x0, r.y0, z}, {r.x0, r.y1, z}, {r.x1, r.y1, z}, {r.x1, r.y0, z}}};
   };
@@ -82,9 +82,9 @@ void SceneMaker::lit_ceiling(const Rectangle& room, const Rectangle& lamp, doubl
 }
 
 SceneDescription SceneMaker::take(const std::string& name) {
-  made_.name = name;
-  made_.points = table_.take();
-  return std::move(made_);
+  description_.name = name;
+  description_.points = table_.take();
+  return std::move(description_);
 }
 
 }  // namespace transillum

@@ -9,7 +9,8 @@
 
 namespace transillum {
 
-/// Writes a built-in scene: equal points become one, so that neighbors share their corners.
+/// Builds the description of a built-in scene. Equal points become one, so adjacent faces share
+/// their corners.
 class SceneMaker {
  public:
   using MaterialNumber = int;
@@ -17,11 +18,11 @@ class SceneMaker {
   MaterialNumber material(const std::string& name, const Rgb& reflectance,
                           const Rgb& exitance = {});
   PointId point(const Vec3& position) { return table_.id_of(position); }
-  /// Corners counter-clockwise seen from the lit side.
+  /// Adds a face; corners counter-clockwise seen from the lit side.
   void face(const std::vector<PointId>& outline, MaterialNumber material);
   void face(const std::vector<Vec3>& outline, MaterialNumber material);
 
-  /// A corner and three edges from it, right-handed.
+  /// A parallelepiped: a corner and three edges from it, right-handed.
   struct Block {
     Vec3 corner;
     Vec3 x, y, z;
@@ -30,27 +31,27 @@ class SceneMaker {
   enum class Facing { outward, inward };
   /// The six sides of a block.
   void block(const Block& block, Facing facing, MaterialNumber material);
-  /// A floor that looks up (z), left out where blocks stand on it.
+  /// A floor facing up (+z), without the parts under the blocks that stand on it.
   void floor(const std::vector<Vec3>& outline, const std::vector<Block>& standing,
              MaterialNumber material);
-  /// A block that stands on a floor: without its bottom, which nothing sees.
+  /// A block that stands on a floor: without its bottom, which is invisible.
   void standing_block(const Block& block, MaterialNumber material);
   /// The four walls of a block.
   void walls(const Block& block, Facing facing, MaterialNumber material);
 
-  /// A rectangle of the plane of height z.
+  /// An axis-parallel rectangle in a horizontal plane, m.
   struct Rectangle {
     double x0, x1, y0, y1;
   };
-  /// A ceiling over `room` that looks down, with the hole `lamp` filled by a light.
+  /// A ceiling at height z over `room` facing down, with the rectangle `lamp` as a light.
   void lit_ceiling(const Rectangle& room, const Rectangle& lamp, double z, MaterialNumber ceiling,
                    MaterialNumber light);
 
-  std::int64_t face_count() const { return static_cast<std::int64_t>(made_.face_count()); }
+  std::int64_t face_count() const { return static_cast<std::int64_t>(description_.face_count()); }
   SceneDescription take(const std::string& name);
 
  private:
-  SceneDescription made_;
+  SceneDescription description_;
   PointTable table_;
 };
 

@@ -26,14 +26,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 std::string available(const std::vector<SceneParameter>& parameters) {
   if (parameters.empty()) {
-    return "it takes none";
+    return "the scene has no parameters";
   }
-  std::string list = "there are ";
+  std::string list = "available: ";
   for (const SceneParameter& p : parameters) {
     if (&p != &parameters.front()) {
       list += ", ";
     }
-    list += fmt::format("{} ({} … {}, default {})", p.name, p.low, p.high, p.standard);
+    list += fmt::format("{} ({} to {}, default {})", p.name, p.low, p.high, p.default_value);
   }
   return list;
 }
@@ -58,7 +58,7 @@ ParameterValues::ParameterValues(const std::string& scene, const std::string& te
   std::vector<std::string> names;
   for (const SceneParameter& p : parameters) {
     names.push_back(p.name);
-    values_[p.name] = p.standard;
+    values_[p.name] = p.default_value;
   }
   if (text.empty()) {
     return;
@@ -70,12 +70,12 @@ ParameterValues::ParameterValues(const std::string& scene, const std::string& te
     const auto found = std::find_if(parameters.begin(), parameters.end(),
                                     [&](const SceneParameter& p) { return p.name == name; });
     if (found == parameters.end()) {
-      throw InputError(fmt::format("{}: no parameter `{}`{}; {}", scene, name,
+      throw InputError(fmt::format("{}: unknown parameter `{}`{}; {}", scene, name,
                                    did_you_mean(name, names), available(parameters)));
     }
     if (equals == assignment.size()) {
-      throw InputError(fmt::format("{}: parameter `{}` has no value; write {}={}", scene, name,
-                                   name, found->standard));
+      throw InputError(fmt::format("{}: parameter `{}` has no value; example: {}={}", scene, name,
+                                   name, found->default_value));
     }
     if (!given.insert(name).second) {
       throw InputError(fmt::format("{}: parameter `{}` is given twice", scene, name));
@@ -90,7 +90,7 @@ std::string describe(const std::vector<SceneParameter>& parameters) {
     if (!text.empty()) {
       text += ",";
     }
-    text += fmt::format("{}={}", p.name, p.standard);
+    text += fmt::format("{}={}", p.name, p.default_value);
   }
   return text;
 }

@@ -10,14 +10,14 @@ namespace transillum {
 /// A parameter of a built-in scene: a whole number within a range.
 struct SceneParameter {
   std::string name;
-  int standard;  ///< the default
-  int low, high;
+  int default_value;
+  int low, high;  ///< range
 };
 
 /// The values that follow a built-in's name and a colon, as in `levels=2,slices=17`.
 class ParameterValues {
  public:
-  /// @throws InputError naming the parameters there are.
+  /// @throws InputError that lists the available parameters.
   ParameterValues(const std::string& scene, const std::string& text,
                   const std::vector<SceneParameter>& parameters);
   int operator[](const std::string& name) const { return values_.at(name); }

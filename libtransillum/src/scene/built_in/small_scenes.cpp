@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Built-in scenes furnace, boards and stars.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,11 +15,12 @@ SceneMaker::Block upright(const Vec3& corner, const Vec3& size) {
   return {corner, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
 }
 
-/// One of the ring: its middle is `radius` from the ring's axis; it rises along its length.
+/// Board k of the ring: its center is `radius` from the ring's axis, and it rises along its length.
 SceneMaker::Block board(int k, int n, const Vec3& middle) {
   constexpr double radius = 0.8, rise = 0.12, thickness = 0.04;
   const double angle = 2 * pi * k / n;
-  const double crossing = radius * std::tan(pi / n);  // from its middle to where it meets the next
+  const double crossing =
+      radius * std::tan(pi / n);  // from its center to where it crosses the next
   const double half_length = 1.5 * crossing;
   const double width = std::min(0.35 * crossing, 0.3);
   const Vec3 out{std::cos(angle), std::sin(angle), 0};
@@ -48,7 +50,7 @@ void add_octahedron(SceneMaker& maker, const Vec3& center, double radius, int ma
   }
 }
 
-/// The part of x after the point: multiples of irrational steps spread evenly (Kronecker).
+/// The fractional part of x: multiples of an irrational number are evenly distributed (Kronecker).
 double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
@@ -90,7 +92,7 @@ void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancella
   const int n = values["n"];
   const double radius = std::min(0.02, 0.1 / std::cbrt(n));
   for (int i = 0; i < n; ++i) {
-    // Above the blocks; by the three-dimensional relative of the golden ratio no two are near.
+    // Above the blocks; the three-dimensional analog of the golden ratio keeps them apart.
     const double step = 1.22074408460575947536;
     const Vec3 p{0.25 + 3.5 * fraction((i + 0.5) / step),
                  0.25 + 3.5 * fraction((i + 0.5) / (step * step)),

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Built-in scene `sphere-flake`: a sphere with 12 spheres of a third of its size on it, 11 on each
+// of those, and so on, inside an emitting sky sphere.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,12 +17,12 @@ constexpr double pi = std::numbers::pi;
 constexpr double child_size = 1.0 / 3;
 constexpr double sky_radius = 3;
 constexpr int sky_slices = 32, sky_stacks = 8;
-constexpr std::int64_t most_faces = 50'000'000;
+constexpr std::int64_t max_faces = 50'000'000;
 
 struct Ball {
   Vec3 center;
   double radius;
-  Vec3 u, v, axis;  // right-handed, orthonormal; the axis leads away from the parent
+  Vec3 u, v, axis;  // right-handed, orthonormal; the axis points away from the parent
 };
 
 Vec3 point_of(const Ball& ball, double latitude_from_pole, double longitude) {
@@ -29,7 +31,7 @@ Vec3 point_of(const Ball& ball, double latitude_from_pole, double longitude) {
          std::cos(latitude_from_pole) * ball.axis;
 }
 
-/// Points of a latitude-longitude sphere; those of the poles are single.
+/// Points of a latitude-longitude sphere; each pole is one point.
 class BallPoints {
  public:
   BallPoints(SceneMaker& maker, const Ball& ball, int slices, int stacks) : slices_(slices) {
@@ -46,14 +48,16 @@ class BallPoints {
       }
     }
   }
-  PointId point(int stack, int slice) const { return at(points_, stack * slices_ + slice % slices_); }
+  PointId point(int stack, int slice) const {
+    return at(points_, stack * slices_ + slice % slices_);
+  }
 
  private:
   int slices_;
   std::vector<PointId> points_;
 };
 
-/// Corners of one face, counter-clockwise from outside; three at a pole.
+/// Corners of one face, counter-clockwise from outside; three if it touches a pole.
 std::vector<PointId> face_of(const BallPoints& points, int stack, int slice, int stacks) {
   std::vector<PointId> outline{points.point(stack, slice), points.point(stack + 1, slice)};
   if (stack + 1 < stacks) {
@@ -99,7 +103,8 @@ Ball child_of(const Ball& parent, const Vec3& direction) {
   return child;
 }
 
-/// The corners of an icosahedron about the ball's axis; the last one leads to the parent.
+/// Directions to the corners of an icosahedron about the ball's axis; the last points to the
+/// parent.
 std::vector<Vec3> icosahedron(const Ball& ball) {
   const double ring = std::atan(2.0);  // angle between neighboring corners
   std::vector<Vec3> directions{ball.axis};
@@ -127,8 +132,9 @@ void make_sphere_flake(SceneMaker& maker, const ParameterValues& values,
                        const Cancellation& cancellation) {
   const int levels = values["levels"], slices = values["slices"], stacks = values["stacks"];
   const std::int64_t faces = ball_count(levels) * slices * stacks;
-  if (faces > most_faces) {
-    throw InputError(fmt::format("sphere-flake: {} faces are more than {}", faces, most_faces));
+  if (faces > max_faces) {
+    throw InputError(
+        fmt::format("sphere-flake: {} faces exceed the limit of {}", faces, max_faces));
   }
   const int gray = maker.material("gray", {0.6, 0.6, 0.6});
   std::vector<Ball> generation{{{}, 1, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// MTL files: tinyobjloader parses them, but each line is checked before, and Kd and Ke are read
+// here as the nearest doubles.
 #include "scene/read/mtl_reader.h"
 
 #include <fmt/format.h>
@@ -19,12 +21,13 @@ struct Definition {
   bool has_reflectance = false;
 };
 
-/// Looks at each line before tinyobjloader does, and keeps the numbers as the nearest doubles.
+/// Inspects each line before tinyobjloader gets it, and keeps Kd and Ke as the nearest doubles.
 class MtlScan {
  public:
   MtlScan(const std::string& file, Warnings& notes) : file_(file), notes_(notes) {}
 
-  bool look(const TextLine& line) {
+  /// Returns whether to pass the line to tinyobjloader.
+  bool inspect(const TextLine& line) {
     if (line.keyword == "newmtl") {
       return begin(line);
     }
@@ -39,9 +42,8 @@ class MtlScan {
       return true;
     }
     if (line.keyword.starts_with("map_K")) {
-      notes_.add("texture maps, left out",
-                 fmt::format("{}:{}: texture maps such as {} are left out", file_, line.number,
-                             line.keyword));
+      notes_.add("texture maps, ignored",
+                 fmt::format("{}:{}: texture map {} is ignored", file_, line.number, line.keyword));
     }
     return false;
   }
@@ -60,11 +62,11 @@ class MtlScan {
   Rgb color(const TextLine& line) {
     split_words(line.rest, words_);
     if (words_.size() != 1 && words_.size() != 3) {
-      fail(line, "needs three numbers");
+      fail(line, "requires three numbers");
     }
     std::array<double, 3> value{};
     for (std::size_t i = 0; i < 3; ++i) {
-      // One number stands for three equal ones.
+      // A single number applies to all three channels.
       const std::string_view word = words_[words_.size() == 1 ? 0 : i];
       const std::optional<double> number = parse_number(word);
       if (!number) {
@@ -97,24 +99,24 @@ void MaterialLibrary::read(const std::filesystem::path& path, Warnings& notes,
   const std::string text = read_text_file(path, largest_scene_file);
   MtlScan scan(file, notes);
   LineFeed feed(
-      text, [&](const TextLine& line) { return scan.look(line); }, cancellation);
+      text, [&](const TextLine& line) { return scan.inspect(line); }, cancellation);
   std::istream stream(&feed);
-  // Otherwise the stream would swallow what the look throws.
+  // Without this the stream would swallow exceptions of inspect().
   stream.exceptions(std::ios::badbit);
   const std::vector<std::string> parsed = parse_mtl(stream);
-  // tinyobjloader adds a nameless material where there is none.
+  // tinyobjloader adds a material without a name if there is none.
   TRANSILLUM_INVARIANT(parsed.size() == std::max<std::size_t>(1, scan.definitions().size()),
-                       "tinyobjloader sees the materials that the scan saw");
+                       "tinyobjloader finds the same materials as the scan");
   for (Definition& d : scan.definitions()) {
     const std::string place = fmt::format("{}:{}: ", file, d.line);
     if (numbers_.contains(d.material.name)) {
-      notes.add("materials defined again, of which the first counts",
-                fmt::format("{}material {} is defined again; the first one counts", place,
+      notes.add("repeated material definitions, ignored",
+                fmt::format("{}material {} is already defined; the first definition is used", place,
                             in_quotes(d.material.name)));
       continue;
     }
     if (!d.has_reflectance) {
-      notes.add("materials without Kd", fmt::format("{}material {} has no Kd: it reflects nothing",
+      notes.add("materials without Kd", fmt::format("{}material {} has no Kd; its reflectance is 0",
                                                     place, in_quotes(d.material.name)));
     }
     numbers_[d.material.name] = static_cast<std::int32_t>(materials_.size());

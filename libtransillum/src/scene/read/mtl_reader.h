@@ -11,16 +11,17 @@
 
 namespace transillum {
 
-/// The materials of one or more MTL files. Of several with one name the first counts.
+/// The materials of one or more MTL files. The first definition of a name is used.
 class MaterialLibrary {
  public:
+  /// Adds the materials of a file, and remarks about it to `notes`.
   /// @throws InputError "file:line: …"
   void read(const std::filesystem::path& path, Warnings& notes, const Cancellation& cancellation);
 
   const std::vector<Material>& materials() const { return materials_; }
-  /// "file:line: " of the definition.
+  /// "file:line: " of the definition, for messages.
   const std::string& place(std::size_t material) const { return places_[material]; }
-  /// -1 where there is none of that name.
+  /// Index in materials(), or -1.
   std::int32_t find(const std::string& name) const;
   std::vector<std::string> names() const;
 

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// OBJ files: tinyobjloader splits them into vertices, faces and materials, but each line is checked
+// before, and all numbers are read here, as the nearest doubles.
 #include "scene/read/obj_reader.h"
 
 #include <fmt/format.h>
@@ -14,57 +16,58 @@
 #include "scene/build/description_check.h"
 #include "scene/read/mtl_reader.h"
 #include "scene/read/tinyobj_parser.h"
-#include "transillum/did_you_mean.h"
 #include "transillum/at.h"
+#include "transillum/did_you_mean.h"
 
 namespace transillum {
 namespace {
 
-constexpr std::size_t most_vertices = 100'000'000;
-constexpr std::size_t most_corners = 400'000'000;
-constexpr std::size_t most_face_corners = 1'000'000;
+constexpr std::size_t max_vertices = 100'000'000;
+constexpr std::size_t max_corners = 400'000'000;
+constexpr std::size_t max_face_corners = 1'000'000;
 constexpr Rgb default_reflectance{0.5, 0.5, 0.5};
 
-/// What is left out without a word, or with a count where it could matter.
-bool harmless(std::string_view keyword) {
+/// Whether lines with this keyword are ignored without a warning.
+bool is_ignored_silently(std::string_view keyword) {
   constexpr std::string_view known[] = {
       "vt",       "vn",  "vp",         "g",         "o",      "s",      "mg", "bevel", "c_interp",
       "d_interp", "lod", "shadow_obj", "trace_obj", "maplib", "usemap", "vw", "t"};
   return std::find(std::begin(known), std::end(known), keyword) != std::end(known);
 }
 
-/// The checks on one file. tinyobjloader takes the lines apart, but it reads what is no number
-/// as 0, wraps large indices round, and rounds its own way: so each line is looked at before it
+/// Reads one file. tinyobjloader parses the lines, but it reads malformed numbers as 0, lets large
+/// indices overflow, and does not round to nearest: so each line is checked before tinyobjloader
 /// gets it, and coordinates, Kd and Ke come from std::from_chars, as the nearest doubles.
-class ObjReading {
+class ObjReader {
  public:
-  ObjReading(const std::filesystem::path& path, const Cancellation& cancellation)
+  ObjReader(const std::filesystem::path& path, const Cancellation& cancellation)
       : path_(path), cancellation_(cancellation) {
-    made_.name = path.string();
+    description_.name = path.string();
   }
 
   SceneDescription read() {
     const std::string text = read_text_file(path_, largest_scene_file);
     LineFeed feed(
-        text, [this](const TextLine& line) { return look(line); }, cancellation_);
+        text, [this](const TextLine& line) { return inspect(line); }, cancellation_);
     std::istream stream(&feed);
-    // Otherwise the stream would swallow what the look throws.
+    // Without this the stream would swallow exceptions of inspect().
     stream.exceptions(std::ios::badbit);
     parse_obj(stream, {[this] { add_vertex(); },
                        [this](std::span<const int> corners) { add_face(corners); },
                        [this](const std::string& name) { use_material(name); }});
     finish();
-    return std::move(made_);
+    return std::move(description_);
   }
 
  private:
-  bool look(const TextLine& line) {
+  /// Returns whether to pass the line to tinyobjloader.
+  bool inspect(const TextLine& line) {
     line_ = line.number;
     if (line.keyword == "v") {
-      return look_at_vertex(line);
+      return read_vertex(line);
     }
     if (line.keyword == "f") {
-      return look_at_face(line);
+      return check_face(line);
     }
     if (line.keyword == "usemtl") {
       if (line.rest.empty()) {
@@ -74,22 +77,22 @@ class ObjReading {
     }
     if (line.keyword == "mtllib") {
       read_libraries(line.rest);
-    } else if (!harmless(line.keyword)) {
-      notes_.add(
-          "lines of a kind that is left out",
-          fmt::format("{}lines of the kind {} are left out", place(), in_quotes(line.keyword)));
+    } else if (!is_ignored_silently(line.keyword)) {
+      notes_.add("lines with unsupported keywords, ignored",
+                 fmt::format("{}keyword {} is not supported; line ignored", place(),
+                             in_quotes(line.keyword)));
     }
     return false;
   }
 
-  bool look_at_vertex(const TextLine& line) {
+  bool read_vertex(const TextLine& line) {
     split_words(line.rest, words_);
-    const std::size_t number = made_.points.size() + 1;
-    if (number > most_vertices) {
-      fail(fmt::format("more than {} vertices", most_vertices));
+    const std::size_t number = description_.points.size() + 1;
+    if (number > max_vertices) {
+      fail(fmt::format("more than {} vertices", max_vertices));
     }
     if (words_.size() < 3) {
-      fail(fmt::format("vertex {}: needs three coordinates", number));
+      fail(fmt::format("vertex {}: three coordinates are required", number));
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::optional<double> value = parse_number(words_[i]);
@@ -105,25 +108,25 @@ class ObjReading {
     return true;
   }
 
-  bool look_at_face(const TextLine& line) {
+  bool check_face(const TextLine& line) {
     split_words(line.rest, words_);
-    if (words_.size() > most_face_corners) {
-      fail_face(fmt::format("more than {} corners", most_face_corners));
+    if (words_.size() > max_face_corners) {
+      fail_face(fmt::format("more than {} corners", max_face_corners));
     }
-    if (made_.corners.size() + words_.size() > most_corners) {
-      fail(fmt::format("more than {} corners of faces", most_corners));
+    if (description_.corners.size() + words_.size() > max_corners) {
+      fail(fmt::format("more than {} corners of faces", max_corners));
     }
     for (const std::string_view word : words_) {
       check_corner(word);
     }
-    // tinyobjloader does not call back about a face without corners.
+    // tinyobjloader makes no callback for a face without corners.
     if (words_.empty()) {
       add_face({});
     }
     return !words_.empty();
   }
 
-  /// v, v/vt, v//vn or v/vt/vn; only v counts, but the others must be numbers too.
+  /// v, v/vt, v//vn or v/vt/vn; only v is used, but the others must be numbers too.
   void check_corner(std::string_view word) {
     const std::size_t slash = std::min(word.find('/'), word.size());
     int index = 0;
@@ -139,64 +142,64 @@ class ObjReading {
     if (!well_formed || error != std::errc()) {
       fail_face(in_quotes(word) + " is not a corner (v, v/vt, v//vn or v/vt/vn)");
     }
-    const auto count = static_cast<std::int64_t>(made_.points.size());
+    const auto count = static_cast<std::int64_t>(description_.points.size());
     if (index == 0 || index < -count) {
       fail_index(word.substr(0, slash));
     }
   }
 
-  void add_vertex() { made_.points.push_back(vertex_); }
+  void add_vertex() { description_.points.push_back(vertex_); }
 
   void add_face(std::span<const int> indices) {
     TRANSILLUM_INVARIANT(indices.size() == words_.size(),
-                         "tinyobjloader sees the corners that the look saw");
+                         "tinyobjloader finds the same corners as check_face()");
     outline_.clear();
-    const auto count = static_cast<PointId>(made_.points.size());
+    const auto count = static_cast<PointId>(description_.points.size());
     for (const int index : indices) {
       outline_.push_back(index > 0 ? index - 1 : count + index);
     }
-    made_.add_face(outline_, name_in_use_, line_);
+    description_.add_face(outline_, current_name_, line_);
   }
 
-  /// Materials may be defined further down: names are looked up at the end.
+  /// Materials may be defined later in the file, so names are resolved at the end.
   void use_material(const std::string& name) {
     const auto [found, is_new] =
         name_numbers_.try_emplace(name, static_cast<std::int32_t>(used_names_.size()));
     if (is_new) {
       used_names_.push_back({name, line_});
     }
-    name_in_use_ = found->second;
+    current_name_ = found->second;
   }
 
   void read_libraries(std::string_view rest) {
     if (rest.empty()) {
       fail("mtllib has no file name");
     }
-    // A name with blanks, or several names: the file system knows.
-    if (is_there(library_path(rest))) {
+    // One name with blanks, or several names: the existing files decide.
+    if (exists(library_path(rest))) {
       library_.read(library_path(rest), notes_, cancellation_);
       return;
     }
     split_words(rest, words_);
     for (const std::string_view word : words_) {
       const std::filesystem::path path = library_path(word);
-      if (!is_there(path)) {
-        fail(fmt::format("the MTL file {} is missing", in_quotes(word)));
+      if (!exists(path)) {
+        fail(fmt::format("MTL file {} not found", in_quotes(word)));
       }
       library_.read(path, notes_, cancellation_);
     }
   }
   std::filesystem::path library_path(std::string_view name) const {
     std::filesystem::path path = path_.parent_path() / name;
-    if (is_there(path)) {
+    if (exists(path)) {
       return path;
     }
-    // Written on another system.
+    // A Windows path.
     std::string slashes(name);
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     return path_.parent_path() / slashes;
   }
-  static bool is_there(const std::filesystem::path& path) {
+  static bool exists(const std::filesystem::path& path) {
     std::error_code ignored;
     return std::filesystem::exists(path, ignored);
   }
@@ -204,31 +207,31 @@ class ObjReading {
   void finish() {
     check_indices();
     resolve_materials();
-    made_.notes = notes_.sentences();
+    description_.notes = notes_.sentences();
   }
 
-  /// Vertices may be defined further down, so indices are compared with their final number.
+  /// Vertices may be defined later in the file, so indices are checked at the end.
   void check_indices() {
-    const auto count = static_cast<PointId>(made_.points.size());
+    const auto count = static_cast<PointId>(description_.points.size());
     if (count == 0) {
-      throw InputError(made_.name + ": no vertices; is it an OBJ file?");
+      throw InputError(description_.name + ": no vertices; is it an OBJ file?");
     }
-    for (std::size_t f = 0; f < made_.face_count(); ++f) {
-      for (const PointId p : made_.outline(f)) {
+    for (std::size_t f = 0; f < description_.face_count(); ++f) {
+      for (const PointId p : description_.outline(f)) {
         if (p < count) {
           continue;
         }
         throw InputError(fmt::format("{}vertex index {} is out of range, there are {} vertices",
-                                     face_place(made_, f), p + 1, count));
+                                     face_place(description_, f), p + 1, count));
       }
     }
   }
 
   void resolve_materials() {
-    made_.materials = library_.materials();
+    description_.materials = library_.materials();
     std::vector<std::int32_t> resolved(used_names_.size(), -1);
     std::int64_t without = 0;
-    for (std::int32_t& material : made_.face_material) {
+    for (std::int32_t& material : description_.face_material) {
       if (material == no_name) {
         ++without;
         material = static_cast<std::int32_t>(library_.materials().size());
@@ -247,10 +250,11 @@ class ObjReading {
     while (library_.find(name) >= 0) {
       name += "-";
     }
-    made_.materials.push_back({name, default_reflectance, {}});
-    notes_.add("notes",
-               fmt::format("{}: {} faces have no material (usemtl); they get rho = {}, E = 0",
-                           made_.name, without, default_reflectance.r));
+    description_.materials.push_back({name, default_reflectance, {}});
+    notes_.add(
+        "notes",
+        fmt::format("{}: {} of {} faces have no material (usemtl); rho = {}, E = 0 assumed",
+                    description_.name, without, description_.face_count(), default_reflectance.r));
   }
 
   struct UsedName {
@@ -263,7 +267,7 @@ class ObjReading {
     if (material < 0) {
       fail(fmt::format("material {} is not defined{}", in_quotes(used.name),
                        library_.materials().empty()
-                           ? ": there is no MTL file (mtllib) with materials"
+                           ? ": the file names no MTL file (mtllib) with materials"
                            : did_you_mean(used.name, library_.names())));
     }
     const auto m = static_cast<std::size_t>(material);
@@ -271,21 +275,21 @@ class ObjReading {
     return material;
   }
 
-  std::string place() const { return fmt::format("{}:{}: ", made_.name, line_); }
+  std::string place() const { return fmt::format("{}:{}: ", description_.name, line_); }
   [[noreturn]] void fail(const std::string& what) const { throw InputError(place() + what); }
   [[noreturn]] void fail_face(const std::string& what) const {
-    fail(fmt::format("face {}: {}", made_.face_count(), what));
+    fail(fmt::format("face {}: {}", description_.face_count(), what));
   }
   [[noreturn]] void fail_index(std::string_view index) const {
     fail_face(fmt::format("vertex index {} is out of range, there are {} vertices", index,
-                          made_.points.size()));
+                          description_.points.size()));
   }
 
   static constexpr std::int32_t no_name = -1;
 
   const std::filesystem::path& path_;
   const Cancellation& cancellation_;
-  SceneDescription made_;
+  SceneDescription description_;
   MaterialLibrary library_;
   Warnings notes_;
   std::int32_t line_ = 0;
@@ -294,16 +298,16 @@ class ObjReading {
   std::vector<PointId> outline_;
   std::map<std::string, std::int32_t> name_numbers_;
   std::vector<UsedName> used_names_;
-  std::int32_t name_in_use_ = no_name;
+  std::int32_t current_name_ = no_name;
 };
 
 }  // namespace
 
 SceneDescription read_obj(const std::filesystem::path& path, const Cancellation& cancellation) {
   try {
-    return ObjReading(path, cancellation).read();
+    return ObjReader(path, cancellation).read();
   } catch (const std::bad_alloc&) {
-    throw InputError(path.string() + ": does not fit into the memory");
+    throw InputError(path.string() + ": not enough memory");
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-// Compiled in, in double, under a name of its own: a distribution's shared library of the same
+// Compiled in, with doubles, in a namespace of its own: a distribution's shared library of the same
 // name is built for float.
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -13,35 +13,35 @@
 namespace transillum {
 namespace {
 
-/// One face's indices, kept between calls to save the allocation.
-struct Receiver {
+/// State of the callbacks.
+struct CallbackState {
   const ObjEvents& events;
-  std::vector<int> indices;
+  std::vector<int> indices;  ///< of one face, kept to save allocations
 };
 
-Receiver& receiver(void* user) { return *static_cast<Receiver*>(user); }
+CallbackState& state_of(void* user) { return *static_cast<CallbackState*>(user); }
 
 }  // namespace
 
 void parse_obj(std::istream& text, const ObjEvents& events) {
-  Receiver receiving{events, {}};
+  CallbackState callback_state{events, {}};
   tinyobj::callback_t callback;
   callback.vertex_cb = [](void* user, double, double, double, double) {
-    receiver(user).events.vertex();
+    state_of(user).events.vertex();
   };
   callback.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
-    Receiver& r = receiver(user);
-    r.indices.clear();
+    CallbackState& state = state_of(user);
+    state.indices.clear();
     for (int i = 0; i < count; ++i) {
-      r.indices.push_back(corners[i].vertex_index);
+      state.indices.push_back(corners[i].vertex_index);
     }
-    r.events.face(r.indices);
+    state.events.face(state.indices);
   };
   callback.usemtl_cb = [](void* user, const char* name, int) {
-    receiver(user).events.material(name);
+    state_of(user).events.material(name);
   };
   std::string warnings, errors;
-  tinyobj::LoadObjWithCallback(text, callback, &receiving, nullptr, &warnings, &errors);
+  tinyobj::LoadObjWithCallback(text, callback, &callback_state, nullptr, &warnings, &errors);
 }
 
 std::vector<std::string> parse_mtl(std::istream& text) {

@@ -11,9 +11,9 @@
 
 namespace transillum {
 
-/// What tinyobjloader finds in an OBJ text, in the order of its lines. It reads decimal numbers
-/// with its own arithmetic, not to the nearest double (decisions of the reader: obj_reader.cpp
-/// takes the numbers itself), so positions are not passed on.
+/// Callbacks for what tinyobjloader finds in an OBJ text, in the order of its lines. They get no
+/// positions: tinyobjloader does not round decimal numbers to the nearest double, so obj_reader.cpp
+/// reads them itself.
 struct ObjEvents {
   std::function<void()> vertex;
   std::function<void(std::span<const int>)> face;  ///< vertex indices as written

@@ -5,23 +5,23 @@
 
 namespace transillum {
 
-void ConvexOverlap::look_from(const ProjectedFragments::Face& face) {
-  origin_ = faces_.corners[face.begin];
-  area_ = face.area;
+void ConvexOverlap::set_subject(const ProjectedFragments::Fragment& fragment) {
+  origin_ = projected_.corners[fragment.begin];
+  area_ = fragment.area;
   edges_.clear();
-  for (std::uint32_t k = face.begin; k < face.end; ++k) {
-    const GridPoint& a = faces_.corners[k];
-    const GridPoint& b = faces_.corners[k + 1 < face.end ? k + 1 : face.begin];
+  for (std::uint32_t k = fragment.begin; k < fragment.end; ++k) {
+    const GridPoint& a = projected_.corners[k];
+    const GridPoint& b = projected_.corners[k + 1 < fragment.end ? k + 1 : fragment.begin];
     edges_.push_back({{static_cast<double>(a.x - origin_.x), static_cast<double>(a.y - origin_.y)},
                       {static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y)}});
   }
 }
 
-double ConvexOverlap::with(const ProjectedFragments::Face& other) const {
+double ConvexOverlap::area_with(const ProjectedFragments::Fragment& other) const {
   Polygon polygon, left;
   std::size_t count = other.end - other.begin;
   for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& p = faces_.corners[other.begin + k];
+    const GridPoint& p = projected_.corners[other.begin + k];
     polygon[k] = {static_cast<double>(p.x - origin_.x), static_cast<double>(p.y - origin_.y)};
   }
   for (const Edge& edge : edges_) {

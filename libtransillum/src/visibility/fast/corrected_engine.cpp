@@ -1,10 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The future work of section 8: "avoid the majority of the cuttings of the patches. Instead of
-// cutting, the radiosity of the patch can be corrected". A face that is partly hidden stays whole;
-// of it is only known how much is still open, as if that were spread evenly. What two faces
-// exchange is their overlap, corrected by what is open of them. Where this leaves a receiver with
-// less than must lie above it, all that lies there gives more: what is received stays right.
+// cutting, the radiosity of the patch can be corrected". A fragment that is partly hidden stays
+// whole; of it is only known how much is still open, as if that were spread evenly. What two
+// fragments exchange is their overlap, corrected by what is open of them. Where this leaves a
+// receiver with less than must lie above it, all that lies there gives more: what is received stays
+// right.
 #include "transillum/corrected_map.h"
 
 #include <algorithm>
@@ -14,106 +15,110 @@
 
 #include "transillum/at.h"
 #include "visibility/fast/convex_overlap.h"
-#include "visibility/fast/fast_bins.h"
 #include "visibility/fast/fast_engine.h"
+#include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/projected_fragments.h"
 #include "visibility/transfers/transfer_sums.h"
 
 namespace transillum {
 namespace {
 
-/// A face of which less is open counts as hidden.
+/// A fragment of which less is open counts as hidden.
 constexpr double hidden = 1e-6;
 
 /// What all passes share.
 struct CorrectedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
-  FastOutlines outlines;
-  bool in_air;  ///< no lit side looks at a back, whatever the direction
+  FragmentOutlines outlines;
+  bool backs_hidden;  ///< no lit side queries at a back, whatever the direction
 
   CorrectedScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)),
         tree(std::move(of_tree)),
         outlines(*tree),
-        in_air(fronts_see_no_backs(scene, tree)) {}
+        backs_hidden(fronts_see_no_backs(scene, tree)) {}
 };
 
 /// One direction.
 class CorrectedPass {
  public:
   explicit CorrectedPass(const CorrectedScene& shared)
-      : shared_(shared), bins_(faces_, shared.in_air), overlap_(faces_) {}
+      : shared_(shared), bins_(projected_, shared.backs_hidden), overlap_(projected_) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     begin(omega, cancellation);
     TransferSums<double> sums(shared_.scene->patch_count());
-    for (std::int32_t k = 0; k < face_count(); ++k) {
+    for (std::int32_t k = 0; k < fragment_count(); ++k) {
       if (k % 64 == 0) {
         cancellation.throw_if_canceled();
       }
-      const ProjectedFragments::Face& below = face(k);
+      const ProjectedFragments::Fragment& below = fragment(k);
       sums.project(below.patch, below.front, unit() * below.area);
       look(k);
       for (const Above& above : above_) {
         if (!(above.seen > 0)) {
           continue;
         }
-        const ProjectedFragments::Face& other = face(above.face);
+        const ProjectedFragments::Fragment& other = fragment(above.fragment);
         sums.accumulate(below.patch, below.front, other.patch, other.front, unit() * above.seen);
       }
     }
     return sums.finish(omega, cancellation);
   }
 
-  // The same face by face, for those who want to watch.
+  // The same fragment by fragment, for those who want to watch.
 
   void begin(const Vec3& omega, const Cancellation& cancellation) {
-    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
+    projected_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
     bins_.fill(cancellation);
     open_below_.clear();
-    met_by_.assign(faces_.faces.size(), -1);
+    met_by_.assign(projected_.fragments.size(), -1);
   }
-  std::int32_t face_count() const { return static_cast<std::int32_t>(faces_.faces.size()); }
-  const ProjectedFragments::Face& face(std::int32_t k) const { return at(faces_.faces, k); }
+  std::int32_t fragment_count() const {
+    return static_cast<std::int32_t>(projected_.fragments.size());
+  }
+  const ProjectedFragments::Fragment& fragment(std::int32_t k) const {
+    return at(projected_.fragments, k);
+  }
   /// m² of a step squared.
-  double unit() const { return faces_.grid.step * faces_.grid.step; }
-  /// Finds what face k sees; those before it have looked.
+  double unit() const { return projected_.grid.unit * projected_.grid.unit; }
+  /// Finds what fragment k sees; those before it have looked.
   void look(std::int32_t k) {
-    open_below_.push_back(face(k).area);
+    open_below_.push_back(fragment(k).area);
     above_.clear();
-    if (shared_.in_air && !face(k).front) {
+    if (shared_.backs_hidden && !fragment(k).front) {
       return;
     }
     find_above(k);
-    exchange(face(k));
+    exchange(fragment(k));
   }
-  /// Of a face that has looked, what looks down unhindered; steps squared.
+  /// Of a fragment that has looked, what queries down unhindered; steps squared.
   double open_below(std::int32_t k) const { return at(open_below_, k); }
 
  private:
-  /// A face above the one that looks.
+  /// A fragment above the one that queries.
   struct Above {
-    std::int32_t face;
+    std::int32_t fragment;
     double overlap;  ///< steps squared; < 0: not looked for yet
     double seen;
   };
 
-  /// Those whose boxes overlap that of face k, nearest first.
+  /// Those whose boxes overlap that of fragment k, nearest first.
   void find_above(std::int32_t k) {
-    FaceWindow window;
-    const FaceBox& box = at(faces_.boxes, k);
+    FragmentWindow window;
+    const FragmentBox& box = at(projected_.boxes, k);
     for (std::size_t d = 0; d < 4; ++d) {
       window.ends[d] = -box.ends[d + 4];
       window.ends[d + 4] = -box.ends[d];
     }
     above_.clear();
-    for (auto own = bins_.last_entry(k); own != FastBins::none; own = bins_.entry_before(own)) {
-      for (FastBins::Entry e = own - 1; bins_.face(e) >= 0; --e) {
+    for (auto own = bins_.last_entry(k); own != FragmentBins::none; own = bins_.entry_before(own)) {
+      for (FragmentBins::Entry e = own - 1; bins_.fragment(e) >= 0; --e) {
         if (!window.overlaps(bins_.box(e))) {
           continue;
         }
-        const std::int32_t other = bins_.face(e);
+        const std::int32_t other = bins_.fragment(e);
         if (std::exchange(at(met_by_, other), k) == k) {
           continue;
         }
@@ -121,26 +126,26 @@ class CorrectedPass {
       }
     }
     std::sort(above_.begin(), above_.end(),
-              [](const Above& a, const Above& b) { return a.face > b.face; });
+              [](const Above& a, const Above& b) { return a.fragment > b.fragment; });
   }
 
   double overlap(Above& above) const {
     if (above.overlap < 0) {
-      above.overlap = overlap_.with(face(above.face));
+      above.overlap = overlap_.area_with(fragment(above.fragment));
     }
     return above.overlap;
   }
 
-  /// Fills in what is seen of each face above.
-  void exchange(const ProjectedFragments::Face& below) {
-    overlap_.look_from(below);
+  /// Fills in what is seen of each fragment above.
+  void exchange(const ProjectedFragments::Fragment& below) {
+    overlap_.set_subject(below);
     open_ = below.area;
     const double least = hidden * below.area;
     for (Above& above : above_) {
       if (open_ <= least) {
         return;
       }
-      const double area = face(above.face).area, left = open_below(above.face);
+      const double area = fragment(above.fragment).area, left = open_below(above.fragment);
       if (left > hidden * area) {
         take(above, corrected(overlap(above), below.area, open_, area, left));
       }
@@ -150,7 +155,7 @@ class CorrectedPass {
       if (open_ <= least) {
         return;
       }
-      const double room = std::max(open_below(above.face), 0.0);
+      const double room = std::max(open_below(above.fragment), 0.0);
       take(above, std::min({open_, room, overlap(above) - above.seen}));
     }
     // ... and then a little more than there is, from all.
@@ -169,12 +174,12 @@ class CorrectedPass {
 
   void take(Above& above, double seen) {
     above.seen += seen;
-    at(open_below_, above.face) -= seen;
+    at(open_below_, above.fragment) -= seen;
     open_ -= seen;
   }
 
-  /// What of an overlap is open, from what of both faces is: as much of it as of the face of which
-  /// it is the larger part, but within what both leave possible.
+  /// What of an overlap is open, from what of both fragments is: as much of it as of the fragment
+  /// of which it is the larger part, but within what both leave possible.
   static double corrected(double overlap, double area, double open, double other_area,
                           double other_open) {
     const double share = area < other_area ? open / area : other_open / other_area;
@@ -184,13 +189,13 @@ class CorrectedPass {
   }
 
   const CorrectedScene& shared_;
-  ProjectedFragments faces_;
-  FastBins bins_;
+  ProjectedFragments projected_;
+  FragmentBins bins_;
   ConvexOverlap overlap_;
-  std::vector<double> open_below_;    ///< a face: of its area what looks down unhindered
-  std::vector<std::int32_t> met_by_;  ///< a face: the last one that found it
+  std::vector<double> open_below_;    ///< a fragment: of its area what queries down unhindered
+  std::vector<std::int32_t> met_by_;  ///< a fragment: the last one that found it
   std::vector<Above> above_;
-  double open_ = 0;  ///< of the face that looks
+  double open_ = 0;  ///< of the fragment that queries
 };
 
 }  // namespace
@@ -222,7 +227,7 @@ std::vector<double> open_in_map(const MapRecord& record, std::int32_t step) {
 }
 
 /// The step that takes each outline's fragment.
-std::vector<std::int32_t> steps_of(const FastOutlines& outlines, const MapRecord& record) {
+std::vector<std::int32_t> steps_of(const FragmentOutlines& outlines, const MapRecord& record) {
   std::vector<std::int32_t> steps(outlines.outlines.size());
   for (std::int32_t k = 0; k < record.step_count(); ++k) {
     const auto fragment = static_cast<std::size_t>(at(record.order, k));
@@ -246,13 +251,13 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
   const std::vector<double> exact = open_in_map(record, step);
   const std::vector<std::int32_t> steps = steps_of(shared.outlines, record);
   std::vector<std::size_t> part_of_step(record.order.size(), exact.size());
-  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // face, and the part that it is of
-  for (std::int32_t f = 0; f < pass.face_count(); ++f) {
+  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // fragment, and the part that it is of
+  for (std::int32_t f = 0; f < pass.fragment_count(); ++f) {
     if (f % 64 == 0) {
       cancellation.throw_if_canceled();
     }
-    const ProjectedFragments::Face& face = pass.face(f);
-    const std::int32_t own_step = steps[face.outline];
+    const ProjectedFragments::Fragment& fragment = pass.fragment(f);
+    const std::int32_t own_step = steps[fragment.outline];
     if (own_step > step) {
       break;
     }
@@ -265,10 +270,10 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
       for (const BspTree::Corner& corner : tree->corners(tree->fragment(fragment))) {
         map.corners.push_back(map.frame.project(at(tree->points(), corner.point)));
       }
-      map.parts.push_back({face.patch, face.front, 0, 0, at(exact, own_step), begin,
+      map.parts.push_back({fragment.patch, fragment.front, 0, 0, at(exact, own_step), begin,
                            static_cast<std::uint32_t>(map.corners.size())});
     }
-    map.parts[part].area += pass.unit() * face.area;
+    map.parts[part].area += pass.unit() * fragment.area;
     parts.emplace_back(f, part);
   }
   for (const auto& [f, part] : parts) {

@@ -18,17 +18,18 @@ inline WideInteger exact_turn(const GridPoint& a, const GridPoint& b, const Grid
          static_cast<WideInteger>(b.y - a.y) * (c.x - a.x);
 }
 
-/// Twice the area of the triangle of `line` and `p`: > 0 where p lies left of it. The sign is
-/// exact, the value right to rounding.
+/// Twice the area of the triangle of `line` and `p`, in square grid units: > 0 if p lies left of
+/// the line. The sign is exact, the value correct to rounding.
 long double exact_side(const GridLine& line, const GridPoint& p);
 
-/// The same for the point where lines `p` and `q` meet; 0 where they are parallel.
+/// The same for the point where lines `p` and `q` meet; 0 if they are parallel.
 long double exact_side(const GridLine& line, const GridLine& p, const GridLine& q);
 
-/// Where two lines meet, relative to `origin`; right to rounding however flat their angle.
+/// The point where two lines meet, in grid units from an origin; correct to rounding, however small
+/// the angle between the lines.
 struct Meeting {
   bool parallel;
-  long double x, y;
+  long double x, y;  ///< 0 if parallel
 };
 Meeting exact_meeting(const GridLine& p, const GridLine& q, const GridPoint& origin);
 

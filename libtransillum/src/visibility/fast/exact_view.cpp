@@ -15,8 +15,8 @@ namespace {
 /// Bounds the error of a determinant of differences of numbers of this size, over the size.
 constexpr long double rounding = 8 * std::numeric_limits<long double>::epsilon();
 
-/// Corners of cut faces lie up to so many steps off the lines that they are on.
-constexpr long double off_line = 2;
+/// Corners of cut fragments lie up to so many steps off the lines that they are on.
+constexpr long double corner_offset = 2;
 
 /// Largest |x| + |y| of some corners.
 template <class Polygon>
@@ -30,7 +30,7 @@ auto reach_of(const Polygon& polygon) {
 
 }  // namespace
 
-ExactView::Piece& ExactView::Piece::operator=(const Piece& other) {
+ExactView::Polygon& ExactView::Polygon::operator=(const Polygon& other) {
   count = other.count;
   error = other.error;
   window = other.window;
@@ -42,11 +42,11 @@ ExactView::Piece& ExactView::Piece::operator=(const Piece& other) {
   return *this;
 }
 
-void ExactView::find_window(Piece& piece) const {
-  Real x0 = piece.x[0], x1 = x0, y0 = piece.y[0], y1 = y0;
+void ExactView::find_window(Polygon& polygon) const {
+  Real x0 = polygon.x[0], x1 = x0, y0 = polygon.y[0], y1 = y0;
   Real s0 = x0 + y0, s1 = s0, d0 = x0 - y0, d1 = d0;
-  for (std::size_t k = 1; k < piece.count; ++k) {
-    const Real x = piece.x[k], y = piece.y[k], s = x + y, d = x - y;
+  for (std::size_t k = 1; k < polygon.count; ++k) {
+    const Real x = polygon.x[k], y = polygon.y[k], s = x + y, d = x - y;
     x0 = std::min(x0, x);
     x1 = std::max(x1, x);
     y0 = std::min(y0, y);
@@ -63,95 +63,95 @@ void ExactView::find_window(Piece& piece) const {
                                    x + y + static_cast<double>(s1),
                                    x - y + static_cast<double>(d1)};
   for (std::size_t d = 0; d < 4; ++d) {
-    piece.window.ends[d] = -rounded_down(-high[d]);
-    piece.window.ends[d + 4] = -rounded_down(low[d]);
+    polygon.window.ends[d] = -rounded_down(-high[d]);
+    polygon.window.ends[d + 4] = -rounded_down(low[d]);
   }
 }
 
-void ExactView::look_from(std::int32_t face) {
-  start(face, faces_.corners[at(faces_.faces, face).begin]);
+void ExactView::begin_query(std::int32_t fragment) {
+  start_query(fragment, projected_.corners[at(projected_.fragments, fragment).begin]);
 }
 
-void ExactView::start(std::int32_t face, const GridPoint& origin) {
-  const ProjectedFragments::Face& own = at(faces_.faces, face);
+void ExactView::start_query(std::int32_t fragment, const GridPoint& origin) {
+  const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
   origin_ = origin;
   edge_count_ = 0;
-  unused_.insert(unused_.end(), left_.begin(), left_.end());
-  left_.assign(1, new_piece());
-  Piece& piece = pieces_[left_[0]];
-  load_corners(own, piece);
-  reach_ = reach_of(piece);
-  load_edges(own, piece);
+  free_.insert(free_.end(), remaining_.begin(), remaining_.end());
+  remaining_.assign(1, new_polygon());
+  Polygon& polygon = polygons_[remaining_[0]];
+  load_corners(own, polygon);
+  reach_ = reach_of(polygon);
+  load_edges(own, polygon);
   kept_edges_ = edge_count_;
-  most_ = own.cut_needle ? static_cast<Real>(own.area) : std::numeric_limits<Real>::infinity();
-  left_area_ = area_ = static_cast<Real>(own.area);
-  find_window(piece);
-  window_ = piece.window;
+  max_area_ = own.cut_needle ? static_cast<Real>(own.area) : std::numeric_limits<Real>::infinity();
+  remaining_area_ = area_ = static_cast<Real>(own.area);
+  find_window(polygon);
+  window_ = polygon.window;
 }
 
-void ExactView::look_from(std::int32_t face, const FastBins::Bin& bin) {
-  // What is seen in the bin may be small beside the face.
-  start(face, {bin.x + bin.size / 2, bin.y + bin.size / 2});
+void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin) {
+  // What is seen in the bin may be small beside the fragment.
+  start_query(fragment, {bin.x + bin.size / 2, bin.y + bin.size / 2});
   bin_ = bin;
-  Piece& piece = pieces_[left_[0]];
+  Polygon& polygon = polygons_[remaining_[0]];
   for (const LineId line : {low_x, low_y, high_x, high_y}) {
     const EdgeRef ref = add_edge(bin_line(line), line, made_by_cut, made_by_cut);
-    const Sides sides = measure(piece, ref);
+    const Sides sides = measure_sides(polygon, ref);
     if (sides.left == 0) {
-      unused_.push_back(left_[0]);
-      left_.clear();
+      free_.push_back(remaining_[0]);
+      remaining_.clear();
       return;
     }
     if (sides.right == 0) {
       continue;
     }
-    split(piece, ref, sides, rest_[0], rest_[1]);
-    piece = rest_[0];
+    split(polygon, ref, sides, rest_[0], rest_[1]);
+    polygon = rest_[0];
   }
   kept_edges_ = edge_count_;
-  reach_ = reach_of(piece);
-  left_area_ = area_ = std::min(area_of(piece), most_);
-  find_window(piece);
-  window_ = piece.window;
+  reach_ = reach_of(polygon);
+  remaining_area_ = area_ = std::min(area_of(polygon), max_area_);
+  find_window(polygon);
+  window_ = polygon.window;
 }
 
-/// A place for one more piece.
-std::uint32_t ExactView::new_piece() {
-  if (unused_.empty()) {
-    pieces_.emplace_back();
-    return static_cast<std::uint32_t>(pieces_.size() - 1);
+/// A place for one more polygon.
+std::uint32_t ExactView::new_polygon() {
+  if (free_.empty()) {
+    polygons_.emplace_back();
+    return static_cast<std::uint32_t>(polygons_.size() - 1);
   }
-  const std::uint32_t place = unused_.back();
-  unused_.pop_back();
+  const std::uint32_t place = free_.back();
+  free_.pop_back();
   return place;
 }
 
-void ExactView::load_corners(const ProjectedFragments::Face& face, Piece& piece) const {
-  piece.count = 0;
-  piece.error = 0;
-  for (std::uint32_t k = 0; k < face.end - face.begin; ++k) {
-    const ProjectedFragments::Place at = faces_.place_of(outlines_, face, k, origin_);
-    const FastOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, face, k);
-    piece.add(at.x, at.y, 0, corner.exact ? corner.point : made_by_cut);
+void ExactView::load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const {
+  polygon.count = 0;
+  polygon.error = 0;
+  for (std::uint32_t k = 0; k < fragment.end - fragment.begin; ++k) {
+    const ProjectedFragments::Position at = projected_.position_of(outlines_, fragment, k, origin_);
+    const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
+    polygon.add(at.x, at.y, 0, corner.exact ? corner.point : made_by_cut);
   }
 }
 
-void ExactView::load_edges(const ProjectedFragments::Face& face, Piece& piece) {
-  const bool plain = outlines_.outlines[face.outline].plain;
-  for (std::uint32_t k = 0; k < piece.count; ++k) {
-    const FastOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, face, k);
+void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon) {
+  const bool plain = outlines_.outlines[fragment.outline].plain;
+  for (std::uint32_t k = 0; k < polygon.count; ++k) {
+    const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
     if (plain) {
       // From whole numbers: differences of far corners have lost digits.
-      const std::uint32_t next = k + 1 < piece.count ? k + 1 : 0;
-      const GridPoint &from = faces_.corners[face.begin + k],
-                      &to = faces_.corners[face.begin + next];
-      piece.edge[k] =
-          add_edge(piece.x[k], piece.y[k], static_cast<Real>(to.x - from.x),
-                   static_cast<Real>(to.y - from.y), corner.line, corner.point, piece.point[next]);
+      const std::uint32_t next = k + 1 < polygon.count ? k + 1 : 0;
+      const GridPoint &from = projected_.corners[fragment.begin + k],
+                      &to = projected_.corners[fragment.begin + next];
+      polygon.edge[k] = add_edge(polygon.x[k], polygon.y[k], static_cast<Real>(to.x - from.x),
+                                 static_cast<Real>(to.y - from.y), corner.line, corner.point,
+                                 polygon.point[next]);
     } else {
       const BspTree::Line& points = at(outlines_.lines, corner.line);
-      piece.edge[k] =
-          add_edge(faces_.line_of(outlines_, corner), corner.line,
+      polygon.edge[k] =
+          add_edge(projected_.line_of(outlines_, corner), corner.line,
                    corner.forward ? points.a : points.b, corner.forward ? points.b : points.a);
     }
   }
@@ -160,8 +160,8 @@ void ExactView::load_edges(const ProjectedFragments::Face& face, Piece& piece) {
 ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
                                        PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
-  const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + off_line;
-  // Not shrunk between faces, so that nothing is made anew.
+  const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + corner_offset;
+  // Not shrunk between fragments, so that nothing is made anew.
   if (edges_.size() <= edge_count_) {
     edges_.resize(2 * edge_count_ + 16);
   }
@@ -196,30 +196,31 @@ GridLine ExactView::grid_line(const Edge& edge) const {
   if (edge.line < 0) {
     return bin_line(edge.line);
   }
-  return {at(faces_.grid.points, edge.from), at(faces_.grid.points, edge.to)};
+  return {at(projected_.grid.points, edge.from), at(projected_.grid.points, edge.to)};
 }
 
-/// Sides of the corners of `piece` with what is not sure settled; what is on the line is on
-/// neither.
-ExactView::Sides ExactView::settled(const Piece& piece, EdgeRef ref, Sides sides) const {
-  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+/// Sides of the corners of `polygon` with what is not sure settle_uncertain; what is on the line is
+/// on neither.
+ExactView::Sides ExactView::settle_uncertain(const Polygon& polygon, EdgeRef ref,
+                                             Sides sides) const {
+  const std::uint64_t all = (std::uint64_t{1} << polygon.count) - 1;
   for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
        unsure &= unsure - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
-    const Real side = exact_side_of(piece, k, ref);
+    const Real side = exact_side_of(polygon, k, ref);
     sides.left |= static_cast<std::uint64_t>(side > 0) << k;
     sides.right |= static_cast<std::uint64_t>(side < 0) << k;
   }
   return sides;
 }
 
-/// The sides of the corners of `piece` as far as they are sure.
-ExactView::Sides ExactView::sure_sides(const Piece& piece, EdgeRef ref, Real error) const {
+/// The sides of the corners of `polygon` as far as they are sure.
+ExactView::Sides ExactView::certain_sides(const Polygon& polygon, EdgeRef ref, Real error) const {
   const Edge& edge = edge_of(ref);
   const Real limit = edge.length * (edge.slack + error);
   Sides sides;
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    const Real side = edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Real side = edge.dx * polygon.y[k] - edge.dy * polygon.x[k] + edge.c;
     sides.left |= static_cast<std::uint64_t>(side > limit) << k;
     sides.right |= static_cast<std::uint64_t>(side < -limit) << k;
   }
@@ -229,13 +230,14 @@ ExactView::Sides ExactView::sure_sides(const Piece& piece, EdgeRef ref, Real err
   return sides;
 }
 
-/// Finds the edges of `by` that have corners of `piece` on their right, as bits of `cuts`. Returns
-/// false where one has none on its left: they share no area.
-bool ExactView::find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts) {
-  const std::uint64_t all = (std::uint64_t{1} << piece.count) - 1;
+/// Finds the edges of `by` that have corners of `polygon` on their right, as bits of `cuts`.
+/// Returns false where one has none on its left: they share no area.
+bool ExactView::find_cuts(const Polygon& polygon, const Polygon& by, Real error,
+                          std::uint64_t& cuts) {
+  const std::uint64_t all = (std::uint64_t{1} << polygon.count) - 1;
   for (std::size_t k = 0; k < by.count; ++k) {
-    sides_of_edges_[k] = sure_sides(piece, by.edge[k], error);
-    counts_.decisions += static_cast<std::int64_t>(piece.count);
+    sides_of_edges_[k] = certain_sides(polygon, by.edge[k], error);
+    counts_.decisions += static_cast<std::int64_t>(polygon.count);
     if (sides_of_edges_[k].right == all) {
       return false;
     }
@@ -245,7 +247,7 @@ bool ExactView::find_cuts(const Piece& piece, const Piece& by, Real error, std::
     Sides sides = sides_of_edges_[k];
     // What is not sure matters only where it may be all that lies on a side.
     if ((sides.left == 0 || sides.right == 0) && (sides.left | sides.right) != all) {
-      sides = settled(piece, by.edge[k], sides);
+      sides = settle_uncertain(polygon, by.edge[k], sides);
     }
     if (sides.left == 0) {
       return false;
@@ -255,17 +257,17 @@ bool ExactView::find_cuts(const Piece& piece, const Piece& by, Real error, std::
   return true;
 }
 
-/// The sides of the corners of `piece`; leaves the determinants in sides_, their signs right.
-ExactView::Sides ExactView::measure(const Piece& piece, EdgeRef ref) {
+/// The sides of the corners of `polygon`; leaves the determinants in sides_, their signs right.
+ExactView::Sides ExactView::measure_sides(const Polygon& polygon, EdgeRef ref) {
   Sides sides;
   const Edge& edge = edge_of(ref);
   const Real sign = ref & 1 ? -1 : 1;
-  const Real bound = edge.length * (edge.slack + piece.error);
-  counts_.decisions += static_cast<std::int64_t>(piece.count);
-  for (std::size_t k = 0; k < piece.count; ++k) {
-    Real side = sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
+  const Real bound = edge.length * (edge.slack + polygon.error);
+  counts_.decisions += static_cast<std::int64_t>(polygon.count);
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    Real side = sign * (edge.dx * polygon.y[k] - edge.dy * polygon.x[k] + edge.c);
     if (std::abs(side) <= bound) {
-      side = exact_side_of(piece, k, ref);
+      side = exact_side_of(polygon, k, ref);
     }
     sides_[k] = side;
     sides.left |= static_cast<std::uint64_t>(side > 0) << k;
@@ -274,13 +276,13 @@ ExactView::Sides ExactView::measure(const Piece& piece, EdgeRef ref) {
   return sides;
 }
 
-/// The determinant of corner k of `piece` and an edge's line where it is too small for Real: its
+/// The determinant of corner k of `polygon` and an edge's line where it is too small for Real: its
 /// sign right, and its value too, which says where a cut goes.
-ExactView::Real ExactView::exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const {
+ExactView::Real ExactView::exact_side_of(const Polygon& polygon, std::size_t k, EdgeRef ref) const {
   const Edge& edge = edge_of(ref);
-  const Edge& leaving = edge_of(piece.edge[k]);
-  const Edge& arriving = edge_of(piece.edge[k > 0 ? k - 1 : piece.count - 1]);
-  const PointId point = piece.point[k];
+  const Edge& leaving = edge_of(polygon.edge[k]);
+  const Edge& arriving = edge_of(polygon.edge[k > 0 ? k - 1 : polygon.count - 1]);
+  const PointId point = polygon.point[k];
   // A corner of an edge on that very line is on it, whatever rounding has done to it.
   if (leaving.line == edge.line || arriving.line == edge.line) {
     return 0;
@@ -289,108 +291,108 @@ ExactView::Real ExactView::exact_side_of(const Piece& piece, std::size_t k, Edge
     return 0;
   }
   const Real sign = ref & 1 ? -1 : 1;
-  if (edge.line == halving ||
-      (point == made_by_cut && (leaving.line == halving || arriving.line == halving))) {
-    return sign * (edge.dx * piece.y[k] - edge.dy * piece.x[k] + edge.c);
+  if (edge.line == halving_line ||
+      (point == made_by_cut && (leaving.line == halving_line || arriving.line == halving_line))) {
+    return sign * (edge.dx * polygon.y[k] - edge.dy * polygon.x[k] + edge.c);
   }
   ++counts_.exact_decisions;
   const GridLine line = grid_line(edge);
   return sign * static_cast<Real>(point == made_by_cut
                                       ? exact_side(line, grid_line(arriving), grid_line(leaving))
-                                      : exact_side(line, at(faces_.grid.points, point)));
+                                      : exact_side(line, at(projected_.grid.points, point)));
 }
 
-double ExactView::subtract(std::int32_t face) {
-  const FaceBox& box = at(faces_.boxes, face);
-  const ProjectedFragments::Face& shown = at(faces_.faces, face);
+double ExactView::subtract(std::int32_t fragment) {
+  const FragmentBox& box = at(projected_.boxes, fragment);
+  const ProjectedFragments::Fragment& candidate = at(projected_.fragments, fragment);
   bool loaded = false;
   Real area = 0;
-  parts_.clear();
-  for (std::size_t p = 0; p < left_.size();) {
-    const std::uint32_t place = left_[p];
-    if (!pieces_[place].window.overlaps(box)) {
+  new_parts_.clear();
+  for (std::size_t p = 0; p < remaining_.size();) {
+    const std::uint32_t place = remaining_[p];
+    if (!polygons_[place].window.overlaps(box)) {
       ++p;
       continue;
     }
     if (!loaded) {
       edge_count_ = kept_edges_;
-      load_corners(shown, shown_);
-      load_edges(shown, shown_);
-      shown_reach_ = reach_of(shown_);
+      load_corners(candidate, candidate_);
+      load_edges(candidate, candidate_);
+      candidate_reach_ = reach_of(candidate_);
       loaded = true;
     }
     ++counts_.pairs;
-    if (!subtract_from_piece(place, area)) {
+    if (!subtract_from_polygon(place, area)) {
       ++p;
       continue;
     }
-    unused_.push_back(place);
-    left_[p] = left_.back();
-    left_.pop_back();
+    free_.push_back(place);
+    remaining_[p] = remaining_.back();
+    remaining_.pop_back();
   }
-  if (area > 0 || !parts_.empty()) {
-    left_.insert(left_.end(), parts_.begin(), parts_.end());
-    left_area_ -= area;
-    find_whole_window();
+  if (area > 0 || !new_parts_.empty()) {
+    remaining_.insert(remaining_.end(), new_parts_.begin(), new_parts_.end());
+    remaining_area_ -= area;
+    update_window();
   }
   // A needle's lines may meet anywhere, and what is cut by them reach there.
-  area = std::min(area, most_);
-  most_ -= area;
+  area = std::min(area, max_area_);
+  max_area_ -= area;
   return static_cast<double>(area);
 }
 
-void ExactView::find_whole_window() {
-  if (left_.empty()) {
+void ExactView::update_window() {
+  if (remaining_.empty()) {
     return;
   }
-  FaceWindow whole = pieces_[left_[0]].window;
-  for (std::size_t p = 1; p < left_.size(); ++p) {
-    whole.add(pieces_[left_[p]].window);
+  FragmentWindow whole = polygons_[remaining_[0]].window;
+  for (std::size_t p = 1; p < remaining_.size(); ++p) {
+    whole.add(polygons_[remaining_[p]].window);
   }
   window_ = whole;
 }
 
-/// Takes shown_ out of a piece: adds the area inside to `area`, and puts what lies outside into
-/// parts_. Returns false where they share nothing.
-bool ExactView::subtract_from_piece(std::uint32_t place, Real& area) {
-  std::uint64_t cuts = 0, cuts_of_shown = 0;
-  if (!find_cuts(pieces_[place], shown_, pieces_[place].error, cuts)) {
+/// Takes candidate_ out of a polygon: adds the area inside to `area`, and puts what lies outside
+/// into new_parts_. Returns false where they share nothing.
+bool ExactView::subtract_from_polygon(std::uint32_t place, Real& area) {
+  std::uint64_t cuts = 0, cuts_of_candidate = 0;
+  if (!find_cuts(polygons_[place], candidate_, polygons_[place].error, cuts)) {
     return false;
   }
   if (cuts == 0) {
-    area += area_of(pieces_[place]);
+    area += area_of(polygons_[place]);
     return true;
   }
-  if (!find_cuts(shown_, pieces_[place], rounding * shown_reach_, cuts_of_shown)) {
+  if (!find_cuts(candidate_, polygons_[place], rounding * candidate_reach_, cuts_of_candidate)) {
     return false;
   }
-  const std::size_t parts = parts_.size();
+  const std::size_t parts = new_parts_.size();
   std::size_t used = 0;
-  const Piece* rest = &pieces_[place];
+  const Polygon* rest = &polygons_[place];
   for (; cuts != 0; cuts &= cuts - 1) {
-    const EdgeRef ref = at(shown_.edge, std::countr_zero(cuts));
-    const Sides sides = measure(*rest, ref);
+    const EdgeRef ref = at(candidate_.edge, std::countr_zero(cuts));
+    const Sides sides = measure_sides(*rest, ref);
     if (sides.left == 0) {
       // They share nothing: take the cuts back.
-      unused_.insert(unused_.end(), parts_.begin() + static_cast<std::ptrdiff_t>(parts),
-                     parts_.end());
-      parts_.resize(parts);
+      free_.insert(free_.end(), new_parts_.begin() + static_cast<std::ptrdiff_t>(parts),
+                   new_parts_.end());
+      new_parts_.resize(parts);
       return false;
     }
     if (sides.right == 0) {
       continue;
     }
-    const bool from_place = rest == &pieces_[place];
-    const std::uint32_t part = new_piece();
+    const bool from_place = rest == &polygons_[place];
+    const std::uint32_t part = new_polygon();
     if (from_place) {
-      rest = &pieces_[place];
+      rest = &polygons_[place];
     }
-    split(*rest, ref, sides, rest_[used], pieces_[part]);
-    parts_.push_back(part);
-    if (pieces_[part].count > many_corners) {
-      halve(part);
+    split(*rest, ref, sides, rest_[used], polygons_[part]);
+    new_parts_.push_back(part);
+    if (polygons_[part].count > halving_corners) {
+      split_in_half(part);
     }
-    find_window(pieces_[part]);
+    find_window(polygons_[part]);
     rest = &rest_[used];
     used = 1 - used;
   }
@@ -399,14 +401,15 @@ bool ExactView::subtract_from_piece(std::uint32_t place, Real& area) {
   return true;
 }
 
-/// Cuts a piece with many corners from one to another, and adds the other half to parts_.
-void ExactView::halve(std::uint32_t place) {
-  const std::uint32_t other = new_piece();
-  const Piece whole = pieces_[place];
-  Piece &first = pieces_[place], &second = pieces_[other];
+/// Cuts a polygon with many corners from one to another, and adds the other half to new_parts_.
+void ExactView::split_in_half(std::uint32_t place) {
+  const std::uint32_t other = new_polygon();
+  const Polygon whole = polygons_[place];
+  Polygon &first = polygons_[place], &second = polygons_[other];
   const std::size_t middle = whole.count / 2;
-  const EdgeRef chord = add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
-                                 whole.y[0] - whole.y[middle], halving, made_by_cut, made_by_cut);
+  const EdgeRef chord =
+      add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
+               whole.y[0] - whole.y[middle], halving_line, made_by_cut, made_by_cut);
   first.count = middle + 1;
   first.edge[middle] = chord;
   second.count = 0;
@@ -416,23 +419,24 @@ void ExactView::halve(std::uint32_t place) {
     second.add(whole.x[k], whole.y[k], whole.edge[k], whole.point[k]);
   }
   find_window(second);
-  parts_.push_back(other);
+  new_parts_.push_back(other);
 }
 
-/// Splits a piece along a line that has corners on both sides, as measure() has just found.
+/// Splits a polygon along a line that has corners on both sides, as measure_sides() has just found.
 ///
 ///            F ── … ── L        F … L: corners on the left, which is inside
 ///           /           \\.
 ///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; of both parts
 ///           \\           /
 ///            … ─── … ──        outside
-void ExactView::split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside) {
+void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside,
+                      Polygon& outside) {
   ++counts_.cuts;
-  const std::size_t count = piece.count;
+  const std::size_t count = polygon.count;
   const auto after = [count](std::size_t k) { return k + 1 < count ? k + 1 : 0; };
   const auto before = [count](std::size_t k) { return k > 0 ? k - 1 : count - 1; };
   const auto is_left = [&](std::size_t k) { return (sides.left >> k & 1) != 0; };
-  // Find a run of corners on the left; in a convex piece there is but one.
+  // Find a run of corners on the left; in a convex polygon there is but one.
   auto first = static_cast<std::size_t>(std::countr_zero(sides.left));
   if (first == 0) {
     while (is_left(before(first))) {
@@ -440,32 +444,32 @@ void ExactView::split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside
     }
   }
   inside.count = outside.count = 0;
-  inside.error = outside.error = piece.error;
+  inside.error = outside.error = polygon.error;
   std::size_t last = first;
   for (std::size_t k = first; is_left(k); k = after(k)) {
-    inside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+    inside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
     last = k;
   }
   // X, where the outline leaves the left side.
   std::size_t k = after(last);
   if (sides_[k] == 0) {
-    inside.add(piece.x[k], piece.y[k], by, piece.point[k]);
-    outside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+    inside.add(polygon.x[k], polygon.y[k], by, polygon.point[k]);
+    outside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
     k = after(k);
   } else {
-    add_crossing(piece, last, k, by, inside, outside);
+    add_crossing(polygon, last, k, by, inside, outside);
   }
   // Y, where it comes back.
   const std::size_t back = before(first);
   const std::size_t end = sides_[back] == 0 ? back : first;
   for (; k != end; k = after(k)) {
-    outside.add(piece.x[k], piece.y[k], piece.edge[k], piece.point[k]);
+    outside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
   }
   if (end == back) {
-    inside.add(piece.x[back], piece.y[back], piece.edge[back], piece.point[back]);
-    outside.add(piece.x[back], piece.y[back], by ^ 1, piece.point[back]);
+    inside.add(polygon.x[back], polygon.y[back], polygon.edge[back], polygon.point[back]);
+    outside.add(polygon.x[back], polygon.y[back], by ^ 1, polygon.point[back]);
   } else {
-    add_crossing(piece, back, first, by, inside, outside);
+    add_crossing(polygon, back, first, by, inside, outside);
   }
 }
 
@@ -479,14 +483,14 @@ PointId ExactView::common_point(const Edge& p, const Edge& q) {
 
 /// Adds the point where the edge from corner `from` to corner `to` crosses the line `by` to both
 /// parts.
-void ExactView::add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by,
-                             Piece& inside, Piece& outside) {
+void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size_t to, EdgeRef by,
+                             Polygon& inside, Polygon& outside) {
   const Real here = sides_[from], there = sides_[to];
   const Real across = 1 / (here - there);
-  const Real dx = piece.x[to] - piece.x[from], dy = piece.y[to] - piece.y[from];
+  const Real dx = polygon.x[to] - polygon.x[from], dy = polygon.y[to] - polygon.y[from];
   const Real t = here * across;
-  Real x = piece.x[from] + t * dx, y = piece.y[from] + t * dy;
-  const Edge& edge = edge_of(piece.edge[from]);
+  Real x = polygon.x[from] + t * dx, y = polygon.y[from] + t * dy;
+  const Edge& edge = edge_of(polygon.edge[from]);
   const Edge& cutting = edge_of(by);
   // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
   // farther from where they meet.
@@ -496,18 +500,18 @@ void ExactView::add_crossing(const Piece& piece, std::size_t from, std::size_t t
   Real error = nearness * flatness;
   const PointId common = common_point(edge, cutting);
   if (common != made_by_cut) {
-    const GridPoint& p = at(faces_.grid.points, common);
+    const GridPoint& p = at(projected_.grid.points, common);
     x = static_cast<Real>(p.x - origin_.x);
     y = static_cast<Real>(p.y - origin_.y);
     error = 0;
-  } else if (!(flatness < 0x1p6) && edge.line != halving && cutting.line != halving) {
+  } else if (!(flatness < 0x1p6) && edge.line != halving_line && cutting.line != halving_line) {
     // The lines meet at a flat angle.
     ++counts_.exact_decisions;
     const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);
     if (!meeting.parallel) {
-      // Corners of cut faces lie a little off their lines: no farther than the edge goes.
-      const auto [x0, x1] = std::minmax(piece.x[from], piece.x[to]);
-      const auto [y0, y1] = std::minmax(piece.y[from], piece.y[to]);
+      // Corners of cut fragments lie a little off their lines: no farther than the edge goes.
+      const auto [x0, x1] = std::minmax(polygon.x[from], polygon.x[to]);
+      const auto [y0, y1] = std::minmax(polygon.y[from], polygon.y[to]);
       x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
       y = std::clamp(static_cast<Real>(meeting.y), y0, y1);
       error = nearness;
@@ -515,17 +519,18 @@ void ExactView::add_crossing(const Piece& piece, std::size_t from, std::size_t t
   }
   // The outline goes on along the line where it leaves a part's own side.
   const bool leaves_inside = here > 0;
-  inside.add(x, y, leaves_inside ? by : piece.edge[from], common);
-  outside.add(x, y, leaves_inside ? piece.edge[from] : by ^ 1, common);
+  inside.add(x, y, leaves_inside ? by : polygon.edge[from], common);
+  outside.add(x, y, leaves_inside ? polygon.edge[from] : by ^ 1, common);
   inside.error = std::max(inside.error, error);
   outside.error = std::max(outside.error, error);
 }
 
-ExactView::Real ExactView::area_of(const Piece& piece) {
+ExactView::Real ExactView::area_of(const Polygon& polygon) {
   Real twice = 0;
-  const Real x0 = piece.x[0], y0 = piece.y[0];
-  for (std::size_t k = 2; k < piece.count; ++k) {
-    twice += (piece.x[k - 1] - x0) * (piece.y[k] - y0) - (piece.y[k - 1] - y0) * (piece.x[k] - x0);
+  const Real x0 = polygon.x[0], y0 = polygon.y[0];
+  for (std::size_t k = 2; k < polygon.count; ++k) {
+    twice += (polygon.x[k - 1] - x0) * (polygon.y[k] - y0) -
+             (polygon.y[k - 1] - y0) * (polygon.x[k] - x0);
   }
   return std::max(0.0L, twice / 2);
 }

@@ -10,47 +10,48 @@
 #include "transillum/at.h"
 #include "transillum/transfers.h"
 #include "visibility/fast/exact_side.h"
-#include "visibility/fast/fast_bins.h"
+#include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/projected_fragments.h"
 
 namespace transillum {
 
-/// What one face, or a part of it, sees, where an OutlineView fails or a needle is involved: its
-/// polygon is eaten up by the faces it is shown, the nearest first. Coordinates are relative to
-/// the face or the bin, where small differences keep their digits.
+/// What one fragment, or a part of it, sees, where an BoundaryView fails or a needle is involved:
+/// its polygon is eaten up by the fragments it is candidate, the nearest first. Coordinates are
+/// relative to the fragment or the bin, where small differences keep their digits.
 ///
 /// Whether a corner lies left of a line is the sign of a determinant: in long double where that is
 /// certain, and else in whole numbers from the grid points that corner and line come from.
 class ExactView {
  public:
-  ExactView(const FastOutlines& outlines, const ProjectedFragments& faces, PassCounts& counts)
-      : outlines_(outlines), faces_(faces), counts_(counts) {}
+  ExactView(const FragmentOutlines& outlines, const ProjectedFragments& projected,
+            PassCounts& counts)
+      : outlines_(outlines), projected_(projected), counts_(counts) {}
 
-  /// Looks from all of a face.
-  void look_from(std::int32_t face);
-  /// Looks from the part of a face that lies in a bin, if any.
-  void look_from(std::int32_t face, const FastBins::Bin& bin);
+  /// Looks from all of a fragment.
+  void begin_query(std::int32_t fragment);
+  /// Looks from the part of a fragment that lies in a bin, if any.
+  void begin_query(std::int32_t fragment, const FragmentBins::Bin& bin);
 
-  /// Eats up what `face` covers of what is left, and returns its area, steps
+  /// Eats up what `fragment` covers of what is left, and returns its area, steps
   /// squared.
-  double subtract(std::int32_t face);
+  double subtract(std::int32_t fragment);
   /// What is left lies in here.
-  const FaceWindow& window() const { return window_; }
+  const FragmentWindow& window() const { return window_; }
 
-  /// Never; as OutlineView has it.
+  /// Never; as BoundaryView has it.
   static constexpr bool failed() { return false; }
 
   /// Whether nothing is left but for rounding.
   bool done() const {
-    return left_.empty() || left_area_ <= std::min(0x1p-40L * area_, 64 * reach_);
+    return remaining_.empty() || remaining_area_ <= std::min(0x1p-40L * area_, 64 * reach_);
   }
 
  private:
-  static constexpr std::size_t most_corners = 48;  ///< of a piece
-  static constexpr std::size_t many_corners = 24;  ///< a piece of more is cut in half
-  static constexpr PointId made_by_cut = FastOutlines::no_point;
-  // Lines of a bin's square and of a piece cut in half, in place of LineIds.
-  static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving = -6;
+  static constexpr std::size_t max_corners = 48;      ///< of a polygon
+  static constexpr std::size_t halving_corners = 24;  ///< a polygon of more is cut in half
+  static constexpr PointId made_by_cut = FragmentOutlines::no_point;
+  // Lines of a bin's square and of a polygon cut in half, in place of LineIds.
+  static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving_line = -6;
 
   using Real = long double;
   /// A directed line of the plane. What an edge bounds lies on its left: dx y - dy x + c > 0.
@@ -69,71 +70,73 @@ class ExactView {
   };
 
   /// A convex polygon, counter-clockwise.
-  struct Piece {
+  struct Polygon {
     std::size_t count = 0;
     Real error = 0;  ///< of corners made by cuts: along x or y at most
-    FaceWindow window;
-    std::array<Real, most_corners> x, y;
-    std::array<EdgeRef, most_corners> edge;   ///< to the next corner
-    std::array<PointId, most_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
+    FragmentWindow window;
+    std::array<Real, max_corners> x, y;
+    std::array<EdgeRef, max_corners> edge;   ///< to the next corner
+    std::array<PointId, max_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
 
-    Piece() = default;
-    Piece(const Piece& other) { *this = other; }
-    Piece& operator=(const Piece& other);
+    Polygon() = default;
+    Polygon(const Polygon& other) { *this = other; }
+    Polygon& operator=(const Polygon& other);
     void add(Real at_x, Real at_y, EdgeRef leaving, PointId on_grid) {
-      TRANSILLUM_INVARIANT(count < most_corners, "a piece has room for its corners");
+      TRANSILLUM_INVARIANT(count < max_corners, "a polygon has room for its corners");
       x[count] = at_x;
       y[count] = at_y;
       edge[count] = leaving;
       point[count++] = on_grid;
     }
   };
-  void find_window(Piece& piece) const;
-  void start(std::int32_t face, const GridPoint& origin);
-  void load_corners(const ProjectedFragments::Face& face, Piece& piece) const;
-  void load_edges(const ProjectedFragments::Face& face, Piece& piece);
+  void find_window(Polygon& polygon) const;
+  void start_query(std::int32_t fragment, const GridPoint& origin);
+  void load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const;
+  void load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon);
   EdgeRef add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from, PointId to);
   EdgeRef add_edge(const GridLine& through, LineId line, PointId from, PointId to);
   GridLine bin_line(LineId line) const;
   GridLine grid_line(const Edge& edge) const;
   const Edge& edge_of(EdgeRef ref) const { return at(edges_, ref >> 1); }
 
-  Sides sure_sides(const Piece& piece, EdgeRef ref, Real error) const;
-  Sides settled(const Piece& piece, EdgeRef ref, Sides sides) const;
-  bool find_cuts(const Piece& piece, const Piece& by, Real error, std::uint64_t& cuts);
-  Sides measure(const Piece& piece, EdgeRef ref);
-  Real exact_side_of(const Piece& piece, std::size_t k, EdgeRef ref) const;
-  bool subtract_from_piece(std::uint32_t place, Real& area);
-  std::uint32_t new_piece();
-  void halve(std::uint32_t place);
-  void find_whole_window();
-  void split(const Piece& piece, EdgeRef by, Sides sides, Piece& inside, Piece& outside);
+  Sides certain_sides(const Polygon& polygon, EdgeRef ref, Real error) const;
+  Sides settle_uncertain(const Polygon& polygon, EdgeRef ref, Sides sides) const;
+  bool find_cuts(const Polygon& polygon, const Polygon& by, Real error, std::uint64_t& cuts);
+  Sides measure_sides(const Polygon& polygon, EdgeRef ref);
+  Real exact_side_of(const Polygon& polygon, std::size_t k, EdgeRef ref) const;
+  bool subtract_from_polygon(std::uint32_t place, Real& area);
+  std::uint32_t new_polygon();
+  void split_in_half(std::uint32_t place);
+  void update_window();
+  void split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside, Polygon& outside);
   static PointId common_point(const Edge& p, const Edge& q);
-  void add_crossing(const Piece& piece, std::size_t from, std::size_t to, EdgeRef by, Piece& inside,
-                    Piece& outside);
-  static Real area_of(const Piece& piece);
+  void add_crossing(const Polygon& polygon, std::size_t from, std::size_t to, EdgeRef by,
+                    Polygon& inside, Polygon& outside);
+  static Real area_of(const Polygon& polygon);
 
-  const FastOutlines& outlines_;
-  const ProjectedFragments& faces_;
+  const FragmentOutlines& outlines_;
+  const ProjectedFragments& projected_;
   PassCounts& counts_;
 
   GridPoint origin_;
-  FastBins::Bin bin_{};
+  FragmentBins::Bin bin_{};
   std::vector<Edge> edges_;  ///< edge_count_ of them, then places to be used again
   std::size_t edge_count_ = 0;
-  std::size_t kept_edges_ = 0;        ///< of them, those that pieces refer to
-  Real reach_ = 0, shown_reach_ = 0;  ///< largest |x| + |y| of what looks and what is shown
-  Real area_ = 0, left_area_ = 0;
-  Real most_ = 0;  ///< that may still be seen: a needle's area, which cuts may exceed
-  FaceWindow window_;
-  std::vector<Piece> pieces_;         ///< places for them
-  std::vector<std::uint32_t> left_;   ///< the places of what is left
-  std::vector<std::uint32_t> parts_;  ///< … of what subtract_from_piece() has just put beside it
-  std::vector<std::uint32_t> unused_;
-  Piece shown_;
-  std::array<Piece, 2> rest_;
-  std::array<Sides, most_corners> sides_of_edges_;
-  std::array<Real, most_corners> sides_;  ///< of the corners measure() was given
+  std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
+  Real reach_ = 0,
+       candidate_reach_ = 0;  ///< largest |x| + |y| of what queries and what is candidate
+  Real area_ = 0, remaining_area_ = 0;
+  Real max_area_ = 0;  ///< that may still be seen: a needle's area, which cuts may exceed
+  FragmentWindow window_;
+  std::vector<Polygon> polygons_;         ///< places for them
+  std::vector<std::uint32_t> remaining_;  ///< the places of what is left
+  std::vector<std::uint32_t>
+      new_parts_;  ///< … of what subtract_from_polygon() has just put beside it
+  std::vector<std::uint32_t> free_;
+  Polygon candidate_;
+  std::array<Polygon, 2> rest_;
+  std::array<Sides, max_corners> sides_of_edges_;
+  std::array<Real, max_corners> sides_;  ///< of the corners measure_sides() was given
 };
 
 }  // namespace transillum

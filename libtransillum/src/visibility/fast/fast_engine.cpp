@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The fast engine. Each front-facing face looks toward the light: the faces above it, nearest
-// first, eat up its polygon, and once nothing is left no further one is looked at. What was eaten
-// is what it sees. The faces above come from bins over the plane.
+// The fast engine. Each front-facing fragment queries toward the light: the fragments above it,
+// nearest first, eat up its polygon, and once nothing is left no further one is looked at. What was
+// eaten is what it sees. The fragments above come from bins over the plane.
 //
-// Light goes both ways along a line, so what front-facing faces see of back-facing ones is also
-// what these see of them. Only back-facing faces that are left with something open look
+// Light goes both ways along a line, so what front-facing fragments see of back-facing ones is also
+// what these see of them. Only back-facing fragments that are left with something open look
 // for themselves: in a scene of closed surfaces, none.
 #include <algorithm>
 #include <chrono>
@@ -17,10 +17,10 @@
 #include "base/invariant.h"
 #include "scene/build/closed_surface.h"
 #include "transillum/at.h"
+#include "visibility/fast/boundary_view.h"
 #include "visibility/fast/exact_view.h"
-#include "visibility/fast/fast_bins.h"
 #include "visibility/fast/fast_engine.h"
-#include "visibility/fast/outline_view.h"
+#include "visibility/fast/fragment_bins.h"
 #include "visibility/fast/projected_fragments.h"
 
 namespace transillum {
@@ -35,8 +35,8 @@ constexpr std::int32_t most_bins = 8;
 struct FastScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
-  FastOutlines outlines;
-  bool in_air = false;              ///< no lit side looks at a back, whatever the direction
+  FragmentOutlines outlines;
+  bool backs_hidden = false;        ///< no lit side queries at a back, whatever the direction
   std::optional<PatchShaft> shaft;  ///< all that is looked at, if not everything
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
@@ -48,21 +48,21 @@ class FastPass {
  public:
   explicit FastPass(const FastScene& shared)
       : shared_(shared),
-        bins_(faces_, shared.in_air),
-        exact_view_(shared.outlines, faces_, transfers_.counts),
-        outline_view_(faces_, transfers_.counts) {}
+        bins_(projected_, shared.backs_hidden),
+        exact_view_(shared.outlines, projected_, transfers_.counts),
+        boundary_view_(projected_, transfers_.counts) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
-    faces_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation,
-                   shared_.shaft ? &*shared_.shaft : nullptr);
+    projected_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation,
+                       shared_.shaft ? &*shared_.shaft : nullptr);
     const Clock::time_point ordered = Clock::now();
     bins_.fill(cancellation);
     const Clock::time_point binned = Clock::now();
     begin(omega);
-    look_all<Way::up>(cancellation);
-    if (!shared_.in_air) {
-      look_all<Way::down>(cancellation);
+    run_queries<Toward::source>(cancellation);
+    if (!shared_.backs_hidden) {
+      run_queries<Toward::receiver>(cancellation);
     }
     // Outside the shaft things are missing that would hide others.
     TRANSILLUM_INVARIANT(shared_.shaft || nothing_is_covered_twice(),
@@ -96,88 +96,89 @@ class FastPass {
     transfers_.backward.resize(patches);
     transfers_.back_seen.resize(patches);
     found_.clear();
-    seen_from_front_.assign(faces_.faces.size(), 0);
-    area_unit_ = faces_.grid.step * faces_.grid.step;
-    for (const ProjectedFragments::Face& face : faces_.faces) {
-      auto& side = face.front ? transfers_.forward : transfers_.backward;
-      at(side, face.patch).projected += area_unit_ * face.area;
+    seen_from_front_.assign(projected_.fragments.size(), 0);
+    area_unit_ = projected_.grid.unit * projected_.grid.unit;
+    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
+      auto& side = fragment.front ? transfers_.forward : transfers_.backward;
+      at(side, fragment.patch).projected += area_unit_ * fragment.area;
     }
   }
 
-  enum class Way { up, down };
+  enum class Toward { up, down };
   struct VisibleArea {
-    std::int32_t face;
+    std::int32_t fragment;
     double area;
   };
   /// A place in the list of a bin: what is there overlaps by its box, or is the list's end.
   struct Cursor {
-    FastBins::Entry entry;
-    std::int32_t face;
+    FragmentBins::Entry entry;
+    std::int32_t fragment;
   };
 
   /// Bin by bin, so that what is looked at next is near.
-  template <Way way>
-  void look_all(const Cancellation& cancellation) {
-    std::int32_t looks = 0;
-    for (const FastBins::Bin& bin : bins_.bins()) {
+  template <Toward toward>
+  void run_queries(const Cancellation& cancellation) {
+    std::int32_t queries = 0;
+    for (const FragmentBins::Bin& bin : bins_.bins()) {
       fetch(bin);
-      for (FastBins::Entry e = bin.begin; e < bin.end; ++e) {
-        const std::int32_t face = bins_.face(e);
-        if (!has_to_look(way, face)) {
+      for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
+        const std::int32_t fragment = bins_.fragment(e);
+        if (!needs_query(way, fragment)) {
           continue;
         }
-        if (++looks % 256 == 0) {
+        if (++queries % 256 == 0) {
           cancellation.throw_if_canceled();
         }
-        if (bins_.entry_count(face) > most_bins) {
-          look<way>(face, &bin, e);
-        } else if (bins_.entry_before(e) == FastBins::none) {
-          look<way>(face, nullptr, e);
+        if (bins_.entry_count(fragment) > most_bins) {
+          run_query<toward>(fragment, &bin, e);
+        } else if (bins_.entry_before(e) == FragmentBins::none) {
+          run_query<toward>(fragment, nullptr, e);
         }
       }
     }
   }
 
-  /// What follows uses the faces of a bin in an order that the processor cannot foresee.
-  void fetch(const FastBins::Bin& bin) const {
-    for (FastBins::Entry e = bin.begin; e < bin.end; ++e) {
-      const ProjectedFragments::Face& face = at(faces_.faces, bins_.face(e));
-      __builtin_prefetch(faces_.corners.data() + face.begin);
-      __builtin_prefetch(faces_.corners.data() + face.end - 1);
+  /// What follows uses the fragments of a bin in an order that the processor cannot foresee.
+  void fetch(const FragmentBins::Bin& bin) const {
+    for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
+      const ProjectedFragments::Fragment& fragment = at(projected_.fragments, bins_.fragment(e));
+      __builtin_prefetch(projected_.corners.data() + fragment.begin);
+      __builtin_prefetch(projected_.corners.data() + fragment.end - 1);
     }
   }
 
-  bool has_to_look(Way way, std::int32_t k) const {
-    const ProjectedFragments::Face& face = at(faces_.faces, k);
-    if (way == Way::up) {
-      return face.front;
+  bool needs_query(Toward toward, std::int32_t k) const {
+    const ProjectedFragments::Fragment& fragment = at(projected_.fragments, k);
+    if (toward == Toward::source) {
+      return fragment.front;
     }
-    return !face.front && face.area - at(seen_from_front_, k) > 0x1p-38 * face.area;
+    return !fragment.front && fragment.area - at(seen_from_front_, k) > 0x1p-38 * fragment.area;
   }
 
-  template <Way way>
-  void look(std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
-    if (!look_with<way>(outline_view_, face, bin, entry)) {
+  template <Toward toward>
+  void run_query(std::int32_t fragment, const FragmentBins::Bin* bin, FragmentBins::Entry entry) {
+    if (!query_with<toward>(boundary_view_, fragment, bin, entry)) {
       ++transfers_.counts.exact_queries;
-      look_with<way>(exact_view_, face, bin, entry);
+      query_with<toward>(exact_view_, fragment, bin, entry);
     }
     for (const VisibleArea& visible : visible_areas_) {
-      accumulate<way>(face, visible);
+      accumulate<toward>(fragment, visible);
     }
   }
 
   /// Fills visible_areas_. Returns false where what is seen is too much for the view.
-  template <Way way, class View>
-  bool look_with(View& view, std::int32_t face, const FastBins::Bin* bin, FastBins::Entry entry) {
+  template <Toward toward, class View>
+  bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
+                  FragmentBins::Entry entry) {
     visible_areas_.clear();
     if (bin) {
-      view.look_from(face, *bin);
+      view.begin_query(fragment, *bin);
     } else {
-      view.look_from(face);
+      view.begin_query(fragment);
     }
-    begin_search<way>(face, bin != nullptr, entry, view.window());
-    for (std::int32_t other = next<way>(view.window()); other >= 0;
-         other = next<way>(view.window())) {
+    begin_search<toward>(fragment, bin != nullptr, entry, view.window());
+    for (std::int32_t other = next<toward>(view.window()); other >= 0;
+         other = next<toward>(view.window())) {
       const double area = view.subtract(other);
       if (view.failed()) {
         return false;
@@ -192,73 +193,75 @@ class FastPass {
     return true;
   }
 
-  template <Way way>
-  void begin_search(std::int32_t face, bool in_one_bin, FastBins::Entry entry,
-                    const FaceWindow& window) {
+  template <Toward toward>
+  void begin_search(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
+                    const FragmentWindow& window) {
     cursors_.clear();
     if (in_one_bin) {
       cursors_.push_back({entry, 0});
     } else {
-      for (auto e = bins_.last_entry(face); e != FastBins::none; e = bins_.entry_before(e)) {
+      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
+           e = bins_.entry_before(e)) {
         cursors_.push_back({e, 0});
       }
     }
     for (Cursor& cursor : cursors_) {
-      move<way>(cursor, window);
+      move<toward>(cursor, window);
     }
   }
 
-  template <Way way>
-  void move(Cursor& cursor, const FaceWindow& window) const {
+  template <Toward toward>
+  void move(Cursor& cursor, const FragmentWindow& window) const {
     do {
-      cursor.entry += way == Way::up ? -1 : 1;
+      cursor.entry += toward == Toward::source ? -1 : 1;
     } while (!window.overlaps(bins_.box(cursor.entry)));
-    cursor.face = bins_.face(cursor.entry);
+    cursor.fragment = bins_.fragment(cursor.entry);
   }
 
-  /// The next face that may be seen, or -1.
-  template <Way way>
-  std::int32_t next(const FaceWindow& window) {
+  /// The next fragment that may be seen, or -1.
+  template <Toward toward>
+  std::int32_t next(const FragmentWindow& window) {
     if (cursors_.size() == 1) {
-      const std::int32_t face = cursors_[0].face;
-      if (face >= 0) {
-        move<way>(cursors_[0], window);
+      const std::int32_t fragment = cursors_[0].fragment;
+      if (fragment >= 0) {
+        move<toward>(cursors_[0], window);
       }
-      return face;
+      return fragment;
     }
     std::int32_t nearest = -1;
     for (const Cursor& cursor : cursors_) {
-      if (cursor.face < 0) {
+      if (cursor.fragment < 0) {
         continue;
       }
-      if (nearest < 0 || (way == Way::up ? cursor.face > nearest : cursor.face < nearest)) {
-        nearest = cursor.face;
+      if (nearest < 0 ||
+          (toward == Toward::source ? cursor.fragment > nearest : cursor.fragment < nearest)) {
+        nearest = cursor.fragment;
       }
     }
     if (nearest < 0) {
       return nearest;
     }
     for (Cursor& cursor : cursors_) {
-      if (cursor.face == nearest) {
-        move<way>(cursor, window);
+      if (cursor.fragment == nearest) {
+        move<toward>(cursor, window);
       }
     }
     return nearest;
   }
 
-  template <Way way>
+  template <Toward toward>
   void accumulate(std::int32_t looking, const VisibleArea& visible) {
-    const ProjectedFragments::Face& own = at(faces_.faces, looking);
-    const ProjectedFragments::Face& other = at(faces_.faces, visible.face);
+    const ProjectedFragments::Fragment& own = at(projected_.fragments, looking);
+    const ProjectedFragments::Fragment& other = at(projected_.fragments, visible.fragment);
     const double area = area_unit_ * visible.area;
     const auto i = static_cast<std::size_t>(own.patch), j = static_cast<std::size_t>(other.patch);
-    if (way == Way::up) {
+    if (toward == Toward::source) {
       transfers_.forward[i].covered += area;
       if (other.front) {
         transfers_.back_seen[j] += area;
       } else {
         transfers_.backward[j].covered += area;
-        at(seen_from_front_, visible.face) += visible.area;
+        at(seen_from_front_, visible.fragment) += visible.area;
         found_.push_back({own.patch, other.patch, area});
       }
     } else if (!other.front) {
@@ -321,16 +324,16 @@ class FastPass {
 
   const FastScene& shared_;
   double area_unit_ = 1;                  ///< m² a step squared
-  std::vector<double> seen_from_front_;   ///< a face: steps squared
+  std::vector<double> seen_from_front_;   ///< a fragment: steps squared
   std::vector<Transfer> found_, sorted_;  ///< exchanges, visible by visible
   std::vector<std::uint32_t> row_ends_;
   std::vector<VisibleArea> visible_areas_;
   std::vector<Cursor> cursors_;
   Transfers transfers_;
-  ProjectedFragments faces_;
-  FastBins bins_;
+  ProjectedFragments projected_;
+  FragmentBins bins_;
   ExactView exact_view_;
-  OutlineView outline_view_;
+  BoundaryView boundary_view_;
 };
 
 /// Passes that no thread is making; one is kept for each that has made one at the same time.
@@ -360,7 +363,7 @@ class IdlePasses {
 /// holds along all lines of one direction holds everywhere: the surfaces around a point, counted
 /// by their lit sides and backs, are the same number on whatever line one comes to it
 /// (decisions/0015-closed-surfaces.md).
-bool is_in_air(const FastScene& shared) {
+bool hides_all_backs(const FastScene& shared) {
   // As good as any that no scene is aligned with.
   const Vec3 omega = normalized(Vec3{0.5772156649, 0.3141592653, 0.7390851332});
   if (!is_closed_surface(*shared.scene)) {
@@ -381,7 +384,7 @@ bool is_in_air(const FastScene& shared) {
 }  // namespace
 
 bool fronts_see_no_backs(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree) {
-  return is_in_air(FastScene(std::move(scene), std::move(tree)));
+  return hides_all_backs(FastScene(std::move(scene), std::move(tree)));
 }
 
 namespace {
@@ -405,14 +408,15 @@ TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
-  shared->in_air = is_in_air(*shared);
+  shared->backs_hidden = hides_all_backs(*shared);
   return engine_of(std::move(shared));
 }
 
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
-  shared->in_air = is_in_air(*shared);  // of the whole scene; so of what the shaft holds
+  shared->backs_hidden =
+      hides_all_backs(*shared);  // of the whole scene; so of what the shaft holds
   shared->shaft.emplace(*shared->scene, *shared->tree, patch);
   return engine_of(std::move(shared));
 }

@@ -11,27 +11,27 @@ namespace transillum {
 void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3& omega,
                              const Cancellation& cancellation) {
   frame = plane_frame(scene, omega);
-  // Of more than 53 bits, as the grid is.
+  // The grid has more than the 53 bits of a double.
   using Wide = long double;
   const double radius = 0.5 * scene.bounds().diagonal();
   int exponent = 0;
   std::frexp(radius, &exponent);  // radius < 2^exponent, and no point lies farther out
-  step = std::ldexp(1.0, exponent - 60);
-  const Wide steps = 1 / static_cast<Wide>(step);
-  const auto scaled = [steps](const Vec3& axis) {
-    return std::array<Wide, 3>{steps * axis.x, steps * axis.y, steps * axis.z};
+  unit = std::ldexp(1.0, exponent - 60);
+  const Wide scale = 1 / static_cast<Wide>(unit);
+  const auto scaled = [scale](const Vec3& axis) {
+    return std::array<Wide, 3>{scale * axis.x, scale * axis.y, scale * axis.z};
   };
   const auto u = scaled(frame.u), v = scaled(frame.v);
 
   points.clear();
   points.reserve(tree.points().size());
-  const auto look_for_cancellation = [&] {
+  const auto check_cancellation = [&] {
     if (points.size() % 16384 == 0) {
       cancellation.throw_if_canceled();
     }
   };
   for (const Vec3& p : scene.points()) {
-    look_for_cancellation();
+    check_cancellation();
     const Wide x = static_cast<Wide>(p.x) - frame.origin.x;
     const Wide y = static_cast<Wide>(p.y) - frame.origin.y;
     const Wide z = static_cast<Wide>(p.z) - frame.origin.z;
@@ -39,7 +39,7 @@ void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3
         {std::llrint(u[0] * x + u[1] * y + u[2] * z), std::llrint(v[0] * x + v[1] * y + v[2] * z)});
   }
   for (const BspTree::CutPoint& cut : tree.cut_points()) {
-    look_for_cancellation();
+    check_cancellation();
     const GridPoint a = at(points, cut.a);
     const GridPoint b = at(points, cut.b);
     points.push_back({a.x + std::llrint(cut.t * static_cast<Wide>(b.x - a.x)),

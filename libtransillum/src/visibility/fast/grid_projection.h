@@ -9,17 +9,17 @@
 
 namespace transillum {
 
-/// A point of the transillumination plane in whole steps of a grid, |x|, |y| < 2^60: differences
-/// are exact, and so are determinants of them in 128 bits.
+/// A point of the transillumination plane in whole grid units, |x|, |y| < 2^60: differences are
+/// exact, and their determinants are exact in 128 bits.
 struct GridPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// All points of a tree, projected along one direction and rounded to a grid 2^-60 as wide as the
-/// scene (decisions/0013-predicates.md).
+/// All points of a tree, projected along one direction and rounded to a grid of about 2^-60 of the
+/// scene's size (decisions/0013-predicates.md).
 struct GridProjection {
   PlaneFrame frame;
-  double step = 1;  ///< meters, a power of two
+  double unit = 1;  ///< width of the grid, meters; a power of two
   std::vector<GridPoint> points;
 
   /// @throws Canceled

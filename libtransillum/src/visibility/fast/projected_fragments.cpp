@@ -10,11 +10,12 @@
 namespace transillum {
 namespace {
 
-constexpr double thinnest = 2;                                ///< steps
-constexpr std::int64_t farthest_off = std::int64_t{1} << 32;  ///< steps
+// Grid units.
+constexpr double min_width = 2;
+constexpr std::int64_t max_meeting_distance = std::int64_t{1} << 32;
 
-/// Whether the outline turns left everywhere but for rounding: one seen within rounding of
-/// edge-on may not, and takes no part (as SeenFragment has it).
+/// Whether the outline turns left everywhere, up to rounding. An outline seen edge-on within
+/// rounding may not; it is left out, as by FragmentProjector.
 bool is_convex(const GridPoint* outline, std::size_t count, double area) {
   for (std::size_t k = 0; k < count; ++k) {
     const GridPoint& a = outline[k];
@@ -37,7 +38,7 @@ bool is_convex(const GridPoint* outline, std::size_t count, double area) {
   return true;
 }
 
-/// Twice the area, > 0 where the outline turns left; exact where little of the products is left.
+/// Twice the area, > 0 if the outline turns left; exact where the products cancel.
 double twice_area_of(const GridPoint* outline, std::size_t count) {
   double sum = 0, size = 0;
   for (std::size_t k = 2; k < count; ++k) {
@@ -58,7 +59,7 @@ double twice_area_of(const GridPoint* outline, std::size_t count) {
   return static_cast<double>(exact);
 }
 
-FaceBox box_of(const GridPoint* outline, std::size_t count) {
+FragmentBox box_of(const GridPoint* outline, std::size_t count) {
   std::array<double, 8> ends;
   ends.fill(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < count; ++k) {
@@ -68,7 +69,7 @@ FaceBox box_of(const GridPoint* outline, std::size_t count) {
       ends[d] = std::min(ends[d], along[d]);
     }
   }
-  FaceBox box;
+  FragmentBox box;
   for (std::size_t d = 0; d < 8; ++d) {
     box.ends[d] = rounded_down(ends[d]);
   }
@@ -77,19 +78,19 @@ FaceBox box_of(const GridPoint* outline, std::size_t count) {
 
 }  // namespace
 
-FastOutlines::FastOutlines(const BspTree& tree) : lines(tree.lines()) {
+FragmentOutlines::FragmentOutlines(const BspTree& tree) : lines(tree.lines()) {
   for (const BspTree::Fragment& fragment : tree.fragments()) {
     first.push_back(static_cast<std::uint32_t>(outlines.size()));
     const auto all = tree.corners(fragment);
     std::vector<BspTree::Corner> rest(all.begin(), all.end());
-    while (rest.size() > most_corners) {
-      // The diagonal from the last corner of the part to the first of all closes the part, and
-      // opens what is left.
-      std::vector<BspTree::Corner> part(rest.begin(), rest.begin() + most_corners);
+    while (rest.size() > max_corners) {
+      // The diagonal between the part's last corner and the outline's first corner closes the part
+      // and is an edge of the rest.
+      std::vector<BspTree::Corner> part(rest.begin(), rest.begin() + max_corners);
       const PointId a = part.front().point, b = part.back().point;
       const auto line = static_cast<LineId>(lines.size());
       lines.push_back({std::min(a, b), std::max(a, b)});
-      rest.erase(rest.begin() + 1, rest.begin() + most_corners - 1);
+      rest.erase(rest.begin() + 1, rest.begin() + max_corners - 1);
       rest.front() = {a, line, a < b};
       part.back() = {b, line, b < a};
       add(fragment.patch, part);
@@ -99,7 +100,7 @@ FastOutlines::FastOutlines(const BspTree& tree) : lines(tree.lines()) {
   first.push_back(static_cast<std::uint32_t>(outlines.size()));
 }
 
-void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) {
+void FragmentOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) {
   Outline outline{patch, static_cast<std::uint32_t>(corners.size()), 0, true};
   const auto runs_through = [this](LineId line, PointId point) {
     const BspTree::Line& points = at(lines, line);
@@ -118,51 +119,53 @@ void FastOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) 
 }
 
 void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
-                                 const FastOutlines& outlines, const Vec3& omega,
+                                 const FragmentOutlines& outlines, const Vec3& omega,
                                  const Cancellation& cancellation, const PatchShaft* shaft) {
   grid.project(scene, tree, omega, cancellation);
   boxes.clear();
-  faces.clear();
+  fragments.clear();
   corners.clear();
   boxes.reserve(outlines.outlines.size());
-  faces.reserve(outlines.outlines.size());
+  fragments.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
   std::vector<FragmentId> order = tree.order(omega, cancellation);
   if (shaft != nullptr) {
     std::erase_if(order, [&](FragmentId f) { return !shaft->may_hold(f, omega); });
   }
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    if (place % 4096 == 0) {
+  for (std::size_t index = 0; index < order.size(); ++index) {
+    if (index % 4096 == 0) {
       cancellation.throw_if_canceled();
     }
-    fetch(outlines, order, place);
-    const auto fragment = static_cast<std::size_t>(order[place]);
+    prefetch(outlines, order, index);
+    const auto fragment = static_cast<std::size_t>(order[index]);
     for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
       if (!add(outlines, k)) {
-        corners.resize(faces.empty() ? 0 : faces.back().end);
+        corners.resize(fragments.empty() ? 0 : fragments.back().end);
       }
     }
   }
 }
 
-/// The order jumps about in the outlines and the points: what will be wanted soon is asked for.
-void ProjectedFragments::fetch(const FastOutlines& outlines, const std::vector<FragmentId>& order,
-                               std::size_t place) const {
-  constexpr std::size_t soon = 8;
+/// BSP order visits outlines and points at scattered addresses: prefetches those that
+/// order[index + 8] and order[index + 16] need.
+void ProjectedFragments::prefetch(const FragmentOutlines& outlines,
+                                  const std::vector<FragmentId>& order, std::size_t index) const {
+  constexpr std::size_t distance = 8;
   const auto corners_at = [&](std::size_t later) {
     const auto fragment = static_cast<std::size_t>(order[std::min(later, order.size() - 1)]);
     return outlines.corners.data() + outlines.outlines[outlines.first[fragment]].begin;
   };
-  __builtin_prefetch(corners_at(place + 2 * soon));
-  const FastOutlines::Corner* const next = corners_at(place + soon);
+  __builtin_prefetch(corners_at(index + 2 * distance));
+  const FragmentOutlines::Corner* const next = corners_at(index + distance);
   for (std::size_t k = 0; k < 3; ++k) {
     __builtin_prefetch(grid.points.data() + static_cast<std::size_t>(next[k].point));
   }
 }
 
-/// Returns false, and leaves corners behind, where the outline is seen edge-on.
-bool ProjectedFragments::add(const FastOutlines& outlines, std::uint32_t which) {
-  const FastOutlines::Outline& outline = outlines.outlines[which];
+/// Projects one outline. Returns false, with extra corners at the end of `corners`, if it is seen
+/// edge-on.
+bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t which) {
+  const FragmentOutlines::Outline& outline = outlines.outlines[which];
   const auto begin = static_cast<std::uint32_t>(corners.size());
   for (std::uint32_t k = outline.begin; k < outline.end; ++k) {
     corners.push_back(at(grid.points, outlines.corners[k].point));
@@ -174,13 +177,13 @@ bool ProjectedFragments::add(const FastOutlines& outlines, std::uint32_t which) 
   if (!front) {
     std::reverse(first, first + count);
   }
-  const FaceBox box = box_of(first, count);
+  const FragmentBox box = box_of(first, count);
   const double area = 0.5 * std::abs(twice_area);
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
-  // What is thinner than the steps that corners are rounded to is seen edge-on.
-  if (area < thinnest * std::sqrt(size)) {
+  // Outlines thinner than the grid units that corners are rounded to count as seen edge-on.
+  if (area < min_width * std::sqrt(size)) {
     return false;
   }
   const bool needle = area < 0x1p-11 * size;
@@ -188,64 +191,65 @@ bool ProjectedFragments::add(const FastOutlines& outlines, std::uint32_t which) 
     return false;
   }
   boxes.push_back(box);
-  faces.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front,
-                   needle && !outline.plain, area});
-  if (faces.back().cut_needle) {
-    faces.back().area = cut_needle_area(outlines, faces.back());
+  fragments.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch,
+                       front, needle && !outline.plain, area});
+  if (fragments.back().cut_needle) {
+    fragments.back().area = cut_needle_area(outlines, fragments.back());
   }
   return true;
 }
 
-FastOutlines::Corner ProjectedFragments::corner_of(const FastOutlines& outlines, const Face& face,
-                                                   std::uint32_t k) {
-  const FastOutlines::Corner* const corners =
-      outlines.corners.data() + outlines.outlines[face.outline].begin;
-  if (face.front) {
+FragmentOutlines::Corner ProjectedFragments::corner_of(const FragmentOutlines& outlines,
+                                                       const Fragment& fragment, std::uint32_t k) {
+  const FragmentOutlines::Corner* const corners =
+      outlines.corners.data() + outlines.outlines[fragment.outline].begin;
+  if (fragment.front) {
     return corners[k];
   }
-  const std::uint32_t count = face.end - face.begin;
-  FastOutlines::Corner corner = corners[count - 1 - k];
-  const FastOutlines::Corner& next = corners[k + 1 < count ? count - 2 - k : count - 1];
+  const std::uint32_t count = fragment.end - fragment.begin;
+  FragmentOutlines::Corner corner = corners[count - 1 - k];
+  const FragmentOutlines::Corner& next = corners[k + 1 < count ? count - 2 - k : count - 1];
   corner.line = next.line;
   corner.forward = !next.forward;
   return corner;
 }
 
-ProjectedFragments::Place ProjectedFragments::place_of(const FastOutlines& outlines,
-                                                       const Face& face, std::uint32_t k,
-                                                       const GridPoint& origin) const {
-  const GridPoint& at = corners[face.begin + k];
-  const Place rounded{static_cast<long double>(at.x - origin.x),
-                      static_cast<long double>(at.y - origin.y)};
-  if (!face.cut_needle) {
+ProjectedFragments::Position ProjectedFragments::position_of(const FragmentOutlines& outlines,
+                                                             const Fragment& fragment,
+                                                             std::uint32_t k,
+                                                             const GridPoint& origin) const {
+  const GridPoint& corner = corners[fragment.begin + k];
+  const Position rounded{static_cast<long double>(corner.x - origin.x),
+                         static_cast<long double>(corner.y - origin.y)};
+  if (!fragment.cut_needle) {
     return rounded;
   }
-  const FastOutlines::Corner leaving = corner_of(outlines, face, k);
+  const FragmentOutlines::Corner leaving = corner_of(outlines, fragment, k);
   if (leaving.exact) {
     return rounded;
   }
-  const FastOutlines::Corner arriving =
-      corner_of(outlines, face, k > 0 ? k - 1 : face.end - face.begin - 1);
+  const FragmentOutlines::Corner arriving =
+      corner_of(outlines, fragment, k > 0 ? k - 1 : fragment.end - fragment.begin - 1);
   const Meeting meeting =
-      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), at);
-  // Lines that all but coincide may meet anywhere.
-  const auto most = static_cast<long double>(farthest_off);
-  if (meeting.parallel || std::abs(meeting.x) > most || std::abs(meeting.y) > most) {
+      exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), corner);
+  // Nearly coincident lines may meet anywhere.
+  const auto limit = static_cast<long double>(max_meeting_distance);
+  if (meeting.parallel || std::abs(meeting.x) > limit || std::abs(meeting.y) > limit) {
     return rounded;
   }
   return {rounded.x + meeting.x, rounded.y + meeting.y};
 }
 
-double ProjectedFragments::cut_needle_area(const FastOutlines& outlines, const Face& face) const {
-  const GridPoint& origin = corners[face.begin];
-  const Place first = place_of(outlines, face, 0, origin);
-  Place before = place_of(outlines, face, 1, origin);
+double ProjectedFragments::cut_needle_area(const FragmentOutlines& outlines,
+                                           const Fragment& fragment) const {
+  const GridPoint& origin = corners[fragment.begin];
+  const Position first = position_of(outlines, fragment, 0, origin);
+  Position before = position_of(outlines, fragment, 1, origin);
   long double twice = 0;
-  for (std::uint32_t k = 2; k < face.end - face.begin; ++k) {
-    const Place place = place_of(outlines, face, k, origin);
-    twice +=
-        (before.x - first.x) * (place.y - first.y) - (before.y - first.y) * (place.x - first.x);
-    before = place;
+  for (std::uint32_t k = 2; k < fragment.end - fragment.begin; ++k) {
+    const Position here = position_of(outlines, fragment, k, origin);
+    twice += (before.x - first.x) * (here.y - first.y) - (before.y - first.y) * (here.x - first.x);
+    before = here;
   }
   return static_cast<double>(twice / 2);
 }

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The input of engines fast and corrected for one direction: the fragments of the BSP tree,
+// projected onto the integer grid of the transillumination plane, in BSP order. FragmentOutlines is
+// made once per tree, ProjectedFragments once per direction.
 #pragma once
 
 #ifdef __SSE2__
@@ -18,43 +22,44 @@
 
 namespace transillum {
 
-/// The fragments of a tree as the fast engine takes them: with no more than most_corners corners,
-/// cut along diagonals where they have more. Made once a tree.
-struct FastOutlines {
-  static constexpr std::size_t most_corners = 16;
+/// The outlines of a tree's fragments with at most max_corners corners each: a fragment with more
+/// is cut along diagonals into several outlines. Independent of the direction.
+struct FragmentOutlines {
+  static constexpr std::size_t max_corners = 16;
   static constexpr PointId no_point = -1;
   struct Outline {
     PatchId patch;
     std::uint32_t begin, end;  ///< in `corners`
-    bool plain;                ///< each edge's line runs through its own two corners
+    bool plain;                ///< each edge's line is defined by the edge's own two corners
   };
   struct Corner {
     PointId point;
     LineId line;   ///< of the edge to the next corner
     bool forward;  ///< that edge runs along its line from a to b
-    bool exact;    ///< both its edges' lines were made to run through it
+    bool exact;    ///< it is a defining point of both its edges' lines
   };
-  std::vector<BspTree::Line> lines;  ///< the tree's, then diagonals
+  std::vector<BspTree::Line> lines;  ///< the tree's, then the diagonals
   std::vector<Corner> corners;
   std::vector<Outline> outlines;
-  std::vector<std::uint32_t> first;  ///< outline of a fragment; one more at the end
+  std::vector<std::uint32_t> first;  ///< first outline of each fragment; one more at the end
 
-  explicit FastOutlines(const BspTree& tree);
+  explicit FragmentOutlines(const BspTree& tree);
 
  private:
   void add(PatchId patch, const std::vector<BspTree::Corner>& part);
 };
 
-/// How far something reaches along x, y, x + y and x - y, in steps of the grid, rounded outward:
-/// four lower ends, then the four upper ends negated.
-struct alignas(16) FaceBox {
+/// Bounds along x, y, x + y and x - y, in grid units, rounded outward: the four lower bounds, then
+/// the four upper bounds negated.
+struct alignas(16) FragmentBox {
   std::array<float, 8> ends;
 };
-/// The same, upper ends first and the lower ends negated: what a FaceBox is compared with.
-struct alignas(16) FaceWindow {
+/// The same bounds in the form that is compared with a FragmentBox: upper bounds first, then the
+/// lower bounds negated.
+struct alignas(16) FragmentWindow {
   std::array<float, 8> ends;
 
-  void add(const FaceWindow& other) {
+  void add(const FragmentWindow& other) {
 #ifdef __SSE2__
     for (std::size_t d = 0; d < 8; d += 4) {
       _mm_store_ps(ends.data() + d,
@@ -66,7 +71,7 @@ struct alignas(16) FaceWindow {
     }
 #endif
   }
-  bool overlaps(const FaceBox& box) const {
+  bool overlaps(const FragmentBox& box) const {
 #ifdef __SSE2__
     const __m128 low = _mm_cmplt_ps(_mm_load_ps(box.ends.data()), _mm_load_ps(ends.data()));
     const __m128 high =
@@ -81,51 +86,63 @@ struct alignas(16) FaceWindow {
 #endif
   }
 };
-/// A float that is no larger than a number of steps.
-inline float rounded_down(double steps) {
-  return static_cast<float>(steps - 0x1p-23 * std::abs(steps) - 1);
+/// The window with the bounds of a box.
+inline FragmentWindow window_of(const FragmentBox& box) {
+  FragmentWindow window;
+  for (std::size_t d = 0; d < 4; ++d) {
+    window.ends[d] = -box.ends[d + 4];
+    window.ends[d + 4] = -box.ends[d];
+  }
+  return window;
+}
+/// A float that is no larger than a number of grid units.
+inline float rounded_down(double units) {
+  return static_cast<float>(units - 0x1p-23 * std::abs(units) - 1);
 }
 
-inline float rounded_up(double steps) {
-  return static_cast<float>(steps + 0x1p-23 * std::abs(steps) + 1);
+inline float rounded_up(double units) {
+  return static_cast<float>(units + 0x1p-23 * std::abs(units) + 1);
 }
 
-/// All fragments of a tree seen along one direction, farthest toward it first; those seen edge-on
-/// are left out.
+/// All fragments of a tree projected along one direction, in BSP order: those farthest toward omega
+/// first. Fragments seen edge-on are left out; a fragment with more than
+/// FragmentOutlines::max_corners corners is several here, one per outline.
 struct ProjectedFragments {
-  struct Face {
+  struct Fragment {
     std::uint32_t begin, end;  ///< in `corners`
-    std::uint32_t outline;     ///< whose corners they are, the other way round where not front
+    std::uint32_t outline;     ///< its outline, whose order of corners is reversed if not `front`
     PatchId patch;
-    bool front;       ///< it receives for omega
-    bool cut_needle;  ///< thin, and cut by the tree: see place_of()
-    double area;      ///< of the projection, in steps squared; > 0
+    bool front;       ///< front-facing: it receives for omega
+    bool cut_needle;  ///< thin, and cut by the tree: see position_of()
+    double area;      ///< of the projection, in square grid units; > 0
   };
   GridProjection grid;
-  std::vector<FaceBox> boxes;
-  std::vector<Face> faces;
-  std::vector<GridPoint> corners;  ///< counter-clockwise; made by a cut of the tree: a step off
+  std::vector<FragmentBox> boxes;  ///< per fragment
+  std::vector<Fragment> fragments;
+  std::vector<GridPoint> corners;  ///< counter-clockwise; corners made by a cut of the tree are off
+                                   ///< their lines by up to a grid unit
 
-  /// Fills all of this anew; with only those fragments of the tree that `shaft` may hold, if given.
+  /// Replaces the contents by the fragments for `omega`; if `shaft` is given, only by those that it
+  /// may hold.
   /// @throws Canceled
-  void project(const Scene& scene, const BspTree& tree, const FastOutlines& outlines,
+  void project(const Scene& scene, const BspTree& tree, const FragmentOutlines& outlines,
                const Vec3& omega, const Cancellation& cancellation,
                const PatchShaft* shaft = nullptr);
 
-  /// What corner k of a face is made of. Of one seen from behind the outline is turned round: the
-  /// edge that arrived at a corner leaves it.
-  static FastOutlines::Corner corner_of(const FastOutlines& outlines, const Face& face,
-                                        std::uint32_t k);
-  /// Where it lies, steps from `origin`: of a needle that the tree has cut it is where its edges'
-  /// lines meet, for the step by which its place on the grid is off them is much of the needle's
-  /// width.
-  struct Place {
+  /// Corner k of a fragment as a corner of its outline. The outline of a back-facing fragment is
+  /// reversed: the edge that arrived at a corner leaves it.
+  static FragmentOutlines::Corner corner_of(const FragmentOutlines& outlines,
+                                            const Fragment& fragment, std::uint32_t k);
+  struct Position {
     long double x, y;
   };
-  Place place_of(const FastOutlines& outlines, const Face& face, std::uint32_t k,
-                 const GridPoint& origin) const;
-  /// The line of a corner's edge, in its direction.
-  GridLine line_of(const FastOutlines& outlines, const FastOutlines::Corner& corner) const {
+  /// The position of corner k in grid units from `origin`. For a needle cut by the tree it is where
+  /// the lines of the corner's edges meet: the distance of the rounded corner from its lines is a
+  /// large part of the needle's width.
+  Position position_of(const FragmentOutlines& outlines, const Fragment& fragment, std::uint32_t k,
+                       const GridPoint& origin) const;
+  /// The line of a corner's edge, in the edge's direction.
+  GridLine line_of(const FragmentOutlines& outlines, const FragmentOutlines::Corner& corner) const {
     const BspTree::Line& line = at(outlines.lines, corner.line);
     const GridPoint& a = at(grid.points, line.a);
     const GridPoint& b = at(grid.points, line.b);
@@ -133,10 +150,10 @@ struct ProjectedFragments {
   }
 
  private:
-  void fetch(const FastOutlines& outlines, const std::vector<FragmentId>& order,
-             std::size_t place) const;
-  double cut_needle_area(const FastOutlines& outlines, const Face& face) const;
-  bool add(const FastOutlines& outlines, std::uint32_t outline);
+  void prefetch(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
+                std::size_t index) const;
+  double cut_needle_area(const FragmentOutlines& outlines, const Fragment& fragment) const;
+  bool add(const FragmentOutlines& outlines, std::uint32_t outline);
 };
 
 }  // namespace transillum

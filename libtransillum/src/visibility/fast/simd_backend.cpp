@@ -5,8 +5,8 @@
 
 namespace transillum {
 
-void settle_far_lines(Cutter& cutter, const GridPoint* corners, const GridPoint& origin,
-                      double far) {
+void recompute_far_lines(Cutter& cutter, const GridPoint* corners, const GridPoint& origin,
+                         double far) {
   using Wide = long double;
   for (std::size_t k = 0; k < cutter.count; ++k) {
     if (!(std::abs(cutter.x[k]) + std::abs(cutter.y[k]) > far)) {
@@ -33,11 +33,12 @@ void set_cutter(Cutter& cutter, const GridPoint* corners, std::size_t count,
   widest().set(cutter, corners, count, origin, far);
 }
 
-bool cut_outline(const Outline& outline, const Cutter& cutter, OutlineCut& cut, Outline& outside) {
-  return widest().cut(outline, cutter, cut, outside);
+bool cut_boundary(const BoundarySegments& region, const Cutter& cutter, BoundaryCut& cut,
+                  BoundarySegments& outside) {
+  return widest().cut(region, cutter, cut, outside);
 }
 
-Extent extent_of(const Outline& outline) { return widest().extent(outline); }
+Extent extent_of(const BoundarySegments& region) { return widest().extent(region); }
 
 std::vector<SimdBackend> simd_backends() {
   std::vector<SimdBackend> backends;

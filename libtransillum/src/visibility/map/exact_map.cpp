@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The local map in exact numbers: what it says of the scene's double coordinates, seen along the
-// frame's double axes, is true; areas are rounded when all is summed.
+//
+// Engine `exact`: the local map in rational numbers. Its result is exact for the scene's double
+// coordinates projected along the frame's double axes; areas are rounded once, after summation.
 #include <memory>
 #include <utility>
 

@@ -1,16 +1,18 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The global visibility map of section 3.1: the plane cut into regions by the edges of all
-// fragments, seen or hidden. In a region the same fragments lie one above the other everywhere;
-// sorted, each sees the next. The map is CGAL's arrangement, in exact numbers.
+// fragments, visible or hidden. Everywhere in a region the same fragments lie one above the other;
+// in sorted order, each sees the next. The map is CGAL's arrangement, in exact numbers. Input: the
+// fragments of the BSP tree, projected; for_each_tile() keeps each arrangement small.
 //
-// From region to region the list changes by the fragments whose edges are crossed, and by nothing
-// else. So neither lists nor sums are made for each region: a walk visits all of them, one list is
-// kept up to date, `total_` counts the area that the walk has come through, and a pair of
-// neighbors is booked when it parts, with what was counted since it met:
+// Between neighboring regions, the stack of fragments changes only by the fragments whose edges are
+// crossed. So no stack and no sum is made per region: a depth-first traversal visits all regions
+// and keeps one stack up to date; `total_` is the area of the regions entered so far. A pair of
+// adjacent fragments is accumulated when it separates, with the growth of `total_` since it became
+// adjacent:
 //
-//      +-----+          walk: outside, a, b      list: -    A    A B   A
-//      |a +--|--+       A meets B on the way into b, and they part on leaving it:
+//      +-----+          traversal: outside, a, b      stack: -    A    A B   A
+//      |a +--|--+       A and B become adjacent on entering b and separate on leaving it:
 //      +--|b-|  |       total_ has grown by the area of b
 //         +-----+
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
@@ -29,7 +31,7 @@
 #include "visibility/map/map_engines.h"
 #include "visibility/map/plane_tiles.h"
 #include "visibility/plane/exact_number.h"
-#include "visibility/plane/visible_fragment.h"
+#include "visibility/plane/fragment_projector.h"
 #include "visibility/transfers/transfer_sums.h"
 
 namespace transillum {
@@ -37,20 +39,22 @@ namespace {
 
 // CGAL's Epeck, but with our fractions behind its intervals.
 using Kernel = CGAL::Lazy_kernel<CGAL::Simple_cartesian<Rational>>;
-/// A number of TileEdges, on each piece of the map's edges; where edges overlap, all of them.
+/// Index of an edge in TileEdges. Each piece of the map's edges carries the numbers of all edges
+/// that overlap there.
 using EdgeNumber = std::int32_t;
 using MapTraits =
     CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, EdgeNumber>;
-/// Regions know whether the walk has been there.
+/// The data of a region: whether it has been visited.
 using Map = CGAL::Arrangement_2<MapTraits, CGAL::Arr_face_extended_dcel<MapTraits, bool>>;
 
-/// The distinct edges of a tile's polygons, and whose they are.
+/// The distinct edges of a tile's polygons, with the fragments that they bound.
 class TileEdges {
  public:
-  /// A fragment that has an edge for its border.
+  /// A fragment that an edge bounds.
   struct Border {
     std::int32_t rank;
-    bool rightward;  ///< runs toward larger x (or y, where upright), its fragment to the left
+    bool rightward;  ///< the fragment lies left of the edge in direction of larger x (or y, if
+                     ///< vertical)
   };
 
   explicit TileEdges(const std::vector<TilePolygon>& polygons) {
@@ -72,21 +76,22 @@ class TileEdges {
 
  private:
   using Points = std::map<std::pair<Rational, Rational>, Kernel::Point_2>;
-  using Place = Points::const_iterator;
-  struct ByPlace {
-    bool operator()(const std::pair<Place, Place>& a, const std::pair<Place, Place>& b) const {
+  using PointPlace = Points::const_iterator;
+  struct ByPointAddress {
+    bool operator()(const std::pair<PointPlace, PointPlace>& a,
+                    const std::pair<PointPlace, PointPlace>& b) const {
       return std::pair(&*a.first, &*a.second) < std::pair(&*b.first, &*b.second);
     }
   };
 
   void add(const TilePolygon& polygon) {
-    std::vector<Place> places;
+    std::vector<PointPlace> places;
     for (const BasicPlanePoint<Rational>& p : polygon.outline) {
       const Kernel::Point_2 point{Kernel::FT(p.x), Kernel::FT(p.y)};
       places.push_back(points_.try_emplace(std::pair(p.x, p.y), point).first);
     }
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const Place a = places[k], b = places[(k + 1) % places.size()];
+      const PointPlace a = places[k], b = places[(k + 1) % places.size()];
       if (a == b) {
         continue;
       }
@@ -101,19 +106,19 @@ class TileEdges {
   }
 
   Points points_;
-  std::map<std::pair<Place, Place>, EdgeNumber, ByPlace> numbers_;
+  std::map<std::pair<PointPlace, PointPlace>, EdgeNumber, ByPointAddress> numbers_;
   std::vector<std::vector<Border>> borders_;
 };
 
-/// Twice the area to the left of a closed way round a region: < 0 for the rim of a hole.
-Rational twice_area(Map::Ccb_halfedge_const_circulator rim) {
+/// Twice the area to the left of a closed boundary: < 0 for the boundary of a hole.
+Rational twice_area(Map::Ccb_halfedge_const_circulator boundary) {
   Rational twice = 0;
-  const auto end = rim;
+  const auto end = boundary;
   do {
-    const auto& a = CGAL::exact(rim->source()->point());
-    const auto& b = CGAL::exact(rim->target()->point());
+    const auto& a = CGAL::exact(boundary->source()->point());
+    const auto& b = CGAL::exact(boundary->target()->point());
     twice += a.x() * b.y() - a.y() * b.x();
-  } while (++rim != end);
+  } while (++boundary != end);
   return twice;
 }
 
@@ -128,25 +133,25 @@ Rational area_of(const Map::Face& region) {
   return twice / 2;
 }
 
-/// All edges from `region` to its neighbors, those inside its holes included.
-std::vector<Map::Halfedge_handle> ways_out(const Map::Face_handle& region) {
-  std::vector<Map::Halfedge_handle> ways;
-  const auto add_rim = [&ways](Map::Ccb_halfedge_circulator rim) {
-    const auto end = rim;
+/// All edges between `region` and its neighbors, including those in its holes.
+std::vector<Map::Halfedge_handle> edges_to_neighbors(const Map::Face_handle& region) {
+  std::vector<Map::Halfedge_handle> edges;
+  const auto add_boundary = [&edges](Map::Ccb_halfedge_circulator boundary) {
+    const auto end = boundary;
     do {
-      ways.push_back(rim);
-    } while (++rim != end);
+      edges.push_back(boundary);
+    } while (++boundary != end);
   };
   if (!region->is_unbounded()) {
-    add_rim(region->outer_ccb());
+    add_boundary(region->outer_ccb());
   }
   for (auto hole = region->holes_begin(); hole != region->holes_end(); ++hole) {
-    add_rim(*hole);
+    add_boundary(*hole);
   }
-  return ways;
+  return edges;
 }
 
-/// One direction.
+/// The global visibility map of one direction.
 class GlobalMap {
  public:
   GlobalMap(const Scene& scene, const BspTree& tree, const Vec3& omega,
@@ -158,50 +163,50 @@ class GlobalMap {
         sums_(scene.patch_count()) {}
 
   Transfers run() {
-    for_each_tile(look_at_fragments(), most_busy_in_a_tile, cancellation_,
-                  [this](const std::vector<TilePolygon>& tile) { walk(tile); });
+    for_each_tile(project_fragments(), max_boundaries_per_tile, cancellation_,
+                  [this](const std::vector<TilePolygon>& tile) { visit_regions(tile); });
     return sums_.finish(omega_, cancellation_);
   }
 
  private:
-  /// CGAL cannot be interrupted in the making of a map, so each must be small.
-  static constexpr std::size_t most_busy_in_a_tile = 64;
+  /// CGAL's insertion cannot be interrupted, so each map must be small.
+  static constexpr std::size_t max_boundaries_per_tile = 64;
 
-  /// A fragment of the BSP order, edge-on ones left out.
-  struct Ranked {
+  /// A fragment in BSP order; edge-on ones are left out.
+  struct RankedFragment {
     PatchId patch;
     bool front_facing;
-    int winding = 0;  ///< how often the outline runs round the walk's region: > 0 inside
+    int winding = 0;  ///< winding number of the outline about the current region: > 0 inside
   };
-  /// A fragment of the walk's region.
-  struct Listed {
+  /// A fragment that covers the current region.
+  struct StackedFragment {
     std::int32_t rank;
-    ExactArea met;  ///< total_ when it met the one above it
+    ExactArea adjacent_since;  ///< total_ when the one above it became adjacent
   };
 
-  std::vector<TilePolygon> look_at_fragments() {
+  std::vector<TilePolygon> project_fragments() {
     std::vector<TilePolygon> polygons;
-    SeenFragment<Rational> seen(tree_, projection_);
+    FragmentProjector<Rational> visible(tree_, projection_);
     for (const FragmentId f : tree_.order(omega_, cancellation_)) {
       cancellation_.throw_if_canceled();
       const BspTree::Fragment& fragment = tree_.fragment(f);
-      if (!seen.look_at(fragment)) {
+      if (!visible.project(fragment)) {
         continue;
       }
-      sums_.project(fragment.patch, seen.front_facing(), ExactArea(seen.area()));
+      sums_.project(fragment.patch, visible.front_facing(), ExactArea(visible.area()));
       std::vector<BasicPlanePoint<Rational>> outline;
-      for (const auto& corner : seen.outline()) {
+      for (const auto& corner : visible.outline()) {
         outline.push_back(corner.at);
       }
       polygons.push_back(
           tile_polygon(static_cast<std::int32_t>(ranked_.size()), std::move(outline)));
-      ranked_.push_back({fragment.patch, seen.front_facing()});
+      ranked_.push_back({fragment.patch, visible.front_facing()});
     }
     return polygons;
   }
 
-  /// Visits all regions of a tile, from neighbor to neighbor and back again.
-  void walk(const std::vector<TilePolygon>& tile) {
+  /// Visits all regions of a tile depth-first, from neighbor to neighbor and back.
+  void visit_regions(const std::vector<TilePolygon>& tile) {
     const TileEdges edges(tile);
     const auto curves = edges.curves();
     Map map;
@@ -211,25 +216,25 @@ class GlobalMap {
     }
 
     struct Visit {
-      std::vector<Map::Halfedge_handle> ways;
-      Map::Halfedge_handle back;  ///< to where the walk came from
+      std::vector<Map::Halfedge_handle> edges;  ///< to neighbors not tried yet
+      Map::Halfedge_handle back;                ///< to the region it was entered from
     };
-    std::vector<Visit> way;
+    std::vector<Visit> path;
     map.unbounded_face()->set_data(true);
-    way.push_back({ways_out(map.unbounded_face()), {}});
+    path.push_back({edges_to_neighbors(map.unbounded_face()), {}});
     while (true) {
-      Visit& here = way.back();
-      if (here.ways.empty()) {
+      Visit& here = path.back();
+      if (here.edges.empty()) {
         const Map::Halfedge_handle back = here.back;
-        way.pop_back();
-        if (way.empty()) {
+        path.pop_back();
+        if (path.empty()) {
           break;
         }
         cross(edges, back);
         continue;
       }
-      const Map::Halfedge_handle out = here.ways.back();
-      here.ways.pop_back();
+      const Map::Halfedge_handle out = here.edges.back();
+      here.edges.pop_back();
       const Map::Face_handle next = out->twin()->face();
       if (next->data()) {
         continue;
@@ -238,12 +243,12 @@ class GlobalMap {
       next->set_data(true);
       cross(edges, out);
       total_ += ExactArea(area_of(*next));
-      way.push_back({ways_out(next), out->twin()});
+      path.push_back({edges_to_neighbors(next), out->twin()});
     }
-    TRANSILLUM_INVARIANT(list_.empty(), "outside of everything lies nothing");
+    TRANSILLUM_INVARIANT(stack_.empty(), "no fragment covers the unbounded region");
   }
 
-  /// Steps over `edge`, from the region to its left to that on its right.
+  /// Crosses `edge` from the region on its left to the one on its right.
   void cross(const TileEdges& edges, const Map::Halfedge_handle& edge) {
     const bool rightward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
     for (const EdgeNumber number : edge->curve().data()) {
@@ -262,41 +267,43 @@ class GlobalMap {
     }
   }
 
-  std::vector<Listed>::iterator place_of(std::int32_t rank) {
-    return std::lower_bound(list_.begin(), list_.end(), rank,
-                            [](const Listed& listed, std::int32_t r) { return listed.rank < r; });
+  std::vector<StackedFragment>::iterator position_of(std::int32_t rank) {
+    return std::lower_bound(
+        stack_.begin(), stack_.end(), rank,
+        [](const StackedFragment& entry, std::int32_t r) { return entry.rank < r; });
   }
 
   void enter(std::int32_t rank) {
-    const auto below = place_of(rank);
-    if (below != list_.end()) {
+    const auto below = position_of(rank);
+    if (below != stack_.end()) {
       accumulate(below);
-      below->met = total_;
+      below->adjacent_since = total_;
     }
-    list_.insert(below, {rank, total_});
+    stack_.insert(below, {rank, total_});
   }
 
   void leave(std::int32_t rank) {
-    const auto at = place_of(rank);
-    TRANSILLUM_INVARIANT(at != list_.end() && at->rank == rank, "what is left was entered");
-    accumulate(at);
-    const auto below = std::next(at);
-    if (below != list_.end()) {
+    const auto left = position_of(rank);
+    TRANSILLUM_INVARIANT(left != stack_.end() && left->rank == rank,
+                         "a fragment that is left was entered");
+    accumulate(left);
+    const auto below = std::next(left);
+    if (below != stack_.end()) {
       accumulate(below);
-      below->met = total_;
+      below->adjacent_since = total_;
     }
-    list_.erase(at);
+    stack_.erase(left);
   }
 
-  /// Books what the walk came through since `below` met the one above it, which it now parts from.
-  void accumulate(std::vector<Listed>::iterator below) {
-    if (below == list_.begin() || below->met == total_) {
+  /// Accumulates the area visited since the entry above `below` became adjacent to it.
+  void accumulate(std::vector<StackedFragment>::iterator below) {
+    if (below == stack_.begin() || below->adjacent_since == total_) {
       return;
     }
-    const Ranked& lower = at(ranked_, below->rank);
-    const Ranked& upper = at(ranked_, std::prev(below)->rank);
+    const RankedFragment& lower = at(ranked_, below->rank);
+    const RankedFragment& upper = at(ranked_, std::prev(below)->rank);
     sums_.accumulate(lower.patch, lower.front_facing, upper.patch, upper.front_facing,
-                     total_ - below->met);
+                     total_ - below->adjacent_since);
   }
 
   const BspTree& tree_;
@@ -304,9 +311,9 @@ class GlobalMap {
   Vec3 omega_;
   BasicProjection<Rational> projection_;
   TransferSums<ExactArea> sums_;
-  std::vector<Ranked> ranked_;
-  std::vector<Listed> list_;  ///< of the walk's region, nearest to the light first
-  ExactArea total_;           ///< area of the regions visited so far
+  std::vector<RankedFragment> ranked_;
+  std::vector<StackedFragment> stack_;  ///< over the current region, nearest to the light first
+  ExactArea total_;                     ///< area of the regions entered so far
 };
 
 }  // namespace

@@ -1,16 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The local visibility map of section 3.2. All fragments come in BSP order, those nearest to the
-// light first. V holds what would be seen from below the fragments done so far. Fragment i cuts
-// from V what lies above it (inside list I), which is what it sees, and takes its place:
+// The local visibility map V of section 3.2. Fragments enter it in BSP order, the one nearest to
+// the light first. V is what is visible from below the fragments processed so far. The step of
+// fragment i cuts out of V the part above i (the inside list I), which is what i sees, and puts i
+// in its place:
 //
 //       light                      V before      step i          V after
 //         |  omega ^                _____      ___|I|___         _  ___  _
 //         v        |                             i
 //
-// The paper leaves a hole in V below a front-facing i, because nothing shines down from there. We
-// put i in, marked: so one pass tells for omega and for -omega who looks at whom, and V covers
-// the whole scene, which makes closure (method, oracle 1) a fact to check.
+// The paper leaves a hole in V below a front-facing i, because i emits nothing toward -omega. Here
+// i is put in, marked as front-facing: so one pass gives the transfers along omega and -omega, and
+// V covers the whole scene, which allows the check of closure (ALGORITHM.md, oracle 1).
 #pragma once
 
 #include <algorithm>
@@ -18,24 +19,26 @@
 
 #include "transillum/at.h"
 #include "transillum/visibility_map.h"
+#include "visibility/plane/fragment_projector.h"
 #include "visibility/plane/plane_index.h"
-#include "visibility/plane/visible_fragment.h"
 #include "visibility/transfers/transfer_sums.h"
 
 namespace transillum {
 
-/// Keeps no history.
+/// For runs that keep no history.
 struct NoRecorder {
   static constexpr bool records = false;
 };
 
-/// Writes the table of one direction.
+/// Writes the history of one direction into a MapRecord.
 struct Recorder {
   static constexpr bool records = true;
   MapRecord& record;
 };
 
-/// The local visibility map of one direction, in numbers of type Number.
+/// The local visibility map of one direction.
+/// @tparam Number of coordinates: Real, or Rational for exact results
+/// @tparam RecorderType NoRecorder or Recorder
 template <class Number, class RecorderType>
 class LocalMap {
  public:
@@ -46,7 +49,7 @@ class LocalMap {
         recorder_(recorder),
         omega_(omega),
         projection_(scene, tree, omega, cancellation),
-        seen_(tree, projection_),
+        visible_(tree, projection_),
         clipper_(projection_),
         index_(whole_plane(), tree.fragments().size()),
         sums_(scene.patch_count()) {}
@@ -65,7 +68,7 @@ class LocalMap {
 
  private:
   /// A polygon of V.
-  struct MapFragment {
+  struct PolygonOfV {
     BasicMapPolygon<Number> outline;
     PatchId patch = no_patch;
     bool front_facing = false;
@@ -81,21 +84,21 @@ class LocalMap {
   }
 
   void process(const BspTree::Fragment& fragment) {
-    if (!seen_.look_at(fragment)) {
+    if (!visible_.project(fragment)) {
       return;
     }
-    const BasicMapPolygon<Number>& window = seen_.outline();
-    const bool front_facing = seen_.front_facing();
-    sums_.project(fragment.patch, front_facing, MapNumber<Number>::area(seen_.area()));
+    const BasicMapPolygon<Number>& outline = visible_.outline();
+    const bool front_facing = visible_.front_facing();
+    sums_.project(fragment.patch, front_facing, MapNumber<Number>::area(visible_.area()));
 
-    // Cut out of V what lies above, piece by piece.
-    const PlaneBox box = box_of(window);
+    // Clip each polygon of V that the fragment may lie below.
+    const PlaneBox box = box_of(outline);
     found_.clear();
     index_.query(box, found_);
     for (const std::int32_t id : found_) {
       cancellation_.throw_if_canceled();
-      const MapFragment& above = at(fragments_, id);
-      if (!clipper_.clip(above.outline, window)) {
+      const PolygonOfV& above = at(polygons_, id);
+      if (!clipper_.clip(above.outline, outline)) {
         continue;
       }
       sums_.accumulate(fragment.patch, front_facing, above.patch, above.front_facing,
@@ -104,13 +107,13 @@ class LocalMap {
     }
 
     const std::int32_t row =
-        add_row(window, fragment.patch, front_facing, MapRecord::no_row, MapRecord::never);
-    add(window, fragment.patch, front_facing, row, box);
+        add_row(outline, fragment.patch, front_facing, MapRecord::no_row, MapRecord::never);
+    add(outline, fragment.patch, front_facing, row, box);
   }
 
-  /// Takes polygon `above` out of V and puts in the parts that clipper_ found outside.
+  /// Replaces polygon `above` of V by the parts of it that clipper_ found outside.
   void replace_by_outside(std::int32_t above) {
-    MapFragment& cut = at(fragments_, above);
+    PolygonOfV& cut = at(polygons_, above);
     const PatchId patch = cut.patch;
     const bool front_facing = cut.front_facing;
     const std::int32_t row = cut.row;
@@ -132,14 +135,14 @@ class LocalMap {
 
   void add(const BasicMapPolygon<Number>& outline, PatchId patch, bool front_facing,
            std::int32_t row, const PlaneBox& box) {
-    std::int32_t id = static_cast<std::int32_t>(fragments_.size());
+    std::int32_t id = static_cast<std::int32_t>(polygons_.size());
     if (free_.empty()) {
-      fragments_.emplace_back();
+      polygons_.emplace_back();
     } else {
       id = free_.back();
       free_.pop_back();
     }
-    MapFragment& fragment = at(fragments_, id);
+    PolygonOfV& fragment = at(polygons_, id);
     fragment.outline.assign(outline.begin(), outline.end());
     fragment.patch = patch;
     fragment.front_facing = front_facing;
@@ -182,14 +185,14 @@ class LocalMap {
   RecorderType recorder_;
   Vec3 omega_;
   BasicProjection<Number> projection_;
-  SeenFragment<Number> seen_;  ///< the polygon at hand
+  FragmentProjector<Number> visible_;  ///< the fragment of the current step
   BasicMapClipper<Number> clipper_;
   PlaneIndex index_;
   TransferSums<typename MapNumber<Number>::Area> sums_;
   std::int32_t step_ = 0;
-  std::vector<MapFragment> fragments_;
-  std::vector<std::int32_t> free_;  ///< unused places in fragments_
-  std::vector<std::int32_t> found_;
+  std::vector<PolygonOfV> polygons_;
+  std::vector<std::int32_t> free_;   ///< unused entries of polygons_
+  std::vector<std::int32_t> found_;  ///< candidates of the current step
 };
 
 }  // namespace transillum

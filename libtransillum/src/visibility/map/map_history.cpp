@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Indexes of a MapRecord, the table of rows that record_local_map() writes for one direction: the
+// rows and sums of each step, and the steps of each patch. Rows are sorted by `made`, the step that
+// made them.
 #include "transillum/map_history.h"
 
 #include <algorithm>
@@ -46,7 +50,7 @@ void MapHistory::find_steps() {
     step.patch = at(record_.step_patch, k);
     at(first_row_, k) = r;
     const std::int32_t first = r;
-    // The polygon itself is its step's last row.
+    // The last row of a step is the step's own polygon.
     while (r < rows && row(r).made == k) {
       ++r;
     }
@@ -64,7 +68,7 @@ void MapHistory::find_steps() {
         }
         continue;
       }
-      --map_size;  // its parent
+      --map_size;  // the parent is consumed
       ++step.cut;
       step.covered += area;
       if (!exchanges(made)) {
@@ -83,31 +87,31 @@ void MapHistory::find_patches() {
   for (const PatchId patch : record_.step_patch) {
     patches = std::max(patches, patch + 1);
   }
-  // Steps come in order, so the last one noted of a patch tells whether this one is new.
+  // Steps are visited in order, so a step is new for a patch if it is not the patch's last one.
   std::vector<std::int32_t> last(static_cast<std::size_t>(patches), none);
-  const auto each_event = [&](const auto& note) {
+  const auto for_each_event = [&](const auto& visit) {
     std::fill(last.begin(), last.end(), none);
     for (std::int32_t k = 0; k < step_count(); ++k) {
-      const auto note_once = [&](PatchId patch) {
+      const auto visit_once = [&](PatchId patch) {
         if (std::exchange(at(last, patch), k) != k) {
-          note(patch, k);
+          visit(patch, k);
         }
       };
-      note_once(step(k).patch);
+      visit_once(step(k).patch);
       for (std::int32_t r = first_row(k); r < first_row(k + 1); ++r) {
-        note_once(row(r).patch);
+        visit_once(row(r).patch);
       }
     }
   };
   patch_begin_.assign(static_cast<std::size_t>(patches) + 1, 0);
-  each_event(
+  for_each_event(
       [&](PatchId patch, std::int32_t) { ++patch_begin_[static_cast<std::size_t>(patch) + 1]; });
   for (std::size_t p = 1; p < patch_begin_.size(); ++p) {
     patch_begin_[p] += patch_begin_[p - 1];
   }
   patch_steps_.resize(patch_begin_.back());
   std::vector<std::uint32_t> end(patch_begin_.begin(), patch_begin_.end() - 1);
-  each_event([&](PatchId patch, std::int32_t k) { patch_steps_[at(end, patch)++] = k; });
+  for_each_event([&](PatchId patch, std::int32_t k) { patch_steps_[at(end, patch)++] = k; });
 }
 
 std::vector<std::int32_t> MapHistory::cut_at(std::int32_t k) const {
@@ -139,7 +143,7 @@ std::vector<std::int32_t> MapHistory::outside_at(std::int32_t k) const {
 }
 
 bool MapHistory::exchanges(std::int32_t r) const {
-  // What lies above shines down (is back facing), and what lies below looks up: see TransferSums.
+  // The polygon above emits (is back-facing) and the one below receives: see TransferSums.
   const std::int32_t below = at(steps_, row(r).made).row;
   return row(below).front_facing && !row(r).front_facing;
 }

@@ -18,7 +18,8 @@ double MapRecord::area(const Row& row) const {
 }
 
 bool MapRecord::covers(const Row& row, const Vec2& p) const {
-  // Convex, and needles may have turned over: p lies on one side of all edges.
+  // The outline is convex, but rounding may have reversed a needle: p lies on the same side of all
+  // edges, left or right.
   const auto corner = outline(row);
   bool left = true, right = true;
   for (std::size_t k = 0; k < corner.size() && (left || right); ++k) {
@@ -32,7 +33,7 @@ bool MapRecord::covers(const Row& row, const Vec2& p) const {
 
 std::vector<std::int32_t> MapRecord::map_after(std::int32_t step) const {
   std::vector<std::int32_t> map;
-  // Rows are in order of making.
+  // Rows are sorted by `made`.
   for (std::size_t r = 0; r < rows.size() && rows[r].made <= step; ++r) {
     if (step < rows[r].consumed) {
       map.push_back(static_cast<std::int32_t>(r));

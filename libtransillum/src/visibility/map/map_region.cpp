@@ -1,11 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A region lies in all fragments that cover its point, which makes a convex polygon, and in none of
-// the others. What they leave of the polygon falls into convex pieces; those that can be reached
-// from the point through common edges are the region:
+// The region of the global visibility map about a point, from the recorded local map. A region lies
+// inside all fragments that cover the point, whose intersection is a convex polygon, and outside
+// all others. Subtracting those from the polygon leaves convex pieces; the region is the pieces
+// that are connected to the point's piece through common edges:
 //
-//      +-------+---+       the polygon, less fragment f: pieces a, b and c.
-//      |   a   |f f|       From a point in a, b is reached; c is not.
+//      +-------+---+       The polygon, minus fragment f: pieces a, b and c.
+//      |   a   |f f|       For a point in a, b is connected; c is not.
 //      +-----+-+f f|
 //      |  b  |f f f|
 //      +-----+f+---+
@@ -25,8 +26,8 @@ namespace {
 using Point = PlaneRegion::Point;
 using Polygon = std::vector<Point>;
 
-constexpr std::size_t most_pieces = 2000;
-/// Shorter lengths, as a share of the polygon's, are rounding.
+constexpr std::size_t max_pieces = 2000;
+/// Lengths below this share of the polygon's are rounding errors.
 constexpr double rounding = 1e-9;
 
 double area_of(const Polygon& polygon) {
@@ -50,8 +51,8 @@ double length_of(const PlaneRegion::Box& box) {
   return std::max(box.high.u - box.low.u, box.high.v - box.low.v);
 }
 
-/// The sides of a convex polygon, counter-clockwise; none where it is too thin to have an inside,
-/// or so thin that rounding has turned it over.
+/// The sides of a convex polygon, counter-clockwise; none if it is too thin to have an inside, or
+/// so thin that rounding has reversed it.
 std::vector<PlaneRegion::Side> sides_of(const Polygon& polygon) {
   Point center;
   for (const Point& p : polygon) {
@@ -76,7 +77,7 @@ std::vector<PlaneRegion::Side> sides_of(const Polygon& polygon) {
   return sides.size() < 3 ? std::vector<PlaneRegion::Side>() : sides;
 }
 
-/// Whether two convex polygons that do not overlap have more than a point of their edges in common.
+/// Whether the edges of two convex polygons that do not overlap share more than a point.
 bool have_common_edge(const Polygon& one, const Polygon& other, double tolerance) {
   for (std::size_t k = 0; k < one.size(); ++k) {
     const Point &a = one[k], &b = one[(k + 1) % one.size()];
@@ -85,13 +86,13 @@ bool have_common_edge(const Polygon& one, const Polygon& other, double tolerance
       continue;
     }
     const Point along{(b.u - a.u) / length, (b.v - a.v) / length};
-    // From a: along the edge, and off it.
-    const auto seen = [&](const Point& p) {
+    // Coordinates from a: along the edge, and perpendicular to it.
+    const auto from_a = [&](const Point& p) {
       const Point d{p.u - a.u, p.v - a.v};
       return Point{d.u * along.u + d.v * along.v, d.v * along.u - d.u * along.v};
     };
     for (std::size_t m = 0; m < other.size(); ++m) {
-      const Point c = seen(other[m]), d = seen(other[(m + 1) % other.size()]);
+      const Point c = from_a(other[m]), d = from_a(other[(m + 1) % other.size()]);
       if (std::abs(c.v) > tolerance || std::abs(d.v) > tolerance) {
         continue;
       }
@@ -105,8 +106,8 @@ bool have_common_edge(const Polygon& one, const Polygon& other, double tolerance
   return false;
 }
 
-/// The pieces that can be reached from the first through common edges, the first among them.
-std::vector<Polygon> reached_from_first(std::vector<Polygon> pieces, double tolerance) {
+/// The first piece and those connected to it through common edges.
+std::vector<Polygon> connected_to_first(std::vector<Polygon> pieces, double tolerance) {
   std::vector<PlaneRegion::Box> boxes;
   for (const Polygon& piece : pieces) {
     PlaneRegion::Box box = box_of(piece);
@@ -129,93 +130,128 @@ std::vector<Polygon> reached_from_first(std::vector<Polygon> pieces, double tole
   return pieces;
 }
 
-}  // namespace
+/// Finds the region of one point.
+class RegionFinder {
+ public:
+  RegionFinder(const MapHistory& history, const Vec2& point)
+      : history_(history), record_(history.record()), point_(point) {}
 
-std::optional<MapRegion> region_at(const MapHistory& history, const Vec2& point) {
-  const MapRecord& record = history.record();
-  const auto polygon_of = [&](std::int32_t row) {
+  std::optional<MapRegion> find() {
+    intersect_covering();
+    if (!subtract_others()) {
+      return std::nullopt;
+    }
+    if (!collect_pieces()) {
+      return std::nullopt;  // the point is on an edge, or nothing covers it
+    }
+    return connected_region();
+  }
+
+ private:
+  Polygon polygon_of(std::int32_t row) const {
     Polygon polygon;
-    for (const Vec2& corner : record.outline(history.row(row))) {
+    for (const Vec2& corner : record_.outline(history_.row(row))) {
       polygon.push_back({corner.x, corner.y});
     }
     return polygon;
-  };
-  // What all that cover the point have in common.
-  PlaneRegion rest;
-  PlaneRegion::Box box;
-  std::vector<std::int32_t> others;
-  for (std::int32_t k = 0; k < history.step_count(); ++k) {
-    const std::int32_t row = history.step(k).row;
-    if (row == MapRecord::no_row) {
-      continue;
-    }
-    if (!record.covers(history.row(row), point)) {
-      others.push_back(row);
-      continue;
-    }
-    const Polygon polygon = polygon_of(row);
-    if (box.low.u > box.high.u) {
-      rest.assign(polygon);
-      box = box_of(polygon);
-    }
-    for (const PlaneRegion::Side& side : sides_of(polygon)) {
-      const PlaneRegion::Side outside{-side.a, -side.b, -side.c};
-      rest.subtract({&outside, 1}, box);
-    }
-  }
-  // Less all others.
-  box = {};
-  rest.for_each([&](std::span<const Point> corners) {
-    for (const Point& p : corners) {
-      box.add(p);
-    }
-  });
-  for (const std::int32_t row : others) {
-    PlaneRegion::Box its_box;
-    for (const Vec2& corner : record.outline(history.row(row))) {
-      its_box.add({corner.x, corner.y});
-    }
-    if (!box.overlaps(its_box)) {
-      continue;
-    }
-    const auto sides = sides_of(polygon_of(row));
-    if (!sides.empty()) {
-      rest.subtract(sides, its_box);
-    }
-    if (rest.size() > most_pieces) {
-      return std::nullopt;
-    }
   }
 
-  const double tolerance = rounding * length_of(box);
-  std::vector<Polygon> pieces;
-  double deepest = 0;
-  rest.for_each([&](std::span<const Point> corners) {
-    Polygon piece(corners.begin(), corners.end());
-    const auto sides = sides_of(piece);
-    double depth = sides.empty() ? -HUGE_VAL : HUGE_VAL;
-    for (const PlaneRegion::Side& side : sides) {
-      depth = std::min(depth, side.distance({point.x, point.y}));
+  /// Sets rest_ to the intersection of all fragments that cover the point, others_ to the rest.
+  void intersect_covering() {
+    for (std::int32_t k = 0; k < history_.step_count(); ++k) {
+      const std::int32_t row = history_.step(k).row;
+      if (row == MapRecord::no_row) {
+        continue;
+      }
+      if (!record_.covers(history_.row(row), point_)) {
+        others_.push_back(row);
+        continue;
+      }
+      const Polygon polygon = polygon_of(row);
+      if (box_.low.u > box_.high.u) {
+        rest_.assign(polygon);
+        box_ = box_of(polygon);
+      }
+      for (const PlaneRegion::Side& side : sides_of(polygon)) {
+        const PlaneRegion::Side outside{-side.a, -side.b, -side.c};
+        rest_.subtract({&outside, 1}, box_);
+      }
     }
-    pieces.push_back(std::move(piece));
-    if (depth > deepest) {
-      std::swap(pieces.front(), pieces.back());
-    }
-    deepest = std::max(deepest, depth);
-  });
-  if (deepest == 0) {
-    return std::nullopt;  // on an edge, or nothing covers the point
+    box_ = {};
+    rest_.for_each([&](std::span<const Point> corners) {
+      for (const Point& p : corners) {
+        box_.add(p);
+      }
+    });
   }
 
-  MapRegion region;
-  for (const Polygon& piece : reached_from_first(std::move(pieces), tolerance)) {
-    region.area += area_of(piece);
-    region.parts.emplace_back();
-    for (const Point& p : piece) {
-      region.parts.back().push_back({p.u, p.v});
+  /// Returns false where rest_ falls into too many pieces.
+  bool subtract_others() {
+    for (const std::int32_t row : others_) {
+      PlaneRegion::Box box;
+      for (const Vec2& corner : record_.outline(history_.row(row))) {
+        box.add({corner.x, corner.y});
+      }
+      if (!box_.overlaps(box)) {
+        continue;
+      }
+      const auto sides = sides_of(polygon_of(row));
+      if (!sides.empty()) {
+        rest_.subtract(sides, box);
+      }
+      if (rest_.size() > max_pieces) {
+        return false;
+      }
     }
+    return true;
   }
-  return region;
+
+  /// Copies the pieces of rest_, the one in which the point lies deepest first. Returns false where
+  /// the point lies inside none.
+  bool collect_pieces() {
+    double deepest = 0;
+    rest_.for_each([&](std::span<const Point> corners) {
+      Polygon piece(corners.begin(), corners.end());
+      const auto sides = sides_of(piece);
+      double depth = sides.empty() ? -HUGE_VAL : HUGE_VAL;
+      for (const PlaneRegion::Side& side : sides) {
+        depth = std::min(depth, side.distance({point_.x, point_.y}));
+      }
+      pieces_.push_back(std::move(piece));
+      if (depth > deepest) {
+        std::swap(pieces_.front(), pieces_.back());
+      }
+      deepest = std::max(deepest, depth);
+    });
+    return deepest != 0;
+  }
+
+  MapRegion connected_region() {
+    MapRegion region;
+    const double tolerance = rounding * length_of(box_);
+    for (const Polygon& piece : connected_to_first(std::move(pieces_), tolerance)) {
+      region.area += area_of(piece);
+      region.parts.emplace_back();
+      for (const Point& p : piece) {
+        region.parts.back().push_back({p.u, p.v});
+      }
+    }
+    return region;
+  }
+
+  const MapHistory& history_;
+  const MapRecord& record_;
+  Vec2 point_;
+  PlaneRegion rest_;
+  PlaneRegion::Box box_;              ///< of rest_ before the others are subtracted
+  std::vector<std::int32_t> others_;  ///< rows of fragments that do not cover the point
+  std::vector<Polygon> pieces_;
+};
+
+}  // namespace
+
+std::optional<MapRegion> region_at(const MapHistory& history, const Vec2& point) {
+  return RegionFinder(history, point).find();
 }
 
 }  // namespace transillum

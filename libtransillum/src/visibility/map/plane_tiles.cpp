@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Splits the projected fragments of a direction into tiles for the engine `global`, whose
+// arrangements must be small. Cuts are at double coordinates, in exact arithmetic.
 #include "visibility/map/plane_tiles.h"
 
 #include <algorithm>
@@ -18,9 +21,9 @@ struct Tile {
       polygons.push_back(std::move(polygon));
     }
   }
-  /// Polygons that have an edge inside; those that fill the tile (as good as surely: their boxes
-  /// do) are no work.
-  std::size_t busy() const {
+  /// Number of polygons with an edge inside the tile. Those that fill the tile cost nothing and are
+  /// not counted; a polygon of 4 corners whose box is the tile's is taken to fill it.
+  std::size_t boundary_count() const {
     return static_cast<std::size_t>(
         std::count_if(polygons.begin(), polygons.end(), [this](const TilePolygon& polygon) {
           return polygon.outline.size() != 4 || polygon.box != box;
@@ -28,7 +31,7 @@ struct Tile {
   }
 };
 
-/// A straight cut across the plane along one of its axes.
+/// A line across the plane, parallel to one of its axes.
 struct TileCut {
   bool across_x;  ///< x = at; else y = at
   double at;
@@ -38,7 +41,7 @@ struct TileCut {
   double high(const PlaneBox& box) const { return across_x ? box.x1 : box.y1; }
 };
 
-/// Through the middle of the polygons, across the tile's longer side.
+/// At the median of the polygons' centers, across the tile's longer side.
 TileCut middle_cut(const Tile& tile) {
   TileCut cut{tile.box.x1 - tile.box.x0 >= tile.box.y1 - tile.box.y0, 0};
   std::vector<double> centers;
@@ -51,7 +54,7 @@ TileCut middle_cut(const Tile& tile) {
   return cut;
 }
 
-/// The part of `outline` on one side of `cut`: 1 beyond it, -1 before it.
+/// The part of `outline` on one side of `cut`: 1, larger coordinates; -1, smaller ones.
 std::vector<Point> part_of(const std::vector<Point>& outline, const TileCut& cut, int side) {
   const Rational at(cut.at);
   const auto side_of = [&](const Point& p) { return side * CGAL::compare(cut.coordinate(p), at); };
@@ -73,8 +76,8 @@ std::vector<Point> part_of(const std::vector<Point>& outline, const TileCut& cut
   return part;
 }
 
-/// Deals the polygons of `tile` out to both sides of `cut`.
-std::pair<Tile, Tile> halves(const Tile& tile, const TileCut& cut) {
+/// Distributes the polygons of `tile` to the two tiles on either side of `cut`.
+std::pair<Tile, Tile> split(const Tile& tile, const TileCut& cut) {
   Tile before{tile.box, {}}, beyond{tile.box, {}};
   (cut.across_x ? before.box.x1 : before.box.y1) = cut.at;
   (cut.across_x ? beyond.box.x0 : beyond.box.y0) = cut.at;
@@ -101,9 +104,9 @@ TilePolygon tile_polygon(std::int32_t rank, std::vector<Point> outline) {
   return {rank, std::move(outline), box};
 }
 
-void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
+void for_each_tile(std::vector<TilePolygon> polygons, std::size_t max_boundaries,
                    const Cancellation& cancellation,
-                   const std::function<void(const std::vector<TilePolygon>&)>& use) {
+                   const std::function<void(const std::vector<TilePolygon>&)>& visit) {
   PlaneBox all{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (const TilePolygon& polygon : polygons) {
     for (const Point& p : polygon.outline) {
@@ -116,17 +119,17 @@ void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
     cancellation.throw_if_canceled();
     const Tile tile = std::move(open.back());
     open.pop_back();
-    const std::size_t busy = tile.busy();
-    if (busy > most) {
-      auto [before, beyond] = halves(tile, middle_cut(tile));
-      // Where most edges end in one place, cutting never helps.
-      if (std::max(before.busy(), beyond.busy()) < busy * 9 / 10) {
+    const std::size_t boundaries = tile.boundary_count();
+    if (boundaries > max_boundaries) {
+      auto [before, beyond] = split(tile, middle_cut(tile));
+      // Where most edges end in one point, splitting does not help.
+      if (std::max(before.boundary_count(), beyond.boundary_count()) < boundaries * 9 / 10) {
         open.push_back(std::move(beyond));
         open.push_back(std::move(before));
         continue;
       }
     }
-    use(tile.polygons);
+    visit(tile.polygons);
   }
 }
 

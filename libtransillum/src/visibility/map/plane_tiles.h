@@ -10,22 +10,22 @@
 
 namespace transillum {
 
-/// A fragment's outline, or the part of it in a tile; counter-clockwise.
+/// A projected fragment, or the part of it in a tile; counter-clockwise.
 struct TilePolygon {
-  std::int32_t rank;  ///< place of the fragment in the BSP order
+  std::int32_t rank;  ///< position of the fragment in the BSP order
   std::vector<BasicPlanePoint<Rational>> outline;
   PlaneBox box;
 };
 
-/// The box of `outline`.
+/// The polygon with the bounding box of `outline`.
 TilePolygon tile_polygon(std::int32_t rank, std::vector<BasicPlanePoint<Rational>> outline);
 
-/// Cuts the plane into tiles in each of which at most `most` polygons have edges, as far as cutting
-/// helps, and hands each tile's parts of `polygons` to `use`. The cuts are exact: no part is lost
-/// or doubled.
+/// Splits the plane into tiles and calls `visit` with the parts of `polygons` in each. A tile is
+/// split as long as more than `max_boundaries` polygons have edges in it and splitting lowers that
+/// number. Cuts are exact: no part is lost or duplicated.
 /// @throws Canceled
-void for_each_tile(std::vector<TilePolygon> polygons, std::size_t most,
+void for_each_tile(std::vector<TilePolygon> polygons, std::size_t max_boundaries,
                    const Cancellation& cancellation,
-                   const std::function<void(const std::vector<TilePolygon>&)>& use);
+                   const std::function<void(const std::vector<TilePolygon>&)>& visit);
 
 }  // namespace transillum

@@ -20,7 +20,7 @@ class MapMaker {
     const auto outline = record_.outline(row);
     const auto begin = static_cast<std::uint32_t>(map_.corners.size());
     map_.corners.insert(map_.corners.end(), outline.begin(), outline.end());
-    // Needles may turn over when their corners are rounded to double.
+    // Rounding corners to double may reverse a needle.
     (map_.*list)
         .push_back({row.patch, row.front_facing, std::max(record_.area(row), 0.0), begin,
                     static_cast<std::uint32_t>(map_.corners.size())});
@@ -55,18 +55,18 @@ VisibilityMap map_from_below(const RecordedDirection& direction) {
 
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver) {
   const MapRecord& record = direction.record;
-  // The receiver's own polygon tells whether it looks up, and is made after what it sees.
-  std::vector<bool> looks_up(record.order.size(), false);
+  // The receiver's own polygon has its facing, but its row comes after those of what it sees.
+  std::vector<bool> receives_at(record.order.size(), false);  // by step
   MapMaker maker(record, receiver);
   for (const MapRecord::Row& row : record.rows) {
     if (row.parent != MapRecord::no_row || row.patch != receiver || !row.front_facing) {
       continue;
     }
-    at(looks_up, row.made) = true;
+    at(receives_at, row.made) = true;
     maker.add(&VisibilityMap::window, row);
   }
   for (const MapRecord::Row& row : record.rows) {
-    if (row.made != row.consumed || !at(looks_up, row.made)) {
+    if (row.made != row.consumed || !at(receives_at, row.made)) {
       continue;
     }
     maker.add(&VisibilityMap::polygons, row);

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// From counts of sample lines, reported by the engines zbuffer, painter and rays, to Transfers.
 #include "visibility/pixels/counted_transfers.h"
 
 #include <algorithm>
@@ -23,45 +25,45 @@ void CountedTransfers::count(PatchId below, PatchId above, std::int64_t count) {
   if (above == no_patch) {
     return;
   }
-  const bool looks_up = heights_.front_facing(below), looks_down = !heights_.front_facing(above);
-  if (looks_up) {
+  const bool receives = heights_.front_facing(below), emits = !heights_.front_facing(above);
+  if (receives) {
     side(below).covered += count;
   }
-  if (looks_down) {
+  if (emits) {
     side(above).covered += count;
   }
-  if (looks_up && looks_down) {
+  if (receives && emits) {
     exchanges_.push_back({below, above, count});
     if (exchanges_.size() >= merge_at_) {
       merge_exchanges();
     }
-  } else if (looks_up) {
+  } else if (receives) {
     at(back_seen_, above) += count;
-  } else if (looks_down) {
+  } else if (emits) {
     at(back_seen_, below) += count;
   }
 }
 
-/// One entry a pair, by receiver and source.
+/// Leaves one entry per pair, sorted by receiver and source.
 void CountedTransfers::merge_exchanges() {
   cancellation_.throw_if_canceled();
-  // Dealt out by receiver, then each row sorted.
+  // A counting sort by receiver, then a sort of each row.
   std::vector<std::size_t> end(forward_.size() + 1, 0);
   for (const Exchange& e : exchanges_) {
     ++end[static_cast<std::size_t>(e.receiver) + 1];
   }
   std::partial_sum(end.begin(), end.end(), end.begin());
-  dealt_.resize(exchanges_.size());
+  by_receiver_.resize(exchanges_.size());
   for (const Exchange& e : exchanges_) {
-    dealt_[at(end, e.receiver)++] = e;
+    by_receiver_[at(end, e.receiver)++] = e;
   }
   exchanges_.clear();
-  auto begin = dealt_.begin();
+  auto begin = by_receiver_.begin();
   for (std::size_t i = 0; i < forward_.size(); ++i) {
     if (i % 256 == 0) {
       cancellation_.throw_if_canceled();
     }
-    const auto row_end = dealt_.begin() + static_cast<std::ptrdiff_t>(end[i]);
+    const auto row_end = by_receiver_.begin() + static_cast<std::ptrdiff_t>(end[i]);
     std::sort(begin, row_end,
               [](const Exchange& a, const Exchange& b) { return a.source < b.source; });
     for (; begin != row_end; ++begin) {
@@ -86,9 +88,9 @@ Transfers CountedTransfers::finish(const Vec3& omega, double area) {
   }
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const std::int64_t met = forward_[k].projected + backward_[k].projected;
-    transfers.counts.pixels += met;
-    if (met == 0 && !heights_.edge_on(i)) {
+    const std::int64_t lines = forward_[k].projected + backward_[k].projected;
+    transfers.counts.pixels += lines;
+    if (lines == 0 && !heights_.edge_on(i)) {
       ++transfers.counts.missed;
     }
     transfers.forward.push_back({as_area(forward_[k].projected), as_area(forward_[k].covered)});

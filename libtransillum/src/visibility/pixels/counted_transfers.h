@@ -12,21 +12,22 @@
 
 namespace transillum {
 
-/// Transfers of one direction from lines that are counted: whole numbers until the end, so the
-/// order in which they are found does not matter.
+/// Transfers of one direction from sample lines along it, all of the same area. Lines are counted
+/// in integers, so the result does not depend on the order of the calls.
 class CountedTransfers : public VisibilitySink {
  public:
   /// Keeps references.
   CountedTransfers(const Scene& scene, const PatchHeights& heights,
                    const Cancellation& cancellation);
 
-  /// Books `count` lines on which `below` is met right below `above`, or below nothing.
+  /// Adds `count` lines on which `below` is the next patch below `above` (no_patch: the topmost).
   void count(PatchId below, PatchId above, std::int64_t count);
   void record(int /*row*/, int begin, int end, PatchId below, PatchId above) override {
     count(below, above, end - begin);
   }
 
-  /// Each line stands for `area` m². Leaves nothing behind.
+  /// @param area that each line stands for, m²
+  /// @returns all transfers; may be called once
   /// @throws Canceled
   Transfers finish(const Vec3& omega, double area);
 
@@ -46,8 +47,8 @@ class CountedTransfers : public VisibilitySink {
   const Cancellation& cancellation_;
   std::vector<Side> forward_, backward_;
   std::vector<std::int64_t> back_seen_;
-  std::vector<Exchange> exchanges_, dealt_;
-  std::size_t merge_at_ = 1 << 20;
+  std::vector<Exchange> exchanges_, by_receiver_;
+  std::size_t merge_at_ = 1 << 20;  ///< size of exchanges_ at which equal pairs are merged
 };
 
 }  // namespace transillum

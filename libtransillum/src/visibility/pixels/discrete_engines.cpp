@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The engines of section 2: the transillumination plane in pixels, each of which stands for its
-// area wherever its center is seen.
+// The engines of section 2: the transillumination plane is divided into pixels, each of which
+// counts with its whole area for what is visible at its center.
 #include "visibility/pixels/discrete_engines.h"
 
 #include <fmt/format.h>
@@ -38,57 +38,58 @@ void paint(const Scene& scene, const BspTree& tree, PaintersOrder order, const P
   }
 }
 
-/// Fragments in the order of the pieces that they are parts of.
+/// `fragments`, sorted by Newell's order of the pieces that they are parts of.
 std::vector<FragmentId> in_newell_order(const Scene& scene, const BspTree& tree,
                                         std::span<const FragmentId> fragments,
                                         const PixelGrid& grid, const PatchHeights& heights,
                                         const Cancellation& cancellation) {
   const PieceOutlines pieces(scene, grid);
   const std::vector<std::int32_t> order = newell_order(scene, grid, pieces, heights, cancellation);
-  std::vector<std::size_t> place(scene.pieces().size(), order.size());  // edge-on ones last
+  std::vector<std::size_t> rank(scene.pieces().size(), order.size());  // edge-on ones last
   for (std::size_t n = 0; n < order.size(); ++n) {
-    at(place, order[n]) = n;
+    at(rank, order[n]) = n;
   }
   const PieceFinder finder(scene, tree, grid.frame());
-  std::vector<std::pair<std::size_t, FragmentId>> placed;
+  std::vector<std::pair<std::size_t, FragmentId>> ranked;
   for (const FragmentId f : fragments) {
-    placed.emplace_back(place[finder.piece_of(f)], f);
+    ranked.emplace_back(rank[finder.piece_of(f)], f);
   }
-  std::stable_sort(placed.begin(), placed.end(),
+  std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<FragmentId> sorted;
-  for (const auto& [at, f] : placed) {
+  for (const auto& [_, f] : ranked) {
     sorted.push_back(f);
   }
   return sorted;
 }
 
-[[noreturn]] void refuse(Engine engine) {
-  throw InputError(
-      fmt::format("engine {} has no pixels: choose zbuffer, painter or rays", name_of(engine)));
+[[noreturn]] void fail_without_pixels(Engine engine) {
+  throw InputError(fmt::format("engine {} does not use pixels; only zbuffer, painter and rays do",
+                               name_of(engine)));
 }
 
 }  // namespace
 
-void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
-                 const EngineOptions& options, const PixelGrid& grid, const PatchHeights& heights,
-                 VisibilitySink& sink, const Cancellation& cancellation) {
+void sample_visibility(Engine engine, const Scene& scene, const BspTree& tree,
+                       const EngineOptions& options, const PixelGrid& grid,
+                       const PatchHeights& heights, VisibilitySink& sink,
+                       const Cancellation& cancellation) {
   switch (engine) {
     case Engine::zbuffer:
       return fill_zbuffer(scene, grid, heights, sink, cancellation);
     case Engine::painter:
       return paint(scene, tree, options.order, grid, heights, sink, cancellation);
     case Engine::rays:
-      return cast_lines(scene, options.seed, grid, heights, nullptr, sink, cancellation);
+      return trace_lines(scene, options.seed, grid, heights, nullptr, sink, cancellation);
     default:
-      refuse(engine);
+      fail_without_pixels(engine);
   }
 }
 
-void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
-                 std::span<const FragmentId> fragments, const EngineOptions& options,
-                 const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink,
-                 const Cancellation& cancellation) {
+void sample_visibility(Engine engine, const Scene& scene, const BspTree& tree,
+                       std::span<const FragmentId> fragments, const EngineOptions& options,
+                       const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink,
+                       const Cancellation& cancellation) {
   switch (engine) {
     case Engine::zbuffer:
       return fill_zbuffer(tree, fragments, grid, heights, sink, cancellation);
@@ -101,11 +102,11 @@ void fill_pixels(Engine engine, const Scene& scene, const BspTree& tree,
       return painter.paint(in_newell_order(scene, tree, fragments, grid, heights, cancellation));
     }
     case Engine::rays: {
-      const ProcessedParts parts(scene, tree, fragments, grid.frame());
-      return cast_lines(scene, options.seed, grid, heights, &parts, sink, cancellation);
+      const ProcessedFragments processed(scene, tree, fragments, grid.frame());
+      return trace_lines(scene, options.seed, grid, heights, &processed, sink, cancellation);
     }
     default:
-      refuse(engine);
+      fail_without_pixels(engine);
   }
 }
 

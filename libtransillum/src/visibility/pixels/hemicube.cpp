@@ -1,4 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The hemicube: clipping, perspective projection and z-buffer of polygons in the frame of a point,
+// which form_factors/hemicube_factors.cpp passes in.
+//
+// Notation: on a side, a is the coordinate along it, b upward, depth the distance from the point
+// along the side's axis; a and b are divided by depth after clipping.
 #include "visibility/pixels/hemicube.h"
 
 #include <algorithm>
@@ -12,7 +18,8 @@ namespace transillum {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of what is equally near to so much of its distance the later covers the earlier.
+/// Where two depths differ relatively by less than this, the polygon drawn later covers the
+/// earlier.
 constexpr float tie = 1e-6F;
 
 /// Form factor from a small area at the origin, facing up, to [0,x] by [0,y] at height 1.
@@ -21,14 +28,14 @@ double to_top(double x, double y) {
   return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * std::numbers::pi);
 }
 
-/// The same to [0,y] by [0,z] in the upright plane x = 1.
+/// The same to [0,y] by [0,z] in the vertical plane x = 1.
 double to_side(double y, double z) {
   const double r = std::sqrt(1 + z * z);
   return (std::atan(y) - std::atan(y / r) / r) / (2 * std::numbers::pi);
 }
 
-/// A point as side `side` sees it.
-Vec3 seen_from(int side, const Vec3& p) {
+/// `p` in the coordinates (a, b, depth) of a side.
+Vec3 in_side_frame(int side, const Vec3& p) {
   switch (side) {
     case 0:
       return {p.x, p.y, p.z};
@@ -43,12 +50,12 @@ Vec3 seen_from(int side, const Vec3& p) {
   }
 }
 
-/// Upward a side reaches from this times its depth to its depth.
-double lowest(int side) { return side == 0 ? -1 : 0; }
+/// Lower end of b / depth on a side; the upper end is 1.
+double lowest_b(int side) { return side == 0 ? -1 : 0; }
 
-/// Whether a ball lies wholly outside of what a side sees.
-bool misses(int side, const Vec3& center, double radius) {
-  const Vec3 p = seen_from(side, center);
+/// Whether a ball lies wholly outside the pyramid of a side.
+bool is_outside(int side, const Vec3& center, double radius) {
+  const Vec3 p = in_side_frame(side, center);
   const double reach = std::numbers::sqrt2 * radius;
   const bool below = side == 0 ? p.z + p.y < -reach : p.y < -radius;
   return below || p.z - p.x < -reach || p.z + p.x < -reach || p.z - p.y < -reach;
@@ -62,7 +69,7 @@ Hemicube::Hemicube(int resolution) : resolution_(resolution) {
     at(first_, side) = delta_.size();
     const int rows = side == 0 ? resolution : resolution / 2;
     for (int row = 0; row < rows; ++row) {
-      const double b = lowest(side) + row * step;
+      const double b = lowest_b(side) + row * step;
       for (int column = 0; column < resolution; ++column) {
         const double a = -1 + column * step;
         const auto integral = [side](double x, double y) {
@@ -73,7 +80,7 @@ Hemicube::Hemicube(int resolution) : resolution_(resolution) {
       }
     }
   }
-  nearness_.resize(delta_.size());
+  inverse_depths_.resize(delta_.size());
   patches_.resize(delta_.size());
   left_.resize(static_cast<std::size_t>(resolution));
   right_.resize(static_cast<std::size_t>(resolution));
@@ -81,33 +88,33 @@ Hemicube::Hemicube(int resolution) : resolution_(resolution) {
 }
 
 void Hemicube::clear() {
-  std::fill(nearness_.begin(), nearness_.end(), 0.0F);
+  std::fill(inverse_depths_.begin(), inverse_depths_.end(), 0.0F);
   std::fill(patches_.begin(), patches_.end(), no_patch);
 }
 
 void Hemicube::draw(const Polygon& polygon) {
   for (int side = 0; side < sides; ++side) {
-    if (misses(side, polygon.center, polygon.radius)) {
+    if (is_outside(side, polygon.center, polygon.radius)) {
       continue;
     }
     polygon_.clear();
     for (const Vec3& corner : polygon.corners) {
-      const Vec3 p = seen_from(side, corner);
+      const Vec3 p = in_side_frame(side, corner);
       polygon_.push_back({p.x, p.y, p.z});
     }
     // On the ray through (a, b, 1), depth = offset / (normal·(a, b, 1)).
     if (clip_to_side(side)) {
-      fill(side, (1 / polygon.offset) * seen_from(side, polygon.normal), polygon.patch);
+      fill(side, (1 / polygon.offset) * in_side_frame(side, polygon.normal), polygon.patch);
     }
   }
 }
 
-/// Cuts polygon_ to the pyramid of a side. Returns whether anything is left.
+/// Clips polygon_ to the pyramid of a side. Returns whether anything remains.
 bool Hemicube::clip_to_side(int side) {
-  const auto cut = [this](auto depth) {
+  const auto clip = [this](auto distance) {
     std::size_t inside = 0;
     for (const Point& p : polygon_) {
-      inside += depth(p) >= 0 ? 1 : 0;
+      inside += distance(p) >= 0 ? 1 : 0;
     }
     if (inside == polygon_.size()) {
       return true;
@@ -118,7 +125,7 @@ bool Hemicube::clip_to_side(int side) {
     clipped_.clear();
     for (std::size_t k = 0; k < polygon_.size(); ++k) {
       const Point &p = polygon_[k], &q = polygon_[k + 1 < polygon_.size() ? k + 1 : 0];
-      const double here = depth(p), there = depth(q);
+      const double here = distance(p), there = distance(q);
       if (here >= 0) {
         clipped_.push_back(p);
       }
@@ -132,30 +139,30 @@ bool Hemicube::clip_to_side(int side) {
     polygon_.swap(clipped_);
     return polygon_.size() >= 3;
   };
-  const double low = lowest(side);
-  return cut([](const Point& p) { return p.depth - p.a; }) &&
-         cut([](const Point& p) { return p.depth + p.a; }) &&
-         cut([](const Point& p) { return p.depth - p.b; }) &&
-         cut([low](const Point& p) { return p.b - low * p.depth; });
+  const double low = lowest_b(side);
+  return clip([](const Point& p) { return p.depth - p.a; }) &&
+         clip([](const Point& p) { return p.depth + p.a; }) &&
+         clip([](const Point& p) { return p.depth - p.b; }) &&
+         clip([low](const Point& p) { return p.b - low * p.depth; });
 }
 
-/// Pixels whose middles polygon_ covers.
-/// @param inverse_depth 1 / depth at (a, b) of the side at depth 1 is its product with (a, b, 1).
+/// Draws the pixels whose centers polygon_ covers.
+/// @param inverse_depth its dot product with (a, b, 1) is 1 / depth at (a, b) of the side
 void Hemicube::fill(int side, const Vec3& inverse_depth, PatchId patch) {
-  const double scale = 0.5 * resolution_, low = lowest(side);
+  const double scale = 0.5 * resolution_, low = lowest_b(side);
   const int rows = side == 0 ? resolution_ : resolution_ / 2;
   double bottom = infinity, top = -infinity;
   for (Point& p : polygon_) {
     if (!(p.depth > 0)) {
-      return;  // touches the point itself
+      return;  // the polygon touches the point
     }
     p.a = scale * (p.a / p.depth + 1);
     p.b = scale * (p.b / p.depth - low);
     bottom = std::min(bottom, p.b);
     top = std::max(top, p.b);
   }
-  // A row or column belongs to [low end, high end), by its middle: neighbors share none and leave
-  // none out.
+  // A row or column is covered if its center is in [low end, high end): neighboring polygons share
+  // none and miss none.
   const auto from = [](double at, int count) {
     return static_cast<int>(std::clamp(std::ceil(at - 0.5), 0.0, static_cast<double>(count)));
   };
@@ -189,12 +196,12 @@ void Hemicube::fill(int side, const Vec3& inverse_depth, PatchId patch) {
         at(first_, side) + static_cast<std::size_t>(row) * static_cast<std::size_t>(resolution_);
     for (int column = begin; column < end; ++column) {
       const double a = -1 + step * (column + 0.5);
-      const auto nearness = static_cast<float>(at_row + inverse_depth.x * a);
+      const auto inverse = static_cast<float>(at_row + inverse_depth.x * a);
       const std::size_t k = pixel + static_cast<std::size_t>(column);
-      if (nearness < (1 - tie) * nearness_[k]) {
+      if (inverse < (1 - tie) * inverse_depths_[k]) {
         continue;
       }
-      nearness_[k] = nearness;
+      inverse_depths_[k] = inverse;
       patches_[k] = patch;
     }
   }

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Newell, Newell and Sancha's depth sort of a scene's pieces along one direction. Heights are
+// measured along omega from the transillumination plane; outlines are tested in integer grid
+// coordinates (PixelGrid). Piece numbers are indexes into Scene::pieces().
 #include "visibility/pixels/newell_order.h"
 
 #include <fmt/format.h>
@@ -15,6 +19,7 @@
 namespace transillum {
 namespace {
 
+/// The order of one direction.
 class NewellOrder {
  public:
   NewellOrder(const Scene& scene, const PixelGrid& grid, const PieceOutlines& outlines,
@@ -24,8 +29,8 @@ class NewellOrder {
         outlines_(outlines),
         heights_(heights),
         cancellation_(cancellation),
-        index_({-1, -1, static_cast<double>(grid.columns() * grid.one()) + 1,
-                static_cast<double>(grid.rows() * grid.one()) + 1},
+        index_({-1, -1, static_cast<double>(grid.columns() * grid.units_per_pixel()) + 1,
+                static_cast<double>(grid.rows() * grid.units_per_pixel()) + 1},
                scene.pieces().size()) {
     for (const Vec3& p : scene.points()) {
       const Vec3 from_origin = p - grid.frame().origin;
@@ -41,24 +46,24 @@ class NewellOrder {
                      [this](std::int32_t a, std::int32_t b) { return of(a).high > of(b).high; });
     for (const std::int32_t k : by_height) {
       if (of(k).state == State::waiting) {
-        put_after_all_above(k);
+        append_after_all_above(k);
       }
     }
     return std::move(order_);
   }
 
  private:
-  enum class State : std::uint8_t { waiting, wanted, done };
+  enum class State : std::uint8_t { waiting, pending, done };
   struct PieceState {
     double low = 0, high = 0;  ///< heights
-    PlaneBox box{};            ///< steps of the grid
+    PlaneBox box{};            ///< grid units
     State state = State::done;
   };
   struct HeightPoint {
     Vec2 at;
     double height;
   };
-  /// How the corners of a piece lie to the plane of another.
+  /// On which sides of another piece's plane the corners of a piece lie.
   struct Sides {
     bool none_below = true, none_above = true;
 
@@ -100,28 +105,28 @@ class NewellOrder {
     }
   }
 
-  void put_after_all_above(std::int32_t first) {
-    wanted_.assign(1, first);
-    of(first).state = State::wanted;
-    while (!wanted_.empty()) {
-      const std::int32_t k = wanted_.back();
+  void append_after_all_above(std::int32_t first) {
+    pending_.assign(1, first);
+    of(first).state = State::pending;
+    while (!pending_.empty()) {
+      const std::int32_t k = pending_.back();
       const std::int32_t above = find_above(k);
       if (above < 0) {
-        wanted_.pop_back();
+        pending_.pop_back();
         of(k).state = State::done;
         index_.erase(k);
         order_.push_back(k);
         continue;
       }
-      if (of(above).state == State::wanted) {
-        give_up_circle(above);
+      if (of(above).state == State::pending) {
+        fail_on_cycle(above);
       }
-      of(above).state = State::wanted;
-      wanted_.push_back(above);
+      of(above).state = State::pending;
+      pending_.push_back(above);
     }
   }
 
-  /// A piece that must come before piece k and has not come yet; -1: none.
+  /// A piece that must precede piece k and is not in the order yet; -1: none.
   std::int32_t find_above(std::int32_t k) {
     found_.clear();
     index_.query(of(k).box, found_);
@@ -136,7 +141,7 @@ class NewellOrder {
     return -1;
   }
 
-  /// Whether q lies above p somewhere.
+  /// Whether q lies above p somewhere, so that p must be painted later.
   bool must_precede(std::int32_t q, std::int32_t p) {
     const PatchId of_p = outlines_.patch(p), of_q = outlines_.patch(q);
     if (of_p == of_q) {
@@ -151,7 +156,7 @@ class NewellOrder {
     if (!coplanar && (p_to_q.none_below || q_to_p.none_above)) {
       return false;
     }
-    if (apart(p, q) || apart(q, p)) {
+    if (separates(p, q) || separates(q, p)) {
       return false;
     }
     if (coplanar) {
@@ -171,8 +176,8 @@ class NewellOrder {
     return sides;
   }
 
-  /// Whether an edge of a has all of b on its outer side, or on it.
-  bool apart(std::int32_t a, std::int32_t b) const {
+  /// Whether an edge of a separates them: all of b lies on its outer side, or on it.
+  bool separates(std::int32_t a, std::int32_t b) const {
     const std::int64_t turn = heights_.front_facing(outlines_.patch(a)) ? 1 : -1;
     const auto of_a = corners(a), of_b = corners(b);
     for (std::size_t k = 0; k < of_a.size(); ++k) {
@@ -192,7 +197,7 @@ class NewellOrder {
     return false;
   }
 
-  /// The same where the planes leave it open.
+  /// must_precede() where the tests against the planes do not decide.
   bool is_above_in_overlap(std::int32_t q, std::int32_t p) {
     const PatchId of_p = outlines_.patch(p), of_q = outlines_.patch(q);
     Sides sides;
@@ -201,12 +206,12 @@ class NewellOrder {
                 heights_.slack(of_p) + heights_.slack(of_q));
     }
     if (!sides.none_below && !sides.none_above) {
-      give_up_cut(of_p, of_q);
+      fail_on_intersection(of_p, of_q);
     }
     return !sides.none_above;
   }
 
-  /// Corners of a's projection cut by the edges of b's.
+  /// Corners of a's projection clipped by the edges of b's.
   const std::vector<Vec2>& overlap(std::int32_t a, std::int32_t b) {
     overlap_.clear();
     for (const PointId p : corners(a)) {
@@ -219,48 +224,48 @@ class NewellOrder {
       const auto inside = [&](const Vec2& c) {
         return turn * ((to.x - from.x) * (c.y - from.y) - (to.y - from.y) * (c.x - from.x));
       };
-      kept_.clear();
+      clipped_.clear();
       for (std::size_t n = 0; n < overlap_.size(); ++n) {
         const Vec2 &c = overlap_[n], &d = overlap_[(n + 1) % overlap_.size()];
         const double at_c = inside(c), at_d = inside(d);
         if (at_c >= 0) {
-          kept_.push_back(c);
+          clipped_.push_back(c);
         }
         if ((at_c > 0 && at_d < 0) || (at_c < 0 && at_d > 0)) {
           const double t = at_c / (at_c - at_d);
-          kept_.push_back({c.x + t * (d.x - c.x), c.y + t * (d.y - c.y)});
+          clipped_.push_back({c.x + t * (d.x - c.x), c.y + t * (d.y - c.y)});
         }
       }
-      overlap_.swap(kept_);
+      overlap_.swap(clipped_);
     }
     return overlap_;
   }
 
-  std::string along() const {
+  std::string direction_text() const {
     const Vec3& omega = grid_.frame().omega;
-    return fmt::format("seen along {:.4g}, {:.4g}, {:.4g}", omega.x, omega.y, omega.z);
+    return fmt::format("direction {:.4g}, {:.4g}, {:.4g}", omega.x, omega.y, omega.z);
   }
 
-  [[noreturn]] void give_up_circle(std::int32_t again) const {
-    constexpr std::size_t most = 8;
-    std::vector<PatchId> circle;
-    for (auto k = std::find(wanted_.begin(), wanted_.end(), again); k != wanted_.end(); ++k) {
-      circle.push_back(outlines_.patch(*k));
+  [[noreturn]] void fail_on_cycle(std::int32_t again) const {
+    constexpr std::size_t max_listed = 8;
+    std::vector<PatchId> cycle;
+    for (auto k = std::find(pending_.begin(), pending_.end(), again); k != pending_.end(); ++k) {
+      cycle.push_back(outlines_.patch(*k));
     }
-    const std::size_t more = circle.size() > most ? circle.size() - most : 0;
-    circle.resize(circle.size() - more);
+    const std::size_t more = cycle.size() > max_listed ? cycle.size() - max_listed : 0;
+    cycle.resize(cycle.size() - more);
     throw InputError(fmt::format(
-        "{}: {}, patches {}{} overlap in a circle: the painter's order newell cuts none; order "
-        "bsp does",
-        scene_.name(), along(), fmt::join(circle, ", "),
+        "{}: {}: patches {}{} overlap in a cycle; the painter's order newell splits no patches, "
+        "order bsp does",
+        scene_.name(), direction_text(), fmt::join(cycle, ", "),
         more > 0 ? fmt::format(" and {} more", more) : std::string()));
   }
 
-  [[noreturn]] void give_up_cut(PatchId a, PatchId b) const {
+  [[noreturn]] void fail_on_intersection(PatchId a, PatchId b) const {
     throw InputError(
-        fmt::format("{}: {}, patches {} and {} cut through each other: the painter's order newell "
-                    "cuts none; order bsp does",
-                    scene_.name(), along(), std::min(a, b), std::max(a, b)));
+        fmt::format("{}: {}: patches {} and {} intersect; the painter's order newell splits no "
+                    "patches, order bsp does",
+                    scene_.name(), direction_text(), std::min(a, b), std::max(a, b)));
   }
 
   const Scene& scene_;
@@ -268,12 +273,12 @@ class NewellOrder {
   const PieceOutlines& outlines_;
   const PatchHeights& heights_;
   const Cancellation& cancellation_;
-  PlaneIndex index_;  ///< of pieces that have not come yet
+  PlaneIndex index_;  ///< of the pieces not in order_ yet
   std::vector<HeightPoint> points_;
   std::vector<PieceState> states_;
-  std::vector<std::int32_t> wanted_;  ///< each waits for the next
+  std::vector<std::int32_t> pending_;  ///< stack: each must come after the next
   std::vector<std::int32_t> order_, found_;
-  std::vector<Vec2> overlap_, kept_;
+  std::vector<Vec2> overlap_, clipped_;
 };
 
 }  // namespace

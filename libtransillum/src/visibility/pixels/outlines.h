@@ -10,7 +10,7 @@
 
 namespace transillum {
 
-// Convex polygons as a grid of pixels sees them, by number.
+// Sets of convex polygons, addressed by number, with corners snapped to a PixelGrid.
 
 /// The pieces of a scene, as Scene::pieces().
 class PieceOutlines {
@@ -41,7 +41,7 @@ class PieceOutlines {
   std::vector<PixelPoint> points_;
 };
 
-/// The fragments of a tree: their edges are parts of the tree's lines.
+/// The fragments of a tree. Their edges are converted as parts of the tree's lines.
 class FragmentOutlines {
  public:
   /// Keeps a reference.

@@ -13,10 +13,11 @@
 
 namespace transillum {
 
-/// The painter's algorithm of section 2: puts polygons, those farthest toward omega first, into
-/// one item buffer. What a pixel held before is what the polygon sees there; the sink hears of it.
+/// The painter's algorithm of section 2: paints polygons, farthest toward omega first, into one
+/// item buffer. The patch that a pixel held before is what the polygon sees there; the pair is
+/// recorded in the sink.
 ///
-/// The buffer holds a band of rows, so what it takes does not grow with the resolution.
+/// The buffer holds one band of rows at a time, so its memory does not grow with the resolution.
 template <class Outlines>
 class Painter {
  public:
@@ -30,10 +31,10 @@ class Painter {
         cancellation_(cancellation),
         converter_(grid) {}
 
-  /// `order`: numbers of outlines.
+  /// @param order numbers of outlines, in painting order
   /// @throws Canceled
   void paint(std::span<const std::int32_t> order) {
-    const int rows = std::max(most_pixels / grid_.columns(), 1);
+    const int rows = std::max(max_pixels / grid_.columns(), 1);
     for (first_row_ = 0; first_row_ < grid_.rows(); first_row_ += rows) {
       end_row_ = std::min(first_row_ + rows, grid_.rows());
       items_.assign(static_cast<std::size_t>(end_row_ - first_row_) *
@@ -50,7 +51,7 @@ class Painter {
   }
 
  private:
-  static constexpr int most_pixels = 1 << 22;
+  static constexpr int max_pixels = 1 << 22;
 
   void paint(std::int32_t k) {
     const PatchId patch = outlines_.patch(k);
@@ -64,7 +65,7 @@ class Painter {
 
   void paint_span(PatchId patch, int row, int begin, int end) {
     painted_ += end - begin;
-    if (painted_ > most_pixels / 4) {
+    if (painted_ > max_pixels / 4) {
       painted_ = 0;
       cancellation_.throw_if_canceled();
     }
@@ -90,8 +91,8 @@ class Painter {
   const Cancellation& cancellation_;
   ScanConverter converter_;
   int first_row_ = 0, end_row_ = 0;
-  int painted_ = 0;             ///< pixels since cancellation was looked for
-  std::vector<PatchId> items_;  ///< the buffer: who is seen from below so far
+  int painted_ = 0;             ///< pixels since the last cancellation check
+  std::vector<PatchId> items_;  ///< item buffer of the band: the patch visible from below so far
 };
 
 }  // namespace transillum

@@ -30,7 +30,7 @@ PatchHeights::PatchHeights(const Scene& scene, const PlaneFrame& frame, double s
 }
 
 bool PatchHeights::comes_first(PatchId a, PatchId b) const {
-  // What receives before what emits; coverers first above and last below.
+  // Receivers before emitters; covering patches first among receivers, last among emitters.
   if (front_facing(a) != front_facing(b)) {
     return front_facing(a);
   }
@@ -40,7 +40,7 @@ bool PatchHeights::comes_first(PatchId a, PatchId b) const {
   return front_facing(a) ? rank(a) < rank(b) : rank(b) < rank(a);
 }
 
-/// 1 where patch i lies above the plane of j, -1 below it, 0 in it or on both sides.
+/// 1 if patch i lies above the plane of j, -1 if below it, 0 if in it or on both sides.
 int PatchHeights::side_of(PatchId i, PatchId j) const {
   bool above = false, below = false;
   for (const PointId p : scene_.outline(i)) {
@@ -53,14 +53,15 @@ int PatchHeights::side_of(PatchId i, PatchId j) const {
   return (above ? 1 : 0) - (below ? 1 : 0);
 }
 
-bool PatchHeights::above(const Hit& a, const Hit& b) const {
+bool PatchHeights::above(const HeightSample& a, const HeightSample& b) const {
   const PatchPlane &p = plane(a.patch), &q = plane(b.patch);
   const double slack = p.slack + q.slack;
   const double bend = std::abs(p.along_x - q.along_x) + std::abs(p.along_y - q.along_y);
   if (std::abs(a.height - b.height) > slack + bend * snapping_) {
     return a.height > b.height;
   }
-  // Their planes meet here, as at an edge they share: what counts is on which side of it they lie.
+  // Their planes meet here, for instance at a shared edge: compare on which side of the planes the
+  // patches lie.
   const int higher = side_of(a.patch, b.patch) - side_of(b.patch, a.patch);
   if (higher != 0) {
     return higher > 0;
@@ -71,23 +72,25 @@ bool PatchHeights::above(const Hit& a, const Hit& b) const {
   return comes_first(a.patch, b.patch);
 }
 
-PatchHeights::Hit* PatchHeights::sort(Hit* first, Hit* last) const {
-  std::sort(first, last, [](const Hit& a, const Hit& b) {
+PatchHeights::HeightSample* PatchHeights::sort(HeightSample* first, HeightSample* last) const {
+  std::sort(first, last, [](const HeightSample& a, const HeightSample& b) {
     return std::pair(-a.height, a.patch) < std::pair(-b.height, b.patch);
   });
-  // A line may meet two pieces of a patch at the edge between them.
-  last = std::unique(first, last, [](const Hit& a, const Hit& b) { return a.patch == b.patch; });
-  // "Coincident" is not transitive, so this is no order for std::sort; little is left to move.
-  for (Hit* a = first + (first != last); a < last; ++a) {
-    for (Hit* b = a; b > first && above(b[0], b[-1]); --b) {
+  // A line can meet two pieces of a patch at their common edge.
+  last = std::unique(
+      first, last, [](const HeightSample& a, const HeightSample& b) { return a.patch == b.patch; });
+  // above() is not transitive, so std::sort cannot use it. Insertion sort: few elements move.
+  for (HeightSample* a = first + (first != last); a < last; ++a) {
+    for (HeightSample* b = a; b > first && above(b[0], b[-1]); --b) {
       std::swap(b[0], b[-1]);
     }
   }
   return last;
 }
 
-void PatchHeights::sort(std::vector<Hit>& hits) const {
-  hits.resize(static_cast<std::size_t>(sort(hits.data(), hits.data() + hits.size()) - hits.data()));
+void PatchHeights::sort(std::vector<HeightSample>& samples) const {
+  samples.resize(static_cast<std::size_t>(sort(samples.data(), samples.data() + samples.size()) -
+                                          samples.data()));
 }
 
 }  // namespace transillum

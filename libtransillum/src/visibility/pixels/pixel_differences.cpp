@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Each polygon of the exact map is cut into the pixels it reaches; what lies in a pixel that shows
-// another patch differs. What of a pixel no polygon reaches differs too, where it shows a patch.
+// Areas where a map in pixels differs from the exact map of the same direction. Each polygon of the
+// exact map is clipped to the pixels it overlaps; the parts in pixels that show another patch
+// differ. The part of a pixel that no polygon covers differs too, if the pixel shows a patch.
 #include <algorithm>
 #include <cmath>
 
@@ -23,10 +24,10 @@ double area_of(const Outline& outline) {
   return twice / 2;
 }
 
-/// The part of a convex outline whose coordinate `axis` is from low to high.
-void cut_to(double Vec2::*axis, double low, double high, const Outline& outline, Outline& part,
-            Outline& spare) {
-  const auto cut = [axis](double at, double sign, const Outline& from, Outline& to) {
+/// Clips a convex outline to low <= `axis` <= high. `spare` is scratch space.
+void clip_to(double Vec2::*axis, double low, double high, const Outline& outline, Outline& part,
+             Outline& spare) {
+  const auto clip = [axis](double at, double sign, const Outline& from, Outline& to) {
     to.clear();
     for (std::size_t k = 0; k < from.size(); ++k) {
       const Vec2 &a = from[k], &b = from[(k + 1) % from.size()];
@@ -42,10 +43,11 @@ void cut_to(double Vec2::*axis, double low, double high, const Outline& outline,
       }
     }
   };
-  cut(low, 1, outline, spare);
-  cut(high, -1, spare, part);
+  clip(low, 1, outline, spare);
+  clip(high, -1, spare, part);
 }
 
+/// Appends the differences to the drawn map.
 class Differences {
  public:
   Differences(const PixelMap& pixels, const VisibilityMap& exact, VisibilityMap& drawn,
@@ -55,20 +57,21 @@ class Differences {
         drawn_(drawn),
         cancellation_(cancellation),
         covered_(pixels.items.size()),
-        reached_by_(pixels.items.size(), nobody) {}
+        first_overlap_(pixels.items.size(), no_polygon) {}
 
   void mark() {
     for (std::size_t k = 0; k < exact_.polygons.size(); ++k) {
       add(static_cast<std::int32_t>(k));
     }
-    mark_uncovered();
+    mark_uncovered_pixels();
   }
 
  private:
-  static constexpr std::int32_t nobody = -1;
-  struct Reach {
+  static constexpr std::int32_t no_polygon = -1;
+  /// A polygon that overlaps a pixel: an entry of the pixel's linked list.
+  struct Overlap {
     std::int32_t polygon;
-    std::int32_t next;  ///< in reaches_, of the same pixel
+    std::int32_t next;  ///< index in overlaps_ of the pixel's next entry
   };
 
   double x(int column) const { return pixels_.corner.x + column * pixels_.side; }
@@ -91,7 +94,7 @@ class Differences {
     const int last = row_of(high->y);
     for (int row = row_of(low->y); row <= last; ++row) {
       cancellation_.throw_if_canceled();
-      cut_to(&Vec2::y, y(row), y(row + 1), whole, in_row_, spare_);
+      clip_to(&Vec2::y, y(row), y(row + 1), whole, in_row_, spare_);
       if (in_row_.size() >= 3) {
         add_row(k, polygon, row);
       }
@@ -103,15 +106,15 @@ class Differences {
         in_row_.begin(), in_row_.end(), [](const Vec2& a, const Vec2& b) { return a.x < b.x; });
     const int last = column_of(high->x);
     for (int column = column_of(low->x); column <= last; ++column) {
-      cut_to(&Vec2::x, x(column), x(column + 1), in_row_, in_pixel_, spare_);
+      clip_to(&Vec2::x, x(column), x(column + 1), in_row_, in_pixel_, spare_);
       if (in_pixel_.size() < 3) {
         continue;
       }
       const std::size_t at = pixels_.index(column, row);
       const double area = area_of(in_pixel_);
       covered_[at] += area;
-      reaches_.push_back({k, reached_by_[at]});
-      reached_by_[at] = static_cast<std::int32_t>(reaches_.size()) - 1;
+      overlaps_.push_back({k, first_overlap_[at]});
+      first_overlap_[at] = static_cast<std::int32_t>(overlaps_.size()) - 1;
       if (pixels_.items[at] != polygon.patch) {
         mark(polygon.patch, polygon.front_facing, area, in_pixel_);
       }
@@ -128,27 +131,27 @@ class Differences {
         {patch, front_facing, area, begin, static_cast<std::uint32_t>(drawn_.corners.size())});
   }
 
-  void mark_uncovered() {
+  void mark_uncovered_pixels() {
     const double whole = pixels_.side * pixels_.side;
     for (int row = 0; row < pixels_.rows; ++row) {
       cancellation_.throw_if_canceled();
       for (int column = 0; column < pixels_.columns; ++column) {
         const std::size_t at = pixels_.index(column, row);
         if (pixels_.items[at] != no_patch && covered_[at] < (1 - 1e-9) * whole) {
-          mark_rest(column, row, reached_by_[at]);
+          mark_uncovered_part(column, row, first_overlap_[at]);
         }
       }
     }
   }
 
-  /// What of a pixel the exact map leaves open.
-  void mark_rest(int column, int row, std::int32_t reach) {
-    // About the pixel's corner, so that coordinates are small.
+  /// Marks the part of a pixel that the exact map leaves uncovered.
+  void mark_uncovered_part(int column, int row, std::int32_t overlap) {
+    // Coordinates relative to the pixel's corner are small and so more precise.
     const double side = pixels_.side, x0 = x(column), y0 = y(row);
     const PlaneRegion::Point square[] = {{0, 0}, {side, 0}, {side, side}, {0, side}};
     rest_.assign(square);
-    for (; reach != nobody; reach = at(reaches_, reach).next) {
-      const auto k = static_cast<std::size_t>(at(reaches_, reach).polygon);
+    for (; overlap != no_polygon; overlap = at(overlaps_, overlap).next) {
+      const auto k = static_cast<std::size_t>(at(overlaps_, overlap).polygon);
       const auto outline = exact_.outline(exact_.polygons[k]);
       PlaneRegion::Box box;
       sides_.clear();
@@ -159,7 +162,7 @@ class Differences {
         box.add({a.x, a.y});
         const double length = std::hypot(along.x, along.y);
         if (length < 1e-9 * side) {
-          continue;  // nearly a corner; its line would be noise
+          continue;  // nearly a point; the direction of its line would be noise
         }
         const double u = -along.y / length, v = along.x / length;
         sides_.push_back({u, v, -(u * a.x + v * a.y)});
@@ -184,9 +187,9 @@ class Differences {
   const VisibilityMap& exact_;
   VisibilityMap& drawn_;
   const Cancellation& cancellation_;
-  std::vector<double> covered_;           ///< a pixel, m²
-  std::vector<std::int32_t> reached_by_;  ///< a pixel: the first of its list in reaches_
-  std::vector<Reach> reaches_;
+  std::vector<double> covered_;              ///< area per pixel, m²
+  std::vector<std::int32_t> first_overlap_;  ///< per pixel: start of its list in overlaps_
+  std::vector<Overlap> overlaps_;
   Outline in_row_, in_pixel_, spare_;
   PlaneRegion rest_;
   std::vector<PlaneRegion::Side> sides_;

@@ -7,12 +7,13 @@
 
 namespace transillum {
 
-/// Engine `zbuffer`: the nearest patch at each pixel.
+/// Engine `zbuffer`: all patches over each pixel's center, sorted by height.
 TransferEngine zbuffer_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
-/// Engine `painter`: patches painted into pixels, farthest first.
+/// Engine `painter`: polygons painted into an item buffer, farthest toward omega first.
 TransferEngine painter_engine(std::shared_ptr<const Scene> scene,
                               std::shared_ptr<const BspTree> tree, const EngineOptions& options);
-/// Engine `rays`: parallel lines, intersected by Embree.
+/// Engine `rays`: parallel lines along the direction, intersected by Embree.
+/// @throws InputError where options.lines_per_patch is not in (0, 1e6]
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options);
 
 }  // namespace transillum

@@ -7,8 +7,8 @@
 namespace transillum {
 namespace {
 
-/// `x` > 0 rounded up to 24 binary digits.
-double with_few_digits(double x) {
+/// `x` > 0 rounded up to 24 significant bits.
+double rounded_up_to_24_bits(double x) {
   int exponent = 0;
   const double fraction = std::frexp(x, &exponent);
   return std::ldexp(std::ceil(std::ldexp(fraction, 24)), exponent - 24);
@@ -35,28 +35,28 @@ PixelGrid::PixelGrid(const Scene& scene, const Vec3& omega, int resolution)
   }
   const PlaneWindow window = plane_window(scene, frame_);
   const Vec2 size = window.size();
-  const double wanted = std::max(size.x, size.y) / resolution;
-  if (!(wanted > 0)) {
+  const double requested_side = std::max(size.x, size.y) / resolution;
+  if (!(requested_side > 0)) {
     return;
   }
-  area_ = with_few_digits(wanted * wanted);
+  area_ = rounded_up_to_24_bits(requested_side * requested_side);
   side_ = std::sqrt(area_);
   const auto pixels = [&](double length) {
     return static_cast<int>(std::clamp(std::ceil(length / side_), 1.0, 1.0 * resolution));
   };
   columns_ = pixels(size.x);
   rows_ = pixels(size.y);
-  // What the pixels have too much is shared by both ends.
+  // The pixels cover slightly more than the window; center the excess.
   corner_ = {window.low.x - (columns_ * side_ - size.x) / 2,
              window.low.y - (rows_ * side_ - size.y) / 2};
 }
 
 PixelPoint PixelGrid::snapped(const Vec3& p) const {
   const Vec2 at = frame_.project(p);
-  const auto steps = [this](double length) {
+  const auto units = [this](double length) {
     return static_cast<std::int64_t>(std::llround(std::ldexp(length / side_, bits_)));
   };
-  return {steps(at.x - corner_.x), steps(at.y - corner_.y)};
+  return {units(at.x - corner_.x), units(at.y - corner_.y)};
 }
 
 std::vector<PixelPoint> PixelGrid::snapped(const std::vector<Vec3>& points) const {

@@ -8,14 +8,14 @@
 
 namespace transillum {
 
-/// A point of the plane in steps of a PixelGrid from its window's corner. Determinants of such
-/// points fit 64 bits, so what lies on which side of an edge is exact; and points that are one in
-/// space are one here.
+/// A point of the plane in units of a PixelGrid from its window's corner. Determinants of such
+/// points fit in 64 bits, so the side of an edge on which a point lies is exact; and points that
+/// coincide in space coincide here.
 struct PixelPoint {
   std::int64_t x = 0, y = 0;
 };
 
-/// The box round all patches of a scene on a plane.
+/// The bounding box of all patches of a scene on a plane, meters.
 struct PlaneWindow {
   Vec2 low, high;
 
@@ -23,8 +23,8 @@ struct PlaneWindow {
 };
 PlaneWindow plane_window(const Scene& scene, const PlaneFrame& frame);
 
-/// The window of a transillumination plane in square pixels: the box round the projected scene,
-/// its longer side `resolution` pixels long (paper, section 2).
+/// The window of a transillumination plane, divided into square pixels: the bounding box of the
+/// projected scene, its longer side `resolution` pixels long (section 2).
 class PixelGrid {
  public:
   PixelGrid(const Scene& scene, const Vec3& omega, int resolution);
@@ -32,25 +32,29 @@ class PixelGrid {
   const PlaneFrame& frame() const { return frame_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  /// Of a pixel, meters.
+  /// Side of a pixel, meters.
   double side() const { return side_; }
-  /// Of a pixel, m²: of so few digits that whole multiples and their sums are exact.
+  /// Area of a pixel, m²: of 24 bits only, so that integer multiples and their sums are exact.
   double area() const { return area_; }
-  /// A pixel is 2^bits() steps wide, as many as coordinates below 2^30 allow.
+  /// A pixel is 2^bits() grid units wide: as many as keep coordinates below 2^30.
   int bits() const { return bits_; }
-  std::int64_t one() const { return std::int64_t{1} << bits_; }
-  /// The first pixel whose center is at `at` or beyond, along either axis; and a pixel's center.
+  std::int64_t units_per_pixel() const { return std::int64_t{1} << bits_; }
+  /// The first pixel whose center is at `at` or beyond, along either axis; `at` in grid units.
   int first_center_from(std::int64_t at) const {
-    return static_cast<int>((at + one() / 2 - 1) >> bits_);
+    return static_cast<int>((at + units_per_pixel() / 2 - 1) >> bits_);
   }
-  std::int64_t center_of(int pixel) const { return pixel * one() + one() / 2; }
-  /// How far snapped points may be from where they were, meters.
-  double snapping() const { return side_ / static_cast<double>(one()); }
-  /// The corner of pixel 0, 0.
+  /// A pixel's center along either axis, in grid units.
+  std::int64_t center_of(int pixel) const {
+    return pixel * units_per_pixel() + units_per_pixel() / 2;
+  }
+  /// Bound of the displacement of snapped points, meters.
+  double snapping() const { return side_ / static_cast<double>(units_per_pixel()); }
+  /// The lower left corner of pixel (0, 0), meters on the plane.
   const Vec2& corner() const { return corner_; }
   Vec2 center(int column, int row) const {
     return {corner_.x + (column + 0.5) * side_, corner_.y + (row + 0.5) * side_};
   }
+  /// The projection of a point of space, rounded to grid units.
   PixelPoint snapped(const Vec3& p) const;
   std::vector<PixelPoint> snapped(const std::vector<Vec3>& points) const;
 

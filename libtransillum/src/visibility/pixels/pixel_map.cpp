@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The maps of the engines zbuffer, painter and rays: an item buffer filled through a
+// VisibilitySink, and its conversion to rectangles for pictures and files.
 #include "transillum/pixel_map.h"
 
 #include <fmt/format.h>
@@ -14,7 +17,7 @@
 namespace transillum {
 namespace {
 
-/// Keeps what is seen in each pixel.
+/// Keeps the patch that is visible in each pixel.
 class ItemBuffer : public VisibilitySink {
  public:
   ItemBuffer(PixelMap& map, const PatchHeights& heights, CountedTransfers& counted)
@@ -54,13 +57,13 @@ int checked(int resolution) {
     return PixelMap::default_resolution;
   }
   if (resolution < 0 || resolution > PixelMap::largest_resolution) {
-    throw InputError(fmt::format("resolution: {} is not from 1 to {}, as a map's must be",
-                                 resolution, PixelMap::largest_resolution));
+    throw InputError(fmt::format("resolution of a map: {} is not between 1 and {}", resolution,
+                                 PixelMap::largest_resolution));
   }
   return resolution;
 }
 
-/// fill(grid, heights, sink) finds what is in the pixels.
+/// @param fill fill(grid, heights, sink) records the visible patches of the pixels in sink
 template <class Fill>
 PixelMap map_from(const Scene& scene, const Vec3& omega, int resolution, PatchId receiver,
                   const Cancellation& cancellation, Fill fill) {
@@ -91,7 +94,8 @@ PixelMap pixel_map(Engine engine, const std::shared_ptr<const Scene>& scene,
                    const EngineOptions& options, const Cancellation& cancellation) {
   return map_from(*scene, omega, options.resolution, receiver, cancellation,
                   [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
-                    fill_pixels(engine, *scene, *tree, options, grid, heights, sink, cancellation);
+                    sample_visibility(engine, *scene, *tree, options, grid, heights, sink,
+                                      cancellation);
                   });
 }
 
@@ -102,21 +106,22 @@ PixelMap pixel_map_after(Engine engine, const Scene& scene, const BspTree& tree,
   const auto fragments = all.first(static_cast<std::size_t>(step + 1));
   return map_from(scene, record.frame.omega, options.resolution, no_patch, cancellation,
                   [&](const PixelGrid& grid, const PatchHeights& heights, VisibilitySink& sink) {
-                    fill_pixels(engine, scene, tree, fragments, options, grid, heights, sink,
-                                cancellation);
+                    sample_visibility(engine, scene, tree, fragments, options, grid, heights, sink,
+                                      cancellation);
                   });
 }
 
 namespace {
 
-/// Rectangles of pixels that show the same: runs of a row, grown downward while the next row has
-/// the same run.
+/// Rectangles of pixels that show the same patch: runs of a row, extended as long as the next row
+/// has the same run.
 class Rectangles {
  public:
   Rectangles(const PixelMap& pixels, VisibilityMap& map, const Cancellation& cancellation)
       : pixels_(pixels), map_(map), cancellation_(cancellation) {}
 
-  /// of(index) is what a pixel shows; `nothing` is left out.
+  /// Calls add(patch, rectangle) for all rectangles. of(index) is the patch that a pixel shows;
+  /// pixels that show `nothing` are left out.
   template <class Of, class Add>
   void find(PatchId nothing, Of of, Add add) {
     std::map<std::pair<int, PatchId>, Run> open;  // by first column and item
@@ -168,7 +173,7 @@ class Rectangles {
   const Cancellation& cancellation_;
 };
 
-/// The sides of pixels between what differs.
+/// The sides between pixels that show different patches, as pairs of end points.
 std::vector<Vec2> borders(const PixelMap& pixels) {
   std::vector<Vec2> ends;
   const auto item = [&](int column, int row) {

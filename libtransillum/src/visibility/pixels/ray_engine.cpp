@@ -1,10 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The statistical engine: parallel lines through the scene, traced by Embree with all their hits.
-// Every line stands for an area of the plane; on it, neighbors that face each other exchange that
-// area. Embree says which patches a line meets; at which height it meets them is computed anew in
-// double precision, because float32 cannot tell close surfaces apart
+// Engine rays: parallel lines through the scene, intersected by Embree with all hits reported. Each
+// line stands for an area of the plane; successive patches on it that face each other exchange that
+// area. Embree finds which patches a line meets; the heights at which it meets them are recomputed
+// in double precision, because float32 does not separate close surfaces
 // (decisions/0010-rays-are-counted.md).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,11 +26,12 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t packet_size = 16;
-/// Hits nearer to each other than this share of the scene's radius may be one seam hit twice.
-constexpr double seam = 1e-5;
+/// Hits nearer to each other than this share of the scene's radius may be one common edge hit
+/// twice.
+constexpr double edge_distance = 1e-5;
 
 std::uint64_t bits_of(double x) {
-  x += 0.0;  // -0 and 0 are one direction
+  x += 0.0;  // -0 and 0 are the same direction
   std::uint64_t bits = 0;
   std::memcpy(&bits, &x, sizeof bits);
   return bits;
@@ -42,7 +45,8 @@ std::uint64_t key_of(const Vec3& omega, std::uint64_t seed) {
   return key;
 }
 
-/// Where the lines of one direction meet the plane: over the box of the scene's projection.
+/// The points at which the lines of one direction cross the plane: in the bounding box of the
+/// projected scene; jittered on a grid, or random.
 class LineGrid {
  public:
   struct Packet {
@@ -55,15 +59,15 @@ class LineGrid {
       : low_(window.low), size_(window.size()), gridded_(gridded), key_(key) {
     lines = std::ceil(lines);
     if (!(size_.x > 0) || !(size_.y > 0)) {
-      return;  // nothing but edges
+      return;  // all patches are edge-on
     }
     const double cell = std::sqrt(size_.x * size_.y / lines);
     const double rows = gridded ? std::clamp(std::round(size_.y / cell), 1.0, lines) : 1.0;
     rows_ = static_cast<std::int64_t>(rows);
     columns_ = static_cast<std::int64_t>(std::ceil(lines / rows));
-    make_packets();
+    count_packets();
   }
-  /// A line a pixel.
+  /// One line per pixel.
   LineGrid(const PixelGrid& pixels, bool gridded, std::uint64_t key)
       : low_(pixels.corner()),
         size_{pixels.columns() * pixels.side(), pixels.rows() * pixels.side()},
@@ -71,17 +75,17 @@ class LineGrid {
         key_(key),
         rows_(gridded ? pixels.rows() : 1),
         columns_(static_cast<std::int64_t>(pixels.columns()) * (gridded ? 1 : pixels.rows())) {
-    make_packets();
+    count_packets();
   }
 
   std::int64_t packets() const { return packets_; }
-  /// What one line stands for, m².
+  /// Area that one line stands for, m².
   double area_of_line() const {
     return size_.x * size_.y / (static_cast<double>(rows_) * static_cast<double>(columns_));
   }
 
-  /// On the grid a packet is a tile of 4 x 4 cells.
-  void place(std::int64_t packet, Packet& lines) const {
+  /// Sets the lines of a packet. On the grid a packet is a tile of 4 x 4 cells.
+  void place_lines(std::int64_t packet, Packet& lines) const {
     const std::int64_t row = packet / tile_columns_, column = packet % tile_columns_;
     for (std::size_t k = 0; k < packet_size; ++k) {
       const auto lane = static_cast<std::int64_t>(k);
@@ -100,7 +104,7 @@ class LineGrid {
   }
 
  private:
-  void make_packets() {
+  void count_packets() {
     tile_columns_ = gridded_ ? (columns_ + 3) / 4 : (columns_ + 15) / 16;
     packets_ = tile_columns_ * (gridded_ ? (rows_ + 3) / 4 : 1);
   }
@@ -113,13 +117,13 @@ class LineGrid {
   std::int64_t rows_ = 1, columns_ = 1, tile_columns_ = 1, packets_ = 0;
 };
 
-/// What Embree finds on the lines of a packet.
-struct Meetings {
+/// The patches that Embree finds on each line of a packet.
+struct PacketHits {
   const EmbreeScene& embree;
   std::array<std::vector<PatchId>, packet_size> patches;
 
   static void collect(const RTCFilterFunctionNArguments* hits) {
-    auto& all = *static_cast<Meetings*>(EmbreeScene::data_of(hits));
+    auto& all = *static_cast<PacketHits*>(EmbreeScene::data_of(hits));
     for (unsigned k = 0; k < hits->N; ++k) {
       if (!hits->valid[k]) {
         continue;
@@ -131,11 +135,11 @@ struct Meetings {
   }
 };
 
-/// One direction's lines.
+/// All lines of one direction.
 class RayPass {
  public:
   RayPass(const Scene& scene, const EmbreeScene& embree, const LineGrid& grid, bool gridded,
-          const PlaneFrame& frame, const PatchHeights& heights, const ProcessedParts* parts,
+          const PlaneFrame& frame, const PatchHeights& heights, const ProcessedFragments* processed,
           VisibilitySink& sink, const Cancellation& cancellation)
       : scene_(scene),
         embree_(embree),
@@ -144,10 +148,10 @@ class RayPass {
         frame_(frame),
         grid_(grid),
         heights_(heights),
-        parts_(parts),
+        processed_(processed),
         sink_(sink),
-        meetings_{embree, {}} {
-    aim();
+        packet_hits_{embree, {}} {
+    set_directions();
   }
 
   void run() {
@@ -155,19 +159,19 @@ class RayPass {
       if (packet % 256 == 0) {
         cancellation_.throw_if_canceled();
       }
-      grid_.place(packet, lines_);
+      grid_.place_lines(packet, lines_);
       trace();
       for (std::size_t k = 0; k < packet_size; ++k) {
-        book_line(k);
+        record_line(k);
       }
     }
   }
 
  private:
-  using Hit = PatchHeights::Hit;
+  using Hit = PatchHeights::HeightSample;
 
-  /// All rays go down, against omega, from above the ball that holds the scene.
-  void aim() {
+  /// All rays go along -omega, from above the ball that contains the scene.
+  void set_directions() {
     for (std::size_t k = 0; k < packet_size; ++k) {
       rays_.dir_x[k] = static_cast<float>(-frame_.omega.x);
       rays_.dir_y[k] = static_cast<float>(-frame_.omega.y);
@@ -186,19 +190,19 @@ class RayPass {
       rays_.org_z[k] = static_cast<float>(start.z);
       rays_.tnear[k] = 0;
       rays_.tfar[k] = HUGE_VALF;
-      meetings_.patches[k].clear();
+      packet_hits_.patches[k].clear();
     }
-    embree_.all_hits(lines_.valid.data(), rays_, gridded_, Meetings::collect, &meetings_);
+    embree_.all_hits(lines_.valid.data(), rays_, gridded_, PacketHits::collect, &packet_hits_);
   }
 
-  /// The hits of line k from above, each patch once.
+  /// Sets hits_ to those of line k, sorted from above, each patch once.
   void sort_hits(std::size_t k) {
     hits_.clear();
-    for (const PatchId i : meetings_.patches[k]) {
+    for (const PatchId i : packet_hits_.patches[k]) {
       if (heights_.edge_on(i)) {
         continue;
       }
-      if (parts_ != nullptr && !parts_->hold(i, {lines_.x[k], lines_.y[k]})) {
+      if (processed_ != nullptr && !processed_->covers(i, {lines_.x[k], lines_.y[k]})) {
         continue;
       }
       hits_.push_back({i, heights_.height(i, {lines_.x[k], lines_.y[k]})});
@@ -207,15 +211,15 @@ class RayPass {
   }
 
   bool contains(PatchId i, double x, double y) const {
-    return holds(scene_.outline(i), scene_.points(), frame_, {x, y});
+    return contains_point(scene_.outline(i), scene_.points(), frame_, {x, y});
   }
 
-  /// A line through the seam of two patches may meet both in float32, but only one in truth, or
-  /// at a silhouette none.
+  /// In float32, a line near the common edge of two patches may hit both, although it meets only
+  /// one, or none at a silhouette.
   void drop_false_hits(double x, double y) {
     std::size_t kept = 0;
     for (const Hit& hit : hits_) {
-      const double near = seam / embree_.scale();
+      const double near = edge_distance / embree_.scale();
       if (kept == 0 || hits_[kept - 1].height - hit.height > near) {
         hits_[kept++] = hit;
         continue;
@@ -233,8 +237,8 @@ class RayPass {
     hits_.resize(kept);
   }
 
-  void book_line(std::size_t k) {
-    if (meetings_.patches[k].empty()) {
+  void record_line(std::size_t k) {
+    if (packet_hits_.patches[k].empty()) {
       return;
     }
     sort_hits(k);
@@ -253,29 +257,30 @@ class RayPass {
   const PlaneFrame& frame_;
   const LineGrid& grid_;
   const PatchHeights& heights_;
-  const ProcessedParts* parts_;  ///< all that is met; null: everything
+  const ProcessedFragments* processed_;  ///< all there is; null: the whole scene
   VisibilitySink& sink_;
 
-  // The packet at hand.
+  // The current packet.
   LineGrid::Packet lines_;
   RTCRay16 rays_{};
-  Meetings meetings_;
+  PacketHits packet_hits_;
   std::vector<Hit> hits_;  ///< of one line
 };
 
 }  // namespace
 
-void cast_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
-                const PatchHeights& heights, const ProcessedParts* parts, VisibilitySink& sink,
-                const Cancellation& cancellation) {
+void trace_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
+                 const PatchHeights& heights, const ProcessedFragments* processed,
+                 VisibilitySink& sink, const Cancellation& cancellation) {
   const EmbreeScene embree(scene, cancellation);
   const LineGrid lines(grid, true, key_of(grid.frame().omega, seed));
-  RayPass(scene, embree, lines, true, grid.frame(), heights, parts, sink, cancellation).run();
+  RayPass(scene, embree, lines, true, grid.frame(), heights, processed, sink, cancellation).run();
 }
 
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
   if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
-    throw InputError("lines: the number of lines a patch must be larger than 0 and at most 1e6");
+    throw InputError(fmt::format("lines per patch: {} is not larger than 0 and at most 1e6",
+                                 options.lines_per_patch));
   }
   auto embree = std::make_shared<const EmbreeScene>(*scene);
   return [scene = std::move(scene), embree = std::move(embree), options](

@@ -11,17 +11,18 @@
 
 namespace transillum {
 
-/// Which pixels of a grid a convex polygon covers: those whose centers it holds, its left and lower
-/// edges included and the others not. So polygons that share an edge share no pixel and miss none.
+/// Scan conversion of convex polygons. A polygon covers the pixels whose centers it contains, its
+/// left and lower edges included, the others excluded: polygons that share an edge share no pixel
+/// and miss none.
 ///
-/// Where an edge crosses a row is computed from the line that it is a part of, so that a polygon
-/// cut from another still meets its neighbors.
+/// The crossing of an edge with a row is computed from the line that the edge is a part of, so
+/// fragments of one polygon still share no pixel and miss none.
 class ScanConverter {
  public:
   /// Keeps a reference.
   explicit ScanConverter(const PixelGrid& grid) : grid_(grid) {}
 
-  /// Starts a polygon of which only rows from `first` up to `end` are wanted.
+  /// Starts a polygon; only rows from `first` up to, not including, `end` are converted.
   void begin(int first, int end) {
     first_ = std::max(first, 0);
     end_ = std::min(end, grid_.rows());
@@ -33,7 +34,7 @@ class ScanConverter {
     }
   }
 
-  /// The next edge, a part of the line through a and b. In any order.
+  /// Adds an edge, a part of the line through a and b. Edges may come in any order.
   void add_edge(PixelPoint from, PixelPoint to, PixelPoint a, PixelPoint b) {
     if (from.y > to.y) {
       std::swap(from, to);
@@ -60,14 +61,15 @@ class ScanConverter {
     }
   }
 
-  /// take(row, begin, end) for the pixels covered in each row; end is one beyond the last.
-  template <class Take>
-  void finish(Take&& take) {
+  /// Calls visit(row, begin, end) with the span of covered pixels of each row; end is one beyond
+  /// the last.
+  template <class Visit>
+  void finish(Visit&& visit) {
     for (int row = low_; row < high_; ++row) {
       Span& span = at(spans_, row - first_);
       const Span covered = std::exchange(span, nothing);
       if (covered.begin < covered.end) {
-        take(row, covered.begin, covered.end);
+        visit(row, covered.begin, covered.end);
       }
     }
   }
@@ -78,11 +80,13 @@ class ScanConverter {
   };
   static constexpr Span nothing{std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
 
-  /// The first pixel whose center is on the line from a up to b at height y, or right of it.
+  /// The first pixel whose center is on the line from a up to b at ordinate y, or right of it.
   int first_column(const PixelPoint& a, const PixelPoint& b, std::int64_t y) const {
-    // (x - one/2) / one, rounded up, where x = a.x + (y - a.y) (b.x - a.x) / (b.y - a.y).
+    // (x - p/2) / p, rounded up, where p = units_per_pixel() and
+    // x = a.x + (y - a.y) (b.x - a.x) / (b.y - a.y).
     const std::int64_t height = b.y - a.y;
-    const std::int64_t above = (a.x - grid_.one() / 2) * height + (y - a.y) * (b.x - a.x);
+    const std::int64_t above =
+        (a.x - grid_.units_per_pixel() / 2) * height + (y - a.y) * (b.x - a.x);
     const std::int64_t below = height << grid_.bits();
     const std::int64_t quotient = above / below;
     const std::int64_t column = quotient + (above > quotient * below ? 1 : 0);
@@ -91,7 +95,7 @@ class ScanConverter {
 
   const PixelGrid& grid_;
   int first_ = 0, end_ = 0, low_ = 0, high_ = 0;
-  std::vector<Span> spans_;  ///< of rows from first_; `nothing` between polygons
+  std::vector<Span> spans_;  ///< of the rows from first_ on; `nothing` between polygons
 };
 
 }  // namespace transillum

@@ -5,12 +5,13 @@
 
 namespace transillum {
 
-/// Who is told what a discrete engine finds, line by line.
+/// Receives what a discrete engine finds at its sample points.
 class VisibilitySink {
  public:
   virtual ~VisibilitySink() = default;
-  /// In the pixels of `row` from column `begin` up to `end`, patch `below` is met right below patch
-  /// `above` (no_patch: below nothing). Of each pixel from above downward, each patch once.
+  /// In the pixels of `row` from column `begin` up to, not including, `end`, patch `below` is the
+  /// next one below patch `above` (no_patch: `below` is the topmost). The calls for a pixel go from
+  /// above downward, one per patch.
   virtual void record(int row, int begin, int end, PatchId below, PatchId above) = 0;
 };
 

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The lists of all pixels together grow as resolution² times depth. They are therefore made for a
-// part of a row at a time, from the spans that a band of rows is cut into by the patches.
+// The generalized z-buffer: for each pixel a list of all patches over its center, sorted by height.
+// All lists together would take memory proportional to resolution² times depth. So rows are
+// processed in bands, for which all spans of the outlines are kept, and lists are made for a few
+// columns of one row at a time.
 #include "visibility/pixels/zbuffer.h"
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 namespace transillum {
 namespace {
 
+/// @tparam Outlines PieceOutlines or FragmentOutlines
 template <class Outlines>
 class ZBuffer {
  public:
@@ -33,7 +36,7 @@ class ZBuffer {
     for (int begin = 0; begin < grid_.rows();) {
       std::int64_t count = at(spans, begin);
       int end = begin + 1;
-      while (end < grid_.rows() && count + at(spans, end) <= most_spans) {
+      while (end < grid_.rows() && count + at(spans, end) <= max_spans) {
         count += at(spans, end++);
       }
       fill_band(begin, end);
@@ -42,7 +45,8 @@ class ZBuffer {
   }
 
  private:
-  using Hit = PatchHeights::Hit;
+  using Sample = PatchHeights::HeightSample;
+  /// The pixels of a row that an outline covers.
   struct Span {
     int row, begin, end;
     PatchId patch;
@@ -50,8 +54,9 @@ class ZBuffer {
   struct Rows {
     int begin, end;
   };
-  static constexpr std::int64_t most_spans = 1 << 18;  ///< of a band, unless one row has more
-  static constexpr std::int64_t most_hits = 1 << 18;   ///< of a part of a row, unless one pixel has
+  static constexpr std::int64_t max_spans = 1 << 18;  ///< per band; more if one row has more
+  static constexpr std::int64_t max_samples = 1
+                                              << 18;  ///< per part of a row; more if one pixel has
 
   Rows rows_of(std::int32_t number) const {
     std::int64_t low = INT64_MAX, high = INT64_MIN;
@@ -63,7 +68,7 @@ class ZBuffer {
             std::min(grid_.first_center_from(high), grid_.rows())};
   }
 
-  /// How many outlines reach each row.
+  /// Number of outlines that reach each row.
   std::vector<std::int64_t> spans_by_row() const {
     std::vector<std::int64_t> count(static_cast<std::size_t>(grid_.rows()) + 1, 0);
     std::size_t done = 0;
@@ -127,58 +132,58 @@ class ZBuffer {
       depth_[k] += depth_[k - 1];
     }
     for (int begin = 0; begin < grid_.columns();) {
-      std::int64_t hits = at(depth_, begin);
+      std::int64_t count = at(depth_, begin);
       int end = begin + 1;
-      while (end < grid_.columns() && hits + at(depth_, end) <= most_hits) {
-        hits += at(depth_, end++);
+      while (end < grid_.columns() && count + at(depth_, end) <= max_samples) {
+        count += at(depth_, end++);
       }
-      if (hits > 0) {
-        fill_pixels(first, last, begin, end, static_cast<std::size_t>(hits));
+      if (count > 0) {
+        record_columns(first, last, begin, end, static_cast<std::size_t>(count));
       }
       begin = end;
     }
   }
 
-  /// The lists of the pixels from `begin` up to `end`, sorted and told.
-  void fill_pixels(const Span* first, const Span* last, int begin, int end, std::size_t hits) {
+  /// Makes, sorts and records the lists of the pixels from column `begin` up to `end`.
+  void record_columns(const Span* first, const Span* last, int begin, int end, std::size_t count) {
     cancellation_.throw_if_canceled();
     const int row = first->row;
-    if (hits_.size() < hits) {
-      hits_.resize(hits);
+    if (samples_.size() < count) {
+      samples_.resize(count);
     }
     list_end_.resize(static_cast<std::size_t>(end - begin));
-    std::size_t first_hit = 0;
+    std::size_t first_sample = 0;
     for (int column = begin; column < end; ++column) {
-      at(list_end_, column - begin) = first_hit;
-      first_hit += static_cast<std::size_t>(at(depth_, column));
+      at(list_end_, column - begin) = first_sample;
+      first_sample += static_cast<std::size_t>(at(depth_, column));
     }
     for (const Span* span = first; span < last; ++span) {
       for (int x = std::max(span->begin, begin); x < std::min(span->end, end); ++x) {
-        hits_[at(list_end_, x - begin)++] = {span->patch,
-                                             heights_.height(span->patch, grid_.center(x, row))};
+        samples_[at(list_end_, x - begin)++] = {span->patch,
+                                                heights_.height(span->patch, grid_.center(x, row))};
       }
     }
-    Hit* list = hits_.data();
+    Sample* list = samples_.data();
     for (int column = begin; column < end; ++column) {
-      Hit* const list_end = hits_.data() + at(list_end_, column - begin);
-      Hit* const lowest = heights_.sort(list, list_end);
+      Sample* const list_end = samples_.data() + at(list_end_, column - begin);
+      Sample* const lowest = heights_.sort(list, list_end);
       if (!std::equal(list, lowest, run_.begin(), run_.end(),
-                      [](const Hit& hit, PatchId patch) { return hit.patch == patch; })) {
-        tell_run(row, column);
+                      [](const Sample& sample, PatchId patch) { return sample.patch == patch; })) {
+        record_run(row, column);
         run_.clear();
-        for (const Hit* hit = list; hit < lowest; ++hit) {
-          run_.push_back(hit->patch);
+        for (const Sample* sample = list; sample < lowest; ++sample) {
+          run_.push_back(sample->patch);
         }
         run_begin_ = column;
       }
       list = list_end;
     }
-    tell_run(row, end);
+    record_run(row, end);
     run_.clear();
   }
 
-  /// Neighboring pixels with the same list are told together.
-  void tell_run(int row, int end) {
+  /// Records a run of neighboring pixels with the same list at once.
+  void record_run(int row, int end) {
     PatchId above = no_patch;
     for (const PatchId patch : run_) {
       sink_.record(row, run_begin_, end, patch, above);
@@ -193,10 +198,10 @@ class ZBuffer {
   VisibilitySink& sink_;
   const Cancellation& cancellation_;
   ScanConverter converter_;
-  std::vector<Span> spans_;            ///< of a band
-  std::vector<std::int64_t> depth_;    ///< of a row: patches over each pixel
-  std::vector<Hit> hits_;              ///< of a part of a row, pixel by pixel
-  std::vector<std::size_t> list_end_;  ///< in hits_, by pixel
+  std::vector<Span> spans_;            ///< of the current band
+  std::vector<std::int64_t> depth_;    ///< number of patches over each pixel of the current row
+  std::vector<Sample> samples_;        ///< of a part of a row, pixel by pixel
+  std::vector<std::size_t> list_end_;  ///< in samples_, by pixel
   std::vector<PatchId> run_;           ///< the list of the pixels from run_begin_
   int run_begin_ = 0;
 };

@@ -11,13 +11,13 @@
 
 namespace transillum {
 
-/// The generalized z-buffer of section 2: tells `sink`, pixel by pixel, all patches over the
-/// pixel's center from above downward. What it keeps at a time does not grow with the resolution.
+/// The generalized z-buffer of section 2: records in `sink`, pixel by pixel, all patches over the
+/// pixel's center, from above downward. Its memory does not grow with the resolution.
 /// @throws Canceled
 void fill_zbuffer(const Scene& scene, const PixelGrid& grid, const PatchHeights& heights,
                   VisibilitySink& sink, const Cancellation& cancellation);
 
-/// The same of some fragments of a tree alone.
+/// The same, where `fragments` of the tree are all there is.
 void fill_zbuffer(const BspTree& tree, std::span<const FragmentId> fragments, const PixelGrid& grid,
                   const PatchHeights& heights, VisibilitySink& sink,
                   const Cancellation& cancellation);

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/pixels/processed_parts.h"
+#include "visibility/pixels/processed_fragments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ std::vector<PointId> outline_of(const BspTree& tree, FragmentId f) {
 
 }  // namespace
 
-bool holds(std::span<const PointId> outline, const std::vector<Vec3>& points,
-           const PlaneFrame& frame, const Vec2& point) {
+bool contains_point(std::span<const PointId> outline, const std::vector<Vec3>& points,
+                    const PlaneFrame& frame, const Vec2& point) {
   bool inside = false;
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const auto [p, q] = std::minmax(outline[k], outline[(k + 1) % outline.size()]);
@@ -36,8 +36,9 @@ bool holds(std::span<const PointId> outline, const std::vector<Vec3>& points,
   return inside;
 }
 
-ProcessedParts::ProcessedParts(const Scene& scene, const BspTree& tree,
-                               std::span<const FragmentId> fragments, const PlaneFrame& frame)
+ProcessedFragments::ProcessedFragments(const Scene& scene, const BspTree& tree,
+                                       std::span<const FragmentId> fragments,
+                                       const PlaneFrame& frame)
     : tree_(tree),
       frame_(frame),
       whole_(static_cast<std::size_t>(scene.patch_count())),
@@ -60,7 +61,7 @@ ProcessedParts::ProcessedParts(const Scene& scene, const BspTree& tree,
   }
 }
 
-ProcessedParts::Part ProcessedParts::part_of(FragmentId f) const {
+ProcessedFragments::Part ProcessedFragments::part_of(FragmentId f) const {
   Part part{outline_of(tree_, f), {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
   for (const PointId p : part.outline) {
     const Vec2 place = frame_.project(at(tree_.points(), p));
@@ -70,14 +71,14 @@ ProcessedParts::Part ProcessedParts::part_of(FragmentId f) const {
   return part;
 }
 
-bool ProcessedParts::hold(PatchId i, const Vec2& at) const {
+bool ProcessedFragments::covers(PatchId i, const Vec2& at) const {
   const auto k = static_cast<std::size_t>(i);
   if (whole_[k]) {
     return true;
   }
   return std::any_of(parts_[k].begin(), parts_[k].end(), [&](const Part& part) {
     return at.x >= part.low.x && at.x <= part.high.x && at.y >= part.low.y && at.y <= part.high.y &&
-           holds(part.outline, tree_.points(), frame_, at);
+           contains_point(part.outline, tree_.points(), frame_, at);
   });
 }
 
@@ -103,7 +104,7 @@ std::size_t PieceFinder::piece_of(FragmentId f) const {
   }
   const Vec2 at = frame_.project(middle);
   const auto found = std::find_if(pieces.begin(), pieces.end(), [&](std::size_t k) {
-    return holds(scene_.corners(scene_.pieces()[k]), scene_.points(), frame_, at);
+    return contains_point(scene_.corners(scene_.pieces()[k]), scene_.points(), frame_, at);
   });
   return found == pieces.end() ? pieces.front() : *found;
 }

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The inner loop of the fast engine: known cuts, and all ways give the same bits.
-#include "visibility/fast/outline_cut.h"
+#include "visibility/fast/boundary_cut.h"
 #include "visibility/fast/simd_backend.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-void add(Outline& outline, const Points& polygon) {
+void add(BoundarySegments& outline, const Points& polygon) {
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const auto& [ax, ay] = polygon[k];
     const auto& [bx, by] = polygon[(k + 1) % polygon.size()];
@@ -55,7 +55,7 @@ Points square(double x, double y, double size) {
 class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
  protected:
   /// Cuts, and checks what does not depend on the case.
-  bool cut(const Outline& outline, const Cutter& cutter) {
+  bool cut(const BoundarySegments& outline, const Cutter& cutter) {
     return GetParam().cut(outline, cutter, cut_, outside_);
   }
   std::uint64_t all_in() const {
@@ -65,14 +65,14 @@ class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
     }
     return bits;
   }
-  OutlineCut cut_;
-  Outline outside_;
+  BoundaryCut cut_;
+  BoundarySegments outside_;
 };
 
 /// The cutter sticks into the square from its right: two segments of its outline stay, one falls
 /// into three.
 TEST_P(OutlineCutWays, TheMiddleOfASide) {
-  Outline outline;
+  BoundarySegments outline;
   add(outline, square(0, 0, 4));
   const Cutter cutter = cutter_of(GetParam(), {{3, 1}, {6, 1}, {6, 2}, {3, 2}});
   ASSERT_TRUE(cut(outline, cutter));
@@ -94,7 +94,7 @@ TEST_P(OutlineCutWays, TheMiddleOfASide) {
 }
 
 TEST_P(OutlineCutWays, ACutterWithin) {
-  Outline outline;
+  BoundarySegments outline;
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(1, 1, 1))));
   EXPECT_EQ(all_in(), 0U);
@@ -105,7 +105,7 @@ TEST_P(OutlineCutWays, ACutterWithin) {
 }
 
 TEST_P(OutlineCutWays, AnOutlineWithin) {
-  Outline outline;
+  BoundarySegments outline;
   add(outline, square(1, 1, 1));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(0, 0, 4))));
   for (std::size_t m = 0; m < 4; ++m) {
@@ -116,7 +116,7 @@ TEST_P(OutlineCutWays, AnOutlineWithin) {
 }
 
 TEST_P(OutlineCutWays, NothingInCommon) {
-  Outline outline;
+  BoundarySegments outline;
   add(outline, square(0, 0, 4));
   EXPECT_FALSE(cut(outline, cutter_of(GetParam(), square(5, 0, 4))));
   // No line of the cutter tells them apart.
@@ -129,7 +129,7 @@ TEST_P(OutlineCutWays, NothingInCommon) {
 
 /// What is within the tolerance of a line is on its inner side, and is cut where it ends.
 TEST_P(OutlineCutWays, PointsOnLines) {
-  Outline outline;
+  BoundarySegments outline;
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(5, 0, 4), 1)));
   // Segment 1 is on the cutter's left line, 0 and 2 end there.
@@ -155,12 +155,12 @@ struct Input {
 struct Result {
   Cutter cutter;
   bool cut = false;
-  OutlineCut found;
-  Outline outside;
+  BoundaryCut found;
+  BoundarySegments outside;
   Extent extent;
 };
 
-Result result_of(const SimdBackend& way, const Outline& outline, const Input& input) {
+Result result_of(const SimdBackend& way, const BoundarySegments& outline, const Input& input) {
   Result result;
   result.cutter = cutter_of(way, input.polygon, input.tolerance);
   result.cutter.pivot_x = input.pivot_x;
@@ -191,7 +191,7 @@ void expect_same(const Result& a, const Result& b) {
     ASSERT_EQ(a.found.comes_in[m], b.found.comes_in[m]);
     ASSERT_EQ(a.found.goes_out[m], b.found.goes_out[m]);
     ASSERT_EQ(a.found.winding[m], b.found.winding[m]);
-    for (std::size_t k = 0; k < Outline::most; ++k) {
+    for (std::size_t k = 0; k < BoundarySegments::max_count; ++k) {
       if ((a.found.comes_in[m] >> k & 1) != 0) {
         ASSERT_EQ(a.found.in_x[k], b.found.in_x[k]);
         ASSERT_EQ(a.found.in_y[k], b.found.in_y[k]);
@@ -212,7 +212,7 @@ void expect_same(const Result& a, const Result& b) {
 }
 
 /// Polygons of up to 64 segments; every other time of small numbers, so that points lie on lines.
-TEST(OutlineCut, AllWaysGiveTheSameBits) {
+TEST(BoundaryCut, AllWaysGiveTheSameBits) {
   const auto ways = simd_backends();
   EXPECT_STREQ(ways.back().name, "scalar");
   std::mt19937 random(3);
@@ -227,7 +227,7 @@ TEST(OutlineCut, AllWaysGiveTheSameBits) {
     for (std::size_t k = 0; k < corners; ++k) {
       star.emplace_back(number(), number());
     }
-    Outline outline;
+    BoundarySegments outline;
     add(outline, star);
     const Input input{
         small ? square(number(), number(), 2)
@@ -247,7 +247,7 @@ TEST(OutlineCut, AllWaysGiveTheSameBits) {
 }
 
 /// A line through far points is as exact where it passes near as one through near points.
-TEST(OutlineCut, FarLines) {
+TEST(BoundaryCut, FarLines) {
   constexpr std::int64_t far = std::int64_t{1} << 56;
   const std::vector<GridPoint> corners{{-far - 1, -far + 2}, {far - 3, far + 1}, {-far, far}};
   for (const SimdBackend& way : simd_backends()) {

@@ -10,8 +10,8 @@ namespace transillum {
 
 namespace {
 
-void set_one_by_one(Cutter& cutter, const GridPoint* corners, std::size_t count,
-                    const GridPoint& origin, double far) {
+void set_scalar(Cutter& cutter, const GridPoint* corners, std::size_t count,
+                const GridPoint& origin, double far) {
   cutter.count = count;
   std::array<double, 8> perimeter{};
   bool any_far = false;
@@ -31,24 +31,24 @@ void set_one_by_one(Cutter& cutter, const GridPoint* corners, std::size_t count,
   }
   cutter.perimeter = sum_of_eight(perimeter);
   if (any_far) {
-    settle_far_lines(cutter, corners, origin, far);
+    recompute_far_lines(cutter, corners, origin, far);
   }
 }
 
-bool cut_one_by_one(const Outline& outline, const Cutter& cutter, OutlineCut& cut,
-                    Outline& outside) {
+bool cut_scalar(const BoundarySegments& outline, const Cutter& cutter, BoundaryCut& cut,
+                BoundarySegments& outside) {
   LineCrossings lines{};
   std::array<double, 8> twice_area{};
   std::uint64_t inside = 0, starts = 0, ends = 0;
   for (std::size_t m = 0; m < cutter.count; ++m) {
-    cut.comes_in[m] = cut.goes_out[m] = 0;
+    cut.enters[m] = cut.leaves[m] = 0;
   }
   for (std::size_t k = 0; k < outline.count; ++k) {
     const std::uint64_t bit = std::uint64_t{1} << k;
     const double ax = outline.ax[k], ay = outline.ay[k], bx = outline.bx[k], by = outline.by[k];
     const double ux = bx - ax, uy = by - ay;
     double first = 0, last = 1;
-    std::size_t first_line = Cutter::most, last_line = Cutter::most;
+    std::size_t first_line = Cutter::max_edges, last_line = Cutter::max_edges;
     bool outer = false;
     for (std::size_t m = 0; m < cutter.count; ++m) {
       Crossings& crossings = lines[m];
@@ -92,12 +92,12 @@ bool cut_one_by_one(const Outline& outline, const Cutter& cutter, OutlineCut& cu
       continue;
     }
     inside |= bit;
-    if (first_line < Cutter::most) {
-      cut.comes_in[first_line] |= bit;
+    if (first_line < Cutter::max_edges) {
+      cut.enters[first_line] |= bit;
       starts |= bit;
     }
-    if (last_line < Cutter::most) {
-      cut.goes_out[last_line] |= bit;
+    if (last_line < Cutter::max_edges) {
+      cut.leaves[last_line] |= bit;
       ends |= bit;
     }
     const double in_x = first < 1 ? ax + first * ux : bx, in_y = first < 1 ? ay + first * uy : by;
@@ -136,7 +136,7 @@ bool cut_one_by_one(const Outline& outline, const Cutter& cutter, OutlineCut& cu
   return true;
 }
 
-Extent extent_one_by_one(const Outline& outline) {
+Extent extent_scalar(const BoundarySegments& outline) {
   Extent most;
   most.fill(-HUGE_VAL);
   for (std::size_t k = 0; k < outline.count; ++k) {
@@ -152,8 +152,6 @@ Extent extent_one_by_one(const Outline& outline) {
 
 }  // namespace
 
-SimdBackend scalar_backend() {
-  return {"scalar", set_one_by_one, cut_one_by_one, extent_one_by_one};
-}
+SimdBackend scalar_backend() { return {"scalar", set_scalar, cut_scalar, extent_scalar}; }
 
 }  // namespace transillum

@@ -9,7 +9,7 @@
 
 #include "visibility/fast/simd_backend.h"
 
-#define TRANSILLUM_BY_EIGHT __attribute__((target("avx512f,avx512dq,popcnt")))
+#define TRANSILLUM_AVX512 __attribute__((target("avx512f,avx512dq,popcnt")))
 
 namespace transillum {
 namespace {
@@ -19,8 +19,8 @@ __mmask8 filled(std::size_t count, std::size_t from) {
 }
 
 /// Up to eight of `count` points; no more is read.
-TRANSILLUM_BY_EIGHT inline void load_points(const GridPoint* points, std::size_t count, __m512i& x,
-                                            __m512i& y) {
+TRANSILLUM_AVX512 inline void load_points(const GridPoint* points, std::size_t count, __m512i& x,
+                                          __m512i& y) {
   const __m512i low = _mm512_maskz_loadu_epi64(filled(2 * count, 0), points);
   const __m512i high = count > 4 ? _mm512_maskz_loadu_epi64(filled(2 * count, 8), points + 4)
                                  : _mm512_setzero_si512();
@@ -29,8 +29,8 @@ TRANSILLUM_BY_EIGHT inline void load_points(const GridPoint* points, std::size_t
 }
 
 /// Appends the segments from a to b that `chosen` tells.
-TRANSILLUM_BY_EIGHT inline void append(Outline& to, __mmask8 chosen, __m512d ax, __m512d ay,
-                                       __m512d bx, __m512d by) {
+TRANSILLUM_AVX512 inline void append(BoundarySegments& to, __mmask8 chosen, __m512d ax, __m512d ay,
+                                     __m512d bx, __m512d by) {
   const std::size_t k = to.count;
   _mm512_storeu_pd(&to.ax[k], _mm512_maskz_compress_pd(chosen, ax));
   _mm512_storeu_pd(&to.ay[k], _mm512_maskz_compress_pd(chosen, ay));
@@ -39,15 +39,15 @@ TRANSILLUM_BY_EIGHT inline void append(Outline& to, __mmask8 chosen, __m512d ax,
   to.count += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(chosen)));
 }
 
-TRANSILLUM_BY_EIGHT inline __m512d dot(__m512d ax, __m512d ay, __m512d bx, __m512d by) {
+TRANSILLUM_AVX512 inline __m512d dot(__m512d ax, __m512d ay, __m512d bx, __m512d by) {
   return _mm512_add_pd(_mm512_mul_pd(ax, bx), _mm512_mul_pd(ay, by));
 }
-TRANSILLUM_BY_EIGHT inline __m512d cross(__m512d ax, __m512d ay, __m512d bx, __m512d by) {
+TRANSILLUM_AVX512 inline __m512d cross(__m512d ax, __m512d ay, __m512d bx, __m512d by) {
   return _mm512_sub_pd(_mm512_mul_pd(ax, by), _mm512_mul_pd(ay, bx));
 }
 
-TRANSILLUM_BY_EIGHT void set_by_eight(Cutter& cutter, const GridPoint* corners, std::size_t count,
-                                      const GridPoint& origin, double far) {
+TRANSILLUM_AVX512 void set_avx512(Cutter& cutter, const GridPoint* corners, std::size_t count,
+                                  const GridPoint& origin, double far) {
   cutter.count = count;
   const __m512i origin_x = _mm512_set1_epi64(origin.x), origin_y = _mm512_set1_epi64(origin.y);
   const __m512i first_x = _mm512_set1_epi64(corners[0].x),
@@ -86,19 +86,19 @@ TRANSILLUM_BY_EIGHT void set_by_eight(Cutter& cutter, const GridPoint* corners, 
   _mm512_storeu_pd(by_lane.data(), perimeter);
   cutter.perimeter = sum_of_eight(by_lane);
   if (any_far != 0) {
-    settle_far_lines(cutter, corners, origin, far);
+    recompute_far_lines(cutter, corners, origin, far);
   }
 }
 
 /// `one_vector` says that there are no more than eight segments.
 template <bool one_vector>
-TRANSILLUM_BY_EIGHT inline bool cut_vectors(const Outline& outline, const Cutter& cutter,
-                                            OutlineCut& cut, Outline& outside) {
+TRANSILLUM_AVX512 inline bool cut_vectors(const BoundarySegments& outline, const Cutter& cutter,
+                                          BoundaryCut& cut, BoundarySegments& outside) {
   const std::size_t line_count = cutter.count;
   LineCrossings lines;
   for (std::size_t m = 0; m < line_count; ++m) {
     lines[m] = {};
-    cut.comes_in[m] = cut.goes_out[m] = 0;
+    cut.enters[m] = cut.leaves[m] = 0;
   }
   const __m512d zero = _mm512_setzero_pd(), one = _mm512_set1_pd(1);
   const __m512d pivot_x = _mm512_set1_pd(cutter.pivot_x), pivot_y = _mm512_set1_pd(cutter.pivot_y);
@@ -111,7 +111,7 @@ TRANSILLUM_BY_EIGHT inline bool cut_vectors(const Outline& outline, const Cutter
     const __m512d ux = _mm512_sub_pd(bx, ax), uy = _mm512_sub_pd(by, ay);
     __m512d first = zero, last = one;
     __mmask8 inside = all;
-    std::array<__mmask8, Cutter::most> first_by, last_by;
+    std::array<__mmask8, Cutter::max_edges> first_by, last_by;
     for (std::size_t m = 0; m < line_count; ++m) {
       const __m512d dx = _mm512_set1_pd(cutter.dx[m]), dy = _mm512_set1_pd(cutter.dy[m]);
       const __m512d c = _mm512_set1_pd(cutter.c[m]);
@@ -152,8 +152,8 @@ TRANSILLUM_BY_EIGHT inline bool cut_vectors(const Outline& outline, const Cutter
     // The line that came last as the first, and so on, is the one.
     __mmask8 no_first = inside, no_last = inside;
     for (std::size_t m = line_count; m-- > 0;) {
-      cut.comes_in[m] |= static_cast<std::uint64_t>(first_by[m] & no_first) << g;
-      cut.goes_out[m] |= static_cast<std::uint64_t>(last_by[m] & no_last) << g;
+      cut.enters[m] |= static_cast<std::uint64_t>(first_by[m] & no_first) << g;
+      cut.leaves[m] |= static_cast<std::uint64_t>(last_by[m] & no_last) << g;
       no_first &= static_cast<__mmask8>(~first_by[m]);
       no_last &= static_cast<__mmask8>(~last_by[m]);
     }
@@ -189,8 +189,8 @@ TRANSILLUM_BY_EIGHT inline bool cut_vectors(const Outline& outline, const Cutter
   return true;
 }
 
-TRANSILLUM_BY_EIGHT bool cut_by_eight(const Outline& outline, const Cutter& cutter, OutlineCut& cut,
-                                      Outline& outside) {
+TRANSILLUM_AVX512 bool cut_avx512(const BoundarySegments& outline, const Cutter& cutter,
+                                  BoundaryCut& cut, BoundarySegments& outside) {
   return outline.count <= 8 ? cut_vectors<true>(outline, cutter, cut, outside)
                             : cut_vectors<false>(outline, cutter, cut, outside);
 }
@@ -199,12 +199,12 @@ TRANSILLUM_BY_EIGHT bool cut_by_eight(const Outline& outline, const Cutter& cutt
 constexpr __mmask8 each = 0xff;
 
 /// The larger one of the first and second, and of the third and last two lanes of a, then of b.
-TRANSILLUM_BY_EIGHT inline __m512d larger_quarters(__m512d a, __m512d b) {
+TRANSILLUM_AVX512 inline __m512d larger_quarters(__m512d a, __m512d b) {
   return _mm512_maskz_max_pd(each, _mm512_maskz_shuffle_f64x2(each, a, b, 0x88),
                              _mm512_maskz_shuffle_f64x2(each, a, b, 0xdd));
 }
 
-TRANSILLUM_BY_EIGHT Extent extent_by_eight(const Outline& outline) {
+TRANSILLUM_AVX512 Extent extent_avx512(const BoundarySegments& outline) {
   const __m512d zero = _mm512_setzero_pd();
   __m512d most[8];
   for (__m512d& m : most) {
@@ -236,7 +236,7 @@ TRANSILLUM_BY_EIGHT Extent extent_by_eight(const Outline& outline) {
 
 }  // namespace
 
-SimdBackend avx512_backend() { return {"by eight", set_by_eight, cut_by_eight, extent_by_eight}; }
+SimdBackend avx512_backend() { return {"by eight", set_avx512, cut_avx512, extent_avx512}; }
 
 }  // namespace transillum
 #endif

@@ -29,7 +29,7 @@ struct Goal {
 /// Threads: the public functions and all signals belong to the thread that made the session.
 /// Commands return at once; the newest one wins. Snapshots are immutable, and one that the window
 /// has not taken yet is replaced by its successor.
-class SolverSession : public QObject {
+class SolveRunner : public QObject {
   Q_OBJECT
 
  public:
@@ -40,8 +40,8 @@ class SolverSession : public QObject {
     Goal then;  ///< what to do once it is open
   };
 
-  explicit SolverSession(QObject* parent = nullptr);
-  ~SolverSession() override;
+  explicit SolveRunner(QObject* parent = nullptr);
+  ~SolveRunner() override;
 
   /// Loads; the old scene stays where loading fails or is stopped.
   void open(OpenRequest request);
@@ -57,14 +57,14 @@ class SolverSession : public QObject {
   void restart(const SolveOptions& options, Goal then);
 
   /// From now on snapshots have the form factors, where the memory takes them.
-  void want_form_factors();
+  void include_form_factors();
 
-  SessionState state() const { return state_; }
+  RunState state() const { return state_; }
   /// Between two snapshots lie at least so many milliseconds.
   void set_refresh_interval(int milliseconds) { refresh_interval_ = milliseconds; }
 
  signals:
-  void state_changed(transillum::viewer::SessionState state);
+  void state_changed(transillum::viewer::RunState state);
   void scene_loaded(std::shared_ptr<const transillum::viewer::LoadedScene> loaded);
   void snapshot_ready(std::shared_ptr<const transillum::viewer::SolverSnapshot> snapshot);
   /// `share` done in [0,1]; negative: not known.
@@ -87,16 +87,16 @@ class SolverSession : public QObject {
   void keep_radiosity();
   void keep_directions();
   void post(std::function<void()> message);
-  void post_state(SessionState state);
+  void post_state(RunState state);
   void post_snapshot();
   void put_form_factors_together();
   bool form_factors_are_due(const SolveProgress& progress) const;
   void lay_out_stored(SolverSnapshot& snapshot) const;
   void show_form_factors();
   void post_failure(const QString& message, bool bad_input);
-  SessionState resting_state() const;
+  RunState resting_state() const;
 
-  SessionState state_ = SessionState::empty;      // as the window knows it
+  RunState state_ = RunState::empty;              // as the window knows it
   std::shared_ptr<const LoadedScene> announced_;  // likewise
 
   std::mutex mutex_;  // guards all down to `mailbox_`

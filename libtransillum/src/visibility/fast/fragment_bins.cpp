@@ -1,5 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/fast_bins.h"
+//
+// The bins are built top down from a square around the whole grid: a region with many fragments is
+// divided into square cells, about as wide as its fragments, which are regions in turn; a region
+// that is not worth dividing becomes a bin.
+#include "visibility/fast/fragment_bins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,34 +14,35 @@
 namespace transillum {
 namespace {
 
-/// Lists no longer than this are not worth dividing.
+/// Regions with at most this many fragments are not divided.
 constexpr std::size_t short_list = 12;
-/// A bin is about so many times as wide as its faces.
-constexpr double faces_across = 1.5;
-/// From so many cells on a face is tested against each cell and not by its box alone.
+/// Width of a cell relative to the mean extent of the region's fragments.
+constexpr double relative_cell_width = 1.5;
+/// A fragment whose box covers at least this many cells is tested against each cell.
 constexpr int many_cells = 12;
+/// The first region is 2^top_shift grid units wide.
 constexpr int top_shift = 62;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr FaceBox nowhere{
+constexpr FragmentBox nowhere{
     {infinity, infinity, infinity, infinity, infinity, infinity, infinity, infinity}};
-constexpr FaceBox everywhere{
+constexpr FragmentBox everywhere{
     {-infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity, -infinity}};
 
-double low(const FaceBox& box, std::size_t axis) { return box.ends[axis]; }
-double high(const FaceBox& box, std::size_t axis) { return -box.ends[axis + 4]; }
+double low(const FragmentBox& box, std::size_t axis) { return box.ends[axis]; }
+double high(const FragmentBox& box, std::size_t axis) { return -box.ends[axis + 4]; }
 
 }  // namespace
 
-void FastBins::fill(const Cancellation& cancellation) {
-  const std::size_t count = input_.faces.size();
+void FragmentBins::fill(const Cancellation& cancellation) {
+  const std::size_t count = projected_.fragments.size();
   bins_.clear();
-  faces_of_.clear();
+  entry_fragments_.clear();
   boxes_.clear();
   before_.clear();
   open_.clear();
   last_.assign(count, none);
   counts_.assign(count, 0);
-  faces_of_.reserve(4 * count);
+  entry_fragments_.reserve(4 * count);
   boxes_.reserve(4 * count);
   before_.reserve(4 * count);
   lists_.resize(count);
@@ -46,7 +51,7 @@ void FastBins::fill(const Cancellation& cancellation) {
   }
   constexpr std::int64_t corner = -(std::int64_t{1} << (top_shift - 1));
   open_.push_back({corner, corner, top_shift, 0, count});
-  add_end();
+  add_sentinel();
   while (!open_.empty()) {
     cancellation.throw_if_canceled();
     const Region region = open_.back();
@@ -57,13 +62,13 @@ void FastBins::fill(const Cancellation& cancellation) {
     } else {
       divide(region, shift);
     }
-    // Regions are taken off in the reverse order of their lists.
+    // Regions are popped in the reverse order of their lists.
     lists_.resize(open_.empty() ? 0 : open_.back().end);
   }
 }
 
-/// How wide the cells of a region shall be: 2^shift steps.
-int FastBins::cell_shift(const Region& region) const {
+/// The shift of the cells into which to divide a region: they are 2^shift grid units wide.
+int FragmentBins::cell_shift(const Region& region) const {
   const std::size_t count = region.end - region.begin;
   if (count <= short_list) {
     return region.shift;
@@ -71,38 +76,40 @@ int FastBins::cell_shift(const Region& region) const {
   const double width = std::ldexp(1.0, region.shift);
   double sum = 0;
   for (std::size_t k = region.begin; k < region.end; ++k) {
-    const FaceBox& box = at(input_.boxes, lists_[k]);
+    const FragmentBox& box = at(projected_.boxes, lists_[k]);
     const double extent = std::max(high(box, 0) - low(box, 0), high(box, 1) - low(box, 1));
     sum += std::min(extent, width);
   }
-  const double wanted = faces_across * sum / static_cast<double>(count);
+  const double cell_width = relative_cell_width * sum / static_cast<double>(count);
   int exponent = 0;
-  std::frexp(wanted, &exponent);
-  // No more cells than faces, or empty ones would outnumber them.
+  std::frexp(cell_width, &exponent);
+  // At most about as many cells as fragments; otherwise most cells would be empty.
   const int finest = region.shift - static_cast<int>(std::log2(static_cast<double>(count)) / 2);
   return std::clamp(exponent, finest, region.shift);
 }
 
-FastBins::Cells FastBins::cells_of(std::int32_t face, const Region& region, int shift) const {
-  const FaceBox& box = at(input_.boxes, face);
+FragmentBins::Cells FragmentBins::cells_of(std::int32_t fragment, const Region& region,
+                                           int shift) const {
+  const FragmentBox& box = at(projected_.boxes, fragment);
   const int last = (1 << (region.shift - shift)) - 1;
-  const auto cell = [&](double at, std::int64_t from) {
-    const auto steps = static_cast<std::int64_t>(at) - from;
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(steps >> shift, 0, last));
+  const auto cell = [&](double coordinate, std::int64_t from) {
+    const auto offset = static_cast<std::int64_t>(coordinate) - from;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(offset >> shift, 0, last));
   };
   return {cell(low(box, 0), region.x), cell(low(box, 1), region.y), cell(high(box, 0), region.x),
           cell(high(box, 1), region.y)};
 }
 
-/// Whether the face may have area in a square. A no is certain.
-bool FastBins::reaches(std::int32_t face, std::int64_t x, std::int64_t y, std::int64_t size) const {
-  const ProjectedFragments::Face& f = at(input_.faces, face);
-  const GridPoint* const corners = input_.corners.data();
+/// Whether the fragment may have area in a square; never false if it does.
+bool FragmentBins::reaches(std::int32_t fragment, std::int64_t x, std::int64_t y,
+                           std::int64_t size) const {
+  const ProjectedFragments::Fragment& f = at(projected_.fragments, fragment);
+  const GridPoint* const corners = projected_.corners.data();
   for (std::uint32_t k = f.begin; k < f.end; ++k) {
     const GridPoint& a = corners[k];
     const GridPoint& b = corners[k + 1 < f.end ? k + 1 : f.begin];
     const auto dx = static_cast<double>(b.x - a.x), dy = static_cast<double>(b.y - a.y);
-    // The corner of the square that lies farthest to the left of the edge.
+    // The corner of the square farthest to the left of the edge.
     const auto px = static_cast<double>((dy < 0 ? x + size : x) - a.x);
     const auto py = static_cast<double>((dx > 0 ? y + size : y) - a.y);
     const double side = dx * py - dy * px;
@@ -113,21 +120,21 @@ bool FastBins::reaches(std::int32_t face, std::int64_t x, std::int64_t y, std::i
   return true;
 }
 
-void FastBins::divide(const Region& region, int shift) {
-  const int across = 1 << (region.shift - shift);
-  const auto cell_count = static_cast<std::size_t>(across) * static_cast<std::size_t>(across);
+/// Replaces a region by its nonempty cells, with a counting sort of its fragments.
+void FragmentBins::divide(const Region& region, int shift) {
+  const std::size_t across = std::size_t{1} << (region.shift - shift);
+  const std::size_t cell_count = across * across;
   const std::int64_t size = std::int64_t{1} << shift;
   fill_.assign(cell_count + 1, 0);
   cells_.clear();
-  const auto visit = [&](std::int32_t face, const Cells& c, auto&& act) {
+  const auto visit = [&](std::int32_t fragment, const Cells& c, auto&& act) {
     const bool by_cell = (c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1) >= many_cells;
     for (std::int32_t y = c.y0; y <= c.y1; ++y) {
       for (std::int32_t x = c.x0; x <= c.x1; ++x) {
-        if (by_cell && !reaches(face, region.x + x * size, region.y + y * size, size)) {
+        if (by_cell && !reaches(fragment, region.x + x * size, region.y + y * size, size)) {
           continue;
         }
-        act(static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
-            static_cast<std::size_t>(x));
+        act(static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x));
       }
     }
   };
@@ -144,8 +151,8 @@ void FastBins::divide(const Region& region, int shift) {
     if (fill_[cell] == fill_[cell + 1]) {
       continue;
     }
-    const auto x = static_cast<std::int64_t>(cell % static_cast<std::size_t>(across));
-    const auto y = static_cast<std::int64_t>(cell / static_cast<std::size_t>(across));
+    const auto x = static_cast<std::int64_t>(cell % across);
+    const auto y = static_cast<std::int64_t>(cell / across);
     open_.push_back({region.x + x * size, region.y + y * size, shift, base + fill_[cell],
                      base + fill_[cell + 1]});
   }
@@ -155,25 +162,26 @@ void FastBins::divide(const Region& region, int shift) {
   }
 }
 
-void FastBins::add_end() {
+void FragmentBins::add_sentinel() {
   boxes_.push_back(everywhere);
-  faces_of_.push_back(none);
+  entry_fragments_.push_back(none);
   before_.push_back(none);
 }
 
-void FastBins::add_bin(const Region& region) {
-  const auto begin = static_cast<Entry>(faces_of_.size());
+void FragmentBins::add_bin(const Region& region) {
+  const auto begin = static_cast<Entry>(entry_fragments_.size());
   for (std::size_t k = region.begin; k < region.end; ++k) {
-    const auto face = static_cast<std::size_t>(lists_[k]);
-    before_.push_back(last_[face]);
-    last_[face] = static_cast<Entry>(faces_of_.size());
-    ++counts_[face];
-    faces_of_.push_back(lists_[k]);
-    boxes_.push_back(backs_only_ && input_.faces[face].front ? nowhere : input_.boxes[face]);
+    const auto fragment = static_cast<std::size_t>(lists_[k]);
+    before_.push_back(last_[fragment]);
+    last_[fragment] = static_cast<Entry>(entry_fragments_.size());
+    ++counts_[fragment];
+    entry_fragments_.push_back(lists_[k]);
+    boxes_.push_back(
+        backs_only_ && projected_.fragments[fragment].front ? nowhere : projected_.boxes[fragment]);
   }
   bins_.push_back({region.x, region.y, std::int64_t{1} << region.shift, begin,
-                   static_cast<Entry>(faces_of_.size())});
-  add_end();
+                   static_cast<Entry>(entry_fragments_.size())});
+  add_sentinel();
 }
 
 }  // namespace transillum

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "model/solver_session.h"
+#include "model/solve_runner.h"
 
 #include <QMetaObject>
 #include <algorithm>
@@ -32,9 +32,9 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-SolverSession::SolverSession(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
+SolveRunner::SolveRunner(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
 
-SolverSession::~SolverSession() {
+SolveRunner::~SolveRunner() {
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
@@ -46,7 +46,7 @@ SolverSession::~SolverSession() {
   worker_.join();
 }
 
-void SolverSession::open(OpenRequest request) {
+void SolveRunner::open(OpenRequest request) {
   {
     const std::lock_guard lock(mutex_);
     // A load under way is given up; a solve merely rests, and goes on should this load fail.
@@ -59,7 +59,7 @@ void SolverSession::open(OpenRequest request) {
   wake_.notify_one();
 }
 
-void SolverSession::stop() {
+void SolveRunner::stop() {
   {
     const std::lock_guard lock(mutex_);
     if (open_request_) {
@@ -83,7 +83,7 @@ void SolverSession::stop() {
   wake_.notify_one();
 }
 
-void SolverSession::restart(const SolveOptions& options, Goal then) {
+void SolveRunner::restart(const SolveOptions& options, Goal then) {
   {
     const std::lock_guard lock(mutex_);
     if (!loading_) {
@@ -97,7 +97,7 @@ void SolverSession::restart(const SolveOptions& options, Goal then) {
   wake_.notify_one();
 }
 
-void SolverSession::want_form_factors() {
+void SolveRunner::include_form_factors() {
   if (form_factors_wanted_) {
     return;
   }
@@ -108,7 +108,7 @@ void SolverSession::want_form_factors() {
   wake_.notify_one();
 }
 
-void SolverSession::aim(Goal goal) {
+void SolveRunner::aim(Goal goal) {
   {
     const std::lock_guard lock(mutex_);
     goal_ = goal;
@@ -118,8 +118,8 @@ void SolverSession::aim(Goal goal) {
   wake_.notify_one();
 }
 
-void SolverSession::work() {
-  give_way_to_the_window();
+void SolveRunner::work() {
+  lower_thread_priority();
   std::unique_lock lock(mutex_);
   while (true) {
     const auto anything = [this] {
@@ -169,8 +169,8 @@ void SolverSession::work() {
   }
 }
 
-void SolverSession::load(const OpenRequest& request) {
-  post_state(SessionState::loading);
+void SolveRunner::load(const OpenRequest& request) {
+  post_state(RunState::loading);
   const QString name = QString::fromStdString(request.spec);
   const auto report = [this](const QString& phase, double share) {
     post([this, phase, share] { emit load_progressed(phase, share); });
@@ -242,7 +242,7 @@ void SolverSession::load(const OpenRequest& request) {
   }
 }
 
-void SolverSession::begin_solve(const SolveOptions& options) {
+void SolveRunner::begin_solve(const SolveOptions& options) {
   if (!loaded_) {
     return;
   }
@@ -259,7 +259,7 @@ void SolverSession::begin_solve(const SolveOptions& options) {
   }
 }
 
-void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
+void SolveRunner::take_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
   solver_->keep_form_factors();
   kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
@@ -271,7 +271,7 @@ void SolverSession::take_solver(std::unique_ptr<RadiositySolver> solver) {
   more_to_do_ = true;
 }
 
-void SolverSession::keep_radiosity() {
+void SolveRunner::keep_radiosity() {
   const auto iteration = static_cast<std::size_t>(solver_->progress().iteration);
   if (iteration < kept_radiosity_.size()) {
     return;
@@ -283,7 +283,7 @@ void SolverSession::keep_radiosity() {
   }
 }
 
-void SolverSession::keep_directions() {
+void SolveRunner::keep_directions() {
   const SolveProgress progress = solver_->progress();
   const std::size_t begun =
       static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
@@ -300,18 +300,18 @@ void SolverSession::keep_directions() {
   }
 }
 
-std::int64_t SolverSession::passes_so_far() const {
+std::int64_t SolveRunner::passes_so_far() const {
   return passes_done(solver_->progress(), kept_passes_);
 }
 
-void SolverSession::advance(const Goal& goal) {
+void SolveRunner::advance(const Goal& goal) {
   if (!solver_ || !more_to_do_) {
     return;
   }
   if (goal.kind == Goal::Kind::passes && passes_so_far() >= goal.passes) {
     return;
   }
-  post_state(SessionState::running);
+  post_state(RunState::running);
   using Until = RadiositySolver::Until;
   try {
     if (goal.kind == Goal::Kind::passes) {
@@ -338,7 +338,7 @@ void SolverSession::advance(const Goal& goal) {
   }
 }
 
-void SolverSession::advance_exactly(std::int64_t passes) {
+void SolveRunner::advance_exactly(std::int64_t passes) {
   // Passes under way on other threads are finished after a pause: leave room for them, then take
   // the last ones one by one.
   const int room = 2 * std::max(solver_->statistics().threads, 1);
@@ -361,7 +361,7 @@ void SolverSession::advance_exactly(std::int64_t passes) {
   }
 }
 
-void SolverSession::on_pass(const RadiositySolver& solver) {
+void SolveRunner::on_pass(const RadiositySolver& solver) {
   keep_radiosity();
   keep_directions();
   const SolveProgress progress = solver.progress();
@@ -381,13 +381,13 @@ void SolverSession::on_pass(const RadiositySolver& solver) {
 
 // They are whole between steps only, where few snapshots are taken. After that, the semi-iterative
 // scheme's are worth it again when they are of twice as many passes.
-bool SolverSession::form_factors_are_due(const SolveProgress& progress) const {
+bool SolveRunner::form_factors_are_due(const SolveProgress& progress) const {
   const bool between_steps = progress.direction == 0 && progress.iteration > 0;
   return form_factors_wanted_ && between_steps && form_factors_fit_ &&
          solver_->statistics().passes_made >= 2 * form_factors_passes_;
 }
 
-void SolverSession::put_form_factors_together() {
+void SolveRunner::put_form_factors_together() {
   const SolveProgress progress = solver_->progress();
   const bool between_steps = progress.direction == 0 && progress.iteration > 0;
   if (!form_factors_wanted_ || !between_steps || !form_factors_fit_) {
@@ -413,7 +413,7 @@ void SolverSession::put_form_factors_together() {
   }
 }
 
-void SolverSession::show_form_factors() {
+void SolveRunner::show_form_factors() {
   if (!solver_) {
     return;
   }
@@ -426,7 +426,7 @@ void SolverSession::show_form_factors() {
   }
 }
 
-void SolverSession::post_snapshot() {
+void SolveRunner::post_snapshot() {
   const std::int64_t begin = now_ns();
   keep_radiosity();
   put_form_factors_together();
@@ -471,7 +471,7 @@ void SolverSession::post_snapshot() {
 }
 
 // Until the first direction, what a result's file tells is more than the solver knows.
-void SolverSession::lay_out_stored(SolverSnapshot& snapshot) const {
+void SolveRunner::lay_out_stored(SolverSnapshot& snapshot) const {
   const auto& stored = loaded_->stored;
   snapshot.of_file = stored && passes_done(snapshot.progress, snapshot.kept_passes) == 0;
   if (!snapshot.of_file) {
@@ -483,7 +483,7 @@ void SolverSession::lay_out_stored(SolverSnapshot& snapshot) const {
   snapshot.statistics = stored->statistics;
 }
 
-void SolverSession::deliver_snapshot() {
+void SolveRunner::deliver_snapshot() {
   std::shared_ptr<const SolverSnapshot> newest;
   {
     const std::lock_guard lock(mutex_);
@@ -496,14 +496,14 @@ void SolverSession::deliver_snapshot() {
   emit snapshot_ready(newest);
 }
 
-SessionState SolverSession::resting_state() const {
+RunState SolveRunner::resting_state() const {
   if (!solver_) {
-    return SessionState::empty;
+    return RunState::empty;
   }
-  return more_to_do_ ? SessionState::paused : SessionState::finished;
+  return more_to_do_ ? RunState::paused : RunState::finished;
 }
 
-void SolverSession::post_state(SessionState state) {
+void SolveRunner::post_state(RunState state) {
   post([this, state] {
     if (state == state_) {
       return;
@@ -513,11 +513,11 @@ void SolverSession::post_state(SessionState state) {
   });
 }
 
-void SolverSession::post_failure(const QString& message, bool bad_input) {
+void SolveRunner::post_failure(const QString& message, bool bad_input) {
   post([this, message, bad_input] { emit failed(message, bad_input); });
 }
 
-void SolverSession::post(std::function<void()> message) {
+void SolveRunner::post(std::function<void()> message) {
   QMetaObject::invokeMethod(this, std::move(message), Qt::QueuedConnection);
 }
 

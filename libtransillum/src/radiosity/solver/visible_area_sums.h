@@ -8,14 +8,16 @@
 
 namespace transillum {
 
-/// What is known of the passes that a step rests on.
-struct SeenAreas {
+/// Areas summed over passes, m², one per patch. A(i,j,omega) is the area of patch j that patch i
+/// sees along omega, on the transillumination plane.
+struct VisibleAreaSums {
   std::vector<double> rows;       ///< sum_d sum_j A(i,j,omega_d)
-  std::vector<double> columns;    ///< the same over i; two-way, these are the rows'
+  std::vector<double> columns;    ///< sum_d sum_i A(i,j,omega_d); two-way: 0, `rows` is the same
   std::vector<double> projected;  ///< sum_d A_i max(n_i·omega_d, 0)
-  int passes = 0;
+  int passes = 0;                 ///< number of passes summed
 
-  explicit SeenAreas(std::size_t patches) : rows(patches), columns(patches), projected(patches) {}
+  explicit VisibleAreaSums(std::size_t patches)
+      : rows(patches), columns(patches), projected(patches) {}
   void add(const Transfers& transfers, bool two_way) {
     for (std::size_t i = 0; i < projected.size(); ++i) {
       projected[i] += transfers.forward[i].projected;

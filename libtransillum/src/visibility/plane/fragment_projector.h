@@ -9,13 +9,13 @@ namespace transillum {
 
 /// A fragment of the tree as the plane sees it, one at a time.
 template <class Number>
-class SeenFragment {
+class FragmentProjector {
  public:
-  SeenFragment(const BspTree& tree, const BasicProjection<Number>& projection)
+  FragmentProjector(const BspTree& tree, const BasicProjection<Number>& projection)
       : tree_(tree), projection_(projection) {}
 
   /// Projects `fragment`. Returns false where it is seen edge-on and takes no part.
-  bool look_at(const BspTree::Fragment& fragment) {
+  bool project(const BspTree::Fragment& fragment) {
     outline_.clear();
     for (const BspTree::Corner& corner : tree_.corners(fragment)) {
       outline_.push_back({projection_.point(corner.point), corner.line, corner.forward});

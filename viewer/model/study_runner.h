@@ -14,24 +14,25 @@
 
 namespace transillum::viewer {
 
-/// Where a study stands at one moment. Immutable.
+/// The state of a study at one moment. Immutable.
 struct StudySnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   std::vector<StudySeries> series;
-  Study study;  ///< the points so far
+  Study study;  ///< points so far
   bool running = false;
-  bool reference = false;     ///< still making what others are compared with
-  std::size_t under_way = 0;  ///< series
-  int directions = 0;         ///< M under way, or passes of the reference done
-  int passes = 0;             ///< of the reference
-  double share = 0, passes_per_second = 0, seconds_left = 0;
+  bool reference = false;     ///< computing the reference solution
+  std::size_t under_way = 0;  ///< index of the series being computed
+  int directions = 0;         ///< M being computed; or finished passes of the reference
+  int passes = 0;             ///< all passes of the reference
+  double share = 0;           ///< of the work done, 0 to 1
+  double passes_per_second = 0, seconds_left = 0;
 };
 
-/// Runs studies of open scenes on a thread of its own; the newest one wins.
+/// Runs studies of open scenes on a thread of its own; a newer study cancels the running one.
 ///
-/// Threads: the public functions and all signals belong to the thread that made it. A snapshot that
-/// the window has not taken yet is replaced by its successor.
-class StudySession : public QObject {
+/// Threads: the public functions and all signals belong to the thread that created it. A snapshot
+/// that has not been delivered yet is replaced by its successor.
+class StudyRunner : public QObject {
   Q_OBJECT
 
  public:
@@ -40,11 +41,11 @@ class StudySession : public QObject {
     StudyOptions options;
   };
 
-  /// @param cache where references are kept (ReferenceCache)
-  explicit StudySession(std::filesystem::path cache, QObject* parent = nullptr);
+  /// @param cache directory of the ReferenceCache
+  explicit StudyRunner(std::filesystem::path cache, QObject* parent = nullptr);
 
   void start(Request request);
-  /// Ends the study under way, or one that waits; a last snapshot tells so.
+  /// Cancels the running or waiting study; a last snapshot with `running` false follows.
   void stop();
 
  signals:
@@ -53,10 +54,11 @@ class StudySession : public QObject {
   void failed(const QString& message);
 
  private:
-  // The worker's own from here on.
+  // Called on the worker's thread, except post().
   void run(const Request& request, const Cancellation& cancellation);
   std::vector<Rgb> reference_radiosity(const Request& request, const Cancellation& cancellation);
   void post(StudySnapshot snapshot);
+  void post_failure(const Request& request, const QString& message);
   bool due();
 
   const std::filesystem::path cache_;

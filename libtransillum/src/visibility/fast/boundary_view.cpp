@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/fast/outline_view.h"
+#include "visibility/fast/boundary_view.h"
 
 #include <algorithm>
 #include <array>
@@ -14,14 +14,14 @@ namespace {
 /// Bounds the rounding of what is made of a polygon's coordinates, over the largest.
 constexpr double rounding = 0x1p-49;
 
-/// Where as many times what rounding does to an area is more than a face's, it may show.
-constexpr double too_much = 0x1p36;
+/// Where as many times what rounding does to an area is more than a fragment's, it may show.
+constexpr double noise_limit = 0x1p36;
 
 /// A point relative to a bin's center.
 struct WidePoint {
   long double x, y;
 };
-using WidePolygon = std::array<WidePoint, FastOutlines::most_corners + 4>;
+using WidePolygon = std::array<WidePoint, FragmentOutlines::max_corners + 4>;
 
 /// Keeps what lies on the inner side of one side of a square about the origin.
 std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long double half,
@@ -49,8 +49,8 @@ std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long d
 }
 
 /// What a box reaches.
-FaceWindow window_of(const FaceBox& box) {
-  FaceWindow window;
+FragmentWindow window_of(const FragmentBox& box) {
+  FragmentWindow window;
   for (std::size_t d = 0; d < 4; ++d) {
     window.ends[d] = -box.ends[d + 4];
     window.ends[d + 4] = -box.ends[d];
@@ -60,15 +60,15 @@ FaceWindow window_of(const FaceBox& box) {
 
 }  // namespace
 
-void OutlineView::look_from(std::int32_t face) {
-  own_ = &at(faces_.faces, face);
+void BoundaryView::begin_query(std::int32_t fragment) {
+  subject_ = &at(projected_.fragments, fragment);
   bin_ = nullptr;
-  outlined_ = failed_ = false;
-  window_ = window_of(at(faces_.boxes, face));
+  loaded_ = failed_ = false;
+  window_ = window_of(at(projected_.boxes, fragment));
 }
 
-void OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
-  look_from(face);
+void BoundaryView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin) {
+  begin_query(fragment);
   bin_ = &bin;
   const auto x = static_cast<double>(bin.x), y = static_cast<double>(bin.y);
   const auto size = static_cast<double>(bin.size);
@@ -81,42 +81,42 @@ void OutlineView::look_from(std::int32_t face, const FastBins::Bin& bin) {
   limit(5, -y);
 }
 
-/// A region of this area is what looks.
-void OutlineView::begin(double area, double reach) {
+/// A region of this area is what queries.
+void BoundaryView::start(double area, double reach) {
   const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
-  far_ends_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
-  area_ = left_area_ = area;
+  origin_extent_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
+  area_ = region_area_ = area;
   cutter_.tolerance = rounding * reach;
   reach_ = reach;
-  failed_ = own_->cut_needle || too_much * (cutter_.tolerance * reach) > own_->area;
+  failed_ = subject_->cut_needle || noise_limit * (cutter_.tolerance * reach) > subject_->area;
   find_window();
 }
 
-void OutlineView::outline_whole() {
-  const GridPoint* const corners = faces_.corners.data() + own_->begin;
-  const std::size_t count = own_->end - own_->begin;
+void BoundaryView::load_whole() {
+  const GridPoint* const corners = projected_.corners.data() + subject_->begin;
+  const std::size_t count = subject_->end - subject_->begin;
   origin_ = corners[0];
-  left_->count = 0;
+  region_->count = 0;
   double reach = 0, from_x = 0, from_y = 0;
   for (std::size_t k = 1; k < count; ++k) {
     const auto x = static_cast<double>(corners[k].x - origin_.x);
     const auto y = static_cast<double>(corners[k].y - origin_.y);
-    left_->add(from_x, from_y, x, y);
+    region_->add(from_x, from_y, x, y);
     reach = std::max(reach, std::abs(x) + std::abs(y));
     from_x = x;
     from_y = y;
   }
-  left_->add(from_x, from_y, 0, 0);
-  begin(own_->area, reach);
+  region_->add(from_x, from_y, 0, 0);
+  start(subject_->area, reach);
 }
 
-void OutlineView::outline_in_bin() {
+void BoundaryView::load_part_in_bin() {
   const std::int64_t half = bin_->size / 2;
   origin_ = {bin_->x + half, bin_->y + half};
   WidePolygon polygon, clipped;
-  std::size_t count = own_->end - own_->begin;
+  std::size_t count = subject_->end - subject_->begin;
   for (std::size_t k = 0; k < count; ++k) {
-    const GridPoint& p = faces_.corners[own_->begin + k];
+    const GridPoint& p = projected_.corners[subject_->begin + k];
     polygon[k] = {static_cast<long double>(p.x - origin_.x),
                   static_cast<long double>(p.y - origin_.y)};
   }
@@ -124,62 +124,62 @@ void OutlineView::outline_in_bin() {
     count = clip(polygon, count, side, static_cast<long double>(half), clipped);
     polygon = clipped;
   }
-  left_->count = 0;
+  region_->count = 0;
   long double twice_area = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const WidePoint &p = polygon[k], &q = polygon[k + 1 < count ? k + 1 : 0];
-    left_->add(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(q.x),
-               static_cast<double>(q.y));
+    region_->add(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(q.x),
+                 static_cast<double>(q.y));
     twice_area +=
         (p.x - polygon[0].x) * (q.y - polygon[0].y) - (p.y - polygon[0].y) * (q.x - polygon[0].x);
   }
-  begin(static_cast<double>(twice_area / 2), static_cast<double>(bin_->size));
+  start(static_cast<double>(twice_area / 2), static_cast<double>(bin_->size));
 }
 
-void OutlineView::find_window() {
-  if (left_->count == 0) {
+void BoundaryView::find_window() {
+  if (region_->count == 0) {
     return;
   }
-  extent_ = extent_of(*left_);
+  extent_ = extent_of(*region_);
   for (std::size_t d = 0; d < 8; ++d) {
-    window_.ends[d] = rounded_up(far_ends_[d] + extent_[d]);
+    window_.ends[d] = rounded_up(origin_extent_[d] + extent_[d]);
   }
 }
 
-double OutlineView::subtract(std::int32_t face) {
-  const ProjectedFragments::Face& shown = at(faces_.faces, face);
-  if (!outlined_) {
-    outlined_ = true;
+double BoundaryView::subtract(std::int32_t fragment) {
+  const ProjectedFragments::Fragment& candidate = at(projected_.fragments, fragment);
+  if (!loaded_) {
+    loaded_ = true;
     if (bin_) {
-      outline_in_bin();
+      load_part_in_bin();
     } else {
-      outline_whole();
+      load_whole();
     }
-    if (failed_ || left_->count == 0) {
+    if (failed_ || region_->count == 0) {
       return 0;
     }
   }
-  set_cutter(cutter_, faces_.corners.data() + shown.begin, shown.end - shown.begin, origin_,
-             4 * reach_);
+  set_cutter(cutter_, projected_.corners.data() + candidate.begin, candidate.end - candidate.begin,
+             origin_, 4 * reach_);
   // A point that is near to what both polygons share.
   cutter_.pivot_x = std::clamp(cutter_.x[0], -extent_[4], extent_[0]);
   cutter_.pivot_y = std::clamp(cutter_.y[0], -extent_[5], extent_[1]);
   ++counts_.pairs;
-  counts_.decisions += static_cast<std::int64_t>(left_->count * cutter_.count);
-  if (!cut_outline(*left_, cutter_, cut_, *rest_)) {
+  counts_.decisions += static_cast<std::int64_t>(region_->count * cutter_.count);
+  if (!cut_boundary(*region_, cutter_, cut_, *next_region_)) {
     return 0;
   }
   double twice_area = cut_.twice_area;
   const double noise = 0.25 * cutter_.tolerance * cutter_.perimeter;
-  failed_ = shown.cut_needle || too_much * noise > shown.area || !add_edges(twice_area) ||
-            rest_->count > Outline::most;
+  failed_ = candidate.cut_needle || noise_limit * noise > candidate.area ||
+            !add_edges(twice_area) || next_region_->count > BoundarySegments::max_count;
   const double area = 0.5 * twice_area;
   if (failed_ || area <= noise) {
     return 0;
   }
   counts_.cuts += static_cast<std::int64_t>(cutter_.count);
-  std::swap(left_, rest_);
-  left_area_ -= area;
+  std::swap(region_, next_region_);
+  region_area_ -= area;
   if (!done()) {
     find_window();
   }
@@ -188,19 +188,19 @@ double OutlineView::subtract(std::int32_t face) {
 
 /// Adds the parts of the cutter's edges that lie in the region: to twice_area, and, turned round,
 /// to what is left. Returns false where rounding has made the ends of such parts inconsistent.
-bool OutlineView::add_edges(double& twice_area) {
+bool BoundaryView::add_edges(double& twice_area) {
   struct Crossing {
     double along, x, y;
     int step;  ///< the region begins, 1, or ends, -1
   };
-  std::array<Crossing, 2 * Outline::most> crossings;
+  std::array<Crossing, 2 * BoundarySegments::max_count> crossings;
   int winding = cut_.winding[0];
   for (std::size_t m = 0; m < cutter_.count; ++m) {
     if (winding != cut_.winding[m] || winding < 0 || winding > 1) {
       return false;
     }
     const std::size_t next = m + 1 < cutter_.count ? m + 1 : 0;
-    const std::uint64_t in = cut_.comes_in[m], out = cut_.goes_out[m];
+    const std::uint64_t in = cut_.enters[m], out = cut_.leaves[m];
     if (winding == 0 && (in | out) == 0) {
       continue;
     }
@@ -225,12 +225,12 @@ bool OutlineView::add_edges(double& twice_area) {
     const auto go_to = [&](double x, double y) {
       const bool moved = x != from_x || y != from_y;
       if (moved && winding != 0) {
-        if (winding != 1 || rest_->count == Outline::room) {
+        if (winding != 1 || next_region_->count == BoundarySegments::capacity) {
           return false;
         }
         twice_area += (from_x - cutter_.pivot_x) * (y - cutter_.pivot_y) -
                       (from_y - cutter_.pivot_y) * (x - cutter_.pivot_x);
-        rest_->add(x, y, from_x, from_y);
+        next_region_->add(x, y, from_x, from_y);
       }
       from_x = x;
       from_y = y;

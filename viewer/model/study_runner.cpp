@@ -1,5 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "model/study_session.h"
+//
+// Runs a study (errors over numbers of directions) and posts its progress to the window. The
+// reference solution comes from the cache, or is solved and stored there.
+#include "model/study_runner.h"
 
 #include <QMetaObject>
 #include <chrono>
@@ -18,33 +21,35 @@ std::int64_t now_ns() {
   return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace
-
-StudySession::StudySession(std::filesystem::path cache, QObject* parent)
-    : QObject(parent),
-      cache_(std::move(cache)),
-      worker_([this](const Request& request, const Cancellation& cancellation) {
-        run(request, cancellation);
-      }) {}
-
-void StudySession::start(Request request) { worker_.request(std::move(request)); }
-
-void StudySession::stop() {
-  const std::optional<Request> never_begun = worker_.clear();
-  if (!never_begun) {
-    return;
-  }
-  StudySnapshot ended;
-  ended.loaded = never_begun->loaded;
-  ended.series = never_begun->options.series;
-  post(std::move(ended));
-}
-
-void StudySession::run(const Request& request, const Cancellation& cancellation) {
+/// Nothing done yet, not running.
+StudySnapshot without_points(const StudyRunner::Request& request) {
   StudySnapshot snapshot;
   snapshot.loaded = request.loaded;
   snapshot.series = request.options.series;
-  QString failure;
+  return snapshot;
+}
+
+}  // namespace
+
+StudyRunner::StudyRunner(std::filesystem::path cache, QObject* parent)
+    : QObject(parent),
+      cache_(std::move(cache)),
+      worker_([this](const Request& request,
+                     const Cancellation& cancellation) { run(request, cancellation); },
+              [this](const Request& request, const QString& message) {
+                post_failure(request, message);
+              }) {}
+
+void StudyRunner::start(Request request) { worker_.request(std::move(request)); }
+
+void StudyRunner::stop() {
+  if (const std::optional<Request> never_begun = worker_.clear()) {
+    post(without_points(*never_begun));
+  }
+}
+
+void StudyRunner::run(const Request& request, const Cancellation& cancellation) {
+  StudySnapshot snapshot = without_points(request);
   try {
     const std::vector<Rgb> reference = reference_radiosity(request, cancellation);
     snapshot.study = run_study(
@@ -65,19 +70,19 @@ void StudySession::run(const Request& request, const Cancellation& cancellation)
         },
         cancellation);
   } catch (const Canceled&) {
-  } catch (const std::exception& error) {
-    failure = QString::fromUtf8(error.what());
+    // The last snapshot reports that the study has ended.
   }
   post(std::move(snapshot));
-  if (failure.isEmpty()) {
-    return;
-  }
-  QMetaObject::invokeMethod(
-      this, [this, failure] { emit failed(failure); }, Qt::QueuedConnection);
 }
 
-std::vector<Rgb> StudySession::reference_radiosity(const Request& request,
-                                                   const Cancellation& cancellation) {
+void StudyRunner::post_failure(const Request& request, const QString& message) {
+  post(without_points(request));
+  QMetaObject::invokeMethod(
+      this, [this, message] { emit failed(message); }, Qt::QueuedConnection);
+}
+
+std::vector<Rgb> StudyRunner::reference_radiosity(const Request& request,
+                                                  const Cancellation& cancellation) {
   const Scene& scene = *request.loaded->scene;
   const SolveOptions options = request.options.reference();
   const ReferenceCache cache(cache_);
@@ -90,9 +95,7 @@ std::vector<Rgb> StudySession::reference_radiosity(const Request& request,
         if (now.direction == 0 || !due()) {
           return;
         }
-        StudySnapshot newest;
-        newest.loaded = request.loaded;
-        newest.series = request.options.series;
+        StudySnapshot newest = without_points(request);
         newest.running = newest.reference = true;
         newest.directions = now.direction;
         newest.passes = now.passes;
@@ -104,12 +107,13 @@ std::vector<Rgb> StudySession::reference_radiosity(const Request& request,
       cancellation);
   try {
     cache.store(scene, options, radiosity);
-  } catch (const std::exception&) {  // it costs the time to make it again, no more
+  } catch (const std::exception&) {
+    // Without the cache, the next study solves the reference again.
   }
   return radiosity;
 }
 
-bool StudySession::due() {
+bool StudyRunner::due() {
   const std::int64_t now = now_ns();
   if (now - last_post_ns_ < refresh_ns) {
     return false;
@@ -118,7 +122,7 @@ bool StudySession::due() {
   return true;
 }
 
-void StudySession::post(StudySnapshot snapshot) {
+void StudyRunner::post(StudySnapshot snapshot) {
   const std::lock_guard lock(mutex_);
   const bool waiting = mailbox_ != nullptr;
   mailbox_ = std::make_shared<const StudySnapshot>(std::move(snapshot));

@@ -10,16 +10,16 @@
 
 #include "visibility/fast/simd_backend.h"
 
-#define TRANSILLUM_BY_FOUR __attribute__((target("avx2,popcnt")))
+#define TRANSILLUM_AVX2 __attribute__((target("avx2,popcnt")))
 
 namespace transillum {
 namespace {
 
 /// Lanes as bits, and the same lanes all ones.
-TRANSILLUM_BY_FOUR inline unsigned bits_of(__m256d lanes) {
+TRANSILLUM_AVX2 inline unsigned bits_of(__m256d lanes) {
   return static_cast<unsigned>(_mm256_movemask_pd(lanes));
 }
-TRANSILLUM_BY_FOUR inline __m256d lanes_of(unsigned bits) {
+TRANSILLUM_AVX2 inline __m256d lanes_of(unsigned bits) {
   const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
   const __m256i chosen = _mm256_and_si256(_mm256_set1_epi64x(bits), lane);
   return _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane));
@@ -29,10 +29,10 @@ unsigned filled(std::size_t count, std::size_t from) {
   return count - from >= 4 ? 0xfU : (1U << (count - from)) - 1U;
 }
 
-TRANSILLUM_BY_FOUR inline __m256d dot(__m256d ax, __m256d ay, __m256d bx, __m256d by) {
+TRANSILLUM_AVX2 inline __m256d dot(__m256d ax, __m256d ay, __m256d bx, __m256d by) {
   return _mm256_add_pd(_mm256_mul_pd(ax, bx), _mm256_mul_pd(ay, by));
 }
-TRANSILLUM_BY_FOUR inline __m256d cross(__m256d ax, __m256d ay, __m256d bx, __m256d by) {
+TRANSILLUM_AVX2 inline __m256d cross(__m256d ax, __m256d ay, __m256d bx, __m256d by) {
   return _mm256_sub_pd(_mm256_mul_pd(ax, by), _mm256_mul_pd(ay, bx));
 }
 
@@ -52,13 +52,13 @@ constexpr std::array<std::array<int, 8>, 16> packed_halves = [] {
   return halves;
 }();
 
-TRANSILLUM_BY_FOUR inline __m256d packed(__m256d v, __m256i halves) {
+TRANSILLUM_AVX2 inline __m256d packed(__m256d v, __m256i halves) {
   return _mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(v), halves));
 }
 
 /// Appends the segments from a to b that `chosen` tells.
-TRANSILLUM_BY_FOUR inline void append(Outline& to, unsigned chosen, __m256d ax, __m256d ay,
-                                      __m256d bx, __m256d by) {
+TRANSILLUM_AVX2 inline void append(BoundarySegments& to, unsigned chosen, __m256d ax, __m256d ay,
+                                   __m256d bx, __m256d by) {
   const std::size_t k = to.count;
   const __m256i halves =
       _mm256_loadu_si256(reinterpret_cast<const __m256i*>(packed_halves[chosen].data()));
@@ -75,9 +75,9 @@ struct Four {
 };
 
 /// Cuts the segments from `g` on, and notes what crosses which line.
-TRANSILLUM_BY_FOUR inline Four cut_four(const Outline& outline, std::size_t g, const Cutter& cutter,
-                                        OutlineCut& cut, LineCrossings& lines,
-                                        __m256d& twice_area) {
+TRANSILLUM_AVX2 inline Four cut_four(const BoundarySegments& outline, std::size_t g,
+                                     const Cutter& cutter, BoundaryCut& cut, LineCrossings& lines,
+                                     __m256d& twice_area) {
   const __m256d zero = _mm256_setzero_pd(), one = _mm256_set1_pd(1);
   const unsigned all = filled(outline.count, g);
   const __m256d all_lanes = lanes_of(all);
@@ -86,7 +86,7 @@ TRANSILLUM_BY_FOUR inline Four cut_four(const Outline& outline, std::size_t g, c
   const __m256d ux = _mm256_sub_pd(bx, ax), uy = _mm256_sub_pd(by, ay);
   __m256d first = zero, last = one;
   Four four{all, 0, 0};
-  std::array<unsigned, Cutter::most> first_by, last_by;
+  std::array<unsigned, Cutter::max_edges> first_by, last_by;
   for (std::size_t m = 0; m < cutter.count; ++m) {
     const __m256d dx = _mm256_broadcast_sd(&cutter.dx[m]), dy = _mm256_broadcast_sd(&cutter.dy[m]);
     const __m256d c = _mm256_broadcast_sd(&cutter.c[m]);
@@ -130,8 +130,8 @@ TRANSILLUM_BY_FOUR inline Four cut_four(const Outline& outline, std::size_t g, c
   // The line that came last as the first, and so on, is the one.
   unsigned no_first = four.inside, no_last = four.inside;
   for (std::size_t m = cutter.count; m-- > 0;) {
-    cut.comes_in[m] |= std::uint64_t{first_by[m] & no_first} << g;
-    cut.goes_out[m] |= std::uint64_t{last_by[m] & no_last} << g;
+    cut.enters[m] |= std::uint64_t{first_by[m] & no_first} << g;
+    cut.leaves[m] |= std::uint64_t{last_by[m] & no_last} << g;
     no_first &= ~first_by[m];
     no_last &= ~last_by[m];
   }
@@ -156,9 +156,9 @@ TRANSILLUM_BY_FOUR inline Four cut_four(const Outline& outline, std::size_t g, c
 }
 
 /// What of four segments comes before their parts inside, or all of those that have none.
-TRANSILLUM_BY_FOUR inline void append_before(const Outline& outline, std::size_t g,
-                                             const Four& four, const OutlineCut& cut,
-                                             Outline& outside) {
+TRANSILLUM_AVX2 inline void append_before(const BoundarySegments& outline, std::size_t g,
+                                          const Four& four, const BoundaryCut& cut,
+                                          BoundarySegments& outside) {
   const unsigned chosen = (filled(outline.count, g) & ~four.inside) | four.starts;
   const __m256d inside = lanes_of(four.inside);
   append(outside, chosen, _mm256_load_pd(&outline.ax[g]), _mm256_load_pd(&outline.ay[g]),
@@ -166,19 +166,19 @@ TRANSILLUM_BY_FOUR inline void append_before(const Outline& outline, std::size_t
          _mm256_blendv_pd(_mm256_load_pd(&outline.by[g]), _mm256_loadu_pd(&cut.in_y[g]), inside));
 }
 
-TRANSILLUM_BY_FOUR inline void append_behind(const Outline& outline, std::size_t g,
-                                             const Four& four, const OutlineCut& cut,
-                                             Outline& outside) {
+TRANSILLUM_AVX2 inline void append_behind(const BoundarySegments& outline, std::size_t g,
+                                          const Four& four, const BoundaryCut& cut,
+                                          BoundarySegments& outside) {
   append(outside, four.ends, _mm256_loadu_pd(&cut.out_x[g]), _mm256_loadu_pd(&cut.out_y[g]),
          _mm256_load_pd(&outline.bx[g]), _mm256_load_pd(&outline.by[g]));
 }
 
-TRANSILLUM_BY_FOUR bool cut_by_four(const Outline& outline, const Cutter& cutter, OutlineCut& cut,
-                                    Outline& outside) {
+TRANSILLUM_AVX2 bool cut_avx2(const BoundarySegments& outline, const Cutter& cutter,
+                              BoundaryCut& cut, BoundarySegments& outside) {
   LineCrossings lines;
   for (std::size_t m = 0; m < cutter.count; ++m) {
     lines[m] = {};
-    cut.comes_in[m] = cut.goes_out[m] = 0;
+    cut.enters[m] = cut.leaves[m] = 0;
   }
   __m256d twice_area[2] = {_mm256_setzero_pd(), _mm256_setzero_pd()};
   outside.count = 0;
@@ -211,12 +211,12 @@ TRANSILLUM_BY_FOUR bool cut_by_four(const Outline& outline, const Cutter& cutter
 }
 
 /// The largest lane.
-TRANSILLUM_BY_FOUR inline double largest(__m256d v) {
+TRANSILLUM_AVX2 inline double largest(__m256d v) {
   const __m128d pair = _mm_max_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
   return _mm_cvtsd_f64(_mm_max_sd(pair, _mm_unpackhi_pd(pair, pair)));
 }
 
-TRANSILLUM_BY_FOUR Extent extent_by_four(const Outline& outline) {
+TRANSILLUM_AVX2 Extent extent_avx2(const BoundarySegments& outline) {
   const __m256d none = _mm256_set1_pd(-HUGE_VAL), zero = _mm256_setzero_pd();
   __m256d most[8];
   for (__m256d& m : most) {
@@ -241,9 +241,7 @@ TRANSILLUM_BY_FOUR Extent extent_by_four(const Outline& outline) {
 
 }  // namespace
 
-SimdBackend avx2_backend() {
-  return {"by four", scalar_backend().set, cut_by_four, extent_by_four};
-}
+SimdBackend avx2_backend() { return {"by four", scalar_backend().set, cut_avx2, extent_avx2}; }
 
 }  // namespace transillum
 #endif

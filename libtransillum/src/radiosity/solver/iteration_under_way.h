@@ -1,0 +1,29 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vector>
+
+#include "transillum/scene.h"
+#include "transillum/vec3.h"
+
+namespace transillum {
+
+/// The iteration that passes are being added to.
+struct IterationUnderWay {
+  bool begun = false;
+  std::vector<Vec3> directions;  ///< in the order of the passes
+  int from_kept_sums = 0;        ///< passes that need not be made: their exchanges are kept
+  std::vector<Rgb> estimate;     ///< of B, W/m²; between iterations B itself
+  std::vector<double> changes;   ///< of the estimate, relative, at each pass made
+  double seconds = 0;            ///< wall time so far
+
+  /// Ends the iteration, which leads to `b`.
+  void end(const std::vector<Rgb>& b) {
+    begun = false;
+    changes.clear();
+    estimate = b;
+    seconds = 0;
+  }
+};
+
+}  // namespace transillum

@@ -1,0 +1,138 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/kept_exchanges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "radiosity/memory_limit.h"
+#include "transillum/at.h"
+#include "transillum/solve_errors.h"
+
+namespace transillum {
+namespace {
+
+/// A matrix with room for the entries of `sums`, its row_begin set.
+FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, bool two_way) {
+  FormFactors result;
+  result.row_begin.resize(patches + 1);
+  sums.for_each([&](PatchId i, PatchId j, double) {
+    ++result.row_begin[static_cast<std::size_t>(i) + 1];
+    if (two_way) {
+      ++result.row_begin[static_cast<std::size_t>(j) + 1];
+    }
+  });
+  std::partial_sum(result.row_begin.begin(), result.row_begin.end(), result.row_begin.begin());
+  result.source.resize(result.row_begin.back());
+  result.value.resize(result.row_begin.back());
+  return result;
+}
+
+}  // namespace
+
+KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
+    : patches_(input.scene->patch_count()),
+      two_way_(input.options.two_way),
+      renews_(renews),
+      cancellation_(input.cancellation),
+      renewed_areas_(input.patch_count()) {
+  const SolveOptions& options = input.options;
+  if (options.normalize == Normalization::symmetric) {
+    required_by_ = "the symmetric normalization";
+  } else if (options.scheme == Scheme::conjugate_gradients) {
+    required_by_ = "the scheme conjugate-gradients";
+  }
+  const std::uint64_t memory = memory_limit(options.memory);
+  for (int r = 0; r < options.replicas; ++r) {
+    sums_.emplace_back(patches_, two_way_, memory / static_cast<std::uint64_t>(options.replicas),
+                       cancellation_);
+  }
+}
+
+bool KeptExchanges::available() const {
+  return requested() &&
+         std::none_of(sums_.begin(), sums_.end(), [](const auto& s) { return s.overrun(); });
+}
+
+void KeptExchanges::check_available() const {
+  if (required_by_ && !available()) {
+    throw MemoryLimitExceeded(fmt::format(
+        "{} requires kept form factors, and they exceed the memory limit", required_by_));
+  }
+}
+
+void KeptExchanges::add(int k, ExchangeSums::Run run) {
+  sums_[static_cast<std::size_t>(k) % sums_.size()].add(std::move(run));
+  // Where one replica does not fit, the others are of no use.
+  if (!available()) {
+    for (ExchangeSums& part : sums_) {
+      part.drop();
+    }
+    check_available();
+  }
+}
+
+void KeptExchanges::add_areas(const Transfers& transfers) {
+  if (renews_ && requested_) {
+    renewed_areas_.add(transfers, two_way_);
+  }
+}
+
+void KeptExchanges::finish() {
+  for (ExchangeSums& part : sums_) {
+    part.finish();
+  }
+}
+
+KeptSums KeptExchanges::all() const {
+  KeptSums all;
+  for (const ExchangeSums& part : sums_) {
+    all.push_back(&part);
+  }
+  return all;
+}
+
+std::size_t KeptExchanges::size() const {
+  return std::accumulate(
+      sums_.begin(), sums_.end(), std::size_t{0},
+      [](std::size_t size, const ExchangeSums& part) { return size + part.size(); });
+}
+
+ExchangeSums KeptExchanges::joined() const {
+  ExchangeSums joined(patches_, two_way_, ~std::uint64_t{0}, cancellation_);
+  for (const ExchangeSums& part : sums_) {
+    ExchangeSums::Run run;
+    run.reserve(part.size());
+    part.for_each([&](PatchId i, PatchId j, double area) { run.push_back({i, j, area}); });
+    joined.add(std::move(run));
+  }
+  joined.finish();
+  return joined;
+}
+
+FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
+                                        const VisibleAreaSums& areas) const {
+  const std::optional<ExchangeSums> all_replicas =
+      sums_.size() > 1 ? std::optional(joined()) : std::nullopt;
+  const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
+  FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), two_way_);
+  std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);
+  const auto put = [&](PatchId i, PatchId j, double area) {
+    const std::size_t k = at(next, i)++;
+    result.source[k] = j;
+    result.value[k] = area * iterate.form_factor_scale(i, j, at(areas.projected, i), areas.passes);
+  };
+  // Pairs come in rising order. Entries left of the diagonal are put first, so that sources rise
+  // within each row.
+  if (two_way_) {
+    sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
+  }
+  sums.for_each(put);
+  return result;
+}
+
+}  // namespace transillum

@@ -1,0 +1,72 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radiosity/solver/exchange_sums.h"
+#include "radiosity/solver/radiosity_iterate.h"
+#include "radiosity/solver/solver_input.h"
+#include "radiosity/solver/visible_area_sums.h"
+#include "transillum/form_factors.h"
+
+namespace transillum {
+
+/// The exchanges of all passes, summed and kept within the memory limit, so that later iterations
+/// need no passes: one ExchangeSums per replica, or one.
+class KeptExchanges {
+ public:
+  /// @param renews whether each iteration has directions of its own; exchanges are then kept only
+  /// after request().
+  KeptExchanges(const SolverInput& input, bool renews);
+
+  /// Keeps the exchanges from the next pass on, also where each iteration has its own directions.
+  void request() { requested_ = true; }
+  /// Whether exchanges are to be kept, if the memory limit allows.
+  bool requested() const { return !renews_ || requested_; }
+  /// Whether they are requested and have fitted into the memory limit so far.
+  bool available() const;
+  /// @throws MemoryLimitExceeded where the normalization or scheme requires them and they are not
+  /// available.
+  void check_available() const;
+
+  /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
+  ExchangeSums::Run make_run(const std::vector<Transfer>& exchanges) const {
+    return sums_.front().make_run(exchanges);
+  }
+  /// Adds pass k of an iteration. Where it exceeds the limit, everything is dropped.
+  /// @throws MemoryLimitExceeded as check_available()
+  void add(int k, ExchangeSums::Run run);
+  /// Adds the areas of a pass to renewed_areas(), if each iteration has its own directions and the
+  /// exchanges are requested.
+  void add_areas(const Transfers& transfers);
+  /// To be called after the last pass of an iteration, before sums are read.
+  void finish();
+
+  /// The sums of all replicas.
+  KeptSums all() const;
+  KeptSums of_replica(std::size_t r) const { return {&sums_[r]}; }
+  /// Number of kept entries.
+  std::size_t size() const;
+  /// Areas of the passes kept, over all iterations, where each has its own directions.
+  const VisibleAreaSums& renewed_areas() const { return renewed_areas_; }
+
+  /// F_ij = entry (i,j) times the scale that `iterate` gives it. After finish().
+  /// @param areas of the passes kept
+  FormFactors form_factors(const RadiosityIterate& iterate, const VisibleAreaSums& areas) const;
+
+ private:
+  /// The sum over all replicas.
+  ExchangeSums joined() const;
+
+  PatchId patches_;
+  bool two_way_;
+  bool renews_;
+  bool requested_ = false;
+  const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none
+  Cancellation cancellation_;
+  std::vector<ExchangeSums> sums_;  ///< one per replica; pass k belongs to replica k mod R
+  VisibleAreaSums renewed_areas_;
+};
+
+}  // namespace transillum

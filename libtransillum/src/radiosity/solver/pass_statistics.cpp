@@ -1,0 +1,62 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/pass_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "radiosity/ratio.h"
+
+namespace transillum {
+
+PassStatistics::PassStatistics(const Scene& scene, bool two_way)
+    : scene_(scene),
+      two_way_(two_way),
+      areas_(scene.patches().size()),
+      facing_area_(scene.patches().size()),
+      back_seen_(scene.patches().size()) {}
+
+void PassStatistics::begin_set() {
+  areas_ = VisibleAreaSums(facing_area_.size());
+  quadrature_errors_.clear();
+}
+
+void PassStatistics::add(const Pass& pass) {
+  const Transfers& transfers = pass.transfers;
+  areas_.add(transfers, two_way_);
+  const int directions_per_pass = two_way_ ? 2 : 1;
+  double worst = 0;
+  for (std::size_t i = 0; i < facing_area_.size(); ++i) {
+    const double exact = areas_.passes * directions_per_pass * scene_.patches()[i].area / 4;
+    worst = std::max(worst, std::abs(areas_.projected[i] / exact - 1));
+    const Coverage& forward = transfers.forward[i];
+    const Coverage& backward = transfers.backward[i];
+    facing_area_[i] += forward.projected + backward.projected;
+    back_seen_[i] += transfers.back_seen[i];
+    projected_ += forward.projected + backward.projected;
+    covered_ += forward.covered + backward.covered;
+  }
+  quadrature_errors_.push_back(std::numbers::pi * worst);
+  closure_relative_ = std::max(closure_relative_, pass.closure.relative);
+  closure_grazing_ = std::max(closure_grazing_, pass.closure.grazing);
+  counts_ += transfers.counts;
+  transfer_count_ += std::ssize(transfers.exchanges);
+}
+
+std::vector<double> PassStatistics::back_seen_shares() const {
+  std::vector<double> shares(back_seen_.size());
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i] = ratio_or_zero(back_seen_[i], facing_area_[i]);
+  }
+  return shares;
+}
+
+void PassStatistics::write_to(SolveStatistics& statistics) const {
+  statistics.transfers = transfer_count_;
+  statistics.counts = counts_;
+  statistics.closure_defect_max = closure_relative_;
+  statistics.closure_defect_grazing = closure_grazing_;
+  statistics.escaped = ratio_or_zero(std::max(0.0, projected_ - covered_), projected_);
+}
+
+}  // namespace transillum

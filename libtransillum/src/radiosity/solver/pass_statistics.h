@@ -1,0 +1,50 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "radiosity/solver/pass_runner.h"
+#include "radiosity/solver/visible_area_sums.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// What is measured along each direction once: areas, closure, counts and the error of the
+/// quadrature of the cosine. Later passes along the same direction are not added again.
+class PassStatistics {
+ public:
+  /// Keeps a reference to `scene`.
+  PassStatistics(const Scene& scene, bool two_way);
+
+  /// Starts another set of directions (semi-iterative scheme): clears areas() and
+  /// quadrature_errors(); all other figures go on over all sets.
+  void begin_set();
+  /// Adds the first pass along a direction.
+  void add(const Pass& pass);
+
+  /// Of the current set of directions.
+  const VisibleAreaSums& areas() const { return areas_; }
+  /// Entry d: eps (eq. 17) of the first d + 1 passes of the current set, largest over patches.
+  const std::vector<double>& quadrature_errors() const { return quadrature_errors_; }
+  /// Per patch: share of its visible area at which receivers see its back.
+  std::vector<double> back_seen_shares() const;
+  /// Sets transfers, counts, closure defects and escaped.
+  void write_to(SolveStatistics& statistics) const;
+
+ private:
+  const Scene& scene_;
+  bool two_way_;
+  VisibleAreaSums areas_;
+  std::vector<double> quadrature_errors_;
+  std::vector<double> facing_area_;  ///< per patch: projected area over all passes, both directions
+  std::vector<double> back_seen_;    ///< per patch: of that, seen by receivers from its back
+  double projected_ = 0;             ///< projected area of all patches, m²
+  double covered_ = 0;               ///< the part of it with a patch above, m²
+  double closure_relative_ = 0, closure_grazing_ = 0;  ///< largest ClosureDefect so far
+  std::int64_t transfer_count_ = 0;
+  PassCounts counts_;
+};
+
+}  // namespace transillum

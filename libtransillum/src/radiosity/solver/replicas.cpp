@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/replicas.h"
+
+#include <algorithm>
+
+#include "radiosity/solver/error_estimate.h"
+#include "transillum/at.h"
+
+namespace transillum {
+
+Replicas::Replicas(const SolverInput& input) {
+  if (input.options.replicas < 2) {
+    return;
+  }
+  for (int r = 0; r < input.options.replicas; ++r) {
+    iterates_.emplace_back(*input.scene, input.options, *input.shot);
+  }
+  means_.resize(iterates_.size());
+}
+
+void Replicas::add(int k, const Transfers& transfers) {
+  if (!iterates_.empty()) {
+    iterates_[static_cast<std::size_t>(k) % iterates_.size()].add(transfers);
+  }
+}
+
+void Replicas::finish() {
+  for (RadiosityIterate& iterate : iterates_) {
+    iterate.finish();
+  }
+}
+
+void Replicas::add_to_means() {
+  for (std::size_t r = 0; r < iterates_.size(); ++r) {
+    means_[r].add(iterates_[r].b());
+  }
+}
+
+ErrorEstimate Replicas::error_estimate(const Scene& scene, const std::vector<Rgb>& b,
+                                       Radiosity kind) const {
+  const bool incomplete = kind == Radiosity::running_estimate &&
+                          std::any_of(iterates_.begin(), iterates_.end(),
+                                      [](const auto& iterate) { return iterate.passes() == 0; });
+  if (iterates_.empty() || incomplete) {
+    return {};
+  }
+  std::vector<std::vector<Rgb>> radiosities;
+  for (std::size_t r = 0; r < iterates_.size(); ++r) {
+    radiosities.push_back(radiosity(scene, r, kind));
+  }
+  return estimate_error(scene, b, radiosities);
+}
+
+std::vector<Rgb> Replicas::radiosity(const Scene& scene, std::size_t r, Radiosity kind) const {
+  if (kind == Radiosity::mean) {
+    return means_[r].mean();
+  }
+  std::vector<Rgb> b = iterates_[r].b();
+  if (kind == Radiosity::running_estimate) {
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      at(b, i) = iterates_[r].estimate(i);
+    }
+  }
+  return b;
+}
+
+}  // namespace transillum

@@ -1,0 +1,47 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "radiosity/solver/radiosity_iterate.h"
+#include "radiosity/solver/running_mean.h"
+#include "radiosity/solver/solver_input.h"
+
+namespace transillum {
+
+/// The radiosity of each of R independently rotated sets of directions, whose spread is the error
+/// estimate (eq. 47). Pass k of an iteration belongs to replica k mod R. Empty for one replica.
+class Replicas {
+ public:
+  /// Keeps references to the scene and the first shot of `input`.
+  explicit Replicas(const SolverInput& input);
+
+  /// Adds pass k to the iteration of its replica.
+  void add(int k, const Transfers& transfers);
+  /// Ends the iteration of every replica.
+  void finish();
+  /// Adds B of every replica to its mean over iterations (semi-iterative scheme).
+  void add_to_means();
+  /// Calls visit(iterate, r) for every replica r.
+  template <class Visit>
+  void for_each(Visit visit) {
+    for (std::size_t r = 0; r < iterates_.size(); ++r) {
+      visit(iterates_[r], r);
+    }
+  }
+
+  /// Which radiosity an error estimate is for.
+  enum class Radiosity { finished_iteration, running_estimate, mean };
+  /// The error of `b`, the value of the given kind; no estimate without replicas, or before every
+  /// replica has a pass.
+  ErrorEstimate error_estimate(const Scene& scene, const std::vector<Rgb>& b, Radiosity kind) const;
+
+ private:
+  std::vector<Rgb> radiosity(const Scene& scene, std::size_t r, Radiosity kind) const;
+
+  std::vector<RadiosityIterate> iterates_;
+  std::vector<RunningMean> means_;
+};
+
+}  // namespace transillum

@@ -1,0 +1,52 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/solver_input.h"
+
+#include <oneapi/tbb/info.h>
+
+#include <utility>
+#include <vector>
+
+#include "base/seconds_since.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const SolveOptions& validated(const SolveOptions& options) {
+  options.validate();
+  return options;
+}
+
+}  // namespace
+
+SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
+                         const SolveOptions& solve_options,
+                         std::shared_ptr<const BspTree> ready_tree,
+                         const Cancellation& solve_cancellation,
+                         std::shared_ptr<const DirectLight> ready_shot)
+    : scene(std::move(solved_scene)),
+      options(validated(solve_options)),
+      cancellation(solve_cancellation),
+      threads(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
+      shot(std::move(ready_shot)),
+      tree(std::move(ready_tree)) {
+  if (!shot) {
+    const auto start = Clock::now();
+    std::vector<PatchId> sources;
+    if (options.first_shot) {
+      sources = find_small_sources(*scene, *options.first_shot);
+    }
+    shot =
+        std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, cancellation));
+    seconds_first_shot = seconds_since(start);
+  }
+  if (!tree) {
+    const auto start = Clock::now();
+    tree = std::make_shared<const BspTree>(*scene, cancellation);
+    seconds_bsp = seconds_since(start);
+  }
+  engine = make_engine(options.engine, scene, tree, options.engine_options);
+}
+
+}  // namespace transillum

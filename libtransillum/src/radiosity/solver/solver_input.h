@@ -1,0 +1,31 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+
+#include "transillum/radiosity.h"
+
+namespace transillum {
+
+/// What a solve starts from; constant once constructed, so any thread may read it.
+struct SolverInput {
+  std::shared_ptr<const Scene> scene;
+  SolveOptions options;  ///< validated
+  Cancellation cancellation;
+  int threads = 1;                          ///< options.threads, or the number of cores
+  std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
+  std::shared_ptr<const BspTree> tree;
+  TransferEngine engine;
+  double seconds_first_shot = 0, seconds_bsp = 0;  ///< time spent here; 0 for what was passed in
+
+  /// Makes what is null: the light of the first shot, then the tree.
+  /// @throws InputError, Canceled
+  SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+              std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
+              std::shared_ptr<const DirectLight> shot);
+
+  int directions_per_pass() const { return options.two_way ? 2 : 1; }
+  std::size_t patch_count() const { return static_cast<std::size_t>(scene->patch_count()); }
+};
+
+}  // namespace transillum

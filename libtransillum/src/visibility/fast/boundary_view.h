@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "transillum/transfers.h"
+#include "visibility/fast/boundary_cut.h"
+#include "visibility/fast/fragment_bins.h"
+#include "visibility/fast/projected_fragments.h"
+
+namespace transillum {
+
+/// The visibility query of one projected fragment, or of its part in one bin: the candidates,
+/// nearest first, are subtracted from its region (decisions/0023-outlines.md). The region that
+/// remains is stored as boundary segments only, in doubles relative to the fragment or the bin. If
+/// rounding makes the segments inconsistent, the query fails and has to be repeated with an
+/// ExactView.
+class BoundaryView {
+ public:
+  BoundaryView(const ProjectedFragments& projected, PassCounts& counts)
+      : projected_(projected), counts_(counts) {}
+
+  /// Begins the query of a whole fragment.
+  void begin_query(std::int32_t fragment);
+  /// Begins the query of the part of a fragment that lies in a bin, which may be empty.
+  void begin_query(std::int32_t fragment, const FragmentBins::Bin& bin);
+
+  /// Subtracts a candidate from the region, and returns the area that it covered, in square grid
+  /// units.
+  double subtract(std::int32_t candidate);
+  /// Bounds of the region.
+  const FragmentWindow& window() const { return window_; }
+
+  /// Whether nothing remains but rounding.
+  bool done() const {
+    return region_->count == 0 || region_area_ <= std::min(0x1p-40 * area_, 64 * reach_);
+  }
+  /// Whether the fragment or a candidate exceeded what doubles can resolve; the areas returned so
+  /// far must be discarded.
+  bool failed() const { return failed_; }
+
+ private:
+  void load_whole();
+  void load_part_in_bin();
+  void start(double area, double reach);
+  bool add_edges(double& twice_area);
+  bool add_edge(std::size_t m, int& winding, double& twice_area);
+  void find_window();
+
+  std::array<BoundarySegments, 2> segments_;
+  Cutter cutter_;
+  BoundaryCut cut_;
+
+  const ProjectedFragments& projected_;
+  PassCounts& counts_;
+
+  const ProjectedFragments::Fragment* subject_ = nullptr;  ///< the fragment of the query
+  const FragmentBins::Bin* bin_ = nullptr;                 ///< nullptr: all of the fragment
+  bool loaded_ = false;  ///< the region is loaded when the first candidate is subtracted
+  GridPoint origin_;
+  double reach_ = 0;  ///< largest |x| + |y| of the fragment, or the size of the bin
+  double area_ = 0, region_area_ = 0;
+  bool failed_ = false;
+  FragmentWindow window_;
+  Extent extent_;         ///< of the region, relative to origin_
+  Extent origin_extent_;  ///< of origin_, to be added to extent_
+  BoundarySegments* region_ = &segments_[0];
+  BoundarySegments* next_region_ = &segments_[1];  ///< what subtract() leaves of the region
+};
+
+}  // namespace transillum

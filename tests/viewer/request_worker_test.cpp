@@ -1,0 +1,188 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "support/request_worker.h"
+
+#include <QtTest>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace transillum::viewer {
+
+namespace {
+
+/// What a worker did: written on its thread, read by the test.
+class Log {
+ public:
+  void add(int number, const QString& text = {}) {
+    {
+      const std::lock_guard lock(mutex_);
+      entries_.emplace_back(number, text);
+    }
+    changed_.notify_all();
+  }
+  std::vector<std::pair<int, QString>> wait_for(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::seconds(30), [&] { return entries_.size() >= count; });
+    return entries_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::pair<int, QString>> entries_;
+};
+
+/// Blocks jobs until it is opened.
+class Gate {
+ public:
+  void open() {
+    {
+      const std::lock_guard lock(mutex_);
+      open_ = true;
+    }
+    changed_.notify_all();
+  }
+  void pass() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return open_; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool open_ = false;
+};
+
+using Entries = std::vector<std::pair<int, QString>>;
+
+}  // namespace
+
+class RequestWorkerTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void reports_every_exception_and_goes_on() {
+    Log done, failed;
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation&) {
+          switch (number) {
+            case 1:
+              throw std::bad_alloc();
+            case 2:
+              throw std::runtime_error("no such thing");
+            case 3:
+              throw 7;  // NOLINT(hicpp-exception-baseclass)
+            default:
+              done.add(number);
+          }
+        },
+        [&](int number, const QString& message) { failed.add(number, message); });
+    const char* messages[] = {"Not enough memory", "no such thing", "Unknown error"};
+    for (int number = 1; number <= 3; ++number) {
+      worker.request(number);
+      const Entries entries = failed.wait_for(static_cast<std::size_t>(number));
+      QCOMPARE(entries.size(), static_cast<std::size_t>(number));
+      QCOMPARE(entries.back().first, number);
+      QCOMPARE(entries.back().second, QString(messages[number - 1]));
+    }
+    worker.request(4);
+    QCOMPARE(done.wait_for(1), (Entries{{4, {}}}));
+  }
+
+  void survives_a_throwing_failure_handler() {
+    Log done;
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation&) {
+          done.add(number);
+          throw std::runtime_error("failed");
+        },
+        [](int, const QString&) { throw std::bad_alloc(); });
+    worker.request(1);
+    done.wait_for(1);
+    worker.request(2);
+    QCOMPARE(done.wait_for(2), (Entries{{1, {}}, {2, {}}}));
+  }
+
+  void runs_the_newest_request_only() {
+    Log begun, done;
+    Gate gate;
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation&) {
+          begun.add(number);
+          gate.pass();
+          done.add(number);
+        },
+        [](int, const QString&) {});
+    worker.request(1);
+    begun.wait_for(1);
+    for (int number = 2; number <= 5; ++number) {
+      worker.request(number, CurrentJob::finish);
+    }
+    gate.open();
+    QCOMPARE(done.wait_for(2), (Entries{{1, {}}, {5, {}}}));
+  }
+
+  void cancels_the_current_job_without_a_message() {
+    Log begun, done, failed;
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation& cancellation) {
+          begun.add(number);
+          while (number == 1) {
+            cancellation.throw_if_canceled();
+            std::this_thread::yield();
+          }
+          done.add(number);
+        },
+        [&](int number, const QString& message) { failed.add(number, message); });
+    worker.request(1);
+    begun.wait_for(1);
+    worker.request(2);
+    QCOMPARE(done.wait_for(1), (Entries{{2, {}}}));
+    QVERIFY(failed.wait_for(0).empty());
+  }
+
+  void clear_returns_the_waiting_request() {
+    Log begun;
+    Gate gate;
+    RequestWorker<int> worker(
+        [&](int number, const Cancellation&) {
+          begun.add(number);
+          gate.pass();
+        },
+        [](int, const QString&) {});
+    QVERIFY(!worker.clear());
+    worker.request(1);
+    begun.wait_for(1);
+    worker.request(2, CurrentJob::finish);
+    const std::optional<int> waiting = worker.clear();
+    gate.open();
+    QVERIFY(waiting);
+    QCOMPARE(*waiting, 2);
+  }
+
+  void only_patient_requests_wait_for_the_pause() {
+    Log done;
+    RequestWorker<int> worker([&](int number, const Cancellation&) { done.add(number); },
+                              [](int, const QString&) {}, {std::chrono::minutes(5), 0});
+    worker.request(1, CurrentJob::finish, Start::at_once);
+    done.wait_for(1);
+    worker.request(2, CurrentJob::finish, Start::after_pause);
+    QTest::qWait(50);
+    QCOMPARE(done.wait_for(0), (Entries{{1, {}}}));
+    // A newer request replaces the waiting one, and ends its pause.
+    worker.request(3, CurrentJob::finish, Start::at_once);
+    QCOMPARE(done.wait_for(2), (Entries{{1, {}}, {3, {}}}));
+    // The destructor does not wait for the pause.
+    worker.request(4, CurrentJob::finish, Start::after_pause);
+  }
+};
+
+}  // namespace transillum::viewer
+
+QTEST_GUILESS_MAIN(transillum::viewer::RequestWorkerTest)
+
+#include "request_worker_test.moc"
