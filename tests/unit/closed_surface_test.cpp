@@ -68,11 +68,11 @@ TEST(ClosedSurface, ClosedSurfacesMayShareAnEdge) {
 
 TEST(ClosedSurface, SurfaceWithATJunctionIsOpen) {
   // The bottom and its neighbor share an edge that point 8 splits in one of them.
-  Outlines torn = cube;
-  torn[0] = {0, 3, 2, 1, 8};
-  EXPECT_FALSE(is_closed(torn));
-  torn[2] = {0, 8, 1, 5, 4};
-  EXPECT_TRUE(is_closed(torn));
+  Outlines split = cube;
+  split[0] = {0, 3, 2, 1, 8};
+  EXPECT_FALSE(is_closed(split));
+  split[2] = {0, 8, 1, 5, 4};
+  EXPECT_TRUE(is_closed(split));
 }
 
 TEST(ClosedSurface, OfBuiltIns) {

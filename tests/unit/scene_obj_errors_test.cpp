@@ -149,7 +149,7 @@ TEST_P(ObjErrors, NamePlaceAndReason) {
   if (!row.mtl.empty()) {
     folder.write("s.mtl", row.mtl);
   }
-  const std::string said = test::refusal([&] { load_scene(file); });
+  const std::string message = test::refusal([&] { load_scene(file); });
   EXPECT_THAT(message, StartsWith(folder.path().string() + "/"));
   for (const std::string& part : row.expected) {
     EXPECT_THAT(message, HasSubstr(part));
@@ -200,7 +200,7 @@ TEST(ObjFile, FaceWithManyCornersNeitherHangsNorCrashes) {
 TEST(ObjFile, LongLineOfGarbageNeitherHangsNorCrashes) {
   const test::TemporaryFolder folder;
   const std::string garbage(8'000'000, '/');
-  const std::string said =
+  const std::string message =
       test::refusal([&] { load_scene(folder.write("s.obj", "v 0 0 0\nf " + garbage)); });
   EXPECT_THAT(message, HasSubstr("s.obj:2: face 0: `//////"));
   EXPECT_LT(message.size(), 400u);
