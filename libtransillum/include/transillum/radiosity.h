@@ -131,6 +131,8 @@ struct SolveStatistics {
          seconds_iterate = 0, seconds_total = 0;
 };
 
+struct Solution;
+
 /// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme), watched.
 ///
 /// Threads: one thread at a time may call it. Inside advance() it spreads passes over
@@ -158,7 +160,7 @@ class RadiositySolver {
 
   /// Goes on. Returns whether there is more to do. After a pause or an exception the solver
   /// stands where the last observed pass left it, and advance() goes on from there.
-  /// @throws Canceled, std::runtime_error where the iteration diverges.
+  /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h).
   bool advance(Until until, const Observer& observer = {});
 
   const Scene& scene() const;
@@ -203,6 +205,10 @@ class RadiositySolver {
   /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
   /// bounds. Of the semi-iterative scheme's newest set only.
   const std::vector<double>& quadrature_errors() const;
+  /// The result so far: within an iteration the running estimate, else radiosity(); complete once
+  /// the solve has finished. In its statistics, seconds_load is 0 and seconds_total is the sum of
+  /// the solver's own times, which a caller that measures them may replace.
+  Solution solution() const;
 
  private:
   struct Impl;

@@ -9,23 +9,24 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "radiosity/for_each_index.h"
 #include "transillum/at.h"
 #include "transillum/form_factors.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 
-/// j and F_ij > 0, by j.
+/// Pairs of j and F_ij > 0 of one row i, by rising j.
 using FormFactorRow = std::vector<std::pair<PatchId, double>>;
 
-/// The matrix row by row, `batch` rows a thread between two looks at the user.
-/// @param make_worker called once a thread; a worker's gather(i) gives row i, a pure function of i.
-/// @param memory bytes that the matrix may take.
-/// @throws Canceled, std::runtime_error where it takes more.
+/// The matrix row by row, `batch` rows per thread between reports of progress.
+/// @param make_worker called once per thread; its result's gather(i) returns row i, a pure function
+/// of i.
+/// @param memory limit of the matrix, bytes.
+/// @throws Canceled, MemoryLimitExceeded
 template <class MakeWorker>
 FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64_t memory,
                         MakeWorker make_worker, const Cancellation& cancellation,
@@ -54,7 +55,7 @@ FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64
       form_factors.row_begin.push_back(form_factors.size());
     }
     if (form_factors.size() * (sizeof(PatchId) + sizeof(double)) > memory) {
-      throw std::runtime_error("form factors take more memory than --memory allows");
+      throw MemoryLimitExceeded("the form factors exceed the memory limit");
     }
     if (progress) {
       progress(static_cast<double>(end) / patches);

@@ -4,20 +4,22 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "radiosity/for_each_index.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
 
-constexpr const char* divergent =
-    "the iteration does not converge: rows of form factors sum to too much";
+NotConvergent divergence() {
+  return {"the iteration does not converge: the row sums of the form factors are too large",
+          Remedy::none};
+}
 
 /// sum_j F_ij B_j
 Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<Rgb>& b) {
@@ -81,12 +83,12 @@ void JacobiIteration::run(int most, double tolerance, const Cancellation& cancel
     }
     b.swap(next);
     if (!std::isfinite(largest)) {
-      throw std::runtime_error(divergent);
+      throw divergence();
     }
     IterationRecord record;
     record.change = largest > 0 ? change / largest : 0;
     record.contraction = steps.empty() || last_change == 0 ? 0 : change / last_change;
-    record.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    record.seconds = seconds_since(start);
     steps.push_back(record);
     last_change = change;
     converged = change <= tolerance * largest;
@@ -96,7 +98,7 @@ void JacobiIteration::run(int most, double tolerance, const Cancellation& cancel
 void JacobiIteration::run_to(double tolerance, const Cancellation& cancellation) {
   run(most_steps, tolerance, cancellation);
   if (!converged) {
-    throw std::runtime_error(divergent);
+    throw divergence();
   }
 }
 

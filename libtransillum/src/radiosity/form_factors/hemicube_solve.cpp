@@ -2,11 +2,12 @@
 #include <oneapi/tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "radiosity/form_factors/jacobi.h"
+#include "radiosity/ratio.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube.h"
 
@@ -15,17 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 HemicubeOptions hemicube_options(const SolveOptions& options) {
   options.validate();
   if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
       options.replicas > 1 || options.first_shot) {
     throw InputError(
-        "engine hemicube: it takes no directions, so there are no schemes, normalizations, "
-        "replicas and first shots");
+        "engine hemicube: it has no directions, and so no schemes, normalizations, replicas or "
+        "first shot");
   }
   HemicubeOptions hemicubes;
   if (options.engine_options.resolution > 0) {
@@ -57,10 +54,10 @@ void add_power(const Scene& scene, const FormFactors& form_factors,
     emitted += own * scene.exitance(i);
     statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
   }
-  const auto share = [](double part, double of) { return of > 0 ? part / of : 0.0; };
   statistics.escaped = area > 0 ? std::max(0.0, 1 - seen / area) : 0.0;
-  statistics.energy_defect = share(max_abs(received - sent), max_abs(sent));
-  statistics.energy_balance = share(kept.r + kept.g + kept.b, emitted.r + emitted.g + emitted.b);
+  statistics.energy_defect = ratio_or_zero(max_abs(received - sent), max_abs(sent));
+  statistics.energy_balance =
+      ratio_or_zero(kept.r + kept.g + kept.b, emitted.r + emitted.g + emitted.b);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
 
-#include "transillum/not_convergent.h"
+#include "transillum/solve_errors.h"
 
 namespace {
 
@@ -84,8 +84,8 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
       solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), size));
   if (solver.info() != Eigen::Success || !solution.allFinite()) {
     throw NotConvergent(
-        "conjugate gradients do not converge: rows of form factors sum to too much; take more "
-        "directions, or --normalize symmetric");
+        "conjugate gradients do not converge: the row sums of the form factors are too large",
+        Remedy::directions_or_symmetric_normalization);
   }
   x.assign(solution.data(), solution.data() + size);
 }

@@ -65,7 +65,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.form_factors = static_cast<std::int64_t>(kept.size());
   statistics.write_to(result);
   result.iterations = history.size();
-  result.steps = history.records();
+  result.iteration_records = history.records();
   result.converged = history.converged();
   result.energy_defect = history.energy_defect();
   add_scene_figures(*input.scene, history.h(), result);
