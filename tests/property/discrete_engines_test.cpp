@@ -219,16 +219,16 @@ std::string complaint(const std::shared_ptr<const Scene>& scene, const Vec3& ome
   return "no complaint";
 }
 
-TEST(NewellOrder, GivesUpOnCirclesAndCuts) {
+TEST(NewellOrder, FailsOnCyclesAndIntersections) {
   EXPECT_THAT(complaint(load_scene("boards"), {0, 0, 1}),
-              ::testing::MatchesRegex("boards: seen along 0, 0, 1, patches [0-9, ]+ overlap in a "
-                                      "circle: .*newell.*bsp.*"));
+              ::testing::MatchesRegex("boards: direction 0, 0, 1: patches [0-9, ]+ overlap in a "
+                                      "cycle; .*newell.*bsp.*"));
   Sketch crossed;
   const int gray = crossed.material(0.5, 1);
   crossed.face({{0, 0, 0}, {2, 0, 1}, {2, 1, 1}, {0, 1, 0}}, gray);
   crossed.face({{0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}, gray);
   EXPECT_THAT(complaint(crossed.scene(), {0, 0, 1}),
-              ::testing::HasSubstr("patches 0 and 1 cut through each other"));
+              ::testing::HasSubstr("patches 0 and 1 intersect"));
   // Both reach over both sides of the other's plane, but not where they overlap.
   Sketch skew;
   ASSERT_EQ(skew.material(0.5, 1), gray);

@@ -186,21 +186,21 @@ class GlobalMap {
 
   std::vector<TilePolygon> project_fragments() {
     std::vector<TilePolygon> polygons;
-    FragmentProjector<Rational> visible(tree_, projection_);
+    FragmentProjector<Rational> projector(tree_, projection_);
     for (const FragmentId f : tree_.order(omega_, cancellation_)) {
       cancellation_.throw_if_canceled();
       const BspTree::Fragment& fragment = tree_.fragment(f);
-      if (!visible.project(fragment)) {
+      if (!projector.project(fragment)) {
         continue;
       }
-      sums_.project(fragment.patch, visible.front_facing(), ExactArea(visible.area()));
+      sums_.project(fragment.patch, projector.front_facing(), ExactArea(projector.area()));
       std::vector<BasicPlanePoint<Rational>> outline;
-      for (const auto& corner : visible.outline()) {
+      for (const auto& corner : projector.outline()) {
         outline.push_back(corner.at);
       }
       polygons.push_back(
           tile_polygon(static_cast<std::int32_t>(ranked_.size()), std::move(outline)));
-      ranked_.push_back({fragment.patch, visible.front_facing()});
+      ranked_.push_back({fragment.patch, projector.front_facing()});
     }
     return polygons;
   }

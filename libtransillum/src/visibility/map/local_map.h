@@ -49,7 +49,7 @@ class LocalMap {
         recorder_(recorder),
         omega_(omega),
         projection_(scene, tree, omega, cancellation),
-        visible_(tree, projection_),
+        projector_(tree, projection_),
         clipper_(projection_),
         index_(whole_plane(), tree.fragments().size()),
         sums_(scene.patch_count()) {}
@@ -84,12 +84,12 @@ class LocalMap {
   }
 
   void process(const BspTree::Fragment& fragment) {
-    if (!visible_.project(fragment)) {
+    if (!projector_.project(fragment)) {
       return;
     }
-    const BasicMapPolygon<Number>& outline = visible_.outline();
-    const bool front_facing = visible_.front_facing();
-    sums_.project(fragment.patch, front_facing, MapNumber<Number>::area(visible_.area()));
+    const BasicMapPolygon<Number>& outline = projector_.outline();
+    const bool front_facing = projector_.front_facing();
+    sums_.project(fragment.patch, front_facing, MapNumber<Number>::area(projector_.area()));
 
     // Clip each polygon of V that the fragment may lie below.
     const PlaneBox box = box_of(outline);
@@ -185,7 +185,7 @@ class LocalMap {
   RecorderType recorder_;
   Vec3 omega_;
   BasicProjection<Number> projection_;
-  FragmentProjector<Number> visible_;  ///< the fragment of the current step
+  FragmentProjector<Number> projector_;  ///< holds the fragment of the current step
   BasicMapClipper<Number> clipper_;
   PlaneIndex index_;
   TransferSums<typename MapNumber<Number>::Area> sums_;
