@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Charts". Both charts are redrawn from each snapshot of the solver; the position in
+// focus is marked in them.
 #include "solve/convergence_view.h"
 
 #include <QVBoxLayout>
@@ -16,13 +19,13 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   const SolveStatistics& s = snapshot.statistics;
   const double rate = s.predicted_contraction;
   std::vector<double> predicted;
-  // Of other schemes each step has a matrix of its own.
+  // In the other schemes the matrix changes from iteration to iteration.
   if (snapshot.options.scheme != Scheme::fixed || s.iteration_records.empty() ||
       !(rate > 0 && rate < 1)) {
     return predicted;
   }
   const int wanted = snapshot.options.iterations;
-  // As far again as the steps have come: more would leave them no room in a chart.
+  // At most twice the iterations done, so that the chart leaves room for these.
   const auto last = wanted > 0 ? static_cast<std::size_t>(wanted)
                                : std::max<std::size_t>(8, 2 * s.iteration_records.size());
   for (double change = s.iteration_records.front().change; predicted.size() < last;
@@ -36,67 +39,69 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
 }
 
 ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent), focus_(focus) {
-  steps_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
-  steps_->set_hint(tr("A point for every finished iteration"));
-  passes_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
-  passes_->set_hint(tr("A point for every direction"));
+  iteration_chart_ = new LogChart(tr("Change per iteration"), tr("Iteration"), tr("Change of B"));
+  iteration_chart_->set_hint(tr("One point per finished iteration"));
+  direction_chart_ = new LogChart(tr("Within an iteration"), tr("Direction"), tr("Relative"));
+  direction_chart_->set_hint(tr("One point per direction"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(1);
-  layout->addWidget(steps_);
-  layout->addWidget(passes_);
+  layout->addWidget(iteration_chart_);
+  layout->addWidget(direction_chart_);
 
-  steps_->setObjectName("iteration_chart");
-  steps_->setToolTip(tr("Click to go to an iteration"));
-  passes_->setObjectName("direction_chart");
-  passes_->setToolTip(tr("Click to go to a direction"));
-  connect(steps_, &LogChart::clicked, this, [this](int x) {
+  iteration_chart_->setObjectName("iteration_chart");
+  iteration_chart_->setToolTip(tr("Click to go to an iteration"));
+  direction_chart_->setObjectName("direction_chart");
+  direction_chart_->setToolTip(tr("Click to go to a direction"));
+  connect(iteration_chart_, &LogChart::clicked, this, [this](int x) {
     focus_.go_to({x - 1, focus_.target().direction, focus_.position().step});
   });
-  connect(passes_, &LogChart::clicked, this, [this](int x) {
+  connect(direction_chart_, &LogChart::clicked, this, [this](int x) {
     focus_.go_to({shown_iteration_, x - 1, focus_.position().step});
   });
   connect(&focus_, &Focus::moved, this, &ConvergenceView::show_position);
 }
 
 std::vector<LineChart> ConvergenceView::charts() const {
-  return {steps_->chart(), passes_->chart()};
+  return {iteration_chart_->chart(), direction_chart_->chart()};
 }
 
 void ConvergenceView::show_position() {
   const bool any = focus_.map() != nullptr;
   const RunPosition& position = focus_.position();
-  steps_->set_mark(any ? std::optional(position.iteration + 1) : std::nullopt);
-  passes_->set_mark(any && position.iteration == shown_iteration_
-                        ? std::optional(position.direction + 1)
-                        : std::nullopt);
+  iteration_chart_->set_mark(any ? std::optional(position.iteration + 1) : std::nullopt);
+  direction_chart_->set_mark(any && position.iteration == shown_iteration_
+                                 ? std::optional(position.direction + 1)
+                                 : std::nullopt);
 }
 
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   std::vector<double> changes;
-  for (const IterationRecord& step : snapshot.statistics.iteration_records) {
-    changes.push_back(step.change);
+  for (const IterationRecord& iteration : snapshot.statistics.iteration_records) {
+    changes.push_back(iteration.change);
   }
   std::vector<LogChart::Level> levels;
   if (snapshot.options.iterations == 0) {
     levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
                       snapshot.options.tolerance});
   }
-  steps_->show_lines(
+  iteration_chart_->show_lines(
       {{tr("change"), theme::accent, std::move(changes), true},
        {tr("eq. 25"), theme::good, predicted_changes(snapshot), false, ChartDashes::dash_dot}},
       std::move(levels), std::max(snapshot.options.iterations, 8));
 
-  passes_->set_title(tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
+  direction_chart_->set_title(
+      tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));
   const int passes = snapshot.progress.passes;
-  // Predicted and actual: how well the directions so far integrate a cosine (section 4).
+  // Error of the directions so far in integrating the cosine, and its bound (section 4).
   std::vector<double> errors, bounds;
-  const int ways = snapshot.options.two_way ? 2 : 1;
+  const int per_pass = snapshot.options.two_way ? 2 : 1;
   for (std::size_t d = 0; d < snapshot.quadrature_errors.size(); ++d) {
     errors.push_back(snapshot.quadrature_errors[d] / std::numbers::pi);
-    bounds.push_back(quadrature_error_bound(static_cast<double>(d + 1) * ways) / std::numbers::pi);
+    bounds.push_back(quadrature_error_bound(static_cast<double>(d + 1) * per_pass) /
+                     std::numbers::pi);
   }
-  passes_->show_lines(
+  direction_chart_->show_lines(
       {{tr("change of B"), theme::accent, snapshot.estimate_changes, false, ChartDashes::solid, 2},
        {tr("ε/π"), theme::good, std::move(errors), false, ChartDashes::solid, 0.9},
        {tr("eq. 21"), theme::warm, std::move(bounds), false, ChartDashes::dashes}},

@@ -12,8 +12,8 @@ namespace transillum::viewer {
 
 class LogChart;
 
-/// How the solve converges: from step to step, and within the step under way. The moment in focus
-/// is marked, and a click goes to another.
+/// Convergence of the solve in two charts: the change of B per iteration, and within the current
+/// iteration. The position in focus is marked; a click moves the focus.
 class ConvergenceView : public QWidget {
   Q_OBJECT
 
@@ -21,20 +21,20 @@ class ConvergenceView : public QWidget {
   explicit ConvergenceView(Focus& focus, QWidget* parent = nullptr);
 
   void show_snapshot(const SolverSnapshot& snapshot);
-  /// As they are shown, from above.
+  /// The charts as shown, from top to bottom.
   std::vector<LineChart> charts() const;
 
  private:
   void show_position();
 
   Focus& focus_;
-  LogChart* steps_;
-  LogChart* passes_;
-  int shown_iteration_ = 0;  ///< that of passes_, from 0
+  LogChart* iteration_chart_;
+  LogChart* direction_chart_;
+  int shown_iteration_ = 0;  ///< of direction_chart_, from 0
 };
 
-/// What the changes of B per iteration stay below by eq. 22 and 25, given the first: for the steps
-/// done and some more, up to the tolerance. Empty where nothing is promised.
+/// Upper bounds of the change of B in each iteration by eqs. 22 and 25, given the first change: for
+/// the iterations done and some more, down to the tolerance. Empty where the equations give none.
 std::vector<double> predicted_changes(const SolverSnapshot& snapshot);
 
 }  // namespace transillum::viewer

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The status bar's permanent part. Loading progress, state and snapshots come from the solver's
+// thread by queued signals; this only formats them.
 #include "solve/progress_line.h"
 
 #include <QFileInfo>
@@ -18,7 +21,7 @@ QString iterations_text(int count) {
                     : ProgressLine::tr("%1 iterations").arg(count_text(count));
 }
 
-// A result's file goes by its own name, and tells whose result it is.
+// A result file: its own name and that of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
     return QFileInfo(QString::fromStdString(path)).fileName();
@@ -46,7 +49,7 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   bar_->setVisible(false);
   rate_ = new QLabel;
   time_ = new QLabel;
-  // Fixed places, so that nothing dances while the numbers change.
+  // Fixed widths, so that labels do not move while numbers change.
   rate_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("8888.8 passes/s  ")));
   time_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("88 min 88 s left  ")));
   rate_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -71,7 +74,7 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
   const QString name = name_of(loaded);
   scene_->setText(tr("%1, %2 patches").arg(name, count_text(loaded.scene->patch_count())));
   scene_->setToolTip(
-      tr("%1: %2 fragments in the BSP tree, read in %3 s, sorted in %4 s")
+      tr("%1: %2 fragments; scene read in %3 s, BSP tree built in %4 s")
           .arg(QString::fromStdString(loaded.scene->name()),
                count_text(static_cast<std::int64_t>(loaded.tree->fragments().size())),
                QString::number(loaded.seconds_load, 'f', 2),
@@ -110,14 +113,14 @@ void ProgressLine::show_solve() {
   }
   const SolveProgress& progress = snapshot_->progress;
   const bool running = state_ == RunState::running;
-  const bool within_step = progress.direction > 0 && progress.direction < progress.passes;
+  const bool within_iteration = progress.direction > 0 && progress.direction < progress.passes;
   bar_->setVisible(!snapshot_->of_file);
   bar_->setRange(0, std::max(progress.passes, 1));
-  bar_->setValue(state_ == RunState::finished || (!within_step && progress.iteration > 0)
+  bar_->setValue(state_ == RunState::finished || (!within_iteration && progress.iteration > 0)
                      ? progress.passes
                      : progress.direction);
 
-  const QString at = within_step || progress.iteration == 0
+  const QString at = within_iteration || progress.iteration == 0
                          ? tr("Iteration %1, direction %2 of %3")
                                .arg(count_text(progress.iteration + 1),
                                     count_text(progress.direction), count_text(progress.passes))
@@ -128,11 +131,11 @@ void ProgressLine::show_solve() {
                         .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
   } else if (snapshot_->of_file) {
-    phase_->setText(tr("From the file: %1 of %2 passes")
+    phase_->setText(tr("From the file: %1 of %2 passes each")
                         .arg(iterations_text(snapshot_->statistics.iterations),
                              count_text(snapshot_->statistics.passes)));
   } else if (progress.iteration == 0 && progress.direction == 0) {
-    phase_->setText(running ? tr("Starting") : tr("Ready: run, or take one direction"));
+    phase_->setText(running ? tr("Starting") : tr("Ready: run, or process one direction"));
   } else {
     phase_->setText(running ? at : tr("Paused: %1").arg(at));
   }
@@ -140,9 +143,9 @@ void ProgressLine::show_solve() {
   const bool timed = running && progress.passes_per_second > 0;
   rate_->setText(timed ? tr("%1 passes/s").arg(QString::number(progress.passes_per_second, 'f', 1))
                        : QString());
-  time_->setText(timed && within_step ? tr("%1 left").arg(duration_text(progress.seconds_left))
-                                      : QString());
-  time_->setToolTip(tr("For this iteration"));
+  time_->setText(timed && within_iteration ? tr("%1 left").arg(duration_text(progress.seconds_left))
+                                           : QString());
+  time_->setToolTip(tr("Time left in this iteration"));
 }
 
 }  // namespace transillum::viewer

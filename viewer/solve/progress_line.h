@@ -11,7 +11,7 @@ class QProgressBar;
 
 namespace transillum::viewer {
 
-/// The status bar: which scene, what is going on, how far, how fast, how long still.
+/// The status bar: scene, phase, progress, rate and time left.
 class ProgressLine : public QWidget {
   Q_OBJECT
 

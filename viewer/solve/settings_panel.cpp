@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Solve settings": one control per option of the next solve. Names and tool tips come
+// from the library's list of settings.
 #include "solve/settings_panel.h"
 
 #include <QCheckBox>
@@ -28,7 +31,7 @@ bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
 }
 
-// As rich text, so that a long one is broken into lines.
+// Rich text, so that Qt wraps long lines.
 QString tip(const char* setting) {
   const QString sentence = capitalized(SettingsPanel::tr(description_of(setting)));
   return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
@@ -42,9 +45,13 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   form->setHorizontalSpacing(10);
   form->setVerticalSpacing(6);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  add_solve_rows(*form);
+  add_direction_rows(*form);
+  add_engine_rows(*form);
+  add_estimator_rows(*form);
+  add_stop_row(*form);
+  connect_solve_rows();
   add_scene_rows(*form);
-  restart_ = new QPushButton(tr("Solve anew"));
+  restart_ = new QPushButton(tr("Solve again"));
   restart_->setObjectName("restart");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 10, 12, 10);
@@ -56,7 +63,7 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   set_options({}, {});
 }
 
-void SettingsPanel::add_solve_rows(QFormLayout& form) {
+void SettingsPanel::add_direction_rows(QFormLayout& form) {
   directions_ = new QSpinBox;
   directions_->setObjectName("directions");
   directions_->setRange(1, 1 << 24);
@@ -71,6 +78,12 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   seed_ = new QSpinBox;
   seed_->setRange(0, std::numeric_limits<int>::max());
   seed_->setToolTip(tip("seed"));
+  form.addRow(tr("Directions M"), directions_);
+  form.addRow(tr("Sampling"), sampling_);
+  form.addRow(tr("Seed"), seed_);
+}
+
+void SettingsPanel::add_engine_rows(QFormLayout& form) {
   engine_ = new QComboBox;
   engine_->setObjectName("engine");
   add_engines(*engine_, false);
@@ -83,51 +96,54 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   order_->setObjectName("painters_order");
   order_->addItems({tr("BSP tree"), tr("Newell's tests")});
   order_->setToolTip(
-      tr("Who is painted first\nBSP tree: cuts what overlaps in a cycle, so there always is an "
-         "order\nNewell's tests: cut nothing, and give up on such circles"));
-  ways_ = new QComboBox;
-  ways_->addItems({tr("Both ways"), tr("One way, as the paper")});
-  ways_->setToolTip(tip("two-way"));
+      tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
+         "exists\nNewell's tests: split nothing, and fail on cyclic overlap"));
+  form.addRow(tr("Engine"), engine_);
+  form.addRow(tr("Resolution"), resolution_);
+  form.addRow(tr("Painter's order"), order_);
+}
+
+void SettingsPanel::add_estimator_rows(QFormLayout& form) {
+  pass_serves_ = new QComboBox;
+  pass_serves_->addItems({tr("ω and −ω"), tr("ω only, as in the paper")});
+  pass_serves_->setToolTip(tip("two-way"));
   normalize_ = new QComboBox;
-  normalize_->addItems({tr("None, as the paper"), tr("Rows"), tr("Symmetric")});
+  normalize_->addItems({tr("None, as in the paper"), tr("Rows"), tr("Symmetric")});
   normalize_->setToolTip(
-      tr("Rows: divide by the quadrature of the cosine, patch by patch\n"
-         "Symmetric: scale rows and columns alike, so that reciprocity stays"));
+      tr("Rows: divide each row by the patch's quadrature of the cosine\n"
+         "Symmetric: scale rows and columns alike, which preserves reciprocity"));
   scheme_ = new QComboBox;
   for (const std::string& name : scheme_names()) {
     scheme_->addItem(capitalized(QString::fromStdString(name)));
   }
   scheme_->setToolTip(
-      tr("Fixed: the same directions in every step\nGrowing: twice as many each step, up to M\n"
-         "Semi-iterative: M others each step, and the mean over steps\n"
-         "Conjugate gradients: one step of passes, then solved at once"));
+      tr("Fixed: the same directions in every iteration\n"
+         "Growing: twice as many in each iteration, up to M\n"
+         "Semi-iterative: M new ones in each iteration, and the mean over iterations\n"
+         "Conjugate gradients: one set of passes, then the linear system is solved"));
   replicas_ = new QSpinBox;
   replicas_->setObjectName("replicas");
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
   replicas_->setToolTip(tip("replicas"));
+  form.addRow(tr("Each pass serves"), pass_serves_);
+  form.addRow(tr("Normalization"), normalize_);
+  form.addRow(tr("Scheme"), scheme_);
+  form.addRow(tr("Replicas"), replicas_);
+}
+
+void SettingsPanel::add_stop_row(QFormLayout& form) {
   stop_at_ = new QComboBox;
   stop_at_->addItems({tr("Tolerance"), tr("Iterations")});
+  stop_at_->setMinimumWidth(60);
   tolerance_ = new QLineEdit;
   auto* positive = new QDoubleValidator(0, 1, 15, tolerance_);
   positive->setLocale(QLocale::c());
   tolerance_->setValidator(positive);
   tolerance_->setMinimumWidth(60);
-  stop_at_->setMinimumWidth(60);
   tolerance_->setToolTip(tip("tolerance"));
   iterations_ = new QSpinBox;
   iterations_->setRange(1, 1'000'000);
-
-  form.addRow(tr("Directions M"), directions_);
-  form.addRow(tr("Sampling"), sampling_);
-  form.addRow(tr("Seed"), seed_);
-  form.addRow(tr("Engine"), engine_);
-  form.addRow(tr("Resolution"), resolution_);
-  form.addRow(tr("Painter's order"), order_);
-  form.addRow(tr("Light goes"), ways_);
-  form.addRow(tr("Normalize"), normalize_);
-  form.addRow(tr("Scheme"), scheme_);
-  form.addRow(tr("Replicas"), replicas_);
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
@@ -136,7 +152,10 @@ void SettingsPanel::add_solve_rows(QFormLayout& form) {
   stop_row->addWidget(stop_at_, 1);
   stop_row->addWidget(stop_value_, 1);
   form.addRow(tr("Stop at"), stop_row);
-  for (QComboBox* box : {sampling_, engine_, order_, ways_, normalize_, scheme_, stop_at_}) {
+}
+
+void SettingsPanel::connect_solve_rows() {
+  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
@@ -152,7 +171,7 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   max_patch_area_->setDecimals(6);
   max_patch_area_->setRange(0, 1e9);
   max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  max_patch_area_->setSpecialValueText(tr("Leave faces whole"));
+  max_patch_area_->setSpecialValueText(tr("Faces not divided"));
   max_patch_area_->setSuffix(tr(" m²"));
   max_patch_area_->setToolTip(tip("max-patch-area"));
   two_sided_ = new QCheckBox(tr("Two-sided faces"));
@@ -169,7 +188,7 @@ SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
   options.directions = directions_->value();
   options.sampling = static_cast<Sampling>(sampling_->currentIndex());
-  // A seed beyond the box's range came from the command line; it stays until it is changed here.
+  // The box shows its maximum for a larger seed from the command line: keep that seed.
   const auto shown = static_cast<std::uint64_t>(seed_->value());
   if (shown < static_cast<std::uint64_t>(seed_->maximum())) {
     options.seed = shown;
@@ -177,7 +196,7 @@ SolveOptions SettingsPanel::solve_options() const {
   options.engine = engine_of(*engine_);
   options.engine_options.resolution = resolution_->value();
   options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
-  options.two_way = ways_->currentIndex() == 0;
+  options.two_way = pass_serves_->currentIndex() == 0;
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
   options.replicas = replicas_->value();
@@ -203,7 +222,7 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
   order_->setCurrentIndex(static_cast<int>(solve.engine_options.order));
-  ways_->setCurrentIndex(solve.two_way ? 0 : 1);
+  pass_serves_->setCurrentIndex(solve.two_way ? 0 : 1);
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
   scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
   replicas_->setValue(solve.replicas);
@@ -235,14 +254,14 @@ void SettingsPanel::set_scene_fixed(bool fixed) {
        {static_cast<QWidget*>(max_patch_area_), static_cast<QWidget*>(two_sided_)}) {
     widget->setEnabled(!fixed);
   }
-  const QString why = tr("The patches are those of the result's file.");
+  const QString why = tr("Given by the result file");
   max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
   two_sided_->setToolTip(fixed ? why : tip("two-sided"));
 }
 
 void SettingsPanel::show_state() {
   if (!restart_) {
-    return;  // still under construction
+    return;  // the constructor has not made all controls yet
   }
   seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
@@ -252,15 +271,15 @@ void SettingsPanel::show_state() {
   show_row(order_, engine == Engine::painter);
   const bool rays = engine == Engine::rays;
   resolution_->setSpecialValueText(
-      rays ? tr("%1 rays a patch").arg(solve_in_effect_.engine_options.lines_per_patch)
+      rays ? tr("%1 rays per patch").arg(solve_in_effect_.engine_options.lines_per_patch)
            : tr("Default: %1 px").arg(EngineOptions::default_resolution));
   resolution_->setToolTip(
-      rays ? tr("Pixels along the longer side of the projected scene, a ray in each;\n"
-                "least: so many rays a patch instead")
+      rays ? tr("Pixels along the longer side of the projected scene, one ray through each;\n"
+                "minimum: a number of rays per patch instead")
            : tr("Pixels along the longer side of the projected scene"));
   const bool differs = enabled_ && differ_from_effect();
   restart_->setEnabled(enabled_);
-  restart_->setText(differs ? tr("Solve anew with these") : tr("Solve anew"));
+  restart_->setText(differs ? tr("Solve again with these") : tr("Solve again"));
   restart_->setDefault(differs);
   QFont font = restart_->font();
   font.setBold(differs);

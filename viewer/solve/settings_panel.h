@@ -16,7 +16,7 @@ class QStackedWidget;
 
 namespace transillum::viewer {
 
-/// The options of the next solve.
+/// Controls for the options of the next solve.
 class SettingsPanel : public QWidget {
   Q_OBJECT
 
@@ -26,24 +26,27 @@ class SettingsPanel : public QWidget {
   SolveOptions solve_options() const;
   SceneOptions scene_options() const;
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
-  /// What the solve under way was begun with: the button asks for attention where the panel
-  /// differs.
+  /// Sets the options of the current solve; the button is emphasized while the panel differs.
   void set_in_effect(const SolveOptions& solve, const SceneOptions& scene);
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
-  /// Whether the open scene's patches cannot be made anew, being those of a result.
+  /// Whether the patches are those of a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
 
  signals:
   void restart_clicked();
 
  private:
-  void add_solve_rows(QFormLayout& form);
+  void add_direction_rows(QFormLayout& form);
+  void add_engine_rows(QFormLayout& form);
+  void add_estimator_rows(QFormLayout& form);
+  void add_stop_row(QFormLayout& form);
+  void connect_solve_rows();
   void add_scene_rows(QFormLayout& form);
   void show_state();
   void show_row(QWidget* field, bool shown);
 
-  SolveOptions base_;  ///< carries what has no control here: threads and memory
+  SolveOptions base_;  ///< carries options without a control, such as threads and memory
   SolveOptions solve_in_effect_;
   SceneOptions scene_in_effect_;
   bool enabled_ = false;
@@ -54,7 +57,7 @@ class SettingsPanel : public QWidget {
   QComboBox* engine_;
   QSpinBox* resolution_;
   QComboBox* order_;
-  QComboBox* ways_;
+  QComboBox* pass_serves_;  ///< SolveOptions::two_way
   QComboBox* normalize_;
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;

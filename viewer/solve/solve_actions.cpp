@@ -25,16 +25,16 @@ QAction* make_action(QObject* parent, theme::Icon icon, const char* name, const 
 
 SolveActions::SolveActions(QObject* parent) : QObject(parent) {
   run_ = make_action(this, theme::Icon::run, "run", tr("Run"), Qt::Key_F5,
-                     tr("Solve until it has converged"));
+                     tr("Solve until converged"));
   pause_ = make_action(this, theme::Icon::pause, "pause", tr("Pause"), Qt::Key_F6,
-                       tr("Rest after the direction under way"));
+                       tr("Pause after the current direction"));
   one_direction_ = make_action(this, theme::Icon::one_direction, "one_direction",
-                               tr("One direction"), Qt::Key_F7, tr("Take one more direction"));
+                               tr("One direction"), Qt::Key_F7, tr("Process one more direction"));
   one_iteration_ = make_action(this, theme::Icon::one_iteration, "one_iteration",
                                tr("One iteration"), Qt::Key_F8, tr("Finish this iteration"));
   stop_ = make_action(this, theme::Icon::stop, "stop", tr("Start over"),
                       QKeySequence(QStringLiteral("Shift+F5")),
-                      tr("Forget this solve, or stop loading: back to the first direction"));
+                      tr("Discard this solve and return to the first direction, or stop loading"));
   connect(run_, &QAction::triggered, this, &SolveActions::run);
   connect(pause_, &QAction::triggered, this, &SolveActions::pause);
   connect(one_direction_, &QAction::triggered, this, &SolveActions::one_direction);

@@ -11,7 +11,7 @@ class QToolBar;
 
 namespace transillum::viewer {
 
-/// Run, pause, one direction, one iteration, stop: as a menu and as a tool bar.
+/// The actions run, pause, one direction, one iteration and start over, for a menu and a tool bar.
 class SolveActions : public QObject {
   Q_OBJECT
 
@@ -20,7 +20,8 @@ class SolveActions : public QObject {
 
   void add_to(QMenu& menu) const;
   void add_to(QToolBar& bar) const;
-  /// Offers what makes sense.
+  /// Enables the actions that apply.
+  /// @param at_start no direction has been processed yet
   void show_state(RunState state, bool at_start);
 
  signals:

@@ -11,34 +11,41 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double accuracy = 0.01;  ///< that is spoken of
+constexpr double accuracy = 0.01;  ///< of the rows "Directions for 1 %"
 
 }  // namespace
 
 SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   auto* grid = new ValueGrid;
   patches_ = grid->add_row(tr("Patches"), {});
-  fragments_ = grid->add_row(tr("Fragments"), {}, tr("Parts that the BSP tree makes of patches"));
+  fragments_ = grid->add_row(tr("Fragments"), {}, tr("Parts of patches after the BSP tree"));
   transfers_ = grid->add_row(tr("Exchanges"), {}, tr("Found by the passes of the first iteration"));
-  form_factors_ =
-      grid->add_row(tr("Form factors"), {}, tr("Kept, so that later iterations need no passes"));
+  form_factors_ = grid->add_row(tr("Form factors"), {},
+                                tr("Kept in memory, so that later iterations need no passes"));
   closure_ = grid->add_row(tr("Closure defect"), {},
-                           tr("Largest share of a patch's projection that is unaccounted for"));
-  escaped_ = grid->add_row(tr("Open to the sky"), {},
-                           tr("Share of all projected area with nothing above it; 0: closed"));
-  energy_ = grid->add_row(tr("Energy defect"), {}, tr("Power received against power sent"));
-  contraction_ = grid->add_row(tr("Contraction"), {},
-                               tr("Of the newest iteration, and its bound by eq. 22 with eq. 21"));
+                           tr("Largest share of a patch's projected area that is unaccounted for"));
+  escaped_ =
+      grid->add_row(tr("Open to the sky"), {},
+                    tr("Share of all projected area with nothing above it; 0 in a closed scene"));
+  energy_ =
+      grid->add_row(tr("Energy defect"), {},
+                    tr("Difference between power received and power sent, relative to the latter"));
+  contraction_ =
+      grid->add_row(tr("Contraction"), {},
+                    tr("Factor by which the newest iteration reduced the change of B, and its\n"
+                       "bound by eq. 22 with eq. 21"));
   error_ = grid->add_row(tr("Error of B"), {},
-                         tr("RMS over patches, from the spread of replicas; set some under\n"
-                            "Solve settings to have one"));
-  bound_ = grid->add_row(tr("1 % takes at most"), {},
-                         tr("Directions by the paper's bounds: where the environment is nearly\n"
-                            "homogeneous (eq. 37), and in any environment (eq. 43)"));
+                         tr("RMS over patches, from the spread of the replicas; set their number\n"
+                            "in Solve settings"));
+  bound_ =
+      grid->add_row(tr("Directions for 1 %:\nguaranteed"), {},
+                    tr("M by the paper's bounds, in a nearly homogeneous environment (eq. 37)\n"
+                       "and in any environment (eq. 43)"));
   bound_->setObjectName("summary_bound");
-  estimate_ = grid->add_row(tr("1 % should take"), {},
-                            tr("Passes, estimated from this run's error and how errors fall with "
-                               "M;\nit takes replicas to know the error"));
+  estimate_ =
+      grid->add_row(tr("Directions for 1 %:\nestimated"), {},
+                    tr("M extrapolated from the error of this run, which requires replicas, and\n"
+                       "from the rate at which errors decrease with M"));
   estimate_->setObjectName("summary_estimate");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 8, 12, 10);
@@ -49,24 +56,24 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
 void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   const SolveStatistics& s = snapshot.statistics;
   const bool any_pass = s.iterations > 0 || snapshot.progress.direction > 0;
-  const bool any_step = s.iterations > 0;
+  const bool any_iteration = s.iterations > 0;
   const QString none = QStringLiteral("–");
   patches_->setText(count_text(s.patches));
   fragments_->setText(count_text(s.fragments));
   transfers_->setText(any_pass ? count_text(s.transfers) : none);
-  form_factors_->setText(!any_step             ? none
+  form_factors_->setText(!any_iteration        ? none
                          : s.kept_form_factors ? tr("%1 kept").arg(count_text(s.form_factors))
                                                : tr("recomputed"));
   closure_->setText(any_pass ? number_text(s.closure_defect_max) : none);
   constexpr double rounding = 1e-9;
   escaped_->setText(!any_pass              ? none
-                    : s.escaped < rounding ? tr("no: closed")
+                    : s.escaped < rounding ? tr("0: closed scene")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %").arg(number_text(100 * snapshot.error.rms))
                       : tr("no replicas"));
-  show_needs(snapshot);
-  energy_->setText(any_step ? number_text(s.energy_defect) : none);
+  show_directions_needed(snapshot);
+  energy_->setText(any_iteration ? number_text(s.energy_defect) : none);
   contraction_->setText(s.iteration_records.size() > 1
                             ? tr("%1, bound %2")
                                   .arg(number_text(s.iteration_records.back().contraction),
@@ -75,7 +82,7 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                                    : none);
 }
 
-void SolveSummary::show_needs(const SolverSnapshot& snapshot) {
+void SolveSummary::show_directions_needed(const SolverSnapshot& snapshot) {
   const SceneMeasures& m = snapshot.loaded->measures;
   bound_->setText(
       tr("M = %1 (eq. 37)\n%2 (eq. 43)")
@@ -83,7 +90,7 @@ void SolveSummary::show_needs(const SolverSnapshot& snapshot) {
                number_text(directions_if_heterogeneous(m.rho_max, accuracy, m.size_ratio))));
   const SolveStatistics& s = snapshot.statistics;
   const bool replicas = snapshot.error.replicas > 0;
-  // Errors of means over steps fall otherwise.
+  // The error of a mean over iterations decreases at another rate.
   const bool known = replicas && s.iterations > 0 && snapshot.error.rms > 0 &&
                      snapshot.options.scheme != Scheme::semi_iterative;
   estimate_->setText(known      ? tr("M ≈ %1").arg(number_text(estimated_passes_by_replicas(

@@ -9,7 +9,7 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// The figures of the scene and of the solve, as --stats has them.
+/// Statistics of the scene and of the solve, and the directions that an accuracy of 1 % takes.
 class SolveSummary : public QWidget {
   Q_OBJECT
 
@@ -19,7 +19,7 @@ class SolveSummary : public QWidget {
   void show_snapshot(const SolverSnapshot& snapshot);
 
  private:
-  void show_needs(const SolverSnapshot& snapshot);
+  void show_directions_needed(const SolverSnapshot& snapshot);
 
   QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *energy_,
       *contraction_, *error_, *bound_, *estimate_;

@@ -17,28 +17,28 @@ StudyChart::StudyChart(QWidget* parent) : QWidget(parent) {
 
 void StudyChart::show_study(std::shared_ptr<const StudySnapshot> snapshot) {
   const auto points = [](const auto& s) { return s ? s->study.points.size() : 0; };
-  // Progress alone changes no picture.
+  // Progress alone does not change the picture.
   const bool same = snapshot && snapshot_ && snapshot->loaded == snapshot_->loaded &&
                     snapshot->series == snapshot_->series && snapshot->running &&
                     points(snapshot) == points(snapshot_) && !picture_.isNull();
   snapshot_ = std::move(snapshot);
   if (!same) {
-    forget_picture();
+    discard_picture();
   }
 }
 
 void StudyChart::set_measure(ErrorMeasure measure) {
   measure_ = measure;
-  forget_picture();
+  discard_picture();
 }
 
-void StudyChart::forget_picture() {
+void StudyChart::discard_picture() {
   picture_ = {};
   update();
 }
 
 void StudyChart::changeEvent(QEvent* event) {
-  forget_picture();  // of other colors and fonts
+  discard_picture();  // palette or font may have changed
   QWidget::changeEvent(event);
 }
 
@@ -49,15 +49,15 @@ void StudyChart::paintEvent(QPaintEvent*) {
     painter.setPen(theme::ink_dim);
     painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap,
                      snapshot_ && snapshot_->running
-                         ? tr("First, what others are compared with; then a point for each number "
-                              "of passes")
-                         : tr("Error of B against the number of passes M, for each choice of "
-                              "directions\nChoose at the left, then run the study"));
+                         ? tr("The reference is solved first; then one point per number of passes "
+                              "appears")
+                         : tr("Error of B against the number of passes M, one line per set of "
+                              "directions\nChoose on the left, then run the study"));
     return;
   }
   const QSize pixels = size() * devicePixelRatioF();
   if (picture_.size() != pixels) {
-    ChartStyle style;  // the type of the files, the colors of the window
+    ChartStyle style;  // text sizes as in files, colors and font of the window
     const ChartStyle window = chart_style(*this);
     style.paper = window.paper;
     style.ink = window.ink;

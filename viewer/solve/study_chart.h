@@ -9,7 +9,7 @@
 
 namespace transillum::viewer {
 
-/// The plot of a study, as it is saved too.
+/// The plot of a study.
 class StudyChart : public QWidget {
   Q_OBJECT
 
@@ -27,11 +27,11 @@ class StudyChart : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
-  void forget_picture();
+  void discard_picture();
 
   std::shared_ptr<const StudySnapshot> snapshot_;
   ErrorMeasure measure_ = ErrorMeasure::rms;
-  QImage picture_;  ///< of the device's pixels; null: to be drawn
+  QImage picture_;  ///< in device pixels; null: to be drawn
 };
 
 }  // namespace transillum::viewer

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The left side of the study dialog. Everything without a check box is taken over from the options
+// of the current solve.
 #include "solve/study_choices.h"
 
 #include <QCheckBox>
@@ -15,7 +18,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int first_directions = 16, last_directions = 16384;
-constexpr int most_by_default = 512;
+constexpr int largest_by_default = 512;
 
 QLabel* heading(const QString& text) {
   auto* label = new QLabel(text);
@@ -25,7 +28,7 @@ QLabel* heading(const QString& text) {
   return label;
 }
 
-bool goes_together(const SolveOptions& options) {
+bool is_valid(const SolveOptions& options) {
   try {
     options.validate();
     return true;
@@ -51,10 +54,10 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   }
   layout->addSpacing(10);
 
-  layout->addWidget(heading(tr("Light goes")));
-  layout->addWidget(add_box(ways_, QStringLiteral("two_way"), tr("both ways"), 1, true));
+  layout->addWidget(heading(tr("Each pass serves")));
+  layout->addWidget(add_box(passes_, QStringLiteral("two_way"), tr("ω and −ω"), 1, true));
   layout->addWidget(
-      add_box(ways_, QStringLiteral("one_way"), tr("one way, as the paper"), 0, false));
+      add_box(passes_, QStringLiteral("one_way"), tr("ω only, as in the paper"), 0, false));
   layout->addSpacing(10);
 
   layout->addWidget(heading(tr("Directions M")));
@@ -63,21 +66,21 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   constexpr int columns = 3;
   for (int m = first_directions, k = 0; m <= last_directions; m *= 2, ++k) {
     grid->addWidget(
-        add_box(directions_, QString::number(m), count_text(m), m, m <= most_by_default),
+        add_box(directions_, QString::number(m), count_text(m), m, m <= largest_by_default),
         k / columns, k % columns);
   }
   layout->addLayout(grid);
   layout->addSpacing(10);
 
-  size_ = new QLabel;
-  size_->setObjectName("study_size");
-  rest_ = new QLabel;
-  for (QLabel* label : {size_, rest_}) {
+  cost_ = new QLabel;
+  cost_->setObjectName("study_size");
+  fixed_settings_ = new QLabel;
+  for (QLabel* label : {cost_, fixed_settings_}) {
     label->setWordWrap(true);
     label->setForegroundRole(QPalette::PlaceholderText);
     layout->addWidget(label);
   }
-  rest_->setToolTip(tr("As in Solve settings, where the solve was begun with them"));
+  fixed_settings_->setToolTip(tr("The Solve settings that the current solve was started with"));
   layout->addStretch(1);
   show_solve();
 }
@@ -88,7 +91,7 @@ QCheckBox* StudyChoices::add_box(std::vector<Choice>& choices, const QString& na
   box->setObjectName(QStringLiteral("study_%1").arg(name));
   box->setChecked(on);
   connect(box, &QCheckBox::toggled, this, [this] {
-    show_size();
+    show_cost();
     emit changed();
   });
   choices.push_back({box, value});
@@ -105,11 +108,11 @@ void StudyChoices::set_solve(const SolveOptions& solve) {
 }
 
 void StudyChoices::show_solve() {
-  rest_->setText(tr("Engine %1, normalization %2, scheme %3: as in the solve")
-                     .arg(engine_label(solve_.engine),
-                          QString::fromStdString(name_of(solve_.normalize)),
-                          QString::fromStdString(name_of(solve_.scheme))));
-  show_size();
+  fixed_settings_->setText(tr("As in the current solve: engine %1, normalization %2, scheme %3")
+                               .arg(engine_label(solve_.engine),
+                                    QString::fromStdString(name_of(solve_.normalize)),
+                                    QString::fromStdString(name_of(solve_.scheme))));
+  show_cost();
 }
 
 StudyOptions StudyChoices::options() const {
@@ -125,18 +128,18 @@ StudyOptions StudyChoices::options() const {
     }
   }
   for (const Choice& sampling : samplings_) {
-    for (const Choice& way : ways_) {
-      if (!sampling.box->isChecked() || !way.box->isChecked()) {
+    for (const Choice& pass : passes_) {
+      if (!sampling.box->isChecked() || !pass.box->isChecked()) {
         continue;
       }
       const StudySeries series{static_cast<Sampling>(sampling.value),
-                               way.value == 1,
+                               pass.value == 1,
                                solve_.normalize,
                                solve_.scheme,
                                solve_.first_shot,
                                solve_.engine,
                                solve_.engine_options.resolution};
-      if (goes_together(options.solve_options(series, first_directions))) {
+      if (is_valid(options.solve_options(series, first_directions))) {
         options.series.push_back(series);
       }
     }
@@ -144,10 +147,10 @@ StudyOptions StudyChoices::options() const {
   return options;
 }
 
-void StudyChoices::show_size() {
+void StudyChoices::show_cost() {
   const StudyOptions options = this->options();
   if (options.series.empty() || options.directions.empty()) {
-    size_->setText(tr("Choose a sampling, a way and a number of directions"));
+    cost_->setText(tr("Choose a sampling, what a pass serves, and a number of directions"));
     return;
   }
   std::int64_t passes = 0;
@@ -158,9 +161,8 @@ void StudyChoices::show_size() {
                 (solve.scheme == Scheme::semi_iterative ? std::int64_t{solve.iterations} : 1);
     }
   }
-  size_->setText(
-      tr("%1 passes, and %2 of the reference that they are compared with, unless it is kept")
-          .arg(count_text(passes), count_text(options.reference().directions)));
+  cost_->setText(tr("%1 passes, plus %2 for the reference unless it is in the cache")
+                     .arg(count_text(passes), count_text(options.reference().directions)));
 }
 
 }  // namespace transillum::viewer

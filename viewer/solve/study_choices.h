@@ -12,16 +12,19 @@ class QVBoxLayout;
 
 namespace transillum::viewer {
 
-/// What a study compares, by check boxes: samplings, ways of light, numbers of directions.
+/// Check boxes for what a study compares: samplings, one-way or two-way passes, numbers of
+/// directions.
 class StudyChoices : public QWidget {
   Q_OBJECT
 
  public:
   explicit StudyChoices(QWidget* parent = nullptr);
 
-  /// What is not chosen here: engine, normalization, scheme, first shot, seed, memory, threads.
+  /// Sets what has no control here: engine, normalization, scheme, first shot, seed, memory,
+  /// threads.
   void set_solve(const SolveOptions& solve);
-  /// What goes together of what is chosen; no series or directions where nothing is.
+  /// All valid combinations of the checked choices; without series or directions where none is
+  /// checked.
   StudyOptions options() const;
 
  signals:
@@ -35,11 +38,11 @@ class StudyChoices : public QWidget {
   QCheckBox* add_box(std::vector<Choice>& choices, const QString& name, const QString& text,
                      int value, bool on);
   void show_solve();
-  void show_size();
+  void show_cost();
 
   SolveOptions solve_;
-  std::vector<Choice> samplings_, ways_, directions_;
-  QLabel *size_ = nullptr, *rest_ = nullptr;
+  std::vector<Choice> samplings_, passes_, directions_;
+  QLabel *cost_ = nullptr, *fixed_settings_ = nullptr;
 };
 
 }  // namespace transillum::viewer

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The dialog "Study". A session on a thread of its own runs the study and posts snapshots; this
+// dialog shows the newest one as plot, table and progress.
 #include "solve/study_dialog.h"
 
 #include <QComboBox>
@@ -40,7 +43,7 @@ Qt::Alignment alignment_of(int column) {
 
 QTableWidget* make_table() {
   const QStringList names{StudyDialog::tr("Directions"), StudyDialog::tr("Slope"),
-                          StudyDialog::tr("Passes to 1 %"), StudyDialog::tr("Passes to 0.1 %")};
+                          StudyDialog::tr("Passes for 1 %"), StudyDialog::tr("Passes for 0.1 %")};
   auto* table = new QTableWidget(0, names.size());
   table->setObjectName("study_table");
   for (int column = 0; column < names.size(); ++column) {
@@ -109,7 +112,7 @@ QWidget* StudyDialog::make_results() {
   error_->addItems({tr("RMS error"), tr("Largest error")});
   error_->setToolTip(
       tr("RMS: over all patches, relative to the RMS of B\n"
-         "Largest: of all patches, relative to the largest B"));
+         "Largest: over all patches, relative to the largest B"));
   connect(error_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     chart_->set_measure(measure());
     show_table();
@@ -121,7 +124,7 @@ QWidget* StudyDialog::make_results() {
   progress_->setFixedSize(180, 16);
   save_ = new QPushButton(tr("Save…"));
   save_->setObjectName("study_save");
-  save_->setToolTip(tr("The plot as SVG or PNG, or the figures as CSV"));
+  save_->setToolTip(tr("Save the plot as SVG or PNG, or the figures as CSV"));
   save_->setAutoDefault(false);
   connect(save_, &QPushButton::clicked, this, &StudyDialog::choose_file);
   auto* bar = new QHBoxLayout;
@@ -189,7 +192,7 @@ void StudyDialog::run_or_stop() {
 
 void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
   if (snapshot->loaded != loaded_) {
-    return;  // of a scene that is no longer open
+    return;  // another scene has been opened since
   }
   snapshot_ = std::move(snapshot);
   running_ = snapshot_->running;
@@ -206,7 +209,7 @@ void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
     if (point.failure.empty()) {
       continue;
     }
-    failures << tr("%1 with %2 passes left out: %3")
+    failures << tr("%1 with %2 passes failed: %3")
                     .arg(QString::fromStdString(names[point.series]), count_text(point.passes),
                          QString::fromStdString(point.failure));
   }
@@ -217,9 +220,9 @@ void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
 
 void StudyDialog::show_phase() {
   progress_->setVisible(running_);
-  const bool told = running_ && snapshot_ && snapshot_->running;
-  progress_->setValue(told ? static_cast<int>(1000 * snapshot_->share) : 0);
-  if (told) {
+  const bool has_progress = running_ && snapshot_ && snapshot_->running;
+  progress_->setValue(has_progress ? static_cast<int>(1000 * snapshot_->share) : 0);
+  if (has_progress) {
     const QString what =
         snapshot_->reference
             ? tr("Reference, pass %1 of %2")
@@ -235,7 +238,7 @@ void StudyDialog::show_phase() {
   } else if (!has_points()) {
     phase_->setText(snapshot_ ? tr("Stopped") : QString());
   } else {
-    phase_->setText(snapshot_->study.complete ? tr("Done") : tr("Stopped: the points so far"));
+    phase_->setText(snapshot_->study.complete ? tr("Done") : tr("Stopped early"));
   }
 }
 
@@ -272,7 +275,7 @@ void StudyDialog::show_buttons() {
 void StudyDialog::choose_file() {
   const QString path = ask_where_to_write(
       this, tr("Save the study"),
-      tr("Plot, sharp at any size (*.svg);;Plot as a picture (*.png);;Figures (*.csv)"),
+      tr("Plot as vector graphics (*.svg);;Plot as an image (*.png);;Figures (*.csv)"),
       "study.svg");
   if (!path.isEmpty()) {
     save(path);

@@ -19,23 +19,23 @@ class Banner;
 class StudyChart;
 class StudyChoices;
 
-/// Studies of the open scene: error of B against passes, as a plot and a table.
+/// Runs studies of the open scene: error of B against the number of passes, as a plot and a table.
 class StudyDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// @param cache where references are kept; empty: nowhere
+  /// @param cache folder for reference solutions; empty: none are kept
   explicit StudyDialog(const std::filesystem::path& cache, QWidget* parent = nullptr);
 
-  /// In front of all else.
+  /// Shows the dialog in front of all other windows.
   void present();
-  /// Ends the study of another scene.
+  /// Sets the scene; a running study of another scene is stopped.
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
-  /// Those of the solve; what the dialog has no choice of is taken from them.
+  /// Sets the options of the current solve, which apply where the dialog has no choice.
   void set_solve(const SolveOptions& solve);
 
   std::shared_ptr<const StudySnapshot> snapshot() const { return snapshot_; }
-  /// Writes the plot or the table, by the ending of `path`; says so where it cannot.
+  /// Writes the plot or the table, by the ending of `path`; shows an error where it fails.
   void save(const QString& path);
 
  private:
