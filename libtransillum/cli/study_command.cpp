@@ -110,7 +110,7 @@ StudyOptions study_options(const StudyCall& call) {
   return options;
 }
 
-/// What all parts of the work share.
+/// What all steps of a study share.
 struct StudyContext {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
@@ -127,30 +127,23 @@ struct StudyContext {
   }
 };
 
-/// From the cache, or solved for and kept there.
+/// The reference solution, from the cache or solved.
 std::vector<Rgb> reference_radiosity(const StudyCall& call, const SolveOptions& options,
-                                     StudyContext& work) {
-  const ReferenceCache cache(call.cache);
-  if (auto kept = cache.find(*work.scene, options)) {
-    return *std::move(kept);
-  }
-  const std::vector<Rgb> radiosity = solve_reference(
-      work.scene, work.tree, options,
-      [&work](const SolveProgress& now) {
-        if (now.direction == 0) {
-          return;
+                                     StudyContext& context) {
+  ReferenceSolution reference = find_or_solve_reference(
+      ReferenceCache(call.cache), context.scene, context.tree, options,
+      [&context](const SolveProgress& now) {
+        if (now.direction > 0) {
+          context.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
+                       static_cast<double>(now.direction) / now.passes, now.passes_per_second,
+                       now.seconds_left);
         }
-        work.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
-                  static_cast<double>(now.direction) / now.passes, now.passes_per_second,
-                  now.seconds_left);
       },
-      work.cancellation);
-  try {
-    cache.store(*work.scene, options, radiosity);
-  } catch (const std::exception& error) {
-    print_message(fmt::format("warning: the reference is not kept: {}", error.what()));
+      context.cancellation);
+  if (!reference.store_error.empty()) {
+    print_message("warning: the reference is not cached: " + reference.store_error);
   }
-  return radiosity;
+  return std::move(reference.radiosity);
 }
 
 void report_failures(const Study& study, const std::vector<std::string>& names) {

@@ -88,7 +88,7 @@ TEST(CliStudy, KeepsReferencesUnlessTold) {
   const ProgramResult result = run_program(
       {"study", "furnace", "--directions", "8", "--reference", "16", "--cache", "/dev/null/cache"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, HasSubstr("the reference is not kept"));
+  EXPECT_THAT(result.err, HasSubstr("the reference is not cached"));
 }
 
 TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {

@@ -324,6 +324,46 @@ TEST(ReferenceCache, WithoutAFolderThereIsNone) {
   EXPECT_TRUE(cache.file_of(*box().scene, reference_options(1)).empty());
 }
 
+TEST(ReferenceCache, SolvesAReferenceOnceAndFindsItAgain) {
+  const TemporaryFolder folder;
+  const ReferenceCache cache(folder / "cache");
+  const SolveOptions options = reference_options(8);
+  int calls = 0;
+  const auto count_calls = [&](const SolveProgress&) { ++calls; };
+  const ReferenceSolution solved =
+      find_or_solve_reference(cache, box().scene, box().tree, options, count_calls);
+  EXPECT_FALSE(solved.from_cache);
+  EXPECT_EQ(solved.store_error, "");
+  EXPECT_GT(calls, 0);
+  EXPECT_EQ(solved.radiosity, solve_reference(box().scene, box().tree, options));
+
+  calls = 0;
+  const ReferenceSolution found =
+      find_or_solve_reference(cache, box().scene, box().tree, options, count_calls);
+  EXPECT_TRUE(found.from_cache);
+  EXPECT_EQ(calls, 0);
+  EXPECT_EQ(found.radiosity, solved.radiosity);
+}
+
+TEST(ReferenceCache, ReportsThatAReferenceCannotBeStored) {
+  const ReferenceSolution solved = find_or_solve_reference(
+      ReferenceCache("/dev/null/cache"), box().scene, box().tree, reference_options(8));
+  EXPECT_FALSE(solved.from_cache);
+  EXPECT_NE(solved.store_error, "");
+  EXPECT_EQ(solved.radiosity.size(), box().reference.size());
+}
+
+TEST(ReferenceCache, StoresNothingWhenTheSolveIsCanceled) {
+  const TemporaryFolder folder;
+  const ReferenceCache cache(folder / "cache");
+  const Cancellation cancellation;
+  cancellation.cancel();
+  EXPECT_THROW(find_or_solve_reference(cache, box().scene, box().tree, reference_options(8), {},
+                                       cancellation),
+               Canceled);
+  EXPECT_FALSE(cache.find(*box().scene, reference_options(8)));
+}
+
 // Plots. Cairo writes text as outlines, so that what a plot says is in its lines: colors, dashes.
 
 Study two_ways(double factor) {

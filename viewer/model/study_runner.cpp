@@ -83,14 +83,10 @@ void StudyRunner::post_failure(const Request& request, const QString& message) {
 
 std::vector<Rgb> StudyRunner::reference_radiosity(const Request& request,
                                                   const Cancellation& cancellation) {
-  const Scene& scene = *request.loaded->scene;
-  const SolveOptions options = request.options.reference();
-  const ReferenceCache cache(cache_);
-  if (auto kept = cache.find(scene, options)) {
-    return *std::move(kept);
-  }
-  std::vector<Rgb> radiosity = solve_reference(
-      request.loaded->scene, request.loaded->tree, options,
+  // If the cache cannot be written, the next study solves the reference again.
+  ReferenceSolution reference = find_or_solve_reference(
+      ReferenceCache(cache_), request.loaded->scene, request.loaded->tree,
+      request.options.reference(),
       [&](const SolveProgress& now) {
         if (now.direction == 0 || !due()) {
           return;
@@ -105,12 +101,7 @@ std::vector<Rgb> StudyRunner::reference_radiosity(const Request& request,
         post(std::move(newest));
       },
       cancellation);
-  try {
-    cache.store(scene, options, radiosity);
-  } catch (const std::exception&) {
-    // Without the cache, the next study solves the reference again.
-  }
-  return radiosity;
+  return std::move(reference.radiosity);
 }
 
 bool StudyRunner::due() {

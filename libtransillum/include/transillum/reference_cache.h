@@ -2,10 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -36,5 +40,24 @@ class ReferenceCache {
  private:
   std::filesystem::path folder_;
 };
+
+/// The solution that a study compares its series with.
+struct ReferenceSolution {
+  std::vector<Rgb> radiosity;  ///< B, W/m², one per patch
+  bool from_cache = false;
+  std::string
+      store_error;  ///< why it could not be stored in the cache; empty if there was no error
+};
+
+/// The reference solution for `options` (StudyOptions::reference()): from `cache` if found there,
+/// otherwise computed by solve_reference() and stored. A cache that cannot be written is no error
+/// (ReferenceSolution::store_error).
+/// @param observer called during the solve, on the calling thread
+/// @throws InputError, Canceled, std::runtime_error
+ReferenceSolution find_or_solve_reference(
+    const ReferenceCache& cache, const std::shared_ptr<const Scene>& scene,
+    const std::shared_ptr<const BspTree>& tree, const SolveOptions& options,
+    const std::function<void(const SolveProgress&)>& observer = {},
+    const Cancellation& cancellation = {});
 
 }  // namespace transillum

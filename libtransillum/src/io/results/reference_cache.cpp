@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "transillum/files.h"
+#include "transillum/study.h"
 
 namespace transillum {
 namespace {
@@ -188,6 +189,27 @@ void ReferenceCache::store(const Scene& scene, const SolveOptions& options,
               static_cast<std::streamsize>(radiosity.size() * sizeof(Rgb)));
     out << digits_of(key, radiosity);
   });
+}
+
+ReferenceSolution find_or_solve_reference(const ReferenceCache& cache,
+                                          const std::shared_ptr<const Scene>& scene,
+                                          const std::shared_ptr<const BspTree>& tree,
+                                          const SolveOptions& options,
+                                          const std::function<void(const SolveProgress&)>& observer,
+                                          const Cancellation& cancellation) {
+  ReferenceSolution solution;
+  if (auto found = cache.find(*scene, options)) {
+    solution.radiosity = *std::move(found);
+    solution.from_cache = true;
+    return solution;
+  }
+  solution.radiosity = solve_reference(scene, tree, options, observer, cancellation);
+  try {
+    cache.store(*scene, options, solution.radiosity);
+  } catch (const std::exception& error) {
+    solution.store_error = error.what();
+  }
+  return solution;
 }
 
 }  // namespace transillum
