@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The BSP tree as a direction walks through it, and the panel that shows it.
+// The BSP tree along one direction, and the panel that shows it.
 #include <QAbstractItemModelTester>
 #include <QDockWidget>
 #include <QElapsedTimer>
@@ -25,7 +25,7 @@ namespace {
 
 using Part = TreeVisit::Part;
 
-/// Middle of a fragment's corners.
+/// Mean of a fragment's corners.
 Vec3 middle(const BspTree& tree, FragmentId f) {
   Vec3 sum;
   const auto corners = tree.corners(tree.fragment(f));
@@ -41,7 +41,7 @@ class TreeTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_path_leads_to_the_polygon_of_its_step() {
+  void a_path_ends_at_the_fragment_of_its_step() {
     for (const char* name : {"boards", "cornell-box", "furnace"}) {
       const auto scene = load_scene(name);
       const auto tree = std::make_shared<const BspTree>(*scene);
@@ -60,7 +60,7 @@ class TreeTest : public QObject {
             if (k == 0) {
               continue;
             }
-            // A side of the plane above, all of it.
+            // All of one side of the parent plane.
             const TreeVisit& above = path[k - 1];
             const bool near = above.part_of(step) == Part::near_side;
             QCOMPARE(path[k].begin, near ? above.begin : above.plane_end);
@@ -76,7 +76,7 @@ class TreeTest : public QObject {
     }
   }
 
-  void what_comes_first_lies_where_omega_points_to() {
+  void the_side_that_omega_points_to_comes_first() {
     const auto scene = load_scene("cornell-box");
     const auto tree = std::make_shared<const BspTree>(*scene);
     const TreeOutline outline(tree);
@@ -91,16 +91,16 @@ class TreeTest : public QObject {
           for (std::int32_t k = visit.begin; k < visit.end; ++k) {
             const double height = dot(plane.normal, middle(*tree, at(order, k))) - plane.offset;
             const double toward_omega = visit.cosine > 0 ? height : -height;
-            const double tiny = 1e-9;
+            const double tolerance = 1e-9;
             switch (visit.part_of(k)) {
               case Part::near_side:
-                QVERIFY(toward_omega > tiny);
+                QVERIFY(toward_omega > tolerance);
                 break;
               case Part::plane:
-                QVERIFY(std::abs(toward_omega) < tiny);
+                QVERIFY(std::abs(toward_omega) < tolerance);
                 break;
               case Part::far_side:
-                QVERIFY(toward_omega < -tiny);
+                QVERIFY(toward_omega < -tolerance);
                 break;
             }
           }
@@ -110,30 +110,30 @@ class TreeTest : public QObject {
     QVERIFY(fronts_first > 0 && backs_first > 0);
   }
 
-  void all_nodes_are_visited_as_on_their_paths() {
+  void visits_agree_with_paths() {
     const auto scene = load_scene("boards");
     const TreeOutline outline(std::make_shared<const BspTree>(*scene));
     for (const auto& sample : make_directions(Sampling::random, 6, 3)) {
       const auto visits = outline.visits(sample.direction);
-      std::set<std::int32_t> met;
+      std::set<std::int32_t> found;
       for (std::int32_t step = 0; step < outline.size(0); ++step) {
         for (const TreeVisit& visit : outline.path_to(step, sample.direction)) {
           QCOMPARE(at(visits, visit.node), visit);
-          met.insert(visit.node);
+          found.insert(visit.node);
         }
       }
-      // Every node holds some polygon below it.
-      QCOMPARE(met.size(), visits.size());
+      // Every node has a fragment in or below it.
+      QCOMPARE(found.size(), visits.size());
     }
   }
 
-  void the_model_holds_and_keeps_its_places() {
+  void persistent_indexes_survive_a_change_of_direction() {
     const auto scene = load_scene("boards");
     const auto outline =
         std::make_shared<const TreeOutline>(std::make_shared<const BspTree>(*scene));
     TreeModel model;
     QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
-    int turned = 0;
+    int changes = 0;
     QPersistentModelIndex deep;
     for (const auto& sample : make_directions(Sampling::random, 8, 3)) {
       model.show_position(outline, sample.direction, 5);
@@ -141,10 +141,10 @@ class TreeTest : public QObject {
       QVERIFY(model.visit(model.index_of(node)).holds(5));
       if (deep.isValid()) {
         QCOMPARE(QModelIndex(deep), model.index_of(static_cast<std::int32_t>(deep.internalId())));
-        ++turned;
+        ++changes;
       }
       deep = model.index_of(node);
-      // The sides of a node lie one after the other round its own plane.
+      // The sides of a node precede and follow the fragments in its plane.
       for (std::int32_t n = 0; n < static_cast<std::int32_t>(outline->tree().nodes().size()); ++n) {
         const QModelIndex index = model.index_of(n);
         std::int32_t at = model.visit(index).begin;
@@ -155,10 +155,10 @@ class TreeTest : public QObject {
         }
       }
     }
-    QVERIFY(turned > 0);
+    QVERIFY(changes > 0);
   }
 
-  void a_bar_knows_its_places() {
+  void positions_on_a_bar_map_to_steps() {
     const QRectF bar(40, 0, 200, 10);
     const TreeVisit visit{0, 1, 100, 120, 121, 137};
     for (std::int32_t step = visit.begin; step < visit.end; ++step) {
@@ -168,7 +168,7 @@ class TreeTest : public QObject {
     QCOMPARE(OrderBar::step_at(visit, bar, 1e9), visit.end - 1);
   }
 
-  void the_panel_follows_and_leads() {
+  void the_panel_follows_the_focus_and_moves_it() {
     const SolvedWindow s("cornell-box");
     QVERIFY(s.ready);
     Focus& focus = s.window->focus();
@@ -183,7 +183,7 @@ class TreeTest : public QObject {
     const int last = path->rowCount() - 1;
     QVERIFY(last > 1);
 
-    // The plane's patch is selected by a click, and gone to by another.
+    // A click selects the plane's patch, a double-click goes to its step.
     const int row = patch_of(path->outline(), path->visit(0)) == no_patch ? last : 0;
     view->scrollTo(path->index(row, 0));
     const QPoint name = view->visualRect(path->index(row, TreePathTable::of_plane)).center();
@@ -195,7 +195,7 @@ class TreeTest : public QObject {
     QCOMPARE(focus.position().step, step);
     QCOMPARE(path->rowCount(), row + 1);
 
-    // A place of the root's bar is a step.
+    // A position on the root's bar is a step.
     const QRect cell = view->visualRect(path->index(0, TreePathTable::of_order));
     const QRectF bar = OrderBar::bar_in(cell);
     const auto place = QPointF(
@@ -208,7 +208,7 @@ class TreeTest : public QObject {
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QCOMPARE(focus.position().step, 20);
 
-    // Who comes first is told.
+    // The text states which patch comes first.
     focus.go_to({0, 3, 5});
     s.window->selection().select(focus.map()->history.step(9).patch);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
@@ -218,7 +218,7 @@ class TreeTest : public QObject {
     save_picture(*s.window, "tree");
   }
 
-  void the_whole_tree_is_opened_where_one_is() {
+  void the_whole_tree_is_expanded_along_the_path() {
     const SolvedWindow s("cornell-box");
     QVERIFY(s.ready);
     Focus& focus = s.window->focus();
@@ -239,7 +239,7 @@ class TreeTest : public QObject {
          {RunPosition{0, 3, 11}, RunPosition{0, 3, 25}, RunPosition{0, 7, 2}}) {
       focus.go_to(position);
       QVERIFY(wait_for([&] { return focus.position() == position && shows_path(); }));
-      // What lies off the path is closed.
+      // Nodes off the path are collapsed.
       const auto& path = model->path();
       for (std::int32_t n = 0;
            n < static_cast<std::int32_t>(model->outline().tree().nodes().size()); ++n) {
@@ -251,15 +251,15 @@ class TreeTest : public QObject {
     const QModelIndex root = model->index_of(0);
     view->scrollTo(root);
     const QPoint name = view->visualRect(root).center();
-    const std::int32_t own = model->visit(root).plane_begin;
+    const std::int32_t in_plane = model->visit(root).plane_begin;
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
     QCOMPARE(s.window->selection().patch(), patch_of(model->outline(), model->visit(root)));
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
-    QVERIFY(wait_for([&] { return focus.arrived() && focus.position().step == own; }));
+    QVERIFY(wait_for([&] { return focus.arrived() && focus.position().step == in_plane; }));
     save_picture(*s.window, "whole-tree");
   }
 
-  void a_large_tree_is_no_burden() {
+  void a_large_tree_updates_in_time() {
     const auto scene = load_scene("sphere-flake");
     const auto outline =
         std::make_shared<const TreeOutline>(std::make_shared<const BspTree>(*scene));
@@ -280,7 +280,7 @@ class TreeTest : public QObject {
     }
     const double each =
         static_cast<double>(timer.elapsed()) / static_cast<double>(directions.size());
-    qInfo("%.1f ms a direction for %zu nodes", each, outline->tree().nodes().size());
+    qInfo("%.1f ms per direction for %zu nodes", each, outline->tree().nodes().size());
     QVERIFY(each < 500);
   }
 };

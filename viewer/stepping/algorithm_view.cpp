@@ -91,23 +91,24 @@ QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
 QWidget* AlgorithmView::make_local_values() {
   values_ = new ValueGrid;
   values_->layout()->setContentsMargins(12, 10, 12, 4);
-  position_ =
-      values_->add_row(tr("n, d"), {},
-                       tr("Iteration and direction; n counts from 0, as in the paper: it is "
-                          "what iteration n + 1 starts from"));
+  position_ = values_->add_row(
+      tr("n, d"), {},
+      tr("n: index of the B(n) that the iteration starts from, from 0 as in the paper; "
+         "d: number of the direction"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose fragment this step processes"));
   i_->setObjectName("value_i");
   map_ = values_->add_row(tr("V"), {}, tr("Number of polygons of V before and after the step"));
-  lists_ = values_->add_row(tr("I, O"), {}, tr("Number of polygons in the inside list and in the outside list"));
+  lists_ = values_->add_row(tr("I, O"), {},
+                            tr("Number of polygons in the inside list and in the outside list"));
   j_ = values_->add_row(tr("j, A(j)"), tr("m²"),
                         tr("The selected patch if i receives from it, or else the patch with the "
                            "largest A(j), the area of j that i sees"));
   j_->setObjectName("value_j");
-  weight_ =
-      values_->add_row(tr("J_d, M"), {}, tr("Weight and number of directions; a two-way pass counts as two"));
+  weight_ = values_->add_row(tr("J_d, M"), {},
+                             tr("Weight and number of directions; a two-way pass counts as two"));
   radiosity_ = values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
-  gathered_ = values_->add_row(tr("Σ"), tr("W/m²"),
-                               tr("Amount that the step adds to B_i(n+1), before row normalization"));
+  gathered_ = values_->add_row(
+      tr("Σ"), tr("W/m²"), tr("Amount that the step adds to B_i(n+1), before row normalization"));
   gathered_->setObjectName("value_gathered");
   for (QLabel* value : {i_, radiosity_, gathered_}) {
     value->setWordWrap(true);
@@ -129,13 +130,15 @@ QWidget* AlgorithmView::make_region_values() {
       tr("A(R)"), tr("m²"),
       tr("Area of the region around the point, bounded by all polygon edges, visible or hidden"));
   region_area_->setObjectName("value_region_area");
-  region_list_ = region_values_->add_row(tr("L"), {}, tr("The patches that cover R, the nearest to the source first"));
+  region_list_ = region_values_->add_row(
+      tr("L"), {}, tr("The patches that cover R, the nearest to the source first"));
   region_list_->setWordWrap(true);
   region_list_->setObjectName("value_region_list");
   region_i_ = region_values_->add_row(tr("i"), {}, tr("The patch of L that was processed last"));
   region_i_->setObjectName("value_region_i");
-  region_j_ = region_values_->add_row(tr("j, Σ A(R)"), tr("m²"),
-                                      tr("The next patch above i; the area of it that i sees in all regions"));
+  region_j_ = region_values_->add_row(
+      tr("j, Σ A(R)"), tr("m²"),
+      tr("The next patch above i; the area of it that i sees in all regions"));
   region_j_->setObjectName("value_region_j");
   region_radiosity_ =
       region_values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
@@ -223,9 +226,9 @@ void AlgorithmView::show_region(const RegionState& state) {
                        ? none
                        : tr("%1, %2").arg(number_text(state.point.x), number_text(state.point.y)));
   region_list_->setText(list.isEmpty() ? none : list.join(QStringLiteral(", ")));
-  region_i_->setText(state.i == no_patch
-                         ? none
-                         : tr("%1, %2").arg(QString::number(state.i), role_text(state.front_facing)));
+  region_i_->setText(state.i == no_patch ? none
+                                         : tr("%1, %2").arg(QString::number(state.i),
+                                                            role_text(state.front_facing)));
   region_j_->setText(state.j == no_patch ? none
                      : state.exchanges
                          ? tr("%1, %2").arg(QString::number(state.j), number_text(state.pair_area))

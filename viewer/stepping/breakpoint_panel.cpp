@@ -55,54 +55,20 @@ QAction* make_action(QObject* parent, const char* name, const QString& text,
 BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints& breakpoints,
                                  QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), breakpoints_(breakpoints) {
-  run_back_ =
-      make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
-                  tr("Run back to the previous breakpoint"));
-  run_on_ = make_action(this, "run_on", tr("Run forward"), Qt::Key_F9,
-                        tr("Run forward to the next breakpoint"));
-  connect(run_on_, &QAction::triggered, this, [this] { run(StepOrder::forward); });
-  connect(run_back_, &QAction::triggered, this, [this] { run(StepOrder::backward); });
-
-  list_ = new QListWidget;
-  list_->setObjectName("breakpoint_list");
-  list_->setFrameShape(QFrame::NoFrame);
-  list_->setMinimumHeight(48);
+  make_actions();
+  make_list();
   hint_ = new QLabel(tr("No breakpoints. Add one, then press F9."));
   hint_->setWordWrap(true);
   hint_->setContentsMargins(10, 4, 10, 4);
   hint_->setForegroundRole(QPalette::PlaceholderText);
-  remove_ = new QToolButton;
-  remove_->setText(tr("Remove"));
-  remove_->setObjectName("remove_breakpoint");
-  auto* buttons = new QHBoxLayout;
-  buttons->setContentsMargins(8, 4, 8, 0);
-  for (QAction* action : {run_back_, run_on_}) {
-    auto* button = new QToolButton;
-    button->setDefaultAction(action);
-    buttons->addWidget(button);
-  }
-  buttons->addStretch(1);
-  buttons->addWidget(remove_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
-  layout->addLayout(buttons);
+  layout->addLayout(make_buttons());
   layout->addWidget(hint_, 1, Qt::AlignTop);
   layout->addWidget(list_, 1);
   layout->addWidget(make_new_row());
 
-  connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
-    breakpoints_.set_enabled(static_cast<std::size_t>(list_->row(item)),
-                             item->checkState() == Qt::Checked);
-  });
-  connect(list_, &QListWidget::currentRowChanged, this, &BreakpointPanel::show_state);
-  connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
-  auto* delete_key = new QShortcut(QKeySequence::Delete, list_);
-  delete_key->setContext(Qt::WidgetShortcut);
-  connect(delete_key, &QShortcut::activated, this, &BreakpointPanel::remove_current);
-  list_->setContextMenuPolicy(Qt::CustomContextMenu);
-  list_->setToolTip(tr("Right-click a breakpoint to run to it, even if it is disabled"));
-  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::show_run_menu);
   connect(&breakpoints_, &Breakpoints::changed, this, &BreakpointPanel::show_list);
   connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
@@ -112,6 +78,52 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   });
   show_inputs();
   show_list();
+}
+
+void BreakpointPanel::make_actions() {
+  run_back_ =
+      make_action(this, "run_back", tr("Run back"), QKeySequence(QStringLiteral("Shift+F9")),
+                  tr("Run back to the previous breakpoint"));
+  run_on_ = make_action(this, "run_on", tr("Run forward"), Qt::Key_F9,
+                        tr("Run forward to the next breakpoint"));
+  connect(run_on_, &QAction::triggered, this, [this] { run(StepOrder::forward); });
+  connect(run_back_, &QAction::triggered, this, [this] { run(StepOrder::backward); });
+}
+
+void BreakpointPanel::make_list() {
+  list_ = new QListWidget;
+  list_->setObjectName("breakpoint_list");
+  list_->setFrameShape(QFrame::NoFrame);
+  list_->setMinimumHeight(48);
+  list_->setToolTip(tr("Right-click a breakpoint to run to it, even if it is disabled"));
+  connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
+    breakpoints_.set_enabled(static_cast<std::size_t>(list_->row(item)),
+                             item->checkState() == Qt::Checked);
+  });
+  connect(list_, &QListWidget::currentRowChanged, this, &BreakpointPanel::show_state);
+  auto* delete_key = new QShortcut(QKeySequence::Delete, list_);
+  delete_key->setContext(Qt::WidgetShortcut);
+  connect(delete_key, &QShortcut::activated, this, &BreakpointPanel::remove_current);
+  list_->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(list_, &QWidget::customContextMenuRequested, this, &BreakpointPanel::show_run_menu);
+}
+
+QLayout* BreakpointPanel::make_buttons() {
+  remove_ = new QToolButton;
+  remove_->setText(tr("Remove"));
+  remove_->setToolTip(tr("Remove the breakpoint chosen in the list (Del)"));
+  remove_->setObjectName("remove_breakpoint");
+  connect(remove_, &QToolButton::clicked, this, &BreakpointPanel::remove_current);
+  auto* buttons = new QHBoxLayout;
+  buttons->setContentsMargins(8, 4, 8, 0);
+  for (QAction* action : {run_back_, run_on_}) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    buttons->addWidget(button);
+  }
+  buttons->addStretch(1);
+  buttons->addWidget(remove_);
+  return buttons;
 }
 
 QWidget* BreakpointPanel::make_new_row() {

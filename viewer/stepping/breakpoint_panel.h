@@ -10,6 +10,7 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QLayout;
 class QLineEdit;
 class QListWidget;
 class QMenu;
@@ -30,6 +31,9 @@ class BreakpointPanel : public QWidget {
   void add_to(QMenu& menu) const;
 
  private:
+  void make_actions();
+  void make_list();
+  QLayout* make_buttons();
   QWidget* make_new_row();
   void show_list();
   void show_run_menu(const QPoint& position);

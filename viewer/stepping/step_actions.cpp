@@ -9,6 +9,15 @@ namespace transillum::viewer {
 
 StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
     : QObject(parent), focus_(focus), selection_(selection) {
+  add_moves();
+  add_newest();
+  connect(&focus_, &Focus::target_changed, this, &StepActions::show_state);
+  connect(&focus_, &Focus::moved, this, &StepActions::show_state);
+  connect(&selection_, &Selection::changed, this, &StepActions::show_state);
+  show_state();
+}
+
+void StepActions::add_moves() {
   using S = StepActions;
   constexpr StepOrder on = StepOrder::forward, back = StepOrder::backward;
   QAction* previous_direction =
@@ -20,17 +29,18 @@ StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
   previous_event_ = add(
       "previous_event", tr("Previous event of the patch"), QKeySequence(QStringLiteral("Shift+N")),
       tr("Go back to a step that processes, cuts or covers the selected patch"), &S::event, back);
-  QAction* step_back = add("step_back", tr("Previous step"), Qt::Key_Comma,
-                           tr("Undo one step"), &S::step, back);
+  QAction* step_back =
+      add("step_back", tr("Previous step"), Qt::Key_Comma, tr("Undo one step"), &S::step, back);
   add("phase_back", tr("Previous phase"), Qt::Key_M,
       tr("Go back one phase of the step: after, split, before"), &S::phase, back);
-  QAction* phase_on = add("phase_on", tr("Next phase"), Qt::Key_Slash,
-                          tr("Go forward one phase of the step: before, split, after"), &S::phase, on);
+  QAction* phase_on =
+      add("phase_on", tr("Next phase"), Qt::Key_Slash,
+          tr("Go forward one phase of the step: before, split, after"), &S::phase, on);
   QAction* step_on =
       add("step_on", tr("Next step"), Qt::Key_Period, tr("Process one fragment"), &S::step, on);
-  next_event_ =
-      add("next_event", tr("Next event of the patch"), Qt::Key_N,
-          tr("Go forward to a step that processes, cuts or covers the selected patch"), &S::event, on);
+  next_event_ = add("next_event", tr("Next event of the patch"), Qt::Key_N,
+                    tr("Go forward to a step that processes, cuts or covers the selected patch"),
+                    &S::event, on);
   QAction* next_exchange = add("next_exchange", tr("Next exchange"), Qt::Key_T,
                                tr("Go forward to a step that exchanges light"), &S::exchange, on);
   QAction* next_direction = add("next_direction", tr("Next direction"), Qt::Key_BracketRight,
@@ -49,17 +59,16 @@ StepActions::StepActions(Focus& focus, Selection& selection, QObject* parent)
   for (std::size_t k = 0; k < buttons_.size(); ++k) {
     buttons_[k]->setIcon(theme::icon(icons[k]));
   }
+}
 
-  newest_ = new QAction(theme::icon(Icon::newest), tr("Follow newest"), this);
+void StepActions::add_newest() {
+  newest_ = new QAction(theme::icon(theme::Icon::newest), tr("Follow newest"), this);
   newest_->setObjectName("follow_newest");
   newest_->setCheckable(true);
   newest_->setShortcut(Qt::Key_F);
-  newest_->setToolTip(tr("Show each new direction as it is solved, at the step with most sources in V (F)"));
+  newest_->setToolTip(
+      tr("Show each new direction as it is solved, at the step with most sources in V (F)"));
   connect(newest_, &QAction::triggered, &focus_, &Focus::set_following);
-  connect(&focus_, &Focus::target_changed, this, &StepActions::show_state);
-  connect(&focus_, &Focus::moved, this, &StepActions::show_state);
-  connect(&selection_, &Selection::changed, this, &StepActions::show_state);
-  show_state();
 }
 
 QAction* StepActions::add(const char* name, const QString& text, const QKeySequence& key,

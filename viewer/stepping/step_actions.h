@@ -27,6 +27,8 @@ class StepActions : public QObject {
   QAction* newest() const { return newest_; }
 
  private:
+  void add_moves();
+  void add_newest();
   QAction* add(const char* name, const QString& text, const QKeySequence& key, const QString& tip,
                void (StepActions::*what)(StepOrder), StepOrder order);
   void step(StepOrder order);

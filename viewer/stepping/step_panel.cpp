@@ -93,8 +93,8 @@ void StepPanel::show_step_tab() {
     events = events_of_step(map->history, focus_.position().step);
   }
   step_.text->setText(events.empty() ? tr("No events before the first step.")
-                                      : tr("Events of step %1. Click one to select its patch.")
-                                            .arg(count_text(focus_.position().step + 1)));
+                                     : tr("Events of step %1. Click one to select its patch.")
+                                           .arg(count_text(focus_.position().step + 1)));
   step_.table->set_events(std::move(events));
 }
 
@@ -109,10 +109,11 @@ void StepPanel::show_patch_tab() {
       events = events_of_patch(map->history, patch);
     }
     patch_.text->setText(
-        patch == no_patch ? tr("Select a patch to list its events along this direction.")
-                          : tr("Events of direction %1 for patch %2. Double-click one to go to its step.")
-                                .arg(count_text(map ? map->direction + 1 : 0))
-                                .arg(patch));
+        patch == no_patch
+            ? tr("Select a patch to list its events along this direction.")
+            : tr("Events of direction %1 for patch %2. Double-click one to go to its step.")
+                  .arg(count_text(map ? map->direction + 1 : 0))
+                  .arg(patch));
     patch_.table->set_events(std::move(events));
   }
   patch_.table->set_current_step(focus_.position().step);

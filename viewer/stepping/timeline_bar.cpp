@@ -64,8 +64,8 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
     }
   });
   connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {
-    text_->set_clauses({tr("Search stopped; directions searched without a match: %1")
-                            .arg(count_text(searched))});
+    text_->set_clauses(
+        {tr("Search stopped; directions searched without a match: %1").arg(count_text(searched))});
   });
   show_position();
 }
@@ -101,10 +101,10 @@ void TimelineBar::show_position() {
   }
   const QString facing = step.front_facing ? tr("Patch <b>%1</b> faces ω (receiver)")
                                            : tr("Patch <b>%1</b> faces away from ω (source)");
-  text_->set_clauses({tr("%1; it cuts %2 pieces of V")
-                          .arg(facing.arg(step.patch), count_text(step.cut)),
-                      tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
-                      tr("V has %1 polygons").arg(count_text(step.map_size))});
+  text_->set_clauses(
+      {tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut)),
+       tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
+       tr("V has %1 polygons").arg(count_text(step.map_size))});
 }
 
 }  // namespace transillum::viewer

@@ -25,10 +25,10 @@ double lane_height() { return 18 * theme::scale(); }  // height of the upper lan
 TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
   setFocusPolicy(Qt::StrongFocus);
-  setToolTip(
-      tr("Click or drag to go to an iteration, direction or step; with Shift, one pixel is one step.\n"
-         "Arrow keys: one step, with Ctrl one direction. Page Up and Page Down: a twentieth of the "
-         "steps."));
+  setToolTip(tr(
+      "Click or drag to go to an iteration, direction or step; with Shift, one pixel is one step.\n"
+      "Arrow keys: one step, with Ctrl one direction. Page Up and Page Down: a twentieth of the "
+      "steps."));
   connect(&focus_, &Focus::moved, this, [this] {
     if (focus_.map() != counted_) {
       count_columns();

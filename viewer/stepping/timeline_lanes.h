@@ -10,8 +10,8 @@
 
 namespace transillum::viewer {
 
-/// A run in three lanes: its iterations, the directions of one iteration, the steps of one direction.
-/// A click or drag moves the focus; with Shift held, one pixel is one index of the lane.
+/// A run in three lanes: its iterations, the directions of one iteration, the steps of one
+/// direction. A click or drag moves the focus; with Shift held, one pixel is one index of the lane.
 class TimelineLanes : public QWidget {
   Q_OBJECT
 

@@ -14,14 +14,14 @@ namespace transillum::viewer {
 
 namespace {
 
-const QColor done_color{0x7f, 0x98, 0xbd}, coming_color{0xdc, 0xe1, 0xe8};
+const QColor done_color{0x7f, 0x98, 0xbd}, later_color{0xdc, 0xe1, 0xe8};
 
 }  // namespace
 
 OrderBar::OrderBar(const Focus& focus, const Selection& selection, QObject* parent)
     : QStyledItemDelegate(parent), focus_(focus), selection_(selection) {}
 
-void OrderBar::set_wishes(StepWish clicked, StepWish double_clicked) {
+void OrderBar::set_handlers(StepHandler clicked, StepHandler double_clicked) {
   clicked_ = std::move(clicked);
   double_clicked_ = std::move(double_clicked);
 }
@@ -55,23 +55,23 @@ void OrderBar::paint(QPainter* painter, const QStyleOptionViewItem& option,
   };
   painter->save();
   painter->setPen(Qt::NoPen);
-  const std::int32_t now = std::clamp(focus_.position().step + 1, visit.begin, visit.end);
-  painter->fillRect(bar, coming_color);
-  painter->fillRect(part(visit.begin, now, 0), done_color);
+  const std::int32_t done_end = std::clamp(focus_.position().step + 1, visit.begin, visit.end);
+  painter->fillRect(bar, later_color);
+  painter->fillRect(part(visit.begin, done_end, 0), done_color);
   if (visit.plane_begin < visit.plane_end) {
-    const QRectF own = part(visit.plane_begin, visit.plane_end, 4);
-    const bool done = visit.plane_end <= now;
-    painter->fillRect(own, done ? theme::processed.darker(125) : theme::processed);
+    const QRectF in_plane = part(visit.plane_begin, visit.plane_end, 4);
+    const bool done = visit.plane_end <= done_end;
+    painter->fillRect(in_plane, done ? theme::processed.darker(125) : theme::processed);
   } else {
     painter->fillRect(part(visit.plane_begin, visit.plane_begin, 2), theme::paper);
   }
   if (visit.holds(focus_.position().step)) {
-    const QRectF here = part(focus_.position().step, focus_.position().step + 1, 3);
+    const QRectF current = part(focus_.position().step, focus_.position().step + 1, 3);
     painter->setBrush(Qt::NoBrush);
     painter->setPen(QPen(theme::ink, 2));
-    painter->drawRect(here.adjusted(0, -2, 0, 2));
+    painter->drawRect(current.adjusted(0, -2, 0, 2));
   }
-  // The selected patch's own polygons.
+  // The fragments of the selected patch.
   for (const std::int32_t step : map->history.steps_of(selection_.patch())) {
     if (!visit.holds(step) || map->history.step(step).patch != selection_.patch()) {
       continue;
@@ -95,9 +95,9 @@ bool OrderBar::editorEvent(QEvent* event, QAbstractItemModel* model,
   if (!data.canConvert<TreeVisit>() || mouse->button() != Qt::LeftButton) {
     return false;
   }
-  const StepWish& wish = pressed ? clicked_ : double_clicked_;
-  if (wish) {
-    wish(step_at(data.value<TreeVisit>(), bar_in(option.rect), mouse->pos().x()));
+  const StepHandler& handler = pressed ? clicked_ : double_clicked_;
+  if (handler) {
+    handler(step_at(data.value<TreeVisit>(), bar_in(option.rect), mouse->pos().x()));
   }
   return true;
 }

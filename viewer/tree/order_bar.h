@@ -11,17 +11,17 @@
 
 namespace transillum::viewer {
 
-/// Draws the polygons below a plane (tree_visit_role) as a bar in their order: those done dark,
-/// those to come pale, the plane's own yellow, the selected patch's marked below.
+/// Draws the fragments in and below a plane (tree_visit_role) as a bar in BSP order: processed
+/// dark, later ones pale, those in the plane yellow, the selected patch's marked below the bar.
 class OrderBar : public QStyledItemDelegate {
  public:
-  using StepWish = std::function<void(std::int32_t step)>;
+  using StepHandler = std::function<void(std::int32_t step)>;
 
   OrderBar(const Focus& focus, const Selection& selection, QObject* parent);
-  /// Hears of the step whose place is clicked, and double clicked.
-  void set_wishes(StepWish clicked, StepWish double_clicked);
+  /// Called with the step that is clicked or double-clicked.
+  void set_handlers(StepHandler clicked, StepHandler double_clicked);
 
-  /// The step drawn at `x`, and where a step's place begins.
+  /// The step drawn at `x`, and the left end of a step, pixels.
   static std::int32_t step_at(const TreeVisit& visit, const QRectF& bar, double x);
   static double left_of(const TreeVisit& visit, const QRectF& bar, std::int32_t step);
   static QRectF bar_in(const QRect& cell);
@@ -36,7 +36,7 @@ class OrderBar : public QStyledItemDelegate {
  private:
   const Focus& focus_;
   const Selection& selection_;
-  StepWish clicked_, double_clicked_;
+  StepHandler clicked_, double_clicked_;
 };
 
 }  // namespace transillum::viewer

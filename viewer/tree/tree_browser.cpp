@@ -34,7 +34,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
     focus_.go_to(to);
   };
   auto* bars = new OrderBar(focus_, selection_, this);
-  bars->set_wishes(
+  bars->set_handlers(
       [this](std::int32_t step) {
         if (const auto map = focus_.map()) {
           selection_.select(map->history.step(step).patch);
@@ -54,7 +54,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   });
   connect(view_, &QTreeView::doubleClicked, this, [this, go_to](const QModelIndex& index) {
     const TreeVisit& visit = model_->visit(index);
-    // Of a free plane, the first polygon behind it.
+    // A free plane holds no fragment: go to the first one of its far side.
     if (index.column() != TreeModel::of_order) {
       go_to(visit.plane_begin < visit.end ? visit.plane_begin : visit.begin);
     }
@@ -80,13 +80,14 @@ void TreeBrowser::show_position(const std::shared_ptr<const TreeOutline>& outlin
 }
 
 void TreeBrowser::open_path() {
-  // What an earlier path opened is closed again, what a user opened is not.
+  // Collapse what an earlier path expanded, but not what the user expanded.
   const std::vector<std::int32_t>& path = model_->path();
-  const auto left = std::mismatch(opened_.begin(), opened_.end(), path.begin(), path.end()).first;
-  for (auto node = opened_.end(); node != left; --node) {
+  const auto changed =
+      std::mismatch(opened_.begin(), opened_.end(), path.begin(), path.end()).first;
+  for (auto node = opened_.end(); node != changed; --node) {
     view_->collapse(model_->index_of(*std::prev(node)));
   }
-  opened_.erase(left, opened_.end());
+  opened_.erase(changed, opened_.end());
   for (const std::int32_t node : path) {
     const QModelIndex index = model_->index_of(node);
     if (node == path.back() || view_->isExpanded(index)) {
@@ -104,7 +105,7 @@ void TreeBrowser::set_widths() {
   const auto advance = [this](const char* text) { return fontMetrics().horizontalAdvance(text); };
   view_->header()->resizeSection(TreeModel::of_plane, advance("patch 88888 + 8") + 150);
   view_->header()->resizeSection(TreeModel::of_side, advance("front, first") + 14);
-  view_->header()->resizeSection(TreeModel::of_count, advance("Polygons") + 14);
+  view_->header()->resizeSection(TreeModel::of_count, advance("Fragments") + 14);
 }
 
 void TreeBrowser::showEvent(QShowEvent* event) {

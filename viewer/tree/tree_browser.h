@@ -15,14 +15,14 @@ namespace transillum::viewer {
 class TreeModel;
 class TreeOutline;
 
-/// The whole BSP tree, to be opened node by node; the way to the polygon in focus is open.
+/// The whole BSP tree as an outline view; the path to the current fragment is kept expanded.
 class TreeBrowser : public QWidget {
   Q_OBJECT
 
  public:
   TreeBrowser(Focus& focus, Selection& selection, QWidget* parent = nullptr);
 
-  /// Null: there is nothing to show.
+  /// @param outline null: show nothing
   void show_position(const std::shared_ptr<const TreeOutline>& outline);
 
  protected:
@@ -38,7 +38,7 @@ class TreeBrowser : public QWidget {
   std::shared_ptr<const TreeOutline> outline_;
   QTreeView* view_;
   TreeModel* model_;
-  std::vector<std::int32_t> opened_;  ///< by open_path(), from the root
+  std::vector<std::int32_t> opened_;  ///< nodes that open_path() expanded, from the root
 };
 
 }  // namespace transillum::viewer

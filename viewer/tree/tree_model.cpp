@@ -101,12 +101,12 @@ QString TreeModel::text(const TreeVisit& visit, int column) const {
     case of_side: {
       const std::int32_t above = outline_->parent(visit.node);
       if (above == BspTree::no_node) {
-        return tr("all");
+        return tr("root");
       }
       const bool front = outline_->node(above).front == visit.node;
       const bool first = visit.begin < visit_of(above).plane_begin;
       const QString side = front ? tr("front") : tr("back");
-      return first ? tr("%1, first").arg(side) : tr("%1, then").arg(side);
+      return first ? tr("%1, first").arg(side) : tr("%1, last").arg(side);
     }
     case of_count:
       return count_text(visit.end - visit.begin);
@@ -117,7 +117,7 @@ QString TreeModel::text(const TreeVisit& visit, int column) const {
 
 QVariant TreeModel::data(const QModelIndex& index, int role) const {
   const TreeVisit& visit = this->visit(index);
-  const bool to_come = visit.begin > step_;
+  const bool later = visit.begin > step_;
   switch (role) {
     case Qt::DisplayRole:
       return text(visit, index.column());
@@ -130,7 +130,7 @@ QVariant TreeModel::data(const QModelIndex& index, int role) const {
                                                  : Qt::AlignLeft | Qt::AlignVCenter);
     case Qt::ForegroundRole:
       return on_path(visit.node) ? QVariant(theme::accent)
-             : to_come           ? QVariant(theme::ink_dim)
+             : later             ? QVariant(theme::ink_dim)
                                  : QVariant();
     case Qt::FontRole:
       return font_cell(!path_.empty() && visit.node == path_.back());
@@ -148,16 +148,19 @@ QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int rol
   };
   switch (section) {
     case of_plane:
-      return pick(tr("Plane"), tr("Its patch, and how many more lie in it; a free plane lies "
-                                  "between patches. Blue: on the way to the polygon in focus"));
+      return pick(tr("Plane"),
+                  tr("Patch in the plane, and number of further fragments in it; a free "
+                     "plane holds none. Blue: on the path to the current fragment"));
     case of_side:
-      return pick(tr("Lies in"), tr("On which side of the plane above it lies, and whether that "
-                                    "side comes first along this direction"));
+      return pick(tr("Side"),
+                  tr("Side of the parent plane, and whether that side comes first or last "
+                     "along this direction"));
     case of_order:
-      return pick(tr("In order"), tr("The polygons below this plane: those done dark, to come "
-                                     "pale, the plane's own yellow, the selected patch's marked"));
+      return pick(tr("Order"),
+                  tr("Fragments in and below the plane: processed dark, later ones pale, "
+                     "in the plane yellow; those of the selected patch are marked"));
     default:
-      return pick(tr("Polygons"), tr("How many lie in and below the plane"));
+      return pick(tr("Fragments"), tr("Number of fragments in and below the plane"));
   }
 }
 

@@ -10,8 +10,8 @@
 
 namespace transillum::viewer {
 
-/// The whole BSP tree, a node an item; below each its sides, in the order that the direction in
-/// focus passes them. Views ask only for what they have opened.
+/// The whole BSP tree, one item per node; its children are its sides in the order along the current
+/// direction. Items are computed only for the nodes that a view expands.
 class TreeModel : public QAbstractItemModel {
   Q_OBJECT
 
@@ -19,14 +19,14 @@ class TreeModel : public QAbstractItemModel {
   using QAbstractItemModel::QAbstractItemModel;
   enum Column { of_plane, of_side, of_order, of_count, column_count };
 
-  /// Of another tree everything is new; of another direction along the same, sides change places.
-  /// The step is not told of by a signal: views paint anew.
+  /// A new tree resets the model; a new direction through the same tree changes its layout. A new
+  /// step emits no signal: the caller repaints its views.
   void show_position(std::shared_ptr<const TreeOutline> outline, const Vec3& omega,
                      std::int32_t step);
   const TreeVisit& visit(const QModelIndex& index) const;
   const TreeOutline& outline() const { return *outline_; }
   QModelIndex index_of(std::int32_t node, int column = of_plane) const;
-  /// From the root to the plane that holds the polygon in focus.
+  /// Nodes from the root to the plane that holds the current fragment.
   const std::vector<std::int32_t>& path() const { return path_; }
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
@@ -44,7 +44,7 @@ class TreeModel : public QAbstractItemModel {
 
   std::shared_ptr<const TreeOutline> outline_;
   Vec3 omega_;
-  std::vector<TreeVisit> visits_;  ///< a node
+  std::vector<TreeVisit> visits_;  ///< per node
   std::vector<std::int32_t> path_;
   std::int32_t step_ = -1;
 };

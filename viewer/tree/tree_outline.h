@@ -10,12 +10,13 @@
 
 namespace transillum::viewer {
 
-/// A node of the BSP tree as a direction passes it. What lies below it is processed in one go:
-/// first the side of its plane that omega points to, then what lies in the plane, then the rest.
+/// A node of the BSP tree along one direction. The fragments in and below it are a run of steps:
+/// first the side of its plane that omega points to, then the plane, then the other side.
 struct TreeVisit {
   std::int32_t node = BspTree::no_node;
-  double cosine = 0;  ///< n·omega, n the plane's normal; where it is negative, the back comes first
-  /// Steps of the direction: the near side, the plane's own, the far side.
+  double cosine = 0;  ///< n·omega, n the plane's normal; if negative, the back comes first
+  /// Step numbers: near side [begin, plane_begin), plane [plane_begin, plane_end), far side
+  /// [plane_end, end).
   std::int32_t begin = 0, plane_begin = 0, plane_end = 0, end = 0;
 
   enum class Part { near_side, plane, far_side };
@@ -27,24 +28,24 @@ struct TreeVisit {
   friend bool operator==(const TreeVisit&, const TreeVisit&) = default;
 };
 
-/// How many fragments lie below each node, and so where a direction meets them.
+/// Number of fragments below each node of a BSP tree, from which the steps of any direction follow.
 class TreeOutline {
  public:
-  /// In time linear in the nodes.
+  /// Takes time linear in the number of nodes.
   explicit TreeOutline(std::shared_ptr<const BspTree> tree);
 
   const BspTree& tree() const { return *tree_; }
   const BspTree::Node& node(std::int32_t n) const { return at(tree_->nodes(), n); }
-  /// Fragments in and below a node; 0 of no_node.
+  /// Number of fragments in and below a node; 0 for no_node.
   std::int32_t size(std::int32_t node) const;
-  /// no_node of the root.
+  /// no_node for the root.
   std::int32_t parent(std::int32_t node) const { return at(parents_, node); }
-  /// How a direction passes each of the nodes. In time linear in the nodes.
+  /// One visit per node, along `omega`. Takes time linear in the number of nodes.
   std::vector<TreeVisit> visits(const Vec3& omega) const;
-  /// The sides of a node in the order they come along a direction, without the empty ones.
+  /// The non-empty sides of a node, in the order along its direction.
   std::vector<std::int32_t> children(const TreeVisit& visit) const;
-  /// The way from the root to the node whose plane holds the fragment of step `step` in
-  /// tree.order(omega); empty where there is no such step. In time linear in its length.
+  /// The path from the root to the node whose plane holds fragment `step` of tree.order(omega);
+  /// empty if there is no such step. Takes time linear in its length.
   std::vector<TreeVisit> path_to(std::int32_t step, const Vec3& omega) const;
 
  private:
@@ -55,7 +56,7 @@ class TreeOutline {
   Sides sides(const TreeVisit& visit) const;
 
   std::shared_ptr<const BspTree> tree_;
-  std::vector<std::int32_t> sizes_, parents_;  ///< a node
+  std::vector<std::int32_t> sizes_, parents_;  ///< per node
 };
 
 }  // namespace transillum::viewer

@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 void TreePathTable::show_path(std::shared_ptr<const TreeOutline> outline,
                               std::vector<TreeVisit> path, std::int32_t step) {
-  // A reset in the midst of a double click would lose it.
+  // A reset between its two clicks would lose a double-click.
   if (outline == outline_ && step == step_ && path == path_) {
     return;
   }
@@ -85,18 +85,23 @@ QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int
   };
   switch (section) {
     case of_plane:
-      return pick(tr("Plane"),
-                  tr("Its patch, and how many more lie in it; a free plane lies between patches"));
+      return pick(
+          tr("Plane"),
+          tr("Patch in the plane, and number of further fragments in it; a free plane holds none"));
     case of_cosine:
-      return pick(tr("n·ω"), tr("Its sign tells which side of the plane ω points to"));
+      return pick(tr("n·ω"),
+                  tr("The sign gives the side of the plane that ω points to: + front, − back"));
     case of_part:
-      return pick(tr("Polygon is"), tr("Where the polygon in focus lies, and so when it comes"));
+      return pick(
+          tr("Fragment is"),
+          tr("Side of the plane that holds the current fragment, and so its place in the order"));
     case of_order:
-      return pick(tr("In order"),
-                  tr("The polygons below this plane in the order they come: the side that ω points "
-                     "to, those in the plane (yellow), the other side"));
+      return pick(
+          tr("Order"),
+          tr("Fragments in and below the plane in order: the side that ω points to, those in "
+             "the plane (yellow), the other side"));
     default:
-      return pick(tr("Count"), tr("How many polygons lie in and below the plane"));
+      return pick(tr("Fragments"), tr("Number of fragments in and below the plane"));
   }
 }
 

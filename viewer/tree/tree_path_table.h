@@ -10,7 +10,7 @@
 
 namespace transillum::viewer {
 
-/// The way from the root of the BSP tree to one polygon as a table: a plane a row.
+/// The path from the root of the BSP tree to one fragment as a table, one row per plane.
 class TreePathTable : public QAbstractTableModel {
   Q_OBJECT
 

@@ -10,7 +10,7 @@ namespace transillum::viewer {
 
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("TreeWords", text); }
+QString tr(const char* text) { return QCoreApplication::translate("TreeText", text); }
 
 }  // namespace
 
@@ -28,7 +28,7 @@ QString plane_name(const TreeOutline& outline, const TreeVisit& visit) {
   return others > 0 ? tr("patch %1 + %2").arg(patch).arg(others) : tr("patch %1").arg(patch);
 }
 
-QString plane_words(const TreeOutline& outline, const TreeVisit& visit) {
+QString plane_phrase(const TreeOutline& outline, const TreeVisit& visit) {
   const PatchId patch = patch_of(outline, visit);
   return patch == no_patch ? tr("a free plane") : tr("the plane of patch %1").arg(patch);
 }
@@ -41,9 +41,9 @@ QString cosine_text(double cosine) {
 QString explanation(const TreeOutline& outline, const TreeVisit& visit) {
   const BspTree::Plane& plane = outline.node(visit.node).plane;
   return tr("%1: n·p = %2 m with n = %3.\n"
-            "n·ω = %4, so ω points to the plane's %5: the %6 polygons there come first,\n"
-            "then the %7 in the plane, then the %8 on the other side.")
-      .arg(plane_words(outline, visit), number_text(plane.offset), vector_text(plane.normal),
+            "n·ω = %4, so the %5 side comes first, with %6 fragments;\n"
+            "then %7 in the plane, then %8 on the other side.")
+      .arg(plane_phrase(outline, visit), number_text(plane.offset), vector_text(plane.normal),
            cosine_text(visit.cosine), visit.cosine >= 0 ? tr("front") : tr("back"),
            count_text(visit.plane_begin - visit.begin),
            count_text(visit.plane_end - visit.plane_begin),

@@ -10,18 +10,18 @@ Q_DECLARE_METATYPE(transillum::viewer::TreeVisit)
 
 namespace transillum::viewer {
 
-/// Under which models of the tree give a row's TreeVisit.
+/// Role under which the tree's models return a row's TreeVisit.
 constexpr int tree_visit_role = Qt::UserRole;
 
-/// A patch that lies in the node's plane; no_patch for a free one.
+/// A patch in the node's plane; no_patch for a free plane.
 PatchId patch_of(const TreeOutline& outline, const TreeVisit& visit);
 /// "patch 12 + 3", "free plane".
 QString plane_name(const TreeOutline& outline, const TreeVisit& visit);
 /// "the plane of patch 12", "a free plane".
-QString plane_words(const TreeOutline& outline, const TreeVisit& visit);
+QString plane_phrase(const TreeOutline& outline, const TreeVisit& visit);
 /// n·omega with its sign.
 QString cosine_text(double cosine);
-/// What the plane parts, and in which order, in three lines.
+/// The plane's equation, and the order of its sides; three lines, for a tool tip.
 QString explanation(const TreeOutline& outline, const TreeVisit& visit);
 
 }  // namespace transillum::viewer

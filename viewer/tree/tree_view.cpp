@@ -20,11 +20,32 @@ namespace transillum::viewer {
 
 TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
-  words_ = new QLabel;
-  words_->setObjectName("tree_words");
-  words_->setWordWrap(true);
-  words_->setContentsMargins(10, 4, 10, 4);
-  words_->setForegroundRole(QPalette::PlaceholderText);
+  text_ = new QLabel;
+  text_->setObjectName("tree_words");
+  text_->setWordWrap(true);
+  text_->setContentsMargins(10, 4, 10, 4);
+  text_->setForegroundRole(QPalette::PlaceholderText);
+  make_path_table();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(text_);
+  browser_ = new TreeBrowser(focus_, selection_);
+  tabs_ = new QTabWidget;
+  tabs_->setObjectName("tree_tabs");
+  tabs_->setDocumentMode(true);
+  tabs_->addTab(table_, tr("Path to the fragment"));
+  tabs_->addTab(browser_, tr("Whole tree"));
+  layout->addWidget(tabs_, 1);
+  connect(&focus_, &Focus::moved, this, &TreeView::show_position);
+  connect(&selection_, &Selection::changed, this, [this] {
+    show_text();
+    table_->viewport()->update();
+  });
+  show_position();
+}
+
+void TreeView::make_path_table() {
   path_ = new TreePathTable(this);
   table_ = new QTableView;
   table_->setObjectName("tree_path");
@@ -34,21 +55,10 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
   table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
   set_up_figure_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
   auto* bars = new OrderBar(focus_, selection_, this);
-  bars->set_wishes([this](std::int32_t step) { select_step(step); },
-                   [this](std::int32_t step) { go_to_step(step); });
+  bars->set_handlers([this](std::int32_t step) { select_step(step); },
+                     [this](std::int32_t step) { go_to_step(step); });
   table_->setItemDelegateForColumn(TreePathTable::of_order, bars);
 
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(words_);
-  browser_ = new TreeBrowser(focus_, selection_);
-  tabs_ = new QTabWidget;
-  tabs_->setObjectName("tree_tabs");
-  tabs_->setDocumentMode(true);
-  tabs_->addTab(table_, tr("Way to the polygon"));
-  tabs_->addTab(browser_, tr("Whole tree"));
-  layout->addWidget(tabs_, 1);
   const auto patch_at = [this](const QModelIndex& index) {
     return patch_of(path_->outline(), path_->visit(index.row()));
   };
@@ -65,12 +75,6 @@ TreeView::TreeView(Focus& focus, Selection& selection, QWidget* parent)
       go_to_step(path_->visit(index.row()).plane_begin);
     }
   });
-  connect(&focus_, &Focus::moved, this, &TreeView::show_position);
-  connect(&selection_, &Selection::changed, this, [this] {
-    show_words();
-    table_->viewport()->update();
-  });
-  show_position();
 }
 
 void TreeView::showEvent(QShowEvent* event) {
@@ -90,32 +94,33 @@ void TreeView::show_position() {
     if (!outline_ || &outline_->tree() != map->loaded->tree.get()) {
       outline_ = std::make_shared<const TreeOutline>(map->loaded->tree);
     }
-    // Before the first polygon: the way to it.
+    // Before the first step: the path to its fragment.
     const std::int32_t step = std::max(focus_.position().step, 0);
     path_->show_path(outline_, outline_->path_to(step, map->record().frame.omega), step);
     table_->scrollToBottom();
     table_->viewport()->update();
   }
   browser_->show_position(outline_);
-  show_words();
+  show_text();
 }
 
-void TreeView::show_words() {
+void TreeView::show_text() {
   const auto map = focus_.map();
   const int rows = path_->rowCount();
   if (!map || rows == 0) {
-    words_->setText(tr("The planes that sort the polygons appear with the first direction."));
+    text_->setText(tr("The planes that order the fragments appear after the first direction."));
     return;
   }
   const std::int32_t step = path_->step();
-  words_->setText(tr("Why polygon %1, of patch %2, comes when it does: of each plane, what lies on "
-                     "the side that ω points to comes first. %3")
-                      .arg(count_text(step + 1))
-                      .arg(map->history.step(step).patch)
-                      .arg(words_of_selection()));
+  text_->setText(
+      tr("Path to the fragment of step %1 (patch %2). At each plane, the side that ω points "
+         "to comes first. %3")
+          .arg(count_text(step + 1))
+          .arg(map->history.step(step).patch)
+          .arg(text_of_selection()));
 }
 
-QString TreeView::words_of_selection() const {
+QString TreeView::text_of_selection() const {
   const auto map = focus_.map();
   const PatchId patch = selection_.patch();
   const MapHistory& history = map->history;
@@ -128,15 +133,15 @@ QString TreeView::words_of_selection() const {
   if (own == steps.end()) {
     return {};
   }
-  // The lowest plane above both is the one that parts them.
+  // The lowest plane above both separates them.
   int row = path_->rowCount() - 1;
   while (row > 0 && !path_->visit(row).holds(*own)) {
     --row;
   }
   const QString when = *own < path_->step() ? tr("before") : tr("after");
-  return tr("Patch %1 comes %2 it, parted by %3.")
+  return tr("Patch %1 comes %2 it, separated by %3.")
       .arg(patch)
-      .arg(when, plane_words(*outline_, path_->visit(row)));
+      .arg(when, plane_phrase(*outline_, path_->visit(row)));
 }
 
 void TreeView::select_step(std::int32_t step) {

@@ -17,8 +17,8 @@ class TreeOutline;
 class TreeBrowser;
 class TreePathTable;
 
-/// Why the polygon in focus comes when it does: the planes of the BSP tree from the root to it,
-/// each with what it puts before and after; and the tree as a whole.
+/// The current fragment's place in the BSP order: the planes of the tree from the root to it, each
+/// with the fragments before and after; on a second tab the whole tree.
 class TreeView : public QWidget {
   Q_OBJECT
 
@@ -29,16 +29,17 @@ class TreeView : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
+  void make_path_table();
   void show_position();
-  void show_words();
-  QString words_of_selection() const;
+  void show_text();
+  QString text_of_selection() const;
   void select_step(std::int32_t step);
   void go_to_step(std::int32_t step);
 
   Focus& focus_;
   Selection& selection_;
   std::shared_ptr<const TreeOutline> outline_;
-  QLabel* words_;
+  QLabel* text_;
   QTableView* table_;
   TreePathTable* path_;
   TreeBrowser* browser_;
