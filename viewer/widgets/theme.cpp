@@ -1,27 +1,37 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Colors, fonts, style sheet and icons of the application. The icons are the SVG files of icons/,
+// compiled in as resources.
 #include "widgets/theme.h"
 
 #include <QApplication>
+#include <QFile>
 #include <QFontInfo>
 #include <QIconEngine>
 #include <QPainter>
-#include <QPainterPath>
 #include <QPalette>
 #include <QProxyStyle>
 #include <QScreen>
+#include <QSvgRenderer>
 #include <QWidget>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
+
+#include "transillum/at.h"
+
+// Q_INIT_RESOURCE must not be in a namespace; a static library's resources need it.
+static void find_resources() { Q_INIT_RESOURCE(icons); }
 
 namespace transillum::viewer::theme {
 
 namespace {
 
 constexpr int type_size = 13;  // pixels
-constexpr int tool_size = 20;  // of an icon
+constexpr int tool_icon_size = 20;
 
-// How large type is on the wall depends on its share of the screen.
+// The size of the projected text depends on its share of the screen.
 double projector_scale() {
   constexpr double of_full_hd = 1.4, least = 1.2, most = 2;
   const QWidget* window = QApplication::activeWindow();
@@ -30,7 +40,7 @@ double projector_scale() {
   return std::clamp(of_full_hd * share, least, most);
 }
 
-/// What is drawn beside type grows with it.
+/// Scales icons and indicators with the font.
 class ScaledStyle : public QProxyStyle {
  public:
   ScaledStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
@@ -39,7 +49,7 @@ class ScaledStyle : public QProxyStyle {
                   const QWidget* widget) const override {
     switch (metric) {
       case PM_ToolBarIconSize:
-        return scaled(tool_size);
+        return scaled(tool_icon_size);
       case PM_ButtonIconSize:
         return scaled(18);
       case PM_IndicatorWidth:
@@ -55,146 +65,31 @@ class ScaledStyle : public QProxyStyle {
 
 Appearance current;
 std::atomic<double> line_scale = 1;
-QColor faded;  // what cannot be used now
+QColor disabled_ink;
 
-QPolygonF triangle(double left, double right) {
-  return {{QPointF(left, 5), QPointF(right, 12), QPointF(left, 19)}};
+// The files of icons/, in the order of enum Icon.
+constexpr const char* icon_files[] = {"open",           "run",
+                                      "pause",          "one_direction",
+                                      "one_iteration",  "stop",
+                                      "frame",          "warning",
+                                      "error",          "close",
+                                      "scene",          "step_on",
+                                      "step_back",      "phase_on",
+                                      "next_event",     "previous_event",
+                                      "next_exchange",  "previous_exchange",
+                                      "next_direction", "previous_direction",
+                                      "newest",         "study"};
+static_assert(std::size(icon_files) == static_cast<std::size_t>(Icon::study) + 1);
+
+// The SVG text of an icon, in which "currentColor" stands for its color.
+QByteArray icon_source(Icon which) {
+  find_resources();
+  QFile file(QStringLiteral(":/icons/%1.svg").arg(QLatin1String(at(icon_files, which))));
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
-void draw_chevron(QPainter& painter, double x) {
-  painter.drawPolyline(QPolygonF({{x, 6}, {x + 6, 12}, {x, 18}}));
-}
-
-Icon mirrored(Icon which) {
-  switch (which) {
-    case Icon::step_back:
-      return Icon::step_on;
-    case Icon::previous_event:
-      return Icon::next_event;
-    case Icon::previous_exchange:
-      return Icon::next_exchange;
-    case Icon::previous_direction:
-      return Icon::next_direction;
-    default:
-      return which;
-  }
-}
-
-// On a square of 24 by 24.
-void draw(QPainter& painter, Icon which, const QColor& color) {
-  const QPen line(color, 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(color);
-  switch (which) {
-    case Icon::open: {
-      painter.setPen(line);
-      painter.setBrush(Qt::NoBrush);
-      painter.drawPolyline(QPolygonF({{3, 18}, {3, 6}, {9, 6}, {11, 8.5}, {19, 8.5}, {19, 11}}));
-      painter.drawPolygon(QPolygonF({{3, 18.5}, {6.5, 11.5}, {22, 11.5}, {18.5, 18.5}}));
-      break;
-    }
-    case Icon::run:
-      painter.drawPolygon(triangle(7, 19));
-      break;
-    case Icon::pause:
-      painter.drawRoundedRect(QRectF(6, 5, 4.2, 14), 1, 1);
-      painter.drawRoundedRect(QRectF(13.8, 5, 4.2, 14), 1, 1);
-      break;
-    case Icon::one_direction:
-      painter.drawPolygon(triangle(5, 15));
-      painter.drawRoundedRect(QRectF(16.5, 5, 3, 14), 1, 1);
-      break;
-    case Icon::one_iteration:
-      painter.drawPolygon(triangle(2, 9.5));
-      painter.drawPolygon(triangle(10, 17.5));
-      painter.drawRoundedRect(QRectF(18.7, 5, 3, 14), 1, 1);
-      break;
-    case Icon::stop:
-      painter.drawRoundedRect(QRectF(6, 6, 12, 12), 1.5, 1.5);
-      break;
-    case Icon::frame:
-      painter.setPen(line);
-      for (int corner = 0; corner < 4; ++corner) {
-        painter.drawLine(QPointF(4, 9), QPointF(4, 4));
-        painter.drawLine(QPointF(4, 4), QPointF(9, 4));
-        painter.translate(12, 12);
-        painter.rotate(90);
-        painter.translate(-12, -12);
-      }
-      painter.setPen(Qt::NoPen);
-      painter.drawEllipse(QPointF(12, 12), 2.6, 2.6);
-      break;
-    case Icon::warning:
-    case Icon::error:
-      painter.drawEllipse(QPointF(12, 12), 10, 10);
-      painter.setPen(QPen(Qt::white, 2.6, Qt::SolidLine, Qt::RoundCap));
-      painter.drawLine(QPointF(12, 6.8), QPointF(12, 12.6));
-      painter.drawPoint(QPointF(12, 17));
-      break;
-    case Icon::close:
-      painter.setPen(line);
-      painter.drawLine(QPointF(7, 7), QPointF(17, 17));
-      painter.drawLine(QPointF(17, 7), QPointF(7, 17));
-      break;
-    case Icon::scene: {
-      painter.setPen(QPen(color, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-      painter.setBrush(Qt::NoBrush);
-      painter.drawPolygon(
-          QPolygonF({{12, 3}, {20, 7.5}, {20, 16.5}, {12, 21}, {4, 16.5}, {4, 7.5}}));
-      painter.drawPolyline(QPolygonF({{4, 7.5}, {12, 12}, {20, 7.5}}));
-      painter.drawLine(QPointF(12, 12), QPointF(12, 21));
-      break;
-    }
-    case Icon::step_on:
-      painter.setPen(line);
-      painter.setBrush(Qt::NoBrush);
-      draw_chevron(painter, 9);
-      break;
-    case Icon::phase_on:
-      painter.drawEllipse(QPointF(5, 12), 2, 2);
-      painter.drawEllipse(QPointF(12, 12), 2, 2);
-      painter.drawEllipse(QPointF(19, 12), 2, 2);
-      break;
-    case Icon::next_event:
-      painter.setBrush(selection);
-      painter.drawEllipse(QPointF(6, 12), 3.6, 3.6);
-      painter.setPen(line);
-      painter.setBrush(Qt::NoBrush);
-      draw_chevron(painter, 14);
-      break;
-    case Icon::next_exchange:
-      painter.setPen(line);
-      painter.drawLine(QPointF(6, 5), QPointF(6, 19));
-      painter.drawPolyline(QPolygonF({{2.5, 8.5}, {6, 5}, {9.5, 8.5}}));
-      painter.setBrush(Qt::NoBrush);
-      draw_chevron(painter, 14);
-      break;
-    case Icon::next_direction:
-      painter.setPen(line);
-      painter.setBrush(Qt::NoBrush);
-      draw_chevron(painter, 7);
-      painter.drawLine(QPointF(17.5, 6), QPointF(17.5, 18));
-      break;
-    case Icon::newest:
-      painter.drawPolygon(triangle(3, 11));
-      painter.drawPolygon(triangle(11, 19));
-      painter.drawRoundedRect(QRectF(19, 5, 2.6, 14), 1, 1);
-      break;
-    case Icon::study:
-      painter.setPen(line);
-      painter.setBrush(Qt::NoBrush);
-      painter.drawPolyline(QPolygonF({{4, 4}, {4, 20}, {20, 20}}));
-      painter.drawPolyline(QPolygonF({{8, 6}, {12, 9.5}, {16, 14.5}, {20, 16}}));
-      break;
-    case Icon::step_back:
-    case Icon::previous_event:
-    case Icon::previous_exchange:
-    case Icon::previous_direction:
-      painter.translate(24, 0);
-      painter.scale(-1, 1);
-      draw(painter, mirrored(which), color);
-      break;
-  }
+QByteArray colored(QByteArray svg, const QColor& color) {
+  return svg.replace("currentColor", color.name().toLatin1());
 }
 
 QColor color_of(Icon which) {
@@ -211,17 +106,20 @@ QColor color_of(Icon which) {
   }
 }
 
-class DrawnIcon : public QIconEngine {
+/// Renders an icon in the size and the current color on each use, so that it follows the
+/// appearance and the screen's resolution.
+class SvgIcon : public QIconEngine {
  public:
-  explicit DrawnIcon(Icon which) : which_(which) {}
+  explicit SvgIcon(Icon which) : which_(which), source_(icon_source(which)) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
+    const double size = std::min(rect.width(), rect.height());
+    QRectF square(0, 0, size, size);
+    square.moveCenter(QRectF(rect).center());
+    const QColor& color = mode == QIcon::Disabled ? disabled_ink : color_of(which_);
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
-    const int size = std::min(rect.width(), rect.height());
-    painter->translate(QRectF(rect).center() - QPointF(size, size) / 2);
-    painter->scale(size / 24.0, size / 24.0);
-    draw(*painter, which_, mode == QIcon::Disabled ? faded : color_of(which_));
+    QSvgRenderer(colored(source_, color)).render(painter, square);
     painter->restore();
   }
   QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
@@ -231,10 +129,11 @@ class DrawnIcon : public QIconEngine {
     paint(&painter, QRect(QPoint(), size), mode, state);
     return picture;
   }
-  QIconEngine* clone() const override { return new DrawnIcon(which_); }
+  QIconEngine* clone() const override { return new SvgIcon(which_); }
 
  private:
   Icon which_;
+  QByteArray source_;
 };
 
 void set_colors(const Appearance& appearance) {
@@ -249,7 +148,7 @@ void set_colors(const Appearance& appearance) {
     good = {0x52, 0xc4, 0x86};
     hover = {0x36, 0x3d, 0x47};
     title = {0x2d, 0x32, 0x3a};
-    faded = {0x7a, 0x82, 0x8d};
+    disabled_ink = {0x7a, 0x82, 0x8d};
   } else {
     window = {0xf4, 0xf5, 0xf7};
     paper = {0xff, 0xff, 0xff};
@@ -261,12 +160,12 @@ void set_colors(const Appearance& appearance) {
     good = {0x1a, 0x7f, 0x4b};
     hover = {0xe3, 0xe8, 0xef};
     title = {0xe6, 0xe9, 0xee};
-    faded = {0xb4, 0xba, 0xc2};
+    disabled_ink = {0xb4, 0xba, 0xc2};
   }
   if (!appearance.projector) {
     return;
   }
-  // A projector in a lit room makes grays one.
+  // In a lit room, grays are hard to distinguish on a projector.
   ink = appearance.dark ? QColor(Qt::white) : QColor(Qt::black);
   ink_dim = appearance.dark ? QColor(0xd0, 0xd6, 0xdd) : QColor(0x33, 0x3b, 0x46);
   rule = appearance.dark ? rule.lighter(130) : rule.darker(125);
@@ -289,7 +188,7 @@ QPalette make_palette() {
   palette.setColor(QPalette::HighlightedText, current.dark ? paper : QColor(Qt::white));
   palette.setColor(QPalette::Link, accent);
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
-    palette.setColor(QPalette::Disabled, role, faded.darker(current.dark ? 90 : 118));
+    palette.setColor(QPalette::Disabled, role, disabled_ink.darker(current.dark ? 90 : 118));
   }
   return palette;
 }
@@ -319,7 +218,7 @@ QString style_sheet() {
 
 }  // namespace
 
-QIcon icon(Icon which) { return QIcon(new DrawnIcon(which)); }
+QIcon icon(Icon which) { return QIcon(new SvgIcon(which)); }
 
 double scale() { return line_scale.load(std::memory_order_relaxed); }
 
@@ -327,16 +226,16 @@ int scaled(int pixels) { return static_cast<int>(std::lround(pixels * scale()));
 
 const Appearance& appearance() { return current; }
 
-void apply(QApplication& application, const Appearance& wished) {
-  current = wished;
-  line_scale = wished.projector ? projector_scale() : 1;
-  set_colors(wished);
+void apply(QApplication& application, const Appearance& appearance) {
+  current = appearance;
+  line_scale = appearance.projector ? projector_scale() : 1;
+  set_colors(appearance);
   application.setStyle(new ScaledStyle);
   application.setPalette(make_palette());
   QFont font = application.font();
-  const QFont wished_font(QStringLiteral("DejaVu Sans"));
-  if (QFontInfo(wished_font).family() == wished_font.family()) {
-    font.setFamily(wished_font.family());
+  const QFont preferred(QStringLiteral("DejaVu Sans"));
+  if (QFontInfo(preferred).family() == preferred.family()) {
+    font.setFamily(preferred.family());
   }
   font.setPixelSize(scaled(type_size));
   application.setFont(font);
