@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <iostream>
-#include <new>
 #include <system_error>
 
 #include "commands.h"
@@ -196,11 +195,8 @@ int run_reporting_errors(int argc, char** argv) {
   } catch (const Canceled&) {
     print_message("interrupted; there was nothing to save yet");
     return interrupted;
-  } catch (const std::bad_alloc&) {
-    print_message("not enough memory");
-    return failure;
   } catch (const std::exception& error) {
-    print_message(error.what());
+    print_message(error_text(error));
     return failure;
   }
 }

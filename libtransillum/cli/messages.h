@@ -1,15 +1,21 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <exception>
 #include <string>
 
 #include "transillum/scene.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum::cli {
 
-/// One line on stderr, whatever control characters `text` holds.
+/// Prints `text` on stderr as one line; control characters become blanks.
 void print_message(const std::string& text);
-/// What was mended in the scene, a line a warning.
+/// The option that may help, as " (try …)"; empty for Remedy::none.
+std::string remedy_hint(Remedy remedy);
+/// The text of an error, with the hint of a SolveError.
+std::string error_text(const std::exception& error);
+/// What was repaired in the scene, one warning per line.
 void print_warnings(const Scene& scene);
 
 }  // namespace transillum::cli

@@ -130,14 +130,7 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
       throw;  // there is nothing to save
     }
   }
-  const SolveProgress progress = solver.progress();
-  Solution solution;
-  solution.scene = scene;
-  solution.complete = progress.finished;
-  solution.radiosity = progress.direction > 0 ? solver.running_estimate() : solver.radiosity();
-  solution.irradiance = solver.irradiance();
-  solution.error = solver.error_estimate();
-  solution.statistics = solver.statistics();
+  Solution solution = solver.solution();
   solution.statistics.seconds_bsp = seconds_bsp;
   solution.statistics.seconds_first_shot = shot.seconds;
   return solution;

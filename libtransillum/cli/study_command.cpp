@@ -152,7 +152,7 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
       continue;
     }
     print_message(fmt::format("left out: {} with {} passes: {}", names[point.series], point.passes,
-                              point.failure));
+                              point.failure + remedy_hint(point.remedy)));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "support/failure_text.h"
 #include "support/thread_priority.h"
 #include "transillum/files.h"
 
@@ -238,7 +239,7 @@ void SolveRunner::load(const OpenRequest& request) {
   } catch (const std::bad_alloc&) {
     post_failure(tr("%1 does not fit into memory").arg(name), false);
   } catch (const std::exception& error) {
-    post_failure(QString::fromStdString(error.what()), false);
+    post_failure(failure_text(error), false);
   }
 }
 
@@ -255,7 +256,7 @@ void SolveRunner::begin_solve(const SolveOptions& options) {
   } catch (const InputError& error) {
     post_failure(QString::fromStdString(error.what()), true);
   } catch (const std::exception& error) {
-    post_failure(QString::fromStdString(error.what()), false);
+    post_failure(failure_text(error), false);
   }
 }
 
@@ -329,7 +330,7 @@ void SolveRunner::advance(const Goal& goal) {
     return;
   } catch (const std::exception& error) {
     more_to_do_ = false;
-    post_failure(QString::fromStdString(error.what()), false);
+    post_failure(failure_text(error), false);
   }
   try {
     post_snapshot();
@@ -422,7 +423,7 @@ void SolveRunner::show_form_factors() {
   } catch (const Canceled&) {
     // Another wish has come in the meantime; the loop sees to it.
   } catch (const std::exception& error) {
-    post_failure(QString::fromStdString(error.what()), false);
+    post_failure(failure_text(error), false);
   }
 }
 

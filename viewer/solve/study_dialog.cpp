@@ -18,6 +18,7 @@
 
 #include "solve/study_chart.h"
 #include "solve/study_choices.h"
+#include "support/failure_text.h"
 #include "support/number_text.h"
 #include "transillum/study_files.h"
 #include "widgets/banner.h"
@@ -211,7 +212,7 @@ void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
     }
     failures << tr("%1 with %2 passes failed: %3")
                     .arg(QString::fromStdString(names[point.series]), count_text(point.passes),
-                         QString::fromStdString(point.failure));
+                         QString::fromStdString(point.failure) + remedy_hint(point.remedy));
   }
   if (!failures.isEmpty()) {
     banner_->say(Banner::Kind::warning, failures.front(), failures.join('\n'));

@@ -2,20 +2,47 @@
 #include "support/failure_text.h"
 
 #include <QCoreApplication>
-#include <exception>
 #include <new>
 
 namespace transillum::viewer {
 
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("Failure", text); }
+
+}  // namespace
+
+QString remedy_hint(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::none:
+      break;
+    case Remedy::directions:
+      return tr(" (increase Directions M)");
+    case Remedy::directions_or_row_normalization:
+      return tr(" (increase Directions M, or set Normalization to Rows)");
+    case Remedy::directions_or_symmetric_normalization:
+      return tr(" (increase Directions M, or set Normalization to Symmetric)");
+    case Remedy::memory:
+      return tr(" (start the program with a larger --memory)");
+  }
+  return {};
+}
+
+QString failure_text(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) {
+    return tr("Not enough memory");
+  }
+  const QString text = QString::fromUtf8(error.what());
+  const auto* solve_error = dynamic_cast<const SolveError*>(&error);
+  return text.isEmpty() ? tr("Unknown error")
+                        : text + remedy_hint(solve_error ? solve_error->remedy() : Remedy::none);
+}
+
 QString current_failure_text() {
-  const auto tr = [](const char* text) { return QCoreApplication::translate("Failure", text); };
   try {
     throw;
-  } catch (const std::bad_alloc&) {
-    return tr("Not enough memory");
   } catch (const std::exception& error) {
-    const QString text = QString::fromUtf8(error.what());
-    return text.isEmpty() ? tr("Unknown error") : text;
+    return failure_text(error);
   } catch (...) {
     return tr("Unknown error");
   }

@@ -2,9 +2,16 @@
 #pragma once
 
 #include <QString>
+#include <exception>
+
+#include "transillum/solve_errors.h"
 
 namespace transillum::viewer {
 
+/// The setting of the panel that may help, as " (…)"; empty for Remedy::none.
+QString remedy_hint(Remedy remedy);
+/// A message for `error`, with the hint of a SolveError. Never empty.
+QString failure_text(const std::exception& error);
 /// A message for the exception being handled, of whatever type; to be called inside a catch block.
 /// Never empty.
 QString current_failure_text();

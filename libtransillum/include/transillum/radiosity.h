@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The solver. solve() is one call from a scene to its radiosity; RadiositySolver is the same
+// computation in steps of a pass or an iteration, for progress displays, early stopping and the
+// viewer. Options and results are plain structs.
 #pragma once
 
 #include <cstddef>
@@ -20,214 +24,257 @@
 
 namespace transillum {
 
-/// What is done to the form-factor matrix so that its rows sum to what they should.
+/// How the form-factor matrix is scaled to have the correct row sums.
 enum class Normalization {
   none,       ///< the paper's plain estimator
-  rows,       ///< rows divided by their quadrature of the cosine: removes the error of section 5.1,
-              ///< the iteration contracts for every M, reciprocity is lost
-  symmetric,  ///< rows and columns scaled alike to the same end: A_i F_ij = A_j F_ji stays.
-              ///< Wants two_way and kept form factors
+  rows,       ///< rows divided by their quadrature of the cosine: removes the error of section 5.1;
+              ///< the iteration contracts for every M; reciprocity is lost
+  symmetric,  ///< rows and columns scaled by the same factors to the same end: reciprocity,
+              ///< A_i F_ij = A_j F_ji, is kept. Requires two_way and kept form factors
 };
-/// The names of the command line, in the order of the enumeration.
+/// The names of the normalizations as in options and files, in the order of the enumeration.
 const std::vector<std::string>& normalization_names();
-/// @throws InputError naming the choices.
+/// The normalization called `name`.
+/// @throws InputError listing the choices.
 Normalization normalization_from_name(const std::string& name);
+/// The name in normalization_names().
 const std::string& name_of(Normalization normalization);
 
-/// Which directions a step takes, and what it makes of them (section 6).
+/// Which directions an iteration uses, and how iterations are combined (section 6).
 enum class Scheme {
-  fixed,                ///< the same M directions in every step (eq. 11)
-  growing,              ///< twice as many each step up to M; none is computed twice (eq. 44)
-  semi_iterative,       ///< M others each step, and the mean over steps (eq. 45)
-  conjugate_gradients,  ///< as fixed, but solved on the symmetric form. Wants two_way, not rows
+  fixed,           ///< the same M directions in every iteration (eq. 11)
+  growing,         ///< twice as many in each iteration, up to M; each computed once (eq. 44)
+  semi_iterative,  ///< M new directions in each iteration; B is the mean over iterations (eq. 45)
+  conjugate_gradients,  ///< the equations of `fixed` in symmetric form, solved by conjugate
+                        ///< gradients. Requires two_way; not with Normalization::rows
 };
+/// The names of the schemes as in options and files, in the order of the enumeration.
 const std::vector<std::string>& scheme_names();
+/// The scheme called `name`.
+/// @throws InputError listing the choices.
 Scheme scheme_from_name(const std::string& name);
+/// The name in scheme_names().
 const std::string& name_of(Scheme scheme);
 
-/// Options of a solve; the defaults are the command line's.
+/// Options of a solve run.
 struct SolveOptions {
-  int directions = 1024;  ///< M: passes an iteration step, 1 … 2^24
-  Sampling sampling = Sampling::fibonacci;
-  std::uint64_t seed = 1;  ///< of the samplings that are seeded, and of engine rays
-  std::optional<std::uint64_t> rotation = {};  ///< seed of a rotation of all directions, if any
-  Engine engine = Engine::fast;
-  EngineOptions engine_options = {};
-  bool two_way = true;  ///< each pass serves omega and -omega
-  Normalization normalize = Normalization::none;
-  Scheme scheme = Scheme::fixed;
-  /// Small bright sources are shot first, from this R²/A on (find_small_sources); none: no shot.
+  int directions = 1024;                          ///< M: passes per iteration, 1 … 2^24
+  Sampling sampling = Sampling::fibonacci;        ///< sequence of directions
+  std::uint64_t seed = 1;                         ///< of seeded samplings and of engine rays
+  std::optional<std::uint64_t> rotation = {};     ///< seed of a rotation of all directions, if any
+  Engine engine = Engine::fast;                   ///< computes the transfers
+  EngineOptions engine_options = {};              ///< of the engine
+  bool two_way = true;                            ///< each pass serves omega and -omega
+  Normalization normalize = Normalization::none;  ///< of the form factors
+  Scheme scheme = Scheme::fixed;                  ///< of the iteration
+  /// R²/A from which sources are small and, if bright, are shot before the first iteration
+  /// (find_small_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
-  int burn_in = 8;     ///< semi_iterative: so many steps are left out of the mean
-  int replicas = 1;    ///< 2 … 64: the M directions are so many independently rotated sets, whose
-                       ///< spread gives an error estimate. At most M
-  int iterations = 0;  ///< stop after so many steps; 0: by tolerance
+  int burn_in = 8;     ///< semi_iterative: iterations omitted from the mean
+  int replicas = 1;    ///< 2 … 64: split the M directions into this many sets with independent
+                       ///< rotations, whose spread gives an error estimate. At most M
+  int iterations = 0;  ///< number of iterations; 0: by tolerance
   double tolerance = 1e-6;   ///< relative change of B in the maximum norm (eq. 25)
-  std::uint64_t memory = 0;  ///< bytes kept form factors may take; 0: a quarter of the machine's
+  std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
 
   /// @throws InputError naming the option and its range.
   void validate() const;
+  /// Exact comparison of all members.
   friend bool operator==(const SolveOptions&, const SolveOptions&) = default;
 };
 
-/// One finished iteration step of eq. 11.
+/// One finished iteration of eq. 11.
 struct IterationRecord {
-  double change = 0;  ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm
-  double contraction =
-      0;  ///< ratio of this step's absolute change to the last one's; 0 in the first
-  double seconds = 0;
+  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm
+  double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first
+  double seconds = 0;      ///< wall time
 };
 
-/// Where a solver stands; cheap to copy but for the lists.
+/// The state of a solver.
 struct SolveProgress {
-  int iteration = 0;             ///< finished steps
-  int direction = 0;             ///< passes done in the step under way
-  int passes = 0;                ///< passes this step takes: M, or less where it grows
-  bool finished = false;         ///< converged, or all steps done
-  double seconds_transfers = 0;  ///< wall time of passes so far
-  double passes_per_second = 0;  ///< of the step under way
-  double seconds_left = 0;       ///< of the step under way, estimated
-  Vec3 last_direction;           ///< of the newest pass done
+  int iteration = 0;      ///< iterations finished
+  int direction = 0;      ///< passes finished in the current iteration
+  int passes = 0;         ///< passes of the current iteration: M, or fewer in Scheme::growing
+  bool finished = false;  ///< converged, or all iterations done
+  double seconds_transfers = 0;  ///< wall time of all passes so far
+  double passes_per_second = 0;  ///< in the current iteration
+  double seconds_left = 0;       ///< of the current iteration, estimated
+  Vec3 last_direction;           ///< omega of the last finished pass
 };
 
-/// How far B may be off by its directions, from the spread of independently rotated replicas of
-/// them: no reference is needed. Rotations make each replica right on average (eq. 47), so
-/// B +- quantile * standard error holds the B of infinitely many directions 95 times in 100. The
-/// first shot's own error is not in it.
+/// The error of B due to the finite number of directions, estimated from the spread of
+/// independently rotated replicas; no reference is needed. A random rotation makes each replica
+/// unbiased (eq. 47), so B ± quantile * standard error contains the B of infinitely many directions
+/// in 95 % of all runs. The first shot's own error is not included.
 struct ErrorEstimate {
-  int replicas = 0;                 ///< 0: there is no estimate, and nothing below
-  std::vector<Rgb> standard_error;  ///< of B, W/m², one a patch
-  double quantile = 0;              ///< Student's, two-sided 95 %, replicas - 1 degrees of freedom
-  double rms = 0;                   ///< RMS of the errors over RMS of B, over patches and channels
-  Rgb mean_radiosity;               ///< of B by area, W/m²
-  Rgb mean_standard_error;          ///< of this mean
+  int replicas = 0;                 ///< 0: no estimate, all other members are empty
+  std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
+  double quantile = 0;      ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
+  double rms = 0;           ///< RMS of the errors over RMS of B, over patches and channels
+  Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
+  Rgb mean_standard_error;  ///< of this mean, W/m²
 };
 
-/// What is known when a solve ends.
+/// Figures of a solve run. Times are wall times.
 struct SolveStatistics {
-  std::int64_t patches = 0, fragments = 0;
-  int directions = 0;            ///< used: M or 2M
-  int passes = 0;                ///< M
-  std::int64_t passes_made = 0;  ///< by the engine, in all steps
-  std::int64_t hemicubes = 0;    ///< drawn in place of passes; a direction is then a pixel of one
-  int iterations = 0, threads = 0;
-  std::int64_t transfers = 0;     ///< exchanges found, of every direction once
-  std::int64_t form_factors = 0;  ///< kept entries; 0 where they are recomputed
-  bool kept_form_factors = false;
-  bool converged = false;
-  double closure_defect_max = 0;      ///< over passes and patches seen at >= 1e-6 (oracle 1)
-  double closure_defect_grazing = 0;  ///< patches seen at less, over the patch's area
-  double escaped = 0;         ///< share of all projected area with nothing above it; 0: closed
-  double energy_defect = 0;   ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter (oracle 4)
-  double energy_balance = 0;  ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
-  double rho_max = 0;
-  double predicted_contraction = 0;                ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
-  PassCounts counts;                               ///< of every direction once, added up
+  std::int64_t patches = 0;           ///< of the scene
+  std::int64_t fragments = 0;         ///< of the BSP tree
+  int directions = 0;                 ///< used: M or 2M
+  int passes = 0;                     ///< M
+  std::int64_t passes_made = 0;       ///< by the engine, in all iterations
+  std::int64_t hemicubes = 0;         ///< drawn instead of passes; a direction is then one pixel
+  int iterations = 0;                 ///< finished
+  int threads = 0;                    ///< used
+  std::int64_t transfers = 0;         ///< exchanges found, over all different directions
+  std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed
+  bool kept_form_factors = false;     ///< the exchange sums of all passes are in memory
+  bool converged = false;             ///< the tolerance was reached
+  double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
+  double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
+  double escaped = 0;                 ///< share of all projected area with nothing above; 0: closed
+  double energy_defect = 0;           ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
+                                      ///< (ALGORITHM.md, oracle 4)
+  double energy_balance = 0;         ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
+  double rho_max = 0;                ///< largest reflectance
+  double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
+  PassCounts counts;                 ///< sum over all different directions
   std::vector<IterationRecord> iteration_records;  ///< one per iteration
-  std::int64_t shot_sources = 0;                   ///< patches whose emission was shot first
-  double shot_power_share = 0;                     ///< of them in all power emitted
-  double seconds_load = 0, seconds_bsp = 0, seconds_first_shot = 0, seconds_transfers = 0,
-         seconds_iterate = 0, seconds_total = 0;
+  std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
+  double shot_power_share = 0;    ///< their power over all power emitted
+  double seconds_load = 0;        ///< reading the scene; set by the caller
+  double seconds_bsp = 0;         ///< building the BSP tree
+  double seconds_first_shot = 0;  ///< first shot
+  double seconds_transfers = 0;   ///< passes
+  double seconds_iterate = 0;     ///< iterating
+  double seconds_total = 0;       ///< all of these
 };
 
 struct Solution;
 
-/// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme), watched.
+/// Solves B_i = E_i + rho_i sum_j F_ij B_j (eq. 11, or 44 or 45 by its scheme) in steps that can be
+/// observed and interrupted.
 ///
-/// Threads: one thread at a time may call it. Inside advance() it spreads passes over
-/// options.threads threads and sums them in a fixed order: the same bits for any number.
+/// Threads: at most one thread at a time may call it. advance() distributes passes over
+/// options().threads threads and sums them in a fixed order, so that the bits of the result do not
+/// depend on the number of threads.
 class RadiositySolver {
  public:
-  /// @param tree of the scene; built here when null.
-  /// @param shot light of the scene's small sources, where options.first_shot is set; shot here
-  /// when null.
+  /// Prepares a solve; makes no pass.
+  /// @param scene the scene.
+  /// @param options of the solve run.
+  /// @param tree BSP tree of `scene`; built here if null.
+  /// @param cancellation checked here and in advance().
+  /// @param shot direct light of the scene's small sources, if options.first_shot is set; computed
+  /// here if null.
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   std::shared_ptr<const BspTree> tree = nullptr,
                   const Cancellation& cancellation = {},
                   std::shared_ptr<const DirectLight> shot = nullptr);
   ~RadiositySolver();
+  /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver(RadiositySolver&&) noexcept;
+  /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver& operator=(RadiositySolver&&) noexcept;
 
-  /// How far one call of advance() goes. Where a step comes from kept form factors there are no
-  /// directions left to stop at, and `direction` goes as far as `iteration`.
-  enum class Until { direction, iteration, finished };
-  /// Hears of every pass, in order, and of every finished step, on some thread but never on two
-  /// at once; may read the solver; returns false to pause.
+  /// Where a call of advance() returns.
+  enum class Until {
+    direction,  ///< after the next pass; after the next iteration if its passes are kept already
+    iteration,  ///< after the next iteration
+    finished,   ///< when the solve is finished
+  };
+  /// Called after every pass, in order, and after every iteration; on any thread, but never on two
+  /// at once. It may read the solver and returns false to pause.
   using Observer = std::function<bool(const RadiositySolver&)>;
 
-  /// Goes on. Returns whether there is more to do. After a pause or an exception the solver
-  /// stands where the last observed pass left it, and advance() goes on from there.
+  /// Continues the solve. After a pause or an exception the solver is in the state after the last
+  /// observed pass, from which the next call continues.
+  /// @returns whether the solve is unfinished.
   /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h).
   bool advance(Until until, const Observer& observer = {});
 
+  /// The scene.
   const Scene& scene() const;
+  /// The scene, shared.
   std::shared_ptr<const Scene> shared_scene() const;
+  /// The scene's BSP tree.
   const BspTree& tree() const;
+  /// The BSP tree, shared.
   std::shared_ptr<const BspTree> shared_tree() const;
+  /// The options it was constructed with.
   const SolveOptions& options() const;
-  /// Of the first shot; zeros where there is none.
+  /// The first shot; all 0 if there is none.
   std::shared_ptr<const DirectLight> direct_light() const;
+  /// The current state.
   SolveProgress progress() const;
-  /// omega of each pass of a step, in the order of the passes.
+  /// omega of each pass of an iteration, in the order of the passes.
   const std::vector<Vec3>& directions() const;
+  /// Figures of the run so far.
   SolveStatistics statistics() const;
 
-  /// B of the last finished step, W/m², one a patch; before the first E, and what the first
-  /// shot adds.
+  /// B of the last finished iteration, W/m², one per patch; before the first: E, plus the
+  /// contribution of the first shot.
   const std::vector<Rgb>& radiosity() const;
-  /// The step under way, estimated from the passes done so far; radiosity() between steps.
+  /// B of the current iteration, W/m², estimated from the passes done so far; radiosity() between
+  /// iterations.
   std::vector<Rgb> running_estimate() const;
-  /// H of the last finished step, W/m², one a patch.
+  /// H of the last finished iteration, W/m², one per patch.
   const std::vector<Rgb>& irradiance() const;
-  /// The semi-iterative scheme needs no form factors and keeps none, unless it is told to: from the
-  /// next pass on. The other schemes always do.
+  /// Keeps form factors in the semi-iterative scheme too, from the next pass on. The other schemes
+  /// always keep them if SolveOptions::memory suffices.
   void keep_form_factors();
-  /// F_ij of all pairs, from the kept sums of all passes; in the semi-iterative scheme those of all
-  /// its steps.
-  /// @throws std::runtime_error where no step is finished or one is under way, where they were not
-  /// to be kept, or the memory did not take them.
+  /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
+  /// all iterations.
+  /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
+  /// were not kept or exceed the memory limit.
   FormFactors form_factors() const;
-  /// sum_j F_ij, one a patch, from the passes done so far; 1 within eps(M)/pi where i is enclosed.
+  /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
+  /// enclosed.
   std::vector<double> form_factor_sums() const;
-  /// A patch: share of its seen area, over all passes so far, at which receivers see its back.
+  /// Per patch: share of its visible area, over all passes so far, of which receivers see the back
+  /// side.
   std::vector<double> back_seen_shares() const;
-  /// From replicas, as they are at radiosity(), or at running_estimate() within a step.
+  /// The error estimate from replicas: of radiosity(), or within an iteration of
+  /// running_estimate().
   ErrorEstimate error_estimate() const;
-  /// The direction of pass `pass` of iteration `iteration` (both from 0), as this solver takes
-  /// them; `pass` below the passes of that step.
-  Vec3 direction(int iteration, int pass) const;
-  /// Within the step under way: relative change (maximum norm) of the running estimate at each
-  /// pass against the one before; entry d belongs to pass d. Empty between steps.
-  const std::vector<double>& estimate_changes() const;
-  /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
-  /// bounds. Of the semi-iterative scheme's newest set only.
-  const std::vector<double>& quadrature_errors() const;
   /// The result so far: within an iteration the running estimate, else radiosity(); complete once
   /// the solve has finished. In its statistics, seconds_load is 0 and seconds_total is the sum of
   /// the solver's own times, which a caller that measures them may replace.
   Solution solution() const;
+  /// omega of a pass of any iteration.
+  /// @param iteration from 0.
+  /// @param pass from 0; less than the number of passes of that iteration.
+  Vec3 direction(int iteration, int pass) const;
+  /// Per pass of the current iteration: relative change (maximum norm) of the running estimate by
+  /// that pass. Empty between iterations.
+  const std::vector<double>& estimate_changes() const;
+  /// eps after each pass so far: the largest magnitude of eq. 17 over the patches, which eq. 21
+  /// bounds. In the semi-iterative scheme of the current set of directions only.
+  const std::vector<double>& quadrature_errors() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// The answer of a solve.
+/// The result of a solve run.
 struct Solution {
-  std::shared_ptr<const Scene> scene;
-  std::vector<Rgb> radiosity;   ///< B, W/m², one a patch
-  std::vector<Rgb> irradiance;  ///< H, W/m²
-  ErrorEstimate error;
-  SolveStatistics statistics;
+  std::shared_ptr<const Scene> scene;  ///< the scene
+  std::vector<Rgb> radiosity;          ///< B, W/m², one per patch
+  std::vector<Rgb> irradiance;         ///< H, W/m², one per patch
+  ErrorEstimate error;                 ///< from replicas, if there are any
+  SolveStatistics statistics;          ///< figures of the run
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
 };
 
-/// One call from a scene to its radiosity. When `cancellation` is set during the passes it
-/// returns what there is, with complete = false.
-/// @throws InputError, Canceled (before the first pass), std::runtime_error
+/// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so
+/// far, with complete = false.
+/// @param scene the scene.
+/// @param options of the solve run.
+/// @param observer as for RadiositySolver::advance().
+/// @param cancellation checked throughout.
+/// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer = {},
                const Cancellation& cancellation = {});

@@ -1,4 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Studies: the error of B after M passes, as in the paper's figure 5, for any scene, sampling,
+// scheme and engine. run_study() solves every series for every M and compares with a reference, B
+// of a solve with many more passes (solve_reference()); the points go to the chart and table of
+// study_files.h.
 #pragma once
 
 #include <functional>
@@ -13,108 +18,125 @@
 #include "transillum/cancellation.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 
-// How wrong B is after M passes: the paper's figure 5, for any scene, sampling and scheme.
-
-/// How far B is off.
+/// The error of B against a reference.
 struct RadiosityError {
   double rms = 0;  ///< RMS of the difference over RMS of the reference, over patches and channels
   double max = 0;  ///< largest magnitude of the difference over the largest of the reference
 };
-/// @param b, reference W/m², one a patch. Not finite where the reference is 0.
+/// Computes the error of `b`. Not finite where the reference is 0.
+/// @param b W/m², one per patch.
+/// @param reference W/m², one per patch.
 RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference);
 
-/// Which of the two.
-enum class ErrorMeasure { rms, max };
+/// A member of RadiosityError.
+enum class ErrorMeasure {
+  rms,  ///< RadiosityError::rms
+  max,  ///< RadiosityError::max
+};
+/// The names of the measures as in options and files, in the order of the enumeration.
 const std::vector<std::string>& error_measure_names();
-/// @throws InputError naming the choices.
+/// The measure called `name`.
+/// @throws InputError listing the choices.
 ErrorMeasure error_measure_from_name(const std::string& name);
 
-/// Options of the solve that others are compared with: so many passes of the default sampling, both
-/// ways, under a rotation of its own, so that it shares no direction with anything studied.
+/// Options of the reference solve: `passes` two-way passes of the default sampling under a rotation
+/// of its own, so that it shares no direction with the solves studied.
 SolveOptions reference_options(int passes);
 
-/// One line in the plot of a study: what is solved with more and more directions.
+/// One line in the plot of a study: settings that are solved with increasing M.
 struct StudySeries {
-  Sampling sampling = Sampling::fibonacci;
-  bool two_way = true;
-  Normalization normalize = Normalization::none;
-  Scheme scheme = Scheme::fixed;
-  std::optional<double> first_shot = {};  ///< SolveOptions::first_shot
-  Engine engine = Engine::fast;
-  int resolution = 0;  ///< EngineOptions::resolution
+  Sampling sampling = Sampling::fibonacci;        ///< SolveOptions::sampling
+  bool two_way = true;                            ///< SolveOptions::two_way
+  Normalization normalize = Normalization::none;  ///< SolveOptions::normalize
+  Scheme scheme = Scheme::fixed;                  ///< SolveOptions::scheme
+  std::optional<double> first_shot = {};          ///< SolveOptions::first_shot
+  Engine engine = Engine::fast;                   ///< SolveOptions::engine
+  int resolution = 0;                             ///< EngineOptions::resolution
 
+  /// Exact comparison of all members.
   friend bool operator==(const StudySeries&, const StudySeries&) = default;
 };
-/// Names for a plot: the sampling, and behind slashes what else sets the series apart from one
-/// another, as in `hammersley/one-way/rows`.
+/// Names for a plot: the sampling, and after slashes the settings in which the series differ, as in
+/// `hammersley/one-way/rows`.
 std::vector<std::string> names_of(std::span<const StudySeries> series);
 
-/// Steps that the mean of the semi-iterative scheme is usually taken of, after those of burn_in.
+/// Default number of iterations in the mean of the semi-iterative scheme, after those of burn_in.
 inline constexpr int default_averaged_iterations = 16;
 
+/// Options of run_study().
 struct StudyOptions {
-  std::vector<StudySeries> series;
-  std::vector<int> directions;  ///< M
-  /// Each M is solved with so many sets, each turned by a rotation and sown by a seed of its own;
-  /// 1: with the one set as it is.
+  std::vector<StudySeries> series;  ///< at least one
+  std::vector<int> directions;      ///< values of M
+  /// Number of direction sets that each M is solved with, each with its own rotation and seed; 1:
+  /// one set without a rotation.
   int rotations = 1;
-  /// Patches that emit are left out of the errors: what they emit is known, and may outshine all
-  /// that is not.
+  /// Omit emitting patches from the errors: their known exitance may dominate everything else.
   bool without_sources = false;
-  /// All that the series leave open. For the semi-iterative scheme iterations 0 means those of
-  /// burn_in and default_averaged_iterations.
+  /// Settings common to all series. In the semi-iterative scheme iterations = 0 means burn_in +
+  /// default_averaged_iterations.
   SolveOptions solve{.tolerance = 1e-8};
 
   /// The options of one solve.
   SolveOptions solve_options(const StudySeries& of, int passes, int rotation = 0) const;
-  /// Of the solve to compare with: so many passes, 0: four times the most that are studied. It
-  /// shoots first where any of the series does.
+  /// The options of the reference solve, with a first shot if any series has one.
+  /// @param passes 0: four times the largest number studied.
   SolveOptions reference(int passes = 0) const;
-  /// @throws InputError, also for series that SolveOptions::validate refuses.
+  /// @throws InputError, also for series that SolveOptions::validate rejects.
   void validate() const;
 };
 
-/// One M of one series.
+/// The result of one series for one M.
 struct StudyPoint {
-  std::size_t series = 0;  ///< in StudyOptions::series
-  /// M; of the semi-iterative scheme M times the steps; of hemicubes one a patch, whatever M.
+  std::size_t series = 0;  ///< index in StudyOptions::series
+  /// M; in the semi-iterative scheme M times the iterations; for hemicubes the number of patches.
   std::int64_t passes = 0;
-  std::int64_t directions = 0;  ///< passes, or twice as many; of hemicubes the pixels of one
-  double rms_error = 0;         ///< of several rotations, the RMS
-  double max_error = 0;         ///< of several rotations, the largest
-  double bound = 0;  ///< NaN of hemicubes; of errors where the environment is nearly homogeneous,
-                     ///< by eq. 37 and 21
-  double seconds =
-      0;  ///< processor time of passes and iteration, of all threads; mean of rotations
-  /// Why there are no errors here (NaN): too few directions for the iteration to converge, or too
-  /// little memory for what was asked.
+  std::int64_t directions = 0;  ///< passes, or twice as many; for hemicubes the pixels of one
+  double rms_error = 0;         ///< RMS over the rotations
+  double max_error = 0;         ///< largest over the rotations
+  double bound = 0;             ///< of the error in a nearly homogeneous environment, by eq. 37 and
+                                ///< 21; NaN for hemicubes
+  double seconds = 0;           ///< processor time of passes and iteration, all threads; mean over
+                                ///< the rotations
+  /// Why the errors are NaN: too few directions for convergence, or insufficient memory. Empty:
+  /// they are not.
   std::string failure;
+  Remedy remedy = Remedy::none;  ///< what would avoid the failure
 
+  /// rms_error or max_error.
   double error(ErrorMeasure measure) const {
     return measure == ErrorMeasure::rms ? rms_error : max_error;
   }
 };
 
-/// Where a study stands.
+/// Progress of run_study().
 struct StudyProgress {
-  std::size_t series = 0;  ///< under way
-  int directions = 0;      ///< M under way
-  double share = 0;        ///< of all passes, done
-  double passes_per_second = 0;
+  std::size_t series = 0;              ///< being solved
+  int directions = 0;                  ///< M being solved
+  double share = 0;                    ///< share of all passes that are done, [0,1]
+  double passes_per_second = 0;        ///< of the current solve
   double seconds_left = 0;             ///< estimated
   std::span<const StudyPoint> points;  ///< done so far, by M, then series; valid during the call
 };
+/// Called on the thread of run_study().
 using StudyObserver = std::function<void(const StudyProgress&)>;
 
+/// The result of run_study().
 struct Study {
-  std::vector<StudyPoint> points;  ///< by series, then M
+  std::vector<StudyPoint> points;  ///< sorted by series, then M
   bool complete = false;           ///< false: canceled; the points are those done by then
 };
 
-/// B to compare with, W/m², one a patch.
+/// B of the reference solve.
+/// @param scene the scene.
+/// @param tree BSP tree of `scene`.
+/// @param options StudyOptions::reference().
+/// @param observer if set, called after every pass.
+/// @param cancellation checked during the solve.
+/// @returns B, W/m², one per patch.
 /// @throws InputError, Canceled, std::runtime_error
 std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::shared_ptr<const BspTree>& tree,
@@ -122,32 +144,39 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::function<void(const SolveProgress&)>& observer = {},
                                  const Cancellation& cancellation = {});
 
-/// Solves for every series and M, the small ones first, and compares with `reference`, B of the
-/// scene. The scene is sorted once, in `tree`.
+/// Solves every series for every M, small M first, and compares with the reference.
+/// @param scene the scene.
+/// @param tree BSP tree of `scene`, used by all solves.
+/// @param options series, values of M and common settings.
+/// @param reference B, W/m², one per patch.
+/// @param observer if set, called after every pass.
+/// @param cancellation when set, the points done so far are returned.
 /// @throws InputError, std::runtime_error
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
                 const std::vector<Rgb>& reference, const StudyObserver& observer = {},
                 const Cancellation& cancellation = {});
 
-/// The points of one series.
+/// The points of one series, by M.
 std::vector<StudyPoint> points_of(const Study& study, std::size_t series);
 
-/// error = factor * passes ^ slope, by least squares of the logarithms of the errors.
+/// error = factor * passes ^ slope.
 struct PowerLaw {
-  double slope = 0, factor = 0;
+  double slope = 0;   ///< exponent, usually negative
+  double factor = 0;  ///< error of one pass
 };
-/// Of the points of one series with an error above 0; none if these are fewer than two.
+/// Least-squares fit to the logarithms of the errors of one series; points with an error of 0 or
+/// NaN are ignored. Nothing if fewer than two remain.
 std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points,
                                          ErrorMeasure measure = ErrorMeasure::rms);
 
-/// What a series takes to an accuracy, between its points by power laws.
+/// The cost of reaching an accuracy, interpolated between the points of a series by power laws.
 struct StudyCost {
-  double passes = 0, seconds = 0;
-  bool at_most = false;  ///< the first point is as good already
+  double passes = 0;     ///< number of passes
+  double seconds = 0;    ///< processor time
+  bool at_most = false;  ///< an upper bound: the first point already has the accuracy
 };
-/// Where the error of the points of one series falls below `accuracy` for good; none if it does
-/// not.
+/// The cost from which the error of a series stays below `accuracy`; nothing if it does not.
 std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
                                  ErrorMeasure measure = ErrorMeasure::rms);
 

@@ -17,6 +17,7 @@
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
@@ -111,10 +112,14 @@ class StudyRun {
       }
       point.rms_error = std::sqrt(point.rms_error);
       if (!std::isfinite(point.rms_error)) {
-        throw std::runtime_error("B outgrows all numbers");
+        throw NotConvergent("B exceeds the range of numbers", Remedy::directions);
       }
     } catch (const InputError&) {
       throw;
+    } catch (const SolveError& error) {
+      point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
+      point.failure = error.what();
+      point.remedy = error.remedy();
     } catch (const std::runtime_error& error) {
       point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
       point.failure = error.what();
