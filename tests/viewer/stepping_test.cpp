@@ -391,7 +391,7 @@ class SteppingTest : public QObject {
     QCOMPARE(directions->mark(), std::optional(7));
     QCOMPARE(iterations->mark(), std::optional(1));
     const QImage before = directions->grab().toImage();
-    QTest::mouseClick(directions, Qt::LeftButton, {}, directions->place_of(21).toPoint());
+    QTest::mouseClick(directions, Qt::LeftButton, {}, directions->position_of(21).toPoint());
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     QVERIFY((s.focus.position() == RunPosition{0, 20, 2}));
     QCOMPARE(directions->mark(), std::optional(21));
@@ -399,7 +399,7 @@ class SteppingTest : public QObject {
 
     s.trigger("one_iteration");
     QVERIFY(wait_for([&] { return s.focus.iterations() == 2 && s.window->settled(); }));
-    QTest::mouseClick(iterations, Qt::LeftButton, {}, iterations->place_of(2).toPoint());
+    QTest::mouseClick(iterations, Qt::LeftButton, {}, iterations->position_of(2).toPoint());
     QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     QVERIFY((s.focus.position() == RunPosition{1, 20, 2}));
     QCOMPARE(iterations->mark(), std::optional(2));

@@ -127,7 +127,7 @@ QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int
     return {};
   }
   const auto pick = [role](const QString& name, const QString& tip) {
-    return head_cell(role, name, tip);
+    return header_cell(role, name, tip);
   };
   switch (section) {
     case of_direction:

@@ -14,7 +14,7 @@ void JsonObject::read(const std::string& key, std::string& value) {
     return;
   }
   if (!found->is_string()) {
-    fail_at(key, "must be words in quotes");
+    fail_at(key, "must be a string in quotes");
   }
   value = found->get<std::string>();
 }
@@ -69,7 +69,7 @@ void JsonObject::done() const {
     for (const std::string& key : known_) {
       keys += (keys.empty() ? "" : ", ") + key;
     }
-    fail("there is no \"" + item.key() + "\" here; there may be " + keys);
+    fail("unknown key \"" + item.key() + "\"; known keys: " + keys);
   }
 }
 
@@ -91,8 +91,8 @@ json parse_json(const std::string& text, const std::string& name) {
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(name + ", line " + std::to_string(line) + ": this is not JSON (see " +
-                     "https://www.json.org): a comma, a quote or a bracket is missing or too many");
+    throw InputError(name + ", line " + std::to_string(line) + ": invalid JSON (see " +
+                     "https://www.json.org): check commas, quotes and brackets");
   }
 }
 

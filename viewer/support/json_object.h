@@ -10,11 +10,12 @@
 
 namespace transillum::viewer {
 
-/// Reads an object of a JSON file key by key. Whatever is wrong throws an InputError that says
-/// where: "room.json, page 3, camera: …".
+/// Reads an object of a JSON file key by key. Errors throw an InputError that begins with the
+/// place: "room.json, page 3, camera: …".
 class JsonObject {
  public:
-  /// `where` opens every message. @throws InputError where `value` is no object.
+  /// @param where  beginning of every message
+  /// @throws InputError if `value` is not an object
   JsonObject(const nlohmann::json& value, std::string where)
       : value_(value), where_(std::move(where)) {
     if (!value_.is_object()) {
@@ -22,29 +23,30 @@ class JsonObject {
     }
   }
 
-  /// The value of a key; null where it is missing, or null in the file.
+  /// The value of a key; null if it is missing, or null in the file.
   const nlohmann::json* find(const std::string& key) {
     known_.insert(key);
     const auto found = value_.find(key);
     return found == value_.end() || found->is_null() ? nullptr : &*found;
   }
 
-  /// The same, of a type that it must have; `value` stays where there is none.
+  /// Sets `value` to the value of a key; leaves it unchanged if there is none.
+  /// @throws InputError if it has another type
   void read(const std::string& key, std::string& value);
   void read(const std::string& key, bool& value);
   void read(const std::string& key, double& value);
-  /// @param least,most the range it must be in.
+  /// @param least,most  valid range
   void read(const std::string& key, int& value, int least, int most);
   void read(const std::string& key, Vec3& value);
 
-  /// One message for a key.
+  /// Throws an error about a key.
   [[noreturn]] void fail_at(const std::string& key, const std::string& what) const {
     throw InputError(where_ + ", " + key + ": " + what);
   }
   [[noreturn]] void fail(const std::string& what) const { throw InputError(where_ + ": " + what); }
   std::string where(const std::string& key) const { return where_ + ", " + key; }
 
-  /// To be called at the end. @throws InputError naming a key that nobody asked for.
+  /// To be called after all keys are read. @throws InputError naming a key that was not read
   void done() const;
 
  private:
@@ -53,11 +55,11 @@ class JsonObject {
   std::set<std::string> known_;
 };
 
-/// Three numbers [x, y, z]. @throws InputError that begins with `where`.
+/// Reads [x, y, z]. @throws InputError that begins with `where`
 Vec3 vec3_from_json(const nlohmann::json& value, const std::string& where);
 nlohmann::json to_json(const Vec3& v);
 
-/// The JSON of a whole file. @throws InputError naming the file, and the line where it is no JSON.
+/// Parses the text of a file. @throws InputError with the file name and line of a syntax error
 nlohmann::json parse_json(const std::string& text, const std::string& name);
 
 }  // namespace transillum::viewer

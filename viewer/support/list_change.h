@@ -8,34 +8,34 @@
 
 namespace transillum::viewer {
 
-/// A short list of the user's before and after a change.
+/// Undo command for a list of the user: the list before and after a change.
 template <class List>
 class ListChange : public QUndoCommand {
  public:
-  using Put = std::function<void(const List&)>;
+  using Set = std::function<void(const List&)>;
 
-  ListChange(const QString& what, List before, List after, Put put)
+  ListChange(const QString& what, List before, List after, Set set)
       : QUndoCommand(what),
         before_(std::move(before)),
         after_(std::move(after)),
-        put_(std::move(put)) {}
-  void undo() override { put_(before_); }
-  void redo() override { put_(after_); }
+        set_(std::move(set)) {}
+  void undo() override { set_(before_); }
+  void redo() override { set_(after_); }
 
  private:
   List before_, after_;
-  Put put_;
+  Set set_;
 };
 
-/// Puts `after` in the place of `before`: for good, or so that `undo` can take it back.
-/// @param what names the change, as in "Undo …".
+/// Replaces `before` by `after`; with `undo`, as an undoable command.
+/// @param what  name of the change, shown as "Undo …"
 template <class List>
 void change_list(QUndoStack* undo, const QString& what, const List& before, List after,
-                 typename ListChange<List>::Put put) {
+                 typename ListChange<List>::Set set) {
   if (undo) {
-    undo->push(new ListChange<List>(what, before, std::move(after), std::move(put)));
+    undo->push(new ListChange<List>(what, before, std::move(after), std::move(set)));
   } else {
-    put(after);
+    set(after);
   }
 }
 

@@ -8,8 +8,8 @@ namespace transillum::viewer {
 
 QString count_text(std::int64_t value) {
   QString digits = QString::number(value < 0 ? -value : value);
-  for (qsizetype at = digits.size() - 3; at > 0; at -= 3) {
-    digits.insert(static_cast<int>(at), QChar(0x2009));
+  for (qsizetype place = digits.size() - 3; place > 0; place -= 3) {
+    digits.insert(static_cast<int>(place), QChar(0x2009));
   }
   return value < 0 ? QChar(0x2212) + digits : digits;
 }
@@ -69,7 +69,7 @@ QString rgb_text(const Rgb& value) {
 
 QString vector_text(const Vec3& value) {
   const auto coordinate = [](double x) {
-    // No "-0.000".
+    // Avoids "-0.000".
     const double rounded = std::round(x * 1000) / 1000;
     return QString::number(rounded == 0 ? 0.0 : rounded, 'f', 3)
         .replace(QLatin1Char('-'), QChar(0x2212));

@@ -8,18 +8,19 @@
 
 namespace transillum::viewer {
 
-/// Up to four significant digits, with thousands apart: 0.01234, 1.234 × 10⁻⁶, 19 976.
+/// Up to four significant digits: 0.01234, 1.234 × 10⁻⁶, 19 976; "–" if not finite.
 QString number_text(double value);
-/// Thousands apart by a thin space: 19 976.
+/// With thin spaces between groups of thousands: 19 976.
 QString count_text(std::int64_t value);
-/// Powers of ten for an axis: 10⁻⁴.
+/// A power of ten for an axis: 10⁻⁴.
 QString power_of_ten_text(int exponent);
-/// 3 s, 2 min 05 s, 1 h 20 min.
+/// Rounded up: 3 s, 2 min 05 s, 1 h 20 min.
 QString duration_text(double seconds);
-/// With a large first letter.
+/// With a capital first letter.
 QString capitalized(const QString& text);
-/// Three numbers apart by two spaces.
+/// Three number_text() separated by spaces.
 QString rgb_text(const Rgb& value);
+/// (x, y, z) with three decimals.
 QString vector_text(const Vec3& value);
 
 }  // namespace transillum::viewer

@@ -11,11 +11,12 @@ namespace transillum::viewer {
 
 void lower_thread_priority() {
 #ifdef __linux__
-  // Linux keeps a nice value a thread, and new threads inherit it: so do the solver's workers.
-  // If the system refuses, the window is merely less prompt. With 19 a machine with other jobs left
-  // next to nothing to it: a scene's first picture took minutes. With 10 it has seven times as much
-  // of a shared core, and the gaps between the window's turns were the same to what repeats: on two
-  // cores without a graphics card 99 % were below 47 to 54 ms, with 19 below 40 to 56.
+  // Linux has one nice value per thread, and new threads inherit it: the solver's workers too.
+  // If the system refuses, the window only responds more slowly. With 19, the worker got almost no
+  // time on a machine with other jobs: the first picture of a scene took minutes. With 10, it gets
+  // seven times as much of a shared core, and the UI thread's delays are the same within the
+  // measurement noise: on two cores without a graphics card, 99 % were below 47 to 54 ms, with 19
+  // below 40 to 56 ms.
   const auto thread = static_cast<id_t>(syscall(SYS_gettid));
   (void)setpriority(PRIO_PROCESS, thread, 10);
 #endif

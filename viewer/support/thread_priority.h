@@ -3,7 +3,8 @@
 
 namespace transillum::viewer {
 
-/// Makes the calling thread, and the threads that it will start, give way to the window.
+/// Lowers the priority of the calling thread, and of threads that it starts later, below the
+/// UI thread's. Linux only; elsewhere without effect.
 void lower_thread_priority();
 
 }  // namespace transillum::viewer

@@ -144,7 +144,7 @@ QVariant TreeModel::headerData(int section, Qt::Orientation orientation, int rol
     return {};
   }
   const auto pick = [role](const QString& name, const QString& tip) {
-    return head_cell(role, name, tip);
+    return header_cell(role, name, tip);
   };
   switch (section) {
     case of_plane:

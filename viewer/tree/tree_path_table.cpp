@@ -81,7 +81,7 @@ QVariant TreePathTable::headerData(int section, Qt::Orientation orientation, int
     return {};
   }
   const auto pick = [role](const QString& name, const QString& tip) {
-    return head_cell(role, name, tip);
+    return header_cell(role, name, tip);
   };
   switch (section) {
     case of_plane:

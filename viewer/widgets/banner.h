@@ -7,7 +7,7 @@ class QLabel;
 
 namespace transillum::viewer {
 
-/// Words above the scene that wait for nobody: an error, or what a scene was found to be like.
+/// Non-modal message bar above the scene: an error, or warnings about the scene.
 class Banner : public QFrame {
   Q_OBJECT
 
@@ -16,8 +16,10 @@ class Banner : public QFrame {
 
   explicit Banner(QWidget* parent = nullptr);
 
+  /// Replaces the shown message. `details` is the tool tip.
   void say(Kind kind, const QString& text, const QString& details = {});
   void dismiss();
+  /// Empty while hidden.
   QString text() const;
 
  private:

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Three sliders with spin boxes for an RGB value. With "together" checked, a drag scales all three
+// channels by one factor, relative to the value at the start of the drag.
 #include "widgets/channel_sliders.h"
 
 #include <QCheckBox>
@@ -36,7 +39,7 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
   together_ = new QCheckBox(tr("together"));
   together_->setObjectName(part("together"));
   together_->setChecked(true);
-  together_->setToolTip(tr("Red, green and blue keep their proportions: the hue stays"));
+  together_->setToolTip(tr("Keeps the proportions of red, green and blue, and so the hue"));
   grid->addWidget(heading, 0, 0, 1, 2);
   grid->addWidget(together_, 0, 2);
   const QString labels[] = {tr("red"), tr("green"), tr("blue")};
@@ -56,50 +59,50 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
     grid->addWidget(sliders_[c], row, 1);
     grid->addWidget(boxes_[c], row, 2);
     connect(sliders_[c], &QSlider::sliderPressed, this, [this] {
-      when_begun_ = value_;
+      at_drag_start_ = value_;
       emit drag_began();
     });
     connect(sliders_[c], &QSlider::valueChanged, this, [this, c](int step) {
       if (!sliders_[c]->isSliderDown()) {
-        when_begun_ = value_;
+        at_drag_start_ = value_;
         emit drag_began();
       }
-      take(c, most_ * step / slider_steps);
+      set_channel(c, most_ * step / slider_steps);
     });
     connect(boxes_[c], qOverload<double>(&QDoubleSpinBox::valueChanged), this,
             [this, c](double value) {
-              when_begun_ = value_;
+              at_drag_start_ = value_;
               emit drag_began();
-              take(c, value);
+              set_channel(c, value);
             });
   }
   grid->setColumnStretch(1, 1);
 }
 
-void ChannelSliders::take(std::size_t channel, double value) {
+void ChannelSliders::set_channel(std::size_t channel, double value) {
   Rgb next = value_;
-  const double before = *channels_of(when_begun_)[channel];
+  const double before = *channels_of(at_drag_start_)[channel];
   if (together_->isChecked() && before > 0) {
-    // No channel may leave the range: then none goes further.
-    const double factor = std::min(value / before, most_ / max_abs(when_begun_));
-    next = factor * when_begun_;
-  } else if (together_->isChecked() && max_abs(when_begun_) == 0) {
+    // The factor is limited so that no channel exceeds the range.
+    const double factor = std::min(value / before, most_ / max_abs(at_drag_start_));
+    next = factor * at_drag_start_;
+  } else if (together_->isChecked() && max_abs(at_drag_start_) == 0) {
     next = {value, value, value};
   } else {
     *channels_of(next)[channel] = value;
   }
   value_ = next;
-  show_all();
+  update_widgets();
   emit moved(next);
 }
 
 void ChannelSliders::show_value(const Rgb& value, double most) {
   value_ = value;
   most_ = most;
-  show_all();
+  update_widgets();
 }
 
-void ChannelSliders::show_all() {
+void ChannelSliders::update_widgets() {
   const auto values = channels_of(value_);
   for (std::size_t c = 0; c < 3; ++c) {
     const QSignalBlocker quiet_slider(sliders_[c]), quiet_box(boxes_[c]);

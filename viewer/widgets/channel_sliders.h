@@ -12,15 +12,15 @@ class QSlider;
 
 namespace transillum::viewer {
 
-/// Sliders for red, green and blue, which move together, in proportion, or alone.
+/// Sliders for red, green and blue; they move together, in proportion, or separately.
 class ChannelSliders : public QWidget {
   Q_OBJECT
 
  public:
-  /// `name` begins the names of its parts: name_red and so on, name_together.
+  /// @param name  prefix of the object names of its parts: name_red, …, name_together
   ChannelSliders(const char* name, const QString& title, int decimals, QWidget* parent = nullptr);
 
-  /// Tells nobody.
+  /// Emits no signal. `most`: right end of the sliders.
   void show_value(const Rgb& value, double most);
 
  signals:
@@ -28,10 +28,10 @@ class ChannelSliders : public QWidget {
   void moved(const transillum::Rgb& value);
 
  private:
-  void take(std::size_t channel, double value);
-  void show_all();
+  void set_channel(std::size_t channel, double value);
+  void update_widgets();
 
-  Rgb value_, when_begun_;
+  Rgb value_, at_drag_start_;
   double most_ = 1;
   QCheckBox* together_;
   std::array<QSlider*, 3> sliders_;

@@ -12,10 +12,12 @@ namespace transillum::viewer {
 
 ChartColor chart_color(const QColor& color);
 
-/// The theme's colors and the widget's type.
+/// The theme's colors and the widget's font.
 ChartStyle chart_style(const QWidget& widget);
 
-/// Paints a picture of `pixels`, `scale` of them to one of the widget.
+/// Paints `chart` to `picture`, which gets the size `pixels`.
+/// @param scale  device pixels per logical pixel
+/// @return the plotted area, in logical pixels
 ChartArea paint_chart(const LineChart& chart, QImage& picture, const QSize& pixels, double scale);
 
 }  // namespace transillum::viewer

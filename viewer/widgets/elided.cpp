@@ -15,10 +15,10 @@ void ElidedComboBox::paintEvent(QPaintEvent*) {
     option.palette.setBrush(QPalette::ButtonText, option.palette.placeholderText());
     option.currentText = placeholderText();
   }
-  const QRect room =
+  const QRect text_field =
       style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
   option.currentText =
-      fontMetrics().elidedText(option.currentText, Qt::ElideRight, room.width() - 4);
+      fontMetrics().elidedText(option.currentText, Qt::ElideRight, text_field.width() - 4);
   QStylePainter painter(this);
   painter.drawComplexControl(QStyle::CC_ComboBox, option);
   painter.drawControl(QStyle::CE_ComboBoxLabel, option);
@@ -50,20 +50,20 @@ void ClauseLabel::changeEvent(QEvent* event) {
 }
 
 void ClauseLabel::fit() {
-  const QString between = QStringLiteral(" · ");
+  const QString separator = QStringLiteral(" · ");
   QTextDocument measured;
   measured.setDefaultFont(font());
   measured.setDocumentMargin(0);
-  QString words = clauses_.join(between);
-  for (int kept = clauses_.size() - 1; kept > 0; --kept) {
-    measured.setHtml(words);
+  QString text = clauses_.join(separator);
+  for (int count = clauses_.size() - 1; count > 0; --count) {
+    measured.setHtml(text);
     if (measured.idealWidth() <= width()) {
       break;
     }
-    words = QStringList(clauses_.mid(0, kept)).join(between) + QStringLiteral(" …");
+    text = QStringList(clauses_.mid(0, count)).join(separator) + QStringLiteral(" …");
   }
-  setText(words);
-  setToolTip(clauses_.join(between));
+  setText(text);
+  setToolTip(clauses_.join(separator));
 }
 
 }  // namespace transillum::viewer

@@ -7,7 +7,7 @@
 
 namespace transillum::viewer {
 
-/// A list whose chosen name ends in "…" where it has no room, in place of being cut.
+/// A combo box that elides the selected text ("…") if it does not fit.
 class ElidedComboBox : public QComboBox {
  public:
   using QComboBox::QComboBox;
@@ -16,8 +16,7 @@ class ElidedComboBox : public QComboBox {
   void paintEvent(QPaintEvent* event) override;
 };
 
-/// A line of clauses, the most important first: as many as there is room for, the rest by "…". The
-/// pointer tells them all.
+/// A line of clauses, the most important first: as many as fit, then "…". The tool tip has all.
 class ClauseLabel : public QLabel {
  public:
   explicit ClauseLabel(QWidget* parent = nullptr);

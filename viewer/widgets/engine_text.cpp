@@ -8,7 +8,7 @@ namespace transillum::viewer {
 
 namespace {
 
-QString tr(const char* words) { return QCoreApplication::translate("Engine", words); }
+QString tr(const char* text) { return QCoreApplication::translate("Engine", text); }
 
 }  // namespace
 
@@ -39,28 +39,31 @@ QString engine_label(Engine engine) {
 QString engine_sentence(Engine engine) {
   switch (engine) {
     case Engine::fast:
-      return tr("Each receiver's polygon is eaten up by what lies above it, nearest first: exact");
+      return tr(
+          "Exact: subtracts the candidates above each receiver from its polygon, nearest first");
     case Engine::local:
-      return tr("The local visibility map of section 3.2, the one that can be watched: exact");
+      return tr("Exact: the local visibility map of section 3.2, which can be stepped through");
     case Engine::global:
       return tr(
-          "The global visibility map of section 3.1, an arrangement in fractions: exact, slow");
+          "Exact, slow: the global visibility map of section 3.1, an arrangement in rational "
+          "numbers");
     case Engine::exact:
-      return tr("The local map in fractions, which never round: slow, for small scenes");
+      return tr(
+          "Exact, slow: the local map in rational numbers, without rounding; for small scenes");
     case Engine::zbuffer:
-      return tr("Each pixel of the plane has its list of patches, by height (section 2)");
+      return tr("Each pixel of the plane has a list of patches, sorted by height (section 2)");
     case Engine::painter:
-      return tr("Patches are painted into one buffer of pixels, the farthest first (section 2)");
+      return tr("Patches are painted into one pixel buffer, the farthest first (section 2)");
     case Engine::rays:
-      return tr("Parallel rays through the scene; each stands for its share of the plane");
+      return tr("Parallel rays through the scene; each represents an equal area of the plane");
     case Engine::corrected:
       return tr(
-          "What is partly hidden stays whole, and its light is corrected: approximate "
+          "Approximate: partly hidden polygons are not cut, and their light is corrected "
           "(section 8)");
     case Engine::hemicube:
       return tr(
-          "What the middle of each patch sees through the pixels of half a cube round it; "
-          "takes no directions");
+          "Form factors from the center of each patch through the pixels of half a cube; uses "
+          "no directions");
   }
   return {};
 }

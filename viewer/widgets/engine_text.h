@@ -9,19 +9,20 @@ class QComboBox;
 
 namespace transillum::viewer {
 
-// Engines in words for people.
+// Texts about engines for the user interface.
 
-/// As in a list to choose from.
+/// Name in a list of choices.
 QString engine_label(Engine engine);
-/// One sentence: what it does.
+/// One sentence on its method; the tool tip.
 QString engine_sentence(Engine engine);
-/// Whether EngineOptions::resolution counts.
+/// Whether the engine uses EngineOptions::resolution.
 bool takes_resolution(Engine engine);
 
-/// Fills an empty box with engines, each with its sentence as tool tip; data: the engine as int.
-/// @param with_hemicubes also the one that takes no directions.
+/// Fills an empty box with the engines, each with its sentence as tool tip; data: the engine as
+/// int.
+/// @param with_hemicubes also Engine::hemicube, which uses no directions
 void add_engines(QComboBox& box, bool with_hemicubes);
-/// What such a box is at.
+/// The engine selected in such a box.
 Engine engine_of(const QComboBox& box);
 void choose_engine(QComboBox& box, Engine engine);
 

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int row_margin = 6, column_margin = 10;
 
-/// Measures a table anew whenever its type changes.
-class TypeFollower : public QObject {
+/// Sets the row height and column widths of a table again when its font changes.
+class SizeByFont : public QObject {
  public:
-  TypeFollower(QTableView& table, QStringList widest)
+  SizeByFont(QTableView& table, QStringList widest)
       : QObject(&table), table_(table), widest_(std::move(widest)) {
     table_.installEventFilter(this);
     measure();
@@ -33,20 +33,20 @@ class TypeFollower : public QObject {
   void measure() {
     table_.verticalHeader()->setDefaultSectionSize(table_.fontMetrics().height() + row_margin);
     QFont bold = table_.font();
-    bold.setBold(true);  // so is the row of what is looked at
-    const QFontMetrics type(bold), header_type(table_.horizontalHeader()->font());
+    bold.setBold(true);  // the current row is bold
+    const QFontMetrics text(bold), header_text(table_.horizontalHeader()->font());
     table_.horizontalHeader()->setDefaultSectionSize(
-        type.horizontalAdvance(QStringLiteral("0.008888")) + column_margin);
+        text.horizontalAdvance(QStringLiteral("0.008888")) + column_margin);
     for (int column = 0; column < widest_.size(); ++column) {
       if (widest_[column].isEmpty()) {
         continue;
       }
       const QAbstractItemModel* model = table_.model();
       const QString header = model ? model->headerData(column, Qt::Horizontal).toString() : "";
-      // The arrow of a sorted column lies beside its name.
+      // The sort indicator is beside the name.
       const int arrow = table_.isSortingEnabled() ? 12 : 0;
-      table_.setColumnWidth(column, std::max(type.horizontalAdvance(widest_[column]),
-                                             header_type.horizontalAdvance(header) + arrow) +
+      table_.setColumnWidth(column, std::max(text.horizontalAdvance(widest_[column]),
+                                             header_text.horizontalAdvance(header) + arrow) +
                                         column_margin);
     }
   }
@@ -65,7 +65,7 @@ void set_up_figure_table(QTableView& table, QStringList widest) {
   table.setMinimumHeight(60);
   table.verticalHeader()->hide();
   table.horizontalHeader()->setHighlightSections(false);
-  new TypeFollower(table, std::move(widest));
+  new SizeByFont(table, std::move(widest));
 }
 
 }  // namespace transillum::viewer

@@ -7,10 +7,10 @@ class QTableView;
 
 namespace transillum::viewer {
 
-/// The looks that all tables of figures share; rows and columns grow with the type.
+/// Sets the common appearance of tables of numbers; rows and columns scale with the font.
 ///
-/// @param widest  the longest text to expect of each column; an empty one's width is left as it is.
-///                Columns beyond these have room for a figure.
+/// @param widest  longest expected text per column; empty: the width is not changed.
+///                Further columns are as wide as a number.
 void set_up_figure_table(QTableView& table, QStringList widest);
 
 }  // namespace transillum::viewer

@@ -15,7 +15,7 @@ FullScreen::FullScreen(QMainWindow& window) : QObject(&window), window_(window) 
   action_->setObjectName("full_screen");
   action_->setCheckable(true);
   action_->setShortcut(Qt::Key_F11);
-  action_->setToolTip(tr("Only the view under the pointer, on the whole screen"));
+  action_->setToolTip(tr("Show only the view under the pointer, on the whole screen"));
   connect(action_, &QAction::triggered, this, &FullScreen::toggle);
 }
 
@@ -49,7 +49,7 @@ void FullScreen::show_only(QWidget* view) {
   action_->setChecked(true);
   state_ = window_.saveState();
   was_full_ = window_.isFullScreen();
-  // A key works only while something that shows its action is visible, and menus will not be.
+  // Shortcuts work only while a widget with the action is visible; the menu bar will be hidden.
   for (QAction* menu : window_.menuBar()->actions()) {
     if (menu->menu()) {
       window_.addActions(menu->menu()->actions());

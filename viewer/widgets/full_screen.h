@@ -11,9 +11,9 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// One view on the whole screen, and back: the one under the pointer, or else the one with the
-/// keyboard. Nothing is taken out of the window, only everything else is hidden: views that draw by
-/// OpenGL do not survive a change of parents everywhere.
+/// Shows one view on the whole screen and back: the view under the pointer, else the one with the
+/// keyboard focus. The other parts of the window are hidden; no view is reparented, because OpenGL
+/// views do not survive that on all systems.
 class FullScreen : public QObject {
   Q_OBJECT
 
@@ -21,7 +21,7 @@ class FullScreen : public QObject {
   explicit FullScreen(QMainWindow& window);
 
   QAction* action() const { return action_; }
-  /// A dock of the window or its central widget.
+  /// @param view a dock of the window, or its central widget
   void show_only(QWidget* view);
   void show_all();
   bool active() const { return active_; }
@@ -35,7 +35,7 @@ class FullScreen : public QObject {
   bool active_ = false;
   bool was_full_ = false;
   QByteArray state_;
-  QList<QWidget*> hidden_;  ///< what is no dock
+  QList<QWidget*> hidden_;  ///< widgets other than docks and tool bars
 };
 
 }  // namespace transillum::viewer

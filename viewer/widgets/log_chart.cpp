@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Chart of positive values over counts, such as changes over iterations. The window gives the lines
+// and levels; the library's chart painter draws them to a picture that is kept until they change.
 #include "widgets/log_chart.h"
 
 #include <QEvent>
@@ -51,7 +54,7 @@ Decades decades_of(const std::vector<LogChart::Line>& lines,
     count(level.value);
   }
   if (!any) {
-    count(1);  // room for what will come, above a level that waits alone
+    count(1);  // leaves room above a level until there are values
   }
   Decades decades{static_cast<int>(std::floor(std::log10(low))),
                   static_cast<int>(std::ceil(std::log10(high)))};
@@ -61,7 +64,7 @@ Decades decades_of(const std::vector<LogChart::Line>& lines,
   return decades;
 }
 
-/// Where counts lie across the widget.
+/// Horizontal positions of counts, logical pixels.
 struct LogChart::Scale {
   double left, width;
   int x_max;
@@ -114,7 +117,7 @@ void LogChart::change() {
 }
 
 void LogChart::changeEvent(QEvent* event) {
-  change();  // of fonts and colors
+  change();  // fonts or colors may differ
   QWidget::changeEvent(event);
 }
 
@@ -123,13 +126,15 @@ LogChart::Scale LogChart::scale() const {
   return {area_.left, std::max(area_.right - area_.left, 1.0), x_max_};
 }
 
-int LogChart::count_at(const QPointF& place) const {
+int LogChart::count_at(const QPointF& position) const {
   const Scale s = scale();
-  const double share = (place.x() - s.left) / s.width;
+  const double share = (position.x() - s.left) / s.width;
   return static_cast<int>(std::clamp(std::round(1 + share * (s.x_max - 1)), 1.0, 1.0 * s.x_max));
 }
 
-QPointF LogChart::place_of(int x) const { return {scale().x(x), (area_.top + area_.bottom) / 2}; }
+QPointF LogChart::position_of(int x) const {
+  return {scale().x(x), (area_.top + area_.bottom) / 2};
+}
 
 void LogChart::mousePressEvent(QMouseEvent* event) {
   draw();
@@ -144,7 +149,7 @@ LineChart LogChart::chart() const {
   chart.style = chart_style(*this);
   chart.title = title_.toStdString();
   chart.legend_below_title = true;
-  // A low chart needs its height for the lines; the title tells what it shows.
+  // A low chart needs its height for the curves; its title is enough.
   chart.axis_titles = height() > 9 * fontMetrics().height();
 
   const Decades decades = decades_of(lines_, levels_);

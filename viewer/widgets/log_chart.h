@@ -13,7 +13,7 @@
 namespace transillum::viewer {
 
 /// A line chart with counts from 1 along x and a logarithmic y axis. Values that are not positive
-/// have no place on it: they leave a gap in the line, and the legend says how many there are.
+/// leave a gap in the line; the legend gives their number.
 class LogChart : public QWidget {
   Q_OBJECT
 
@@ -21,12 +21,12 @@ class LogChart : public QWidget {
   struct Line {
     QString name;
     QColor color;
-    std::vector<double> values;  ///< values[k] stands at x = k + 1
+    std::vector<double> values;  ///< values[k] is at x = k + 1
     bool dots = false;           ///< mark each value
     ChartDashes dashes = ChartDashes::solid;
     double width = 1.4;  ///< pixels
   };
-  /// A level drawn across, such as a tolerance.
+  /// A horizontal line, such as a tolerance.
   struct Level {
     QString name;
     QColor color;
@@ -37,17 +37,18 @@ class LogChart : public QWidget {
            QWidget* parent = nullptr);
 
   void set_title(const QString& title);
-  /// @param x_max right end of the axis at least
+  /// @param x_max least right end of the x axis
   void show_lines(std::vector<Line> lines, std::vector<Level> levels, int x_max);
-  /// What to say where there is nothing to draw.
+  /// The text shown if there is nothing to draw.
   void set_hint(const QString& hint);
-  /// The count that is looked at, if any.
+  /// The current count, marked by a vertical line; none: no mark.
   void set_mark(std::optional<int> x);
   std::optional<int> mark() const { return mark_; }
-  /// The count at a place of the widget, within the axis; and the place of a count.
-  int count_at(const QPointF& place) const;
-  QPointF place_of(int x) const;
-  /// As it is shown.
+  /// The count nearest to a position in the widget, clamped to the axis.
+  int count_at(const QPointF& position) const;
+  /// The position in the widget of a count, halfway up.
+  QPointF position_of(int x) const;
+  /// The chart as it is shown.
   LineChart chart() const;
 
   QSize sizeHint() const override { return {420, 210}; }
@@ -75,12 +76,12 @@ class LogChart : public QWidget {
   std::vector<Level> levels_;
   int x_max_ = 1;
   std::optional<int> mark_;
-  mutable QImage picture_;  ///< of the device's pixels; null: to be drawn
-  mutable ChartArea area_;  ///< in the picture
+  mutable QImage picture_;  ///< in device pixels; null: not painted yet
+  mutable ChartArea area_;  ///< of the plot in the picture, logical pixels
 };
 
-/// Decades [first, last] that hold all positive values, at least one decade apart; [-1, 0] for
-/// none.
+/// Exponents of the powers of ten that enclose all positive values: first < last; [-1, 0] without
+/// values.
 struct Decades {
   int first = -1, last = 0;
 };

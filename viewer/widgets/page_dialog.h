@@ -5,7 +5,7 @@
 
 namespace transillum::viewer {
 
-/// A page to read beside the window; deletes itself when it is closed.
+/// A dialog with a page of text; deletes itself when closed.
 class PageDialog : public QDialog {
   Q_OBJECT
 

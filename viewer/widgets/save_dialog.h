@@ -7,9 +7,9 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// Asks where to write. Begins in the folder of the last answer with the name `proposed`, whose
-/// ending a name without one gets; who names a file that exists is asked once more.
-/// Empty: the user has given it up.
+/// Shows a file dialog for a file to write. Starts in the last chosen folder with the name
+/// `proposed`, whose suffix is appended to a name without one; existing files need confirmation.
+/// @return the path; empty if the dialog was canceled
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,
                            const QString& proposed);
 

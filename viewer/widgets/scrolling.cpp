@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 namespace {
 
-/// Never so narrow that something is cut off at the right, however large the type is.
+/// Its minimum width grows with the content, so that nothing is cut off at the right.
 class VerticalScrollArea : public QScrollArea {
  public:
   explicit VerticalScrollArea(QWidget* content) {
@@ -22,7 +22,7 @@ class VerticalScrollArea : public QScrollArea {
     widen();
   }
 
-  void keep_in_sight(QWidget* part) {
+  void keep_visible(QWidget* part) {
     kept_ = part;
     ensureWidgetVisible(part, 0, part->height());
   }
@@ -56,7 +56,7 @@ class VerticalScrollArea : public QScrollArea {
                     style()->pixelMetric(QStyle::PM_ScrollBarExtent));
   }
 
-  QPointer<QWidget> kept_;  ///< what was last scrolled to
+  QPointer<QWidget> kept_;  ///< last argument of scroll_to()
 };
 
 }  // namespace
@@ -64,9 +64,9 @@ class VerticalScrollArea : public QScrollArea {
 QWidget* scrollable(QWidget* content) { return new VerticalScrollArea(content); }
 
 void scroll_to(QWidget* part) {
-  for (QWidget* about = part->parentWidget(); about; about = about->parentWidget()) {
-    if (auto* area = dynamic_cast<VerticalScrollArea*>(about)) {
-      area->keep_in_sight(part);
+  for (QWidget* parent = part->parentWidget(); parent; parent = parent->parentWidget()) {
+    if (auto* area = dynamic_cast<VerticalScrollArea*>(parent)) {
+      area->keep_visible(part);
       return;
     }
   }

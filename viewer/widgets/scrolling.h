@@ -5,9 +5,9 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// `content` with a scroll bar where it is too high, and never too narrow for it.
+/// A vertical scroll area around `content`, never narrower than it.
 QWidget* scrollable(QWidget* content);
-/// Scrolls what is about `part`, if anything does, until it is seen.
+/// Scrolls the area around `part`, if any, until it is visible.
 void scroll_to(QWidget* part);
 
 }  // namespace transillum::viewer

@@ -6,8 +6,8 @@
 
 namespace transillum::viewer {
 
-/// What a model says of a column's head for a role.
-inline QVariant head_cell(int role, const QString& name, const QString& tip) {
+/// The data of a column header for a role: name and tool tip.
+inline QVariant header_cell(int role, const QString& name, const QString& tip) {
   if (role == Qt::DisplayRole) {
     return name;
   }
@@ -17,6 +17,7 @@ inline QVariant head_cell(int role, const QString& name, const QString& tip) {
   return {};
 }
 
+/// The data for Qt::FontRole.
 inline QVariant font_cell(bool bold) {
   QFont font;
   font.setBold(bold);

@@ -15,8 +15,9 @@ class ValueGrid : public QWidget {
  public:
   explicit ValueGrid(QWidget* parent = nullptr);
 
-  /// Returns the value's label; the text of it can be selected and copied.
+  /// Returns the label of the value; its text can be selected and copied.
   QLabel* add_row(const QString& name, const QString& unit, const QString& tip = {});
+  /// Adds a row across all columns.
   void add_wide(QWidget* widget);
 
  private:
