@@ -12,87 +12,109 @@
 
 namespace transillum {
 
-// What the paper proves about M directions; rho is the largest reflectance, 0 <= rho < 1, and eps
-// the error of the quadrature of the cosine, eq. 17 (radians; the integral is pi).
+/// @name Bounds proven in the paper
+/// M is the number of directions; rho the largest reflectance, 0 <= rho < 1; eps the quadrature
+/// error of the cosine, eq. 17 (the integral is pi).
+/// @{
 
-/// D* of M >= 1 points of Hammersley's at most (eq. 20; the logarithm is to base 2).
+/// Upper bound of D* of M >= 1 Hammersley points (eq. 20; logarithm to base 2).
 double star_discrepancy_bound(double directions);
-/// eps of M >= 1 points of Hammersley's at most (eq. 21).
+/// Upper bound of eps of M >= 1 Hammersley points (eq. 21).
 double quadrature_error_bound(double directions);
-/// The factor by which a step shrinks changes, at most: rho (1 + eps/pi) (eq. 22).
+/// Upper bound of the factor by which an iteration reduces changes: rho (1 + eps/pi) (eq. 22).
 double contraction_bound(double rho, double eps);
-/// Steps after which the iteration, begun with 0, is within `tolerance` of its limit, relative and
-/// in the maximum norm (eq. 25). None where the contraction is not below 1.
+/// Number of iterations, starting with 0, to reach a relative error of `tolerance` in the maximum
+/// norm (eq. 25). Nothing unless the contraction is below 1.
 std::optional<double> iterations_to(double tolerance, double contraction);
-/// ||B* - B|| / ||B|| in the maximum norm where the environment is nearly homogeneous (eq. 37).
+/// Upper bound of ||B* - B|| / ||B|| in the maximum norm in a nearly homogeneous environment
+/// (eq. 37).
 double homogeneous_error_bound(double rho, double eps);
-/// The same in any environment, by the ratio max R²/A_i of scene to patches and D* (eq. 43).
+/// The same in any environment (eq. 43).
+/// @param rho largest reflectance.
+/// @param size_ratio max_i R²/A_i of scene extent and patch areas.
+/// @param star_discrepancy D* of the directions.
 double heterogeneous_error_bound(double rho, double size_ratio, double star_discrepancy);
+/// @}
 
-// The smallest M for which these bounds, with eq. 20 and 21, promise something. Whole; as double,
-// for it may be beyond any integer. @throws InputError unless 0 <= rho < 1, accuracy > 0 and
-// size_ratio > 0, all finite.
+/// @name Sufficient numbers of directions
+/// The smallest M for which these bounds hold with eq. 20 and 21: a whole number, as double because
+/// it may exceed every integer type. @throws InputError unless 0 <= rho < 1, accuracy > 0 and
+/// size_ratio > 0, all finite.
+/// @{
 
-/// The iteration contracts (eq. 24): Table 1.
+/// For the iteration to contract (eq. 24): Table 1.
 double directions_to_contract(double rho);
-/// Error at most `accuracy` where nearly homogeneous: Table 2.
+/// For an error of at most `accuracy` in a nearly homogeneous environment: Table 2.
 double directions_if_homogeneous(double rho, double accuracy);
-/// Error at most `accuracy` anywhere: Table 3.
+/// For an error of at most `accuracy` in any environment: Table 3.
 double directions_if_heterogeneous(double rho, double accuracy, double size_ratio);
+/// @}
 
-/// The paper's tables as printed, for rho = 0.2 … 0.9, accuracy 0.01 and size ratio 150.
+/// The paper's Tables 1 to 3 as printed, for rho = 0.2 … 0.9.
 struct PaperTables {
-  static constexpr int rows = 8;
-  static constexpr double accuracy = 0.01, size_ratio = 150;
-  std::array<double, rows> rho, to_contract, if_homogeneous, if_heterogeneous;
+  static constexpr int rows = 8;              ///< number of values of rho
+  static constexpr double accuracy = 0.01;    ///< of Tables 2 and 3
+  static constexpr double size_ratio = 150;   ///< of Table 3
+  std::array<double, rows> rho;               ///< largest reflectance
+  std::array<double, rows> to_contract;       ///< M of Table 1
+  std::array<double, rows> if_homogeneous;    ///< M of Table 2
+  std::array<double, rows> if_heterogeneous;  ///< M of Table 3
 };
+/// The paper's tables.
 const PaperTables& paper_tables();
 
-/// What a family of sets does in truth, instead of what is proven for Hammersley's.
+/// A family of direction sets, one for each M, whose errors are measured instead of bounded.
 struct DirectionSetFamily {
-  Sampling sampling = Sampling::fibonacci;
-  std::uint64_t seed = 1;
-  std::optional<std::uint64_t> rotation = {};
-  bool two_way = true;
+  Sampling sampling = Sampling::fibonacci;     ///< the sequence
+  std::uint64_t seed = 1;                      ///< of a seeded sequence
+  std::optional<std::uint64_t> rotation = {};  ///< seed of a rotation of all directions, if any
+  bool two_way = true;                         ///< count the opposites too
 
+  /// The set of M = `directions` directions.
   std::vector<DirectionSample> make(int directions) const;
 };
 /// eps of a set: the largest magnitude of eq. 17 over 518 normals spread over the sphere.
+/// @throws Canceled
 double measured_quadrature_error(const DirectionSetFamily& sets, int directions,
                                  const Cancellation& cancellation = {});
-/// The smallest M up to 65,536 for which eq. 24 holds with the measured eps; none if there is none.
-/// Beyond 256, found by doubling and halving: some smaller M may do by luck.
+/// The smallest M up to 65,536 for which eq. 24 holds with the measured eps; nothing if there is
+/// none. Above 256 it is found by doubling and bisection, so that eq. 24 may also hold for some
+/// smaller M.
 /// @throws Canceled
 std::optional<int> actual_directions_to_contract(const DirectionSetFamily& sets, double rho,
                                                  const Cancellation& cancellation = {});
 /// The same for the bound of eq. 37.
+/// @throws Canceled
 std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& sets, double rho,
                                                     double accuracy,
                                                     const Cancellation& cancellation = {});
 
-/// About as many as the bound of eq. 43 asks for with the sets' own D*, measured with 1,024 and
-/// 16,384 directions and continued as a power of M.
+/// Estimate of the M that the bound of eq. 43 requires with the sets' own D*, measured for 1,024
+/// and 16,384 directions and extrapolated as a power of M.
 /// @throws Canceled
 double estimated_directions_if_heterogeneous(const DirectionSetFamily& sets, double rho,
                                              double accuracy, double size_ratio,
                                              const Cancellation& cancellation = {});
 
-/// What of a scene the bounds ask for.
+/// The properties of a scene that the bounds depend on.
 struct SceneMeasures {
-  double rho_max = 0;           ///< over patches and channels
-  double extent = 0;            ///< R, m: no two points are farther apart; at most 0.4 % too much
-  double smallest_area = 0;     ///< m², of a patch
-  PatchId smallest = no_patch;  ///< that patch
+  double rho_max = 0;           ///< largest reflectance over patches and channels
+  double extent = 0;            ///< R, m: upper bound of all distances, at most 0.4 % too large
+  double smallest_area = 0;     ///< of a patch, m²
+  PatchId smallest = no_patch;  ///< the patch with that area
   double size_ratio = 0;        ///< max_i R²/A_i
 };
+/// Measures a scene.
+/// @throws Canceled
 SceneMeasures measure(const Scene& scene, const Cancellation& cancellation = {});
 
-/// Passes that bring the error to `accuracy`, by a run of `passes` passes of the same sampling with
-/// an error of `error` (both in one norm): error falls as M^-1/2 at random, and else as M^-3/4,
-/// which is what integrands with kinks allow at worst.
+/// Estimate of the number of passes for an error of `accuracy`, from a solve run with `passes`
+/// passes of the same sampling and an error of `error`, both in the same norm. The error is assumed
+/// to decrease as M^-1/2 for random sampling and as M^-3/4 otherwise, the worst case for integrands
+/// with kinks.
 double estimated_passes(Sampling sampling, double passes, double error, double accuracy);
-/// The same from the error of a run of `passes` passes in `replicas` replicas, as they give it.
-/// What is estimated is without replicas, as one set.
+/// The same from the error estimate of `passes` passes in `replicas` replicas. The result is the
+/// number of passes in a single set.
 double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
                                     double accuracy);
 

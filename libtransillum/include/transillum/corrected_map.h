@@ -32,8 +32,7 @@ struct CorrectedMap {
   std::span<const Vec2> outline(const Part& part) const {
     return {corners.data() + part.begin, part.end - part.begin};
   }
-  /// The area that is visible according to exactly one of engine and exact map, over the area
-  /// visible according to either.
+  /// Sum of |open - exact| over the sum of both, over the emitting parts: 0 if the engine is exact.
   double wrong_share() const;
 };
 

@@ -9,12 +9,12 @@
 
 namespace transillum {
 
-/// Where the points of the unit square come from (paper, section 4). phi_b is the radical inverse
-/// in base b; k counts from 0.
+/// The sequence of points of the unit square from which directions are made (paper, section 4).
+/// phi_b is the radical inverse in base b; k counts from 0.
 enum class Sampling {
   hammersley,            ///< u = k/M, v = phi_2(k): the paper's
-  centered_hammersley,   ///< u = phi_2(k), v = (k+1/2)/M: up and down alike, so 6 times better one
-                         ///< way
+  centered_hammersley,   ///< u = phi_2(k), v = (k+1/2)/M: symmetric in ±z, so that one-way errors
+                         ///< are about 6 times smaller
   scrambled_hammersley,  ///< the paper's, both coordinates Owen-scrambled in base 2; seeded
   halton,                ///< u = phi_2(k), v = phi_3(k)
   sobol,                 ///< Sobol's sequence, Owen-scrambled in base 2; seeded
@@ -23,25 +23,28 @@ enum class Sampling {
 };
 
 /// A point of the unit square and its transillumination direction by eq. 13:
-/// psi = 2 pi u, theta = arccos(1 - 2v); unit length.
+/// psi = 2 pi u, theta = arccos(1 - 2v).
 struct DirectionSample {
-  double u = 0, v = 0;
-  Vec3 direction;
+  double u = 0;    ///< [0, 1)
+  double v = 0;    ///< [0, 1]
+  Vec3 direction;  ///< omega, unit
 };
 
-/// The names of the command line, in the order of the enumeration.
+/// The names of the samplings as in options and files, in the order of the enumeration.
 const std::vector<std::string>& sampling_names();
-/// @throws InputError naming the choices.
+/// The sampling called `name`.
+/// @throws InputError listing the choices.
 Sampling sampling_from_name(const std::string& name);
+/// The name in sampling_names().
 const std::string& name_of(Sampling sampling);
 
-/// Whether the seed makes a difference.
+/// Whether the points depend on the seed.
 bool is_seeded(Sampling sampling);
-/// Whether M points are the beginning of any longer sequence of the same seed: halton, sobol and
-/// random are; what divides by M is not.
+/// Whether the first M points are the same for every length of the sequence, with the same seed:
+/// true for halton, sobol and random; false for those whose coordinates depend on M.
 bool is_extensible(Sampling sampling);
 
-/// The most directions of a set.
+/// The largest number of directions in a set.
 inline constexpr int max_directions = 1 << 24;
 
 /// The M = `count` points of a sequence. The same bits on every machine.
@@ -53,26 +56,26 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int count, std::
 std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int end,
                                              std::uint64_t seed);
 
-/// The set of M = `count` directions that step 0, 1, 2, … of the semi-iterative scheme takes
-/// (section 6). Step 0 has make_directions(sampling, count, seed). From there
-/// - random, scrambled_hammersley, fibonacci: independent points, scramblings, rotations, so that
+/// The set of M = `count` directions of one iteration of the semi-iterative scheme (section 6).
+/// Iteration 0 has make_directions(sampling, count, seed). The later ones have
+/// - random, scrambled_hammersley, fibonacci: independent points, scramblings or rotations, so that
 ///   eq. 47 and with it eq. 46 hold;
-/// - halton, sobol: the next points of one sequence. Sets in their natural order would fail eq. 46,
-///   for where the last set was tells where the next will be; so sets 2^p … 2^(p+1)-1 come in
-///   random order. After 2^p steps the first 2^p sets have been used, each once;
-/// - hammersley, centered_hammersley: the same set again, which fails eq. 46.
+/// - halton, sobol: consecutive parts of one sequence, shuffled: in their natural order they would
+///   violate eq. 46, because each part depends on the one before. Parts 2^p … 2^(p+1)-1 come in
+///   random order; after 2^p iterations the first 2^p parts have been used once each;
+/// - hammersley, centered_hammersley: the same set again, which violates eq. 46.
 ///
-/// Costs O(count + step).
-/// @throws InputError unless 1 <= count <= max_directions and step >= 0.
+/// O(count + iteration).
+/// @throws InputError unless 1 <= count <= max_directions and iteration >= 0.
 std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int count,
-                                                     std::uint64_t seed, int step);
+                                                     std::uint64_t seed, int iteration);
 
-/// All turned by one random rotation, uniform among all rotations, and given the points of the
-/// square that belong to them. No seed is the rotation that leaves them where they are.
+/// The directions under one random rotation, uniform among all rotations, with recomputed points
+/// of the unit square. No seed gives the identity.
 std::vector<DirectionSample> rotated(std::vector<DirectionSample> samples, std::uint64_t seed);
 
-/// The numbers 0 … count-1 in an order whose every beginning takes points from all over the sphere,
-/// so that a running estimate is a fair one.
+/// The numbers 0 … count-1 in an order in which every prefix is spread over the whole sphere, so
+/// that an estimate from the passes done so far is unbiased by region.
 std::vector<int> progressive_order(Sampling sampling, int count);
 
 }  // namespace transillum

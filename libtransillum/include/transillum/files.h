@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Result files. Every writer of the library writes a temporary file in the same folder and renames
+// it: a file exists completely or not at all. Numbers read back bit for bit. Writers throw
+// std::runtime_error naming the file if it cannot be written. Columns: data/FILES.md.
 #pragma once
 
 #include <filesystem>
@@ -15,47 +19,66 @@
 
 namespace transillum {
 
-// All writers write beside the target and rename: a file is there whole or not at all. Numbers
-// read back bit for bit. They throw std::runtime_error naming the file when it cannot be written.
-
-/// Writes `path` by way of a temporary neighbor; `write` fills the stream. When `write` throws,
-/// nothing is left behind.
+/// Writes `path` through a temporary file in the same folder.
+/// @param path the file to write.
+/// @param write fills the stream; if it throws, no file is left behind.
+/// @throws std::runtime_error if the file cannot be written.
 void write_file_whole(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& write);
 
-/// Writes the description as OBJ with its MTL beside it (same stem).
+/// Writes the description as OBJ, and its materials as an MTL file of the same stem beside it.
+/// @throws std::runtime_error if a file cannot be written.
 void write_obj(const std::filesystem::path& path, const SceneDescription& description);
 
-/// For use before long work.
-/// @throws InputError where `path` is a folder, or lies in one that is missing or not writable.
+/// Checks, before a long computation, that a file can be written.
+/// @throws InputError where `path` is a folder, or its folder is missing or not writable.
 void check_writable(const std::filesystem::path& path);
 
-/// check_writable, and @throws InputError unless `path` ends in .csv, .vtp, .ply or .obj.
+/// Checks that `path` is writable and ends in .csv, .vtp, .ply or .obj.
+/// @throws InputError
 void check_result_path(const std::filesystem::path& path);
-/// check_writable, and @throws InputError unless `path` ends in .json.
+/// Checks that `path` is writable and ends in .json.
+/// @throws InputError
 void check_statistics_path(const std::filesystem::path& path);
-/// Writes a solution as the ending of `path` says (cli.md for the columns of CSV).
+/// Writes a solution in the format given by the extension of `path`.
+/// @throws InputError for another extension; std::runtime_error if it cannot be written.
 void write_result(const std::filesystem::path& path, const Solution& solution);
 
-/// Whether `path` ends in .vtp, as what read_result() reads.
+/// Whether `path` ends in .vtp, the format that read_result() reads.
 bool is_result_file(const std::filesystem::path& path);
-/// A solution as write_result() has written it to a .vtp file: the same patches with the same E,
-/// rho, B and H, to the bit. The patches are the faces of its scene; which were parts of one face
-/// is not told. Of the statistics and the error estimate it has what the file keeps.
-/// @throws InputError naming the file and what is wrong with it, Canceled
+/// Reads a solution written by write_result() to a .vtp file: the same patches with the same E,
+/// rho, B and H, bit for bit. Each patch is a face of the solution's scene, because the file does
+/// not record which patches were parts of one face. Statistics and error estimate contain what the
+/// file stores.
+/// @throws InputError naming the file and what is wrong with it
+/// @throws Canceled
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});
 
-/// receiver,source,area; source -1: nothing above, or a back side. Only the forward direction.
+/// @name Transfer tables
+/// @{
+
+/// Columns receiver,source,area; source -1: nothing above, or a back side. Direction omega only.
 void write_transfers_csv(std::ostream& out, const Transfers& transfers);
 void write_transfers_csv(const std::filesystem::path& path, const Transfers& transfers);
-/// i,j,F; rows by i, then j
+/// @}
+/// @name Form-factor tables
+/// @{
+
+/// Columns i,j,F; rows sorted by i, then j.
 void write_form_factors_csv(std::ostream& out, const FormFactors& form_factors);
 void write_form_factors_csv(const std::filesystem::path& path, const FormFactors& form_factors);
-/// u,v,x,y,z
+/// @}
+/// @name Direction tables
+/// @{
+
+/// Columns u,v,x,y,z.
 void write_directions_csv(std::ostream& out, const std::vector<DirectionSample>& directions);
 void write_directions_csv(const std::filesystem::path& path,
                           const std::vector<DirectionSample>& directions);
-/// The JSON of --stats.
+/// @}
+
+/// Writes options and statistics of a solve run as JSON.
+/// @throws std::runtime_error if it cannot be written.
 void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
                       const Solution& solution);
 

@@ -1,4 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Line charts as a description (LineChart) and its drawing, to pixels or to a file
+// (decisions/0019-charts-by-vtk.md). The library makes them for studies, the viewer also for the
+// convergence of a solve run. Lengths are in pixels of a screen with scale 1. Texts are UTF-8;
+// invalid sequences are replaced.
 #pragma once
 
 #include <cstddef>
@@ -9,99 +14,143 @@
 
 namespace transillum {
 
-// Line charts, as VTK draws them (decisions/0019). Lengths are in pixels of a common screen; texts
-// are UTF-8, and what is not is replaced.
-
+/// An sRGB color.
 struct ChartColor {
-  std::uint8_t red = 0, green = 0, blue = 0;
+  std::uint8_t red = 0;    ///< 0 … 255
+  std::uint8_t green = 0;  ///< 0 … 255
+  std::uint8_t blue = 0;   ///< 0 … 255
 
+  /// Exact comparison of all members.
   friend bool operator==(const ChartColor&, const ChartColor&) = default;
 };
 
-/// dot and pointer are small, pointer a triangle whose tip is at the point.
-enum class ChartMarker { none, dot, pointer, circle, square, triangle, diamond, down, cross, plus };
-enum class ChartDashes { solid, dashes, dots, dash_dot, dash_dot_dot, fine_dots };
+/// The symbol drawn at each point of a series.
+enum class ChartMarker {
+  none,      ///< no symbol
+  dot,       ///< a small disk
+  pointer,   ///< a small triangle with its tip at the point
+  circle,    ///< a disk
+  square,    ///< a square
+  triangle,  ///< a triangle, tip up
+  diamond,   ///< a square on its corner
+  down,      ///< a triangle, tip down
+  cross,     ///< an x
+  plus,      ///< a +
+};
+/// The pattern of a series' line.
+enum class ChartDashes {
+  solid,         ///< continuous
+  dashes,        ///< dashes
+  dots,          ///< dots
+  dash_dot,      ///< a dash and a dot in turn
+  dash_dot_dot,  ///< a dash and two dots in turn
+  fine_dots,     ///< small dots, close together
+};
 
+/// A point in the coordinates of the axes.
 struct ChartPoint {
-  double x = 0, y = 0;
+  double x = 0;  ///< on the horizontal axis
+  double y = 0;  ///< on the vertical axis
 };
 
-/// A line through points, from left to right. Points that are not finite, or not positive on a
-/// logarithmic axis, are left out and leave a gap.
+/// A polyline through points, from left to right. Points that are not finite, or not positive on a
+/// logarithmic axis, are omitted and leave a gap.
 struct ChartSeries {
-  std::string name;  ///< in the legend; empty: not there
-  std::string note;  ///< in the legend's second column
-  ChartColor color{};
-  double width = 2;
-  ChartDashes dashes = ChartDashes::solid;
-  ChartMarker marker = ChartMarker::none;
-  bool hollow = false;  ///< the markers
-  std::vector<ChartPoint> points;
+  std::string name;                         ///< in the legend; empty: not in the legend
+  std::string note;                         ///< in the legend's second column
+  ChartColor color{};                       ///< of line and markers
+  double width = 2;                         ///< of the line
+  ChartDashes dashes = ChartDashes::solid;  ///< of the line
+  ChartMarker marker = ChartMarker::none;   ///< at every point
+  bool hollow = false;                      ///< markers are outlines
+  std::vector<ChartPoint> points;           ///< x ascending
 };
 
+/// A tick of an axis.
 struct ChartTick {
-  double value = 0;
-  std::string label;   ///< left out where it would touch another
-  bool minor = false;  ///< only a line of the fine grid
+  double value = 0;    ///< in the axis's coordinate
+  std::string label;   ///< omitted where it would touch another label
+  bool minor = false;  ///< without a label: a line of the fine grid only
 };
 
-/// An axis; ticks outside of it are not drawn.
+/// An axis. Ticks outside its range are not drawn.
 struct ChartAxis {
-  std::string title;
-  double low = 0, high = 1;  ///< low < high; logarithmic: both positive
-  bool logarithmic = false;
-  bool grid = true;
-  std::vector<ChartTick> ticks;
+  std::string title;             ///< beside the axis
+  double low = 0;                ///< lower end of the range
+  double high = 1;               ///< upper end, > low; both are positive on a logarithmic axis
+  bool logarithmic = false;      ///< else linear
+  bool grid = true;              ///< draw a grid line at every tick
+  std::vector<ChartTick> ticks;  ///< ascending
 };
 
+/// Colors, font and sizes of a chart.
 struct ChartStyle {
-  ChartColor paper{255, 255, 255}, ink{26, 26, 31}, dim{26, 26, 31}, grid{219, 222, 227};
-  std::string font = "sans-serif";
-  double title_size = 18, text_size = 15, label_size = 14;
-  double margin = 12;
-  double line_width = 1.25;  ///< of axes; of the grid where a label stands
-  bool bold_title = false;
-  bool framed = false;  ///< all round, not only at left and below
+  ChartColor paper{255, 255, 255};  ///< background
+  ChartColor ink{26, 26, 31};       ///< titles
+  ChartColor dim{26, 26, 31};       ///< labels and axes
+  ChartColor grid{219, 222, 227};   ///< grid lines
+  std::string font = "sans-serif";  ///< font family
+  double title_size = 18;           ///< font size of the chart's title
+  double text_size = 15;            ///< font size of axis titles and legend
+  double label_size = 14;           ///< font size of tick labels
+  double margin = 12;               ///< on all four sides
+  double line_width = 1.25;         ///< of axes, and of grid lines with a label
+  bool bold_title = false;          ///< of the chart's title
+  bool framed = false;              ///< axis lines on all four sides, not only left and bottom
 };
 
+/// A line chart.
 struct LineChart {
-  std::string title;
-  std::string hint;  ///< words in the middle of the plot, where there is nothing else
-  ChartAxis x, y;
-  std::vector<ChartSeries> series;  ///< the last is on top
-  std::vector<std::size_t> legend;  ///< order of series there; empty: as they are
-  std::string note_title;           ///< of the legend's second column
+  std::string title;                ///< above the plot
+  std::string hint;                 ///< text in the middle of the plot, if there are no points
+  ChartAxis x;                      ///< horizontal axis
+  ChartAxis y;                      ///< vertical axis
+  std::vector<ChartSeries> series;  ///< drawn in this order, the last on top
+  std::vector<std::size_t> legend;  ///< order of the series in the legend; empty: as drawn
+  std::string note_title;           ///< heading of the legend's second column
   bool legend_below_title = false;  ///< in a row; otherwise a column at the right
   bool axis_titles = true;          ///< false: only that of x, beside the title; for low charts
-  ChartStyle style;
+  ChartStyle style;                 ///< colors, font and sizes
 };
 
-/// Where the plot, inside its axes, lies: from the picture's left and top.
+/// The plot area inside the axes, from the top left corner of the picture.
 struct ChartArea {
-  double left = 0, top = 0, right = 0, bottom = 0;
+  double left = 0;    ///< x of the left side
+  double top = 0;     ///< y of the upper side
+  double right = 0;   ///< x of the right side
+  double bottom = 0;  ///< y of the lower side
 };
 
-/// Rows from the top of 0x..rrggbb, `stride` pixels apart.
+/// A buffer of 0x..rrggbb pixels, rows from the top.
 struct ChartPixels {
-  std::uint32_t* first = nullptr;
-  int width = 0, height = 0, stride = 0;
+  std::uint32_t* first = nullptr;  ///< top left pixel
+  int width = 0;                   ///< pixels
+  int height = 0;                  ///< pixels
+  int stride = 0;                  ///< from row to row, pixels
 };
 
-/// Fills all pixels, `scale` to a pixel of a common screen: the same bits each time.
-/// @returns the plot's area in pixels of a common screen
-/// @throws std::runtime_error
+/// Draws a chart into all pixels of the buffer: the same bits each time.
+/// @param chart the chart.
+/// @param pixels the buffer; it determines the size.
+/// @param scale pixels per pixel of a screen with scale 1.
+/// @returns the plot area, in pixels of a screen with scale 1.
+/// @throws std::runtime_error if drawing fails.
 ChartArea paint_chart(const LineChart& chart, const ChartPixels& pixels, double scale = 1);
 
+/// The size of a chart in a file.
 struct ChartPage {
-  double width = 800, height = 480;
-  double scale = 2;  ///< pixels of a PNG to one of a common screen
+  double width = 800;   ///< of each chart
+  double height = 480;  ///< of each chart
+  double scale = 2;     ///< pixels of a PNG per pixel of a screen with scale 1
 };
 
-/// check_writable, and @throws InputError unless `path` ends in .svg or .png.
+/// Checks that `path` is writable and ends in .svg or .png.
+/// @throws InputError
 void check_chart_path(const std::filesystem::path& path);
-/// Writes charts below one another, each as high as the others, as the ending of `path` says, whole
-/// or not at all. SVG: lines and outlines of letters, and the words once more as its description.
-/// @throws InputError as check_chart_path; std::runtime_error where it cannot be written.
+/// Writes charts of equal size, one below another, in the format given by the extension of `path`,
+/// completely or not at all. SVG contains lines and glyph outlines, and all texts again as its
+/// description.
+/// @throws InputError as check_chart_path; std::runtime_error if it cannot be written.
 void write_charts(const std::filesystem::path& path, const std::vector<LineChart>& charts,
                   const ChartPage& page = {});
 

@@ -33,7 +33,7 @@ void check_map_path(const std::filesystem::path& path);
 /// - .svg: a figure with title, legend and scale bar; one path per patch, of class
 ///   `patch pN front` or `patch pN back`, with its area in `data-area` (m², sum of its polygons)
 ///   and a tool tip.
-/// - .png: the same polygons, anti-aliased and without text; the title is in its text chunks.
+/// - .png: the same polygons, anti-aliased and without text; its text chunks describe it.
 /// - .vtp: polygons at z = 0 in plane coordinates, with cell arrays patch, front, area.
 /// - .json: frame, receiver and polygons; numbers read back bit for bit.
 ///

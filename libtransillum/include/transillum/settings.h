@@ -6,18 +6,20 @@
 
 namespace transillum {
 
-/// A setting of a solve, for whatever shows or asks for it. Told once: both programs' help, the
-/// viewer's panels, its list of settings, lessons and sessions take it from here.
+/// A setting of a solve run, described once for all user interfaces: the help of both programs and
+/// the viewer's panels, list of settings, lessons and session files.
 struct Setting {
-  const char* name;           ///< of the command line, without dashes, and of files
-  const char* type;           ///< what values it takes
-  const char* description;    ///< what it does; small letters first, no full stop
+  const char* name;           ///< of the option, and in files
+  const char* type;           ///< the values it accepts
+  const char* description;    ///< what it does; begins in lower case, no full stop
   std::string default_value;  ///< of SolveOptions and SceneOptions, as text
-  bool in_files = true;       ///< lessons and sessions name it; else the machine's or an engine's
+  bool in_files = true;       ///< lessons and sessions store it; false: it depends on the machine,
+                              ///< or belongs to an engine
 };
 
-/// All of SolveOptions, SceneOptions and EngineOptions.
+/// All settings of SolveOptions, SceneOptions and EngineOptions.
 const std::vector<Setting>& settings();
+/// Setting::description of a setting.
 /// @throws std::out_of_range where there is no setting `name`
 const char* description_of(const std::string& name);
 

@@ -11,24 +11,36 @@
 
 namespace transillum {
 
-// Files of studies; written as all others are (files.h).
+/// @name Study tables
+/// @{
 
-/// sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution; the first column
-/// has the names of the series. Points without errors are left out.
+/// Writes columns sampling,directions,passes,rms_error,max_error,bound,seconds,engine,resolution;
+/// the first has the names of the series (names_of()). Points without errors are omitted.
 void write_study_csv(std::ostream& out, const std::vector<StudySeries>& series, const Study& study);
 void write_study_csv(const std::filesystem::path& path, const std::vector<StudySeries>& series,
                      const Study& study);
+/// @}
 
-/// What errors are plotted against.
-enum class StudyAxis { passes, seconds };
+/// The horizontal axis of study_chart().
+enum class StudyAxis {
+  passes,   ///< number of passes
+  seconds,  ///< processor time
+};
+/// The names of the axes as in options and files, in the order of the enumeration.
 const std::vector<std::string>& study_axis_names();
-/// @throws InputError naming the choices.
+/// The axis called `name`.
+/// @throws InputError listing the choices.
 StudyAxis study_axis_from_name(const std::string& name);
 
-/// The errors, both axes logarithmic; against the passes with the bound of eq. 37 and fitted slopes
-/// in the legend, and without hemicubes, which take none; series differ in marker and dashes as
-/// well as in color. Points without errors, or with none, are left out.
-/// @param scene what the title calls it
+/// A chart of the errors, both axes logarithmic. Against passes it shows the bound of eq. 37, has
+/// fitted slopes in the legend and omits hemicubes, which make no passes. Series differ in marker,
+/// dashes and color. Points without errors, or with an error of 0, are omitted.
+/// @param scene name of the scene, for the title.
+/// @param series as in StudyOptions::series.
+/// @param study the points.
+/// @param error which error is shown.
+/// @param against the horizontal axis.
+/// @param style colors, fonts and line widths.
 LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& series,
                       const Study& study, ErrorMeasure error = ErrorMeasure::rms,
                       StudyAxis against = StudyAxis::passes, const ChartStyle& style = {});
