@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The inner loop of the fast engine: known cuts, and all ways give the same bits.
+// The inner loop of the fast engine: known cuts, and all backends give the same bits.
 #include "visibility/fast/boundary_cut.h"
 #include "visibility/fast/simd_backend.h"
 
@@ -27,13 +27,13 @@ void add(BoundarySegments& outline, const Points& polygon) {
 }
 
 /// From points of whole numbers.
-Cutter cutter_of(const SimdBackend& way, const Points& polygon, double tolerance = 0) {
+Cutter cutter_of(const SimdBackend& backend, const Points& polygon, double tolerance = 0) {
   std::vector<GridPoint> corners;
   for (const auto& [x, y] : polygon) {
     corners.push_back({std::llrint(x), std::llrint(y)});
   }
   Cutter cutter;
-  way.set(cutter, corners.data(), corners.size(), {0, 0}, HUGE_VAL);
+  backend.set(cutter, corners.data(), corners.size(), {0, 0}, HUGE_VAL);
   cutter.tolerance = tolerance;
   return cutter;
 }
@@ -61,7 +61,7 @@ class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
   std::uint64_t all_in() const {
     std::uint64_t bits = 0;
     for (std::size_t m = 0; m < 4; ++m) {
-      bits |= cut_.comes_in[m];
+      bits |= cut_.enters[m];
     }
     return bits;
   }
@@ -77,9 +77,9 @@ TEST_P(OutlineCutWays, TheMiddleOfASide) {
   const Cutter cutter = cutter_of(GetParam(), {{3, 1}, {6, 1}, {6, 2}, {3, 2}});
   ASSERT_TRUE(cut(outline, cutter));
   // Segment 1 goes up along x = 4: in over the lower edge, out over the upper one.
-  EXPECT_THAT(std::vector(cut_.comes_in.begin(), cut_.comes_in.begin() + 4),
+  EXPECT_THAT(std::vector(cut_.enters.begin(), cut_.enters.begin() + 4),
               ::testing::ElementsAre(2, 0, 0, 0));
-  EXPECT_THAT(std::vector(cut_.goes_out.begin(), cut_.goes_out.begin() + 4),
+  EXPECT_THAT(std::vector(cut_.leaves.begin(), cut_.leaves.begin() + 4),
               ::testing::ElementsAre(0, 0, 2, 0));
   EXPECT_EQ(cut_.in_x[1], 4);
   EXPECT_EQ(cut_.in_y[1], 1);
@@ -133,8 +133,8 @@ TEST_P(OutlineCutWays, PointsOnLines) {
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(5, 0, 4), 1)));
   // Segment 1 is on the cutter's left line, 0 and 2 end there.
-  EXPECT_EQ(cut_.comes_in[3], 1U);
-  EXPECT_EQ(cut_.goes_out[3], 4U);
+  EXPECT_EQ(cut_.enters[3], 1U);
+  EXPECT_EQ(cut_.leaves[3], 4U);
   EXPECT_EQ(cut_.in_x[0], 4);
   EXPECT_EQ(cut_.out_x[2], 4);
   EXPECT_EQ(outside_.count, 3U);
@@ -160,12 +160,12 @@ struct Result {
   Extent extent;
 };
 
-Result result_of(const SimdBackend& way, const BoundarySegments& outline, const Input& input) {
+Result result_of(const SimdBackend& backend, const BoundarySegments& outline, const Input& input) {
   Result result;
-  result.cutter = cutter_of(way, input.polygon, input.tolerance);
+  result.cutter = cutter_of(backend, input.polygon, input.tolerance);
   result.cutter.pivot_x = input.pivot_x;
-  result.cut = way.cut(outline, result.cutter, result.found, result.outside);
-  result.extent = way.extent(outline);
+  result.cut = backend.cut(outline, result.cutter, result.found, result.outside);
+  result.extent = backend.extent(outline);
   return result;
 }
 
@@ -188,15 +188,15 @@ void expect_same(const Result& a, const Result& b) {
   }
   ASSERT_EQ(a.found.twice_area, b.found.twice_area);
   for (std::size_t m = 0; m < lines; ++m) {
-    ASSERT_EQ(a.found.comes_in[m], b.found.comes_in[m]);
-    ASSERT_EQ(a.found.goes_out[m], b.found.goes_out[m]);
+    ASSERT_EQ(a.found.enters[m], b.found.enters[m]);
+    ASSERT_EQ(a.found.leaves[m], b.found.leaves[m]);
     ASSERT_EQ(a.found.winding[m], b.found.winding[m]);
     for (std::size_t k = 0; k < BoundarySegments::max_count; ++k) {
-      if ((a.found.comes_in[m] >> k & 1) != 0) {
+      if ((a.found.enters[m] >> k & 1) != 0) {
         ASSERT_EQ(a.found.in_x[k], b.found.in_x[k]);
         ASSERT_EQ(a.found.in_y[k], b.found.in_y[k]);
       }
-      if ((a.found.goes_out[m] >> k & 1) != 0) {
+      if ((a.found.leaves[m] >> k & 1) != 0) {
         ASSERT_EQ(a.found.out_x[k], b.found.out_x[k]);
         ASSERT_EQ(a.found.out_y[k], b.found.out_y[k]);
       }
@@ -213,8 +213,8 @@ void expect_same(const Result& a, const Result& b) {
 
 /// Polygons of up to 64 segments; every other time of small numbers, so that points lie on lines.
 TEST(BoundaryCut, AllWaysGiveTheSameBits) {
-  const auto ways = simd_backends();
-  EXPECT_STREQ(ways.back().name, "scalar");
+  const auto backends = simd_backends();
+  EXPECT_STREQ(backends.back().name, "scalar");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
   int cuts = 0;
@@ -233,11 +233,11 @@ TEST(BoundaryCut, AllWaysGiveTheSameBits) {
         small ? square(number(), number(), 2)
               : regular(3 + random() % 14, number(), number(), 0.7 * size, place(random)),
         small ? 0.5 : 0.01 * size, number()};
-    const Result expected = result_of(ways.back(), outline, input);
+    const Result expected = result_of(backends.back(), outline, input);
     cuts += expected.cut;
-    for (const SimdBackend& way : ways) {
-      SCOPED_TRACE(way.name);
-      expect_same(expected, result_of(way, outline, input));
+    for (const SimdBackend& backend : backends) {
+      SCOPED_TRACE(backend.name);
+      expect_same(expected, result_of(backend, outline, input));
       if (HasFatalFailure()) {
         return;
       }
@@ -250,11 +250,11 @@ TEST(BoundaryCut, AllWaysGiveTheSameBits) {
 TEST(BoundaryCut, FarLines) {
   constexpr std::int64_t far = std::int64_t{1} << 56;
   const std::vector<GridPoint> corners{{-far - 1, -far + 2}, {far - 3, far + 1}, {-far, far}};
-  for (const SimdBackend& way : simd_backends()) {
+  for (const SimdBackend& backend : simd_backends()) {
     Cutter cutter;
-    way.set(cutter, corners.data(), corners.size(), {0, 0}, 1000);
+    backend.set(cutter, corners.data(), corners.size(), {0, 0}, 1000);
     // dy x - dx y, both of 113 bits, comes to 5 - 7 far.
-    EXPECT_NEAR(cutter.c[0], -7 * static_cast<double>(far), 0x1p50) << way.name;
+    EXPECT_NEAR(cutter.c[0], -7 * static_cast<double>(far), 0x1p50) << backend.name;
   }
 }
 

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Subtracting a candidate has two parts: cut_boundary() cuts the segments of the region's boundary
+// by the candidate, and add_edges() adds the parts of the candidate's edges that lie in the region,
+// reversed, so that the remaining boundary is closed again.
 #include "visibility/fast/boundary_view.h"
 
 #include <algorithm>
@@ -11,10 +15,11 @@
 namespace transillum {
 namespace {
 
-/// Bounds the rounding of what is made of a polygon's coordinates, over the largest.
+/// Bound on the rounding error of positions derived from a polygon's coordinates, relative to the
+/// largest coordinate.
 constexpr double rounding = 0x1p-49;
 
-/// Where as many times what rounding does to an area is more than a fragment's, it may show.
+/// A fragment with an area below noise_limit times the rounding error of areas requires ExactView.
 constexpr double noise_limit = 0x1p36;
 
 /// A point relative to a bin's center.
@@ -23,14 +28,15 @@ struct WidePoint {
 };
 using WidePolygon = std::array<WidePoint, FragmentOutlines::max_corners + 4>;
 
-/// Keeps what lies on the inner side of one side of a square about the origin.
+/// Clips a polygon of `count` corners by one side (0 to 3) of a square of width 2 `half` around the
+/// origin; returns the number of corners in `clipped`.
 std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long double half,
                  WidePolygon& clipped) {
   const bool along_x = side % 2 == 0;
   const long double limit = side < 2 ? half : -half;
   const auto depth = [&](const WidePoint& p) {
-    const long double at = along_x ? p.x : p.y;
-    return side < 2 ? half - at : half + at;
+    const long double coordinate = along_x ? p.x : p.y;
+    return side < 2 ? half - coordinate : half + coordinate;
   };
   std::size_t n = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -46,16 +52,6 @@ std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long d
     }
   }
   return n;
-}
-
-/// What a box reaches.
-FragmentWindow window_of(const FragmentBox& box) {
-  FragmentWindow window;
-  for (std::size_t d = 0; d < 4; ++d) {
-    window.ends[d] = -box.ends[d + 4];
-    window.ends[d + 4] = -box.ends[d];
-  }
-  return window;
 }
 
 }  // namespace
@@ -81,7 +77,7 @@ void BoundaryView::begin_query(std::int32_t fragment, const FragmentBins::Bin& b
   limit(5, -y);
 }
 
-/// A region of this area is what queries.
+/// Initializes the query for the region that was just loaded.
 void BoundaryView::start(double area, double reach) {
   const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
   origin_extent_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
@@ -161,7 +157,7 @@ double BoundaryView::subtract(std::int32_t fragment) {
   }
   set_cutter(cutter_, projected_.corners.data() + candidate.begin, candidate.end - candidate.begin,
              origin_, 4 * reach_);
-  // A point that is near to what both polygons share.
+  // A point near the common area of both polygons.
   cutter_.pivot_x = std::clamp(cutter_.x[0], -extent_[4], extent_[0]);
   cutter_.pivot_y = std::clamp(cutter_.y[0], -extent_[5], extent_[1]);
   ++counts_.pairs;
@@ -186,67 +182,89 @@ double BoundaryView::subtract(std::int32_t fragment) {
   return area;
 }
 
-/// Adds the parts of the cutter's edges that lie in the region: to twice_area, and, turned round,
-/// to what is left. Returns false where rounding has made the ends of such parts inconsistent.
-bool BoundaryView::add_edges(double& twice_area) {
+/// The points where the region's boundary crosses one edge of the cutter, in order along the edge.
+struct BoundaryView::EdgeCrossings {
   struct Crossing {
     double along, x, y;
-    int step;  ///< the region begins, 1, or ends, -1
+    int winding_change;  ///< 1: the region begins; -1: it ends
   };
+  std::size_t count = 0;
   std::array<Crossing, 2 * BoundarySegments::max_count> crossings;
+
+  void insert(const Crossing& crossing) {
+    std::size_t k = count++;
+    for (; k > 0 && crossings[k - 1].along > crossing.along; --k) {
+      crossings[k] = crossings[k - 1];
+    }
+    crossings[k] = crossing;
+  }
+};
+
+/// Adds the parts of the cutter's edges that lie in the region: their contribution to twice_area,
+/// and, reversed, to the next region's boundary. Returns false if rounding has made the ends of
+/// such parts inconsistent.
+bool BoundaryView::add_edges(double& twice_area) {
+  EdgeCrossings crossings;
   int winding = cut_.winding[0];
   for (std::size_t m = 0; m < cutter_.count; ++m) {
     if (winding != cut_.winding[m] || winding < 0 || winding > 1) {
       return false;
     }
-    const std::size_t next = m + 1 < cutter_.count ? m + 1 : 0;
-    const std::uint64_t in = cut_.enters[m], out = cut_.leaves[m];
-    if (winding == 0 && (in | out) == 0) {
+    if (winding == 0 && (cut_.enters[m] | cut_.leaves[m]) == 0) {
       continue;
     }
-    std::size_t count = 0;
-    const auto insert = [&](double x, double y, int step) {
-      const double along = cutter_.dx[m] * (x - cutter_.x[m]) + cutter_.dy[m] * (y - cutter_.y[m]);
-      std::size_t k = count++;
-      for (; k > 0 && crossings[k - 1].along > along; --k) {
-        crossings[k] = crossings[k - 1];
-      }
-      crossings[k] = {along, x, y, step};
-    };
-    for (std::uint64_t bits = in; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      insert(cut_.in_x[k], cut_.in_y[k], -1);
-    }
-    for (std::uint64_t bits = out; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      insert(cut_.out_x[k], cut_.out_y[k], 1);
-    }
-    double from_x = cutter_.x[m], from_y = cutter_.y[m];
-    const auto go_to = [&](double x, double y) {
-      const bool moved = x != from_x || y != from_y;
-      if (moved && winding != 0) {
-        if (winding != 1 || next_region_->count == BoundarySegments::capacity) {
-          return false;
-        }
-        twice_area += (from_x - cutter_.pivot_x) * (y - cutter_.pivot_y) -
-                      (from_y - cutter_.pivot_y) * (x - cutter_.pivot_x);
-        next_region_->add(x, y, from_x, from_y);
-      }
-      from_x = x;
-      from_y = y;
-      return true;
-    };
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!go_to(crossings[k].x, crossings[k].y)) {
-        return false;
-      }
-      winding += crossings[k].step;
-    }
-    if (!go_to(cutter_.x[next], cutter_.y[next])) {
+    find_crossings(m, crossings);
+    if (!add_edge(m, crossings, winding, twice_area)) {
       return false;
     }
   }
   return winding == cut_.winding[0];
+}
+
+inline void BoundaryView::find_crossings(std::size_t m, EdgeCrossings& crossings) const {
+  const auto along = [&](double x, double y) {
+    return cutter_.dx[m] * (x - cutter_.x[m]) + cutter_.dy[m] * (y - cutter_.y[m]);
+  };
+  crossings.count = 0;
+  for (std::uint64_t bits = cut_.enters[m]; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const double x = cut_.in_x[k], y = cut_.in_y[k];
+    crossings.insert({along(x, y), x, y, -1});
+  }
+  for (std::uint64_t bits = cut_.leaves[m]; bits != 0; bits &= bits - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+    const double x = cut_.out_x[k], y = cut_.out_y[k];
+    crossings.insert({along(x, y), x, y, 1});
+  }
+}
+
+/// Adds the parts of edge m. `winding` is the region's winding number at the edge's first corner,
+/// and on return at its second.
+inline bool BoundaryView::add_edge(std::size_t m, const EdgeCrossings& crossings, int& winding,
+                                   double& twice_area) {
+  double from_x = cutter_.x[m], from_y = cutter_.y[m];
+  const auto advance_to = [&](double x, double y) {
+    const bool moved = x != from_x || y != from_y;
+    if (moved && winding != 0) {
+      if (winding != 1 || next_region_->count == BoundarySegments::capacity) {
+        return false;
+      }
+      twice_area += (from_x - cutter_.pivot_x) * (y - cutter_.pivot_y) -
+                    (from_y - cutter_.pivot_y) * (x - cutter_.pivot_x);
+      next_region_->add(x, y, from_x, from_y);
+    }
+    from_x = x;
+    from_y = y;
+    return true;
+  };
+  for (std::size_t k = 0; k < crossings.count; ++k) {
+    if (!advance_to(crossings.crossings[k].x, crossings.crossings[k].y)) {
+      return false;
+    }
+    winding += crossings.crossings[k].winding_change;
+  }
+  const std::size_t next = m + 1 < cutter_.count ? m + 1 : 0;
+  return advance_to(cutter_.x[next], cutter_.y[next]);
 }
 
 }  // namespace transillum

@@ -42,11 +42,14 @@ class BoundaryView {
   bool failed() const { return failed_; }
 
  private:
+  struct EdgeCrossings;
+
   void load_whole();
   void load_part_in_bin();
   void start(double area, double reach);
   bool add_edges(double& twice_area);
-  bool add_edge(std::size_t m, int& winding, double& twice_area);
+  void find_crossings(std::size_t m, EdgeCrossings& crossings) const;
+  bool add_edge(std::size_t m, const EdgeCrossings& crossings, int& winding, double& twice_area);
   void find_window();
 
   std::array<BoundarySegments, 2> segments_;

@@ -39,7 +39,8 @@ double ConvexOverlap::area_with(const ProjectedFragments::Fragment& other) const
   return std::clamp(0.5 * twice_area, 0.0, std::min(area_, other.area));
 }
 
-/// What of a polygon lies to the left of an edge.
+/// Clips a polygon of `count` corners to the left side of an edge; returns the number of corners in
+/// `left`.
 std::size_t ConvexOverlap::cut(const Polygon& polygon, std::size_t count, const Edge& edge,
                                Polygon& left) {
   const auto side = [&edge](const Point& p) {
@@ -54,7 +55,7 @@ std::size_t ConvexOverlap::cut(const Polygon& polygon, std::size_t count, const 
     if ((side_before < 0 && side_here > 0) || (side_before > 0 && side_here < 0)) {
       const double t = side_before / (side_before - side_here);
       if (kept == left.size()) {
-        return 0;  // rounding alone makes so many corners
+        return 0;  // only rounding can make that many corners
       }
       left[kept++] = {before.x + t * (here.x - before.x), before.y + t * (here.y - before.y)};
     }

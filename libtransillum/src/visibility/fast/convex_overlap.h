@@ -9,15 +9,15 @@
 
 namespace transillum {
 
-/// The area that two fragments of a direction have in common, in steps squared, by cutting one
-/// along the edges of the other; nothing is kept of the cut.
+/// The area that the projections of two fragments have in common, in square grid units, by clipping
+/// one by the edges of the other in doubles.
 class ConvexOverlap {
  public:
   explicit ConvexOverlap(const ProjectedFragments& projected) : projected_(projected) {}
 
-  /// Whose overlaps are asked for.
+  /// Sets the fragment whose overlaps area_with() returns.
   void set_subject(const ProjectedFragments::Fragment& fragment);
-  /// To rounding; at least 0, at most either fragment's area.
+  /// Correct to rounding; at least 0, at most either fragment's area.
   double area_with(const ProjectedFragments::Fragment& other) const;
 
  private:
@@ -27,7 +27,7 @@ class ConvexOverlap {
   struct Edge {
     Point from, along;
   };
-  /// Each cut of a convex polygon adds at most a corner.
+  /// Each cut of a convex polygon adds at most one corner.
   using Polygon = std::array<Point, 2 * FragmentOutlines::max_corners>;
 
   static std::size_t cut(const Polygon& polygon, std::size_t count, const Edge& edge,

@@ -1,11 +1,13 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The future work of section 8: "avoid the majority of the cuttings of the patches. Instead of
-// cutting, the radiosity of the patch can be corrected". A fragment that is partly hidden stays
-// whole; of it is only known how much is still open, as if that were spread evenly. What two
-// fragments exchange is their overlap, corrected by what is open of them. Where this leaves a
-// receiver with less than must lie above it, all that lies there gives more: what is received stays
-// right.
+// Engine corrected, the future work of the paper's section 8: "avoid the majority of the cuttings
+// of the patches. Instead of cutting, the radiosity of the patch can be corrected". A partly hidden
+// fragment stays whole; only its open area is stored, as if it were spread evenly over the
+// fragment. The exchange of two fragments is the area of their overlap, corrected by their open
+// areas. If this leaves less of a receiver covered than its candidates must cover, all of them give
+// more, so that the total area received stays right.
+//
+// The second part of the file compares a pass with the recorded local map (CorrectedMap).
 #include "transillum/corrected_map.h"
 
 #include <algorithm>
@@ -23,7 +25,7 @@
 namespace transillum {
 namespace {
 
-/// A fragment of which less is open counts as hidden.
+/// A fragment with a smaller share of its area open counts as hidden.
 constexpr double hidden = 1e-6;
 
 /// What all passes share.
@@ -31,7 +33,7 @@ struct CorrectedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   FragmentOutlines outlines;
-  bool backs_hidden;  ///< no lit side queries at a back, whatever the direction
+  bool backs_hidden;  ///< fronts_see_no_backs()
 
   CorrectedScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)),
@@ -40,7 +42,7 @@ struct CorrectedScene {
         backs_hidden(fronts_see_no_backs(scene, tree)) {}
 };
 
-/// One direction.
+/// One pass. run() makes all of it; begin() and query() make it fragment by fragment.
 class CorrectedPass {
  public:
   explicit CorrectedPass(const CorrectedScene& shared)
@@ -54,26 +56,25 @@ class CorrectedPass {
         cancellation.throw_if_canceled();
       }
       const ProjectedFragments::Fragment& below = fragment(k);
-      sums.project(below.patch, below.front, unit() * below.area);
-      look(k);
-      for (const Above& above : above_) {
-        if (!(above.seen > 0)) {
+      sums.project(below.patch, below.front, area_unit() * below.area);
+      query(k);
+      for (const Candidate& candidate : candidates_) {
+        if (!(candidate.seen > 0)) {
           continue;
         }
-        const ProjectedFragments::Fragment& other = fragment(above.fragment);
-        sums.accumulate(below.patch, below.front, other.patch, other.front, unit() * above.seen);
+        const ProjectedFragments::Fragment& other = fragment(candidate.fragment);
+        sums.accumulate(below.patch, below.front, other.patch, other.front,
+                        area_unit() * candidate.seen);
       }
     }
     return sums.finish(omega, cancellation);
   }
 
-  // The same fragment by fragment, for those who want to watch.
-
   void begin(const Vec3& omega, const Cancellation& cancellation) {
     projected_.project(*shared_.scene, *shared_.tree, shared_.outlines, omega, cancellation);
     bins_.fill(cancellation);
     open_below_.clear();
-    met_by_.assign(projected_.fragments.size(), -1);
+    last_query_.assign(projected_.fragments.size(), -1);
   }
   std::int32_t fragment_count() const {
     return static_cast<std::int32_t>(projected_.fragments.size());
@@ -81,105 +82,101 @@ class CorrectedPass {
   const ProjectedFragments::Fragment& fragment(std::int32_t k) const {
     return at(projected_.fragments, k);
   }
-  /// m² of a step squared.
-  double unit() const { return projected_.grid.unit * projected_.grid.unit; }
-  /// Finds what fragment k sees; those before it have looked.
-  void look(std::int32_t k) {
+  /// m² per square grid unit.
+  double area_unit() const { return projected_.grid.unit * projected_.grid.unit; }
+  /// Finds the areas that fragment k sees; must be called in BSP order.
+  void query(std::int32_t k) {
     open_below_.push_back(fragment(k).area);
-    above_.clear();
+    candidates_.clear();
     if (shared_.backs_hidden && !fragment(k).front) {
       return;
     }
-    find_above(k);
+    find_candidates(k);
     exchange(fragment(k));
   }
-  /// Of a fragment that has looked, what queries down unhindered; steps squared.
+  /// The area of fragment k, after its query, that is still visible from below; square grid units.
   double open_below(std::int32_t k) const { return at(open_below_, k); }
 
  private:
-  /// A fragment above the one that queries.
-  struct Above {
+  /// A fragment above the one whose query runs.
+  struct Candidate {
     std::int32_t fragment;
-    double overlap;  ///< steps squared; < 0: not looked for yet
-    double seen;
+    double overlap;  ///< square grid units; < 0: not computed yet
+    double seen;     ///< the part of it that counts as visible
   };
 
-  /// Those whose boxes overlap that of fragment k, nearest first.
-  void find_above(std::int32_t k) {
-    FragmentWindow window;
-    const FragmentBox& box = at(projected_.boxes, k);
-    for (std::size_t d = 0; d < 4; ++d) {
-      window.ends[d] = -box.ends[d + 4];
-      window.ends[d + 4] = -box.ends[d];
-    }
-    above_.clear();
+  /// Collects the fragments above whose boxes overlap that of fragment k, nearest first.
+  void find_candidates(std::int32_t k) {
+    const FragmentWindow window = window_of(at(projected_.boxes, k));
+    candidates_.clear();
     for (auto own = bins_.last_entry(k); own != FragmentBins::none; own = bins_.entry_before(own)) {
       for (FragmentBins::Entry e = own - 1; bins_.fragment(e) >= 0; --e) {
         if (!window.overlaps(bins_.box(e))) {
           continue;
         }
         const std::int32_t other = bins_.fragment(e);
-        if (std::exchange(at(met_by_, other), k) == k) {
+        if (std::exchange(at(last_query_, other), k) == k) {
           continue;
         }
-        above_.push_back({other, -1, 0});
+        candidates_.push_back({other, -1, 0});
       }
     }
-    std::sort(above_.begin(), above_.end(),
-              [](const Above& a, const Above& b) { return a.fragment > b.fragment; });
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Candidate& a, const Candidate& b) { return a.fragment > b.fragment; });
   }
 
-  double overlap(Above& above) const {
-    if (above.overlap < 0) {
-      above.overlap = overlap_.area_with(fragment(above.fragment));
+  double overlap(Candidate& candidate) const {
+    if (candidate.overlap < 0) {
+      candidate.overlap = overlap_.area_with(fragment(candidate.fragment));
     }
-    return above.overlap;
+    return candidate.overlap;
   }
 
-  /// Fills in what is seen of each fragment above.
+  /// Sets `seen` of all candidates.
   void exchange(const ProjectedFragments::Fragment& below) {
     overlap_.set_subject(below);
     open_ = below.area;
-    const double least = hidden * below.area;
-    for (Above& above : above_) {
-      if (open_ <= least) {
+    const double negligible = hidden * below.area;
+    for (Candidate& candidate : candidates_) {
+      if (open_ <= negligible) {
         return;
       }
-      const double area = fragment(above.fragment).area, left = open_below(above.fragment);
-      if (left > hidden * area) {
-        take(above, corrected(overlap(above), below.area, open_, area, left));
+      const double area = fragment(candidate.fragment).area;
+      const double open = open_below(candidate.fragment);
+      if (open > hidden * area) {
+        transfer(candidate, corrected(overlap(candidate), below.area, open_, area, open));
       }
     }
-    // What was not found open but must be covered: from the nearest that has room, ...
-    for (Above& above : above_) {
-      if (open_ <= least) {
+    // The candidates must cover the rest: first from the nearest with open area ...
+    for (Candidate& candidate : candidates_) {
+      if (open_ <= negligible) {
         return;
       }
-      const double room = std::max(open_below(above.fragment), 0.0);
-      take(above, std::min({open_, room, overlap(above) - above.seen}));
+      const double open = std::max(open_below(candidate.fragment), 0.0);
+      transfer(candidate, std::min({open_, open, overlap(candidate) - candidate.seen}));
     }
-    // ... and then a little more than there is, from all.
+    // ... then from all, beyond their open areas.
     double rest = 0;
-    for (Above& above : above_) {
-      rest += overlap(above) - above.seen;
+    for (Candidate& candidate : candidates_) {
+      rest += overlap(candidate) - candidate.seen;
     }
-    if (!(rest > 0) || open_ <= least) {
+    if (!(rest > 0) || open_ <= negligible) {
       return;
     }
     const double share = std::min(1.0, open_ / rest);
-    for (Above& above : above_) {
-      take(above, share * (above.overlap - above.seen));
+    for (Candidate& candidate : candidates_) {
+      transfer(candidate, share * (candidate.overlap - candidate.seen));
     }
   }
 
-  void take(Above& above, double seen) {
-    above.seen += seen;
-    at(open_below_, above.fragment) -= seen;
+  void transfer(Candidate& candidate, double seen) {
+    candidate.seen += seen;
+    at(open_below_, candidate.fragment) -= seen;
     open_ -= seen;
   }
 
-  /// What of an overlap is open, from what of both fragments is: as much of it as of the fragment
-  /// of which it is the larger part, but within what both leave possible.
+  /// The open area of an overlap, from both fragments' open areas: the overlap times the open share
+  /// of the smaller fragment, within the bounds that both impose.
   static double corrected(double overlap, double area, double open, double other_area,
                           double other_open) {
     const double share = area < other_area ? open / area : other_open / other_area;
@@ -192,10 +189,10 @@ class CorrectedPass {
   ProjectedFragments projected_;
   FragmentBins bins_;
   ConvexOverlap overlap_;
-  std::vector<double> open_below_;    ///< a fragment: of its area what queries down unhindered
-  std::vector<std::int32_t> met_by_;  ///< a fragment: the last one that found it
-  std::vector<Above> above_;
-  double open_ = 0;  ///< of the fragment that queries
+  std::vector<double> open_below_;        ///< per fragment: area visible from below
+  std::vector<std::int32_t> last_query_;  ///< per fragment: the last fragment whose query met it
+  std::vector<Candidate> candidates_;     ///< of the current query
+  double open_ = 0;                       ///< area of the current query's fragment not yet covered
 };
 
 }  // namespace
@@ -210,10 +207,10 @@ TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
 
 namespace {
 
-/// Of each step's polygon, what is open in V after step `step`, m².
+/// For each step, the area of its fragment that is still in V after step `step`, m².
 std::vector<double> open_in_map(const MapRecord& record, std::int32_t step) {
   std::vector<double> open(record.order.size(), 0);
-  std::vector<std::int32_t> origin;  // of each row: the step that put it, or what it is of, into V
+  std::vector<std::int32_t> origin;  // per row: the step that put it, or its first ancestor, into V
   for (const MapRecord::Row& row : record.rows) {
     if (row.made > step) {
       break;
@@ -226,7 +223,7 @@ std::vector<double> open_in_map(const MapRecord& record, std::int32_t step) {
   return open;
 }
 
-/// The step that takes each outline's fragment.
+/// For each outline, the step of its fragment.
 std::vector<std::int32_t> steps_of(const FragmentOutlines& outlines, const MapRecord& record) {
   std::vector<std::int32_t> steps(outlines.outlines.size());
   for (std::int32_t k = 0; k < record.step_count(); ++k) {
@@ -251,7 +248,7 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
   const std::vector<double> exact = open_in_map(record, step);
   const std::vector<std::int32_t> steps = steps_of(shared.outlines, record);
   std::vector<std::size_t> part_of_step(record.order.size(), exact.size());
-  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // fragment, and the part that it is of
+  std::vector<std::pair<std::int32_t, std::size_t>> parts;  // (fragment, its part in the map)
   for (std::int32_t f = 0; f < pass.fragment_count(); ++f) {
     if (f % 64 == 0) {
       cancellation.throw_if_canceled();
@@ -261,23 +258,23 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
     if (own_step > step) {
       break;
     }
-    pass.look(f);
+    pass.query(f);
     std::size_t& part = at(part_of_step, own_step);
     if (part == exact.size()) {
       part = map.parts.size();
       const auto begin = static_cast<std::uint32_t>(map.corners.size());
-      const FragmentId fragment = at(record.order, own_step);
-      for (const BspTree::Corner& corner : tree->corners(tree->fragment(fragment))) {
+      const FragmentId in_tree = at(record.order, own_step);
+      for (const BspTree::Corner& corner : tree->corners(tree->fragment(in_tree))) {
         map.corners.push_back(map.frame.project(at(tree->points(), corner.point)));
       }
       map.parts.push_back({fragment.patch, fragment.front, 0, 0, at(exact, own_step), begin,
                            static_cast<std::uint32_t>(map.corners.size())});
     }
-    map.parts[part].area += pass.unit() * fragment.area;
+    map.parts[part].area += pass.area_unit() * fragment.area;
     parts.emplace_back(f, part);
   }
   for (const auto& [f, part] : parts) {
-    map.parts[part].open += pass.unit() * pass.open_below(f);
+    map.parts[part].open += pass.area_unit() * pass.open_below(f);
   }
   return map;
 }

@@ -1,12 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The fast engine. Each front-facing fragment queries toward the light: the fragments above it,
-// nearest first, eat up its polygon, and once nothing is left no further one is looked at. What was
-// eaten is what it sees. The fragments above come from bins over the plane.
+// Engine fast. Each front-facing fragment (a receiver) runs a visibility query toward its sources:
+// the fragments above it, nearest first, are subtracted from its projection until nothing remains.
+// The area that a candidate removes is the area of it that the receiver sees. Candidates come from
+// bins over the plane (FragmentBins).
 //
-// Light goes both ways along a line, so what front-facing fragments see of back-facing ones is also
-// what these see of them. Only back-facing fragments that are left with something open look
-// for themselves: in a scene of closed surfaces, none.
+// Visibility is symmetric: what a front-facing fragment sees of a back-facing one is also what that
+// one sees of it. Therefore only back-facing fragments with area not accounted for run queries of
+// their own, toward their receivers; in a scene of closed surfaces there are none.
+//
+// Notation: a fragment is an index into ProjectedFragments::fragments, whose order is BSP order, so
+// that toward omega indices decrease. An entry is a position in the lists of FragmentBins.
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -28,27 +32,108 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Faces in more bins than this look bin by bin.
-constexpr std::int32_t most_bins = 8;
+/// Fragments in more bins than this run one query per bin.
+constexpr std::int32_t max_bins_per_query = 8;
 
 /// What all passes share.
 struct FastScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   FragmentOutlines outlines;
-  bool backs_hidden = false;        ///< no lit side queries at a back, whatever the direction
-  std::optional<PatchShaft> shaft;  ///< all that is looked at, if not everything
+  bool backs_hidden = false;        ///< fronts_see_no_backs()
+  std::optional<PatchShaft> shaft;  ///< if set, only fragments in it take part
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*tree) {}
 };
 
-/// Makes one pass after the other; what a pass needs is kept for the next one.
+/// The side to which a query is directed.
+enum class Toward {
+  source,   ///< along omega: from a front-facing fragment to those above it
+  receiver  ///< against omega: from a back-facing fragment to those below it
+};
+
+/// Enumerates the candidates of one query, nearest first, by merging the lists of its bins.
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const FragmentBins& bins) : bins_(bins) {}
+
+  /// Begins a search from `fragment`: in the bin of `entry` only, or in all its bins. `window`:
+  /// here and in next(), the bounds within which candidates are sought.
+  template <Toward toward>
+  void begin(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
+             const FragmentWindow& window) {
+    cursors_.clear();
+    if (in_one_bin) {
+      cursors_.push_back({entry, 0});
+    } else {
+      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
+           e = bins_.entry_before(e)) {
+        cursors_.push_back({e, 0});
+      }
+    }
+    for (Cursor& cursor : cursors_) {
+      advance<toward>(cursor, window);
+    }
+  }
+
+  /// The next candidate, or -1.
+  template <Toward toward>
+  std::int32_t next(const FragmentWindow& window) {
+    if (cursors_.size() == 1) {
+      const std::int32_t fragment = cursors_[0].fragment;
+      if (fragment >= 0) {
+        advance<toward>(cursors_[0], window);
+      }
+      return fragment;
+    }
+    std::int32_t nearest = -1;
+    for (const Cursor& cursor : cursors_) {
+      if (cursor.fragment < 0) {
+        continue;
+      }
+      if (nearest < 0 ||
+          (toward == Toward::source ? cursor.fragment > nearest : cursor.fragment < nearest)) {
+        nearest = cursor.fragment;
+      }
+    }
+    if (nearest < 0) {
+      return nearest;
+    }
+    for (Cursor& cursor : cursors_) {
+      if (cursor.fragment == nearest) {
+        advance<toward>(cursor, window);
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  /// A position in the list of a bin: a fragment whose box overlaps the window, or a sentinel (-1).
+  struct Cursor {
+    FragmentBins::Entry entry;
+    std::int32_t fragment;
+  };
+
+  template <Toward toward>
+  void advance(Cursor& cursor, const FragmentWindow& window) const {
+    do {
+      cursor.entry += toward == Toward::source ? -1 : 1;
+    } while (!window.overlaps(bins_.box(cursor.entry)));
+    cursor.fragment = bins_.fragment(cursor.entry);
+  }
+
+  const FragmentBins& bins_;
+  std::vector<Cursor> cursors_;
+};
+
+/// Runs passes, one at a time; reuses its memory from pass to pass.
 class FastPass {
  public:
   explicit FastPass(const FastScene& shared)
       : shared_(shared),
         bins_(projected_, shared.backs_hidden),
+        search_(bins_),
         exact_view_(shared.outlines, projected_, transfers_.counts),
         boundary_view_(projected_, transfers_.counts) {}
 
@@ -64,7 +149,7 @@ class FastPass {
     if (!shared_.backs_hidden) {
       run_queries<Toward::receiver>(cancellation);
     }
-    // Outside the shaft things are missing that would hide others.
+    // With a shaft, fragments that would hide others may be missing.
     TRANSILLUM_INVARIANT(shared_.shaft || nothing_is_covered_twice(),
                          "more is covered than projected");
     sort_exchanges(cancellation);
@@ -79,7 +164,7 @@ class FastPass {
 
  private:
   bool nothing_is_covered_twice() const {
-    // Corners lie a step or so off their lines: a thousand steps by the 2^60 of the scene.
+    // Corners are about a grid unit off their lines: allows 2^10 units times the scene's 2^60.
     const double rounding = 0x1p10 * 0x1p60 * area_unit_;
     const auto holds = [rounding](const Coverage& side) {
       return side.covered <= side.projected * (1 + 1e-9) + rounding;
@@ -104,32 +189,26 @@ class FastPass {
     }
   }
 
-  enum class Toward { up, down };
   struct VisibleArea {
     std::int32_t fragment;
-    double area;
-  };
-  /// A place in the list of a bin: what is there overlaps by its box, or is the list's end.
-  struct Cursor {
-    FragmentBins::Entry entry;
-    std::int32_t fragment;
+    double area;  ///< square grid units
   };
 
-  /// Bin by bin, so that what is looked at next is near.
+  /// Runs the queries bin by bin, for locality of memory accesses.
   template <Toward toward>
   void run_queries(const Cancellation& cancellation) {
     std::int32_t queries = 0;
     for (const FragmentBins::Bin& bin : bins_.bins()) {
-      fetch(bin);
+      prefetch(bin);
       for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
         const std::int32_t fragment = bins_.fragment(e);
-        if (!needs_query(way, fragment)) {
+        if (!needs_query(toward, fragment)) {
           continue;
         }
         if (++queries % 256 == 0) {
           cancellation.throw_if_canceled();
         }
-        if (bins_.entry_count(fragment) > most_bins) {
+        if (bins_.entry_count(fragment) > max_bins_per_query) {
           run_query<toward>(fragment, &bin, e);
         } else if (bins_.entry_before(e) == FragmentBins::none) {
           run_query<toward>(fragment, nullptr, e);
@@ -138,8 +217,8 @@ class FastPass {
     }
   }
 
-  /// What follows uses the fragments of a bin in an order that the processor cannot foresee.
-  void fetch(const FragmentBins::Bin& bin) const {
+  /// The queries use the fragments of a bin in an order that the processor cannot predict.
+  void prefetch(const FragmentBins::Bin& bin) const {
     for (FragmentBins::Entry e = bin.begin; e < bin.end; ++e) {
       const ProjectedFragments::Fragment& fragment = at(projected_.fragments, bins_.fragment(e));
       __builtin_prefetch(projected_.corners.data() + fragment.begin);
@@ -166,7 +245,7 @@ class FastPass {
     }
   }
 
-  /// Fills visible_areas_. Returns false where what is seen is too much for the view.
+  /// Fills visible_areas_. Returns false if the view fails.
   template <Toward toward, class View>
   bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
                   FragmentBins::Entry entry) {
@@ -176,15 +255,15 @@ class FastPass {
     } else {
       view.begin_query(fragment);
     }
-    begin_search<toward>(fragment, bin != nullptr, entry, view.window());
-    for (std::int32_t other = next<toward>(view.window()); other >= 0;
-         other = next<toward>(view.window())) {
-      const double area = view.subtract(other);
+    search_.begin<toward>(fragment, bin != nullptr, entry, view.window());
+    for (std::int32_t candidate = search_.next<toward>(view.window()); candidate >= 0;
+         candidate = search_.next<toward>(view.window())) {
+      const double area = view.subtract(candidate);
       if (view.failed()) {
         return false;
       }
       if (area > 0) {
-        visible_areas_.push_back({other, area});
+        visible_areas_.push_back({candidate, area});
       }
       if (view.done()) {
         break;
@@ -194,64 +273,8 @@ class FastPass {
   }
 
   template <Toward toward>
-  void begin_search(std::int32_t fragment, bool in_one_bin, FragmentBins::Entry entry,
-                    const FragmentWindow& window) {
-    cursors_.clear();
-    if (in_one_bin) {
-      cursors_.push_back({entry, 0});
-    } else {
-      for (auto e = bins_.last_entry(fragment); e != FragmentBins::none;
-           e = bins_.entry_before(e)) {
-        cursors_.push_back({e, 0});
-      }
-    }
-    for (Cursor& cursor : cursors_) {
-      move<toward>(cursor, window);
-    }
-  }
-
-  template <Toward toward>
-  void move(Cursor& cursor, const FragmentWindow& window) const {
-    do {
-      cursor.entry += toward == Toward::source ? -1 : 1;
-    } while (!window.overlaps(bins_.box(cursor.entry)));
-    cursor.fragment = bins_.fragment(cursor.entry);
-  }
-
-  /// The next fragment that may be seen, or -1.
-  template <Toward toward>
-  std::int32_t next(const FragmentWindow& window) {
-    if (cursors_.size() == 1) {
-      const std::int32_t fragment = cursors_[0].fragment;
-      if (fragment >= 0) {
-        move<toward>(cursors_[0], window);
-      }
-      return fragment;
-    }
-    std::int32_t nearest = -1;
-    for (const Cursor& cursor : cursors_) {
-      if (cursor.fragment < 0) {
-        continue;
-      }
-      if (nearest < 0 ||
-          (toward == Toward::source ? cursor.fragment > nearest : cursor.fragment < nearest)) {
-        nearest = cursor.fragment;
-      }
-    }
-    if (nearest < 0) {
-      return nearest;
-    }
-    for (Cursor& cursor : cursors_) {
-      if (cursor.fragment == nearest) {
-        move<toward>(cursor, window);
-      }
-    }
-    return nearest;
-  }
-
-  template <Toward toward>
-  void accumulate(std::int32_t looking, const VisibleArea& visible) {
-    const ProjectedFragments::Fragment& own = at(projected_.fragments, looking);
+  void accumulate(std::int32_t fragment, const VisibleArea& visible) {
+    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
     const ProjectedFragments::Fragment& other = at(projected_.fragments, visible.fragment);
     const double area = area_unit_ * visible.area;
     const auto i = static_cast<std::size_t>(own.patch), j = static_cast<std::size_t>(other.patch);
@@ -270,7 +293,8 @@ class FastPass {
     }
   }
 
-  /// By receiver, then source, one entry a pair; parts summed in the order they were found.
+  /// Sorts found_ by receiver, then source, into one entry per pair; parts are summed in the order
+  /// in which they were found.
   void sort_exchanges(const Cancellation& cancellation) {
     const std::size_t patches = transfers_.forward.size();
     row_ends_.assign(patches + 1, 0);
@@ -304,7 +328,7 @@ class FastPass {
     }
   }
 
-  /// Equal ones stay in their order.
+  /// Stable.
   static void sort_by_source(Transfer* first, Transfer* last) {
     constexpr std::ptrdiff_t few = 24;
     if (last - first > few) {
@@ -323,23 +347,23 @@ class FastPass {
   }
 
   const FastScene& shared_;
-  double area_unit_ = 1;                  ///< m² a step squared
-  std::vector<double> seen_from_front_;   ///< a fragment: steps squared
-  std::vector<Transfer> found_, sorted_;  ///< exchanges, visible by visible
+  double area_unit_ = 1;                  ///< m² per square grid unit
+  std::vector<double> seen_from_front_;   ///< per fragment: square grid units
+  std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
   std::vector<std::uint32_t> row_ends_;
   std::vector<VisibleArea> visible_areas_;
-  std::vector<Cursor> cursors_;
   Transfers transfers_;
   ProjectedFragments projected_;
   FragmentBins bins_;
+  CandidateSearch search_;
   ExactView exact_view_;
   BoundaryView boundary_view_;
 };
 
-/// Passes that no thread is making; one is kept for each that has made one at the same time.
+/// Pool of FastPass objects not in use: as many as have run at the same time.
 class IdlePasses {
  public:
-  /// None where all are under way.
+  /// nullptr if all are in use.
   std::unique_ptr<FastPass> take() {
     const std::lock_guard lock(mutex_);
     if (passes_.empty()) {
@@ -359,12 +383,12 @@ class IdlePasses {
   std::vector<std::unique_ptr<FastPass>> passes_;
 };
 
-/// Whether a pass tells that lit sides look at lit sides only. Where surfaces are closed, what
-/// holds along all lines of one direction holds everywhere: the surfaces around a point, counted
-/// by their lit sides and backs, are the same number on whatever line one comes to it
-/// (decisions/0015-closed-surfaces.md).
+/// Whether front sides see front sides only. If surfaces are closed, what holds along all lines of
+/// one direction holds along all lines: the number of surfaces around a point, counted by front and
+/// back sides, is the same on every line through it (decisions/0015-closed-surfaces.md). So one
+/// pass decides.
 bool hides_all_backs(const FastScene& shared) {
-  // As good as any that no scene is aligned with.
+  // An arbitrary direction with which no scene is likely to be aligned.
   const Vec3 omega = normalized(Vec3{0.5772156649, 0.3141592653, 0.7390851332});
   if (!is_closed_surface(*shared.scene)) {
     return false;
@@ -372,9 +396,9 @@ bool hides_all_backs(const FastScene& shared) {
   const Cancellation never;
   const Transfers transfers = FastPass(shared).run(omega, never);
   for (PatchId i = 0; i < shared.scene->patch_count(); ++i) {
-    // Rounding lets slivers of backs be seen beside the edges of what hides them.
-    const double most = 1e-13 * shared.scene->patch(i).area;
-    if (at(transfers.back_seen, i) > most) {
+    // By rounding, slivers of backs are seen beside the edges of what hides them.
+    const double limit = 1e-13 * shared.scene->patch(i).area;
+    if (at(transfers.back_seen, i) > limit) {
       return false;
     }
   }
@@ -415,8 +439,8 @@ TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
-  shared->backs_hidden =
-      hides_all_backs(*shared);  // of the whole scene; so of what the shaft holds
+  // Holds for the whole scene, and so for the fragments in the shaft.
+  shared->backs_hidden = hides_all_backs(*shared);
   shared->shaft.emplace(*shared->scene, *shared->tree, patch);
   return engine_of(std::move(shared));
 }

@@ -7,18 +7,18 @@
 
 namespace transillum {
 
-/// Engine `fast`: visible areas in doubles, exact where these do not suffice.
-/// @throws InputError, Canceled where the engine is called
+/// Engine `fast`: visible areas in doubles, with exact signs where doubles do not suffice.
+/// @throws Canceled when the engine is called
 TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree);
 /// Engine `fast`, restricted to the exchanges of one patch; all other transfers are incomplete.
 TransferEngine fast_patch_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree, PatchId patch);
-/// Engine `corrected`: no cutting; partly hidden areas are corrected (the paper's future work).
+/// Engine `corrected`: no cutting; partly hidden areas are corrected (the paper's section 8).
 TransferEngine corrected_engine(std::shared_ptr<const Scene> scene,
                                 std::shared_ptr<const BspTree> tree);
 
-/// Whether all surfaces are closed and no front side sees a back side, whatever the direction
-/// (decisions/0015-closed-surfaces.md).
+/// Whether all surfaces are closed and no front side sees a back side along any direction
+/// (decisions/0015-closed-surfaces.md). Takes one pass of engine fast.
 bool fronts_see_no_backs(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree);
 
 }  // namespace transillum

@@ -9,7 +9,7 @@
 namespace transillum {
 
 template <class Points>
-PatchShaft::Sphere PatchShaft::about(const Points& points) {
+PatchShaft::Sphere PatchShaft::bounding_sphere(const Points& points) {
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -20,26 +20,24 @@ PatchShaft::Sphere PatchShaft::about(const Points& points) {
   for (const Vec3& p : points) {
     radius = std::max(radius, norm(p - center));
   }
-  // Far from the origin or much along the direction, distances lose digits.
+  // Distances lose digits far from the origin and between points far apart along the direction.
   return {center, radius + 1e-6 * (radius + norm(center))};
 }
 
 PatchShaft::PatchShaft(const Scene& scene, const BspTree& tree, PatchId patch) {
-  std::vector<Vec3> points;
-  const auto sphere = [&points] { return about(points); };
-  std::vector<Vec3> own;
+  std::vector<Vec3> points, own;
   spheres_.reserve(tree.fragments().size());
   for (const BspTree::Fragment& fragment : tree.fragments()) {
     points.clear();
     for (const BspTree::Corner& corner : tree.corners(fragment)) {
       points.push_back(at(tree.points(), corner.point));
     }
-    spheres_.push_back(sphere());
+    spheres_.push_back(bounding_sphere(points));
     if (fragment.patch == patch) {
       own.insert(own.end(), points.begin(), points.end());
     }
   }
-  patch_ = own.empty() ? Sphere{scene.patch(patch).center, 0} : about(own);
+  patch_ = own.empty() ? Sphere{scene.patch(patch).center, 0} : bounding_sphere(own);
 }
 
 }  // namespace transillum

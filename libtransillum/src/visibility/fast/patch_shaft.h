@@ -8,12 +8,13 @@
 
 namespace transillum {
 
-/// Which fragments may lie above or below a patch, whatever the direction: by spheres about them.
+/// Finds which fragments may lie above or below a patch along a direction, by bounding spheres.
 class PatchShaft {
  public:
   PatchShaft(const Scene& scene, const BspTree& tree, PatchId patch);
 
-  /// Whether their projections along omega (unit) may meet; never wrong where it says no.
+  /// Whether the projections of fragment and patch along omega (unit) may overlap; never false if
+  /// they do.
   bool may_hold(FragmentId fragment, const Vec3& omega) const {
     const Sphere& sphere = at(spheres_, fragment);
     const Vec3 arm = sphere.center - patch_.center;
@@ -26,12 +27,12 @@ class PatchShaft {
     Vec3 center;
     double radius;
   };
-  /// A little larger than need be, for what rounding does.
+  /// Slightly enlarged, so that rounding cannot exclude a point.
   template <class Points>
-  static Sphere about(const Points& points);
+  static Sphere bounding_sphere(const Points& points);
 
   Sphere patch_;
-  std::vector<Sphere> spheres_;  ///< a fragment
+  std::vector<Sphere> spheres_;  ///< per fragment
 };
 
 }  // namespace transillum
