@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Lessons: JSON files of pages, from the resources built from data/lessons or opened by the user.
 #include "lessons/lesson.h"
 
 #include <QDir>
@@ -8,8 +10,9 @@
 #include "lessons/session_file.h"
 #include "support/json_object.h"
 
-// Resources of a static library are found only once it is asked for them.
-static void find_resources() { Q_INIT_RESOURCE(lessons); }
+// Resources of a static library have to be registered explicitly; outside any namespace, as the
+// macro requires.
+static void register_resources() { Q_INIT_RESOURCE(lessons); }
 
 namespace transillum::viewer {
 
@@ -17,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-// One string, or a list of them: the lines.
+// A string, or a list of strings, one per line.
 std::string text_from(const json* value, const JsonObject& page) {
   if (!value) {
     page.fail_at("text", "is missing");
@@ -26,32 +29,32 @@ std::string text_from(const json* value, const JsonObject& page) {
     return value->get<std::string>();
   }
   if (!value->is_array()) {
-    page.fail_at("text", "must be words in quotes, or a list of lines");
+    page.fail_at("text", "must be a string or a list of strings");
   }
   std::string text;
   for (const json& line : *value) {
     if (!line.is_string()) {
-      page.fail_at("text", "each line must be in quotes");
+      page.fail_at("text", "each line must be a string");
     }
     text += line.get<std::string>() + '\n';
   }
   return text;
 }
 
-// A page tells only what it changes, and null takes back what one before it told. Another scene
-// begins anew, but for the layout.
-void tell(json& told, const json& show) {
+// Applies what a page changes to the state so far; null resets a key to its default. Another scene
+// resets everything except layout and panels.
+void apply_changes(json& state, const json& show) {
   const auto scene = show.find("scene");
-  if (scene != show.end() && told.value("scene", json()) != *scene) {
+  if (scene != show.end() && state.value("scene", json()) != *scene) {
     json kept = json::object();
     for (const char* key : {"layout", "panels"}) {
-      if (told.contains(key)) {
-        kept[key] = told[key];
+      if (state.contains(key)) {
+        kept[key] = state[key];
       }
     }
-    told = std::move(kept);
+    state = std::move(kept);
   }
-  told.merge_patch(show);
+  state.merge_patch(show);
 }
 
 }  // namespace
@@ -71,7 +74,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
   }
   object.done();
 
-  json told = json::object();
+  json state = json::object();
   for (const json& value : *pages) {
     const std::string where = name + ", page " + std::to_string(lesson.pages.size() + 1);
     JsonObject page_object(value, where);
@@ -82,10 +85,10 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       if (!show->is_object()) {
         page_object.fail_at("show", "must be an object { … }");
       }
-      tell(told, *show);
+      apply_changes(state, *show);
     }
     page_object.done();
-    page.state = view_state_from_json(told, where, folder);
+    page.state = view_state_from_json(state, where, folder);
   }
   return lesson;
 }
@@ -106,15 +109,15 @@ void check_panels(const Lesson& lesson, const std::string& name,
       for (const std::string& one : panels) {
         known += (known.empty() ? "" : ", ") + one;
       }
-      throw InputError(name + ", page " + std::to_string(k + 1) + ", panels: there is no panel \"" +
-                       panel + "\"; there are " + known);
+      throw InputError(name + ", page " + std::to_string(k + 1) + ", panels: unknown panel \"" +
+                       panel + "\"; must be one of " + known);
     }
   }
 }
 
 const std::vector<Lesson>& built_in_lessons() {
   static const std::vector<Lesson> lessons = [] {
-    find_resources();
+    register_resources();
     std::vector<Lesson> all;
     const QDir folder(QStringLiteral(":/lessons"));
     for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) {

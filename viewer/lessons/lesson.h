@@ -8,28 +8,29 @@
 
 namespace transillum::viewer {
 
-/// Ordered pages of text, each with what the window is to show beside it.
+/// A sequence of pages, each with text and the state of the window to show beside it.
 struct Lesson {
   struct Page {
     std::string title;
     std::string text;  ///< Markdown
-    ViewState state;   ///< complete: what the pages before told is in it
+    ViewState state;   ///< complete: includes what earlier pages set
   };
   std::string title;
   std::vector<Page> pages;  ///< at least one
 };
 
-/// A lesson of its file's text; the format is told in viewer/MANUAL.md.
-/// @param name what messages call the file. @param folder where the scenes lie that it names.
-/// @throws InputError naming file, page and what is wrong.
+/// Parses the text of a lesson file; viewer/MANUAL.md describes the format.
+/// @param name the file's name in error messages
+/// @param folder where relative scene files are searched first
+/// @throws InputError naming file, page, key and problem
 Lesson lesson_from_text(const std::string& text, const std::string& name,
                         const std::string& folder = {});
-/// @throws InputError, also where the file cannot be read.
+/// Reads a lesson file. @throws InputError as above, or if the file cannot be read
 Lesson read_lesson(const std::string& path);
-/// @throws InputError where a page names a panel that is not among those of the window.
+/// Checks that every panel named by a page is one of `panels`. @throws InputError if not
 void check_panels(const Lesson& lesson, const std::string& name,
                   const std::vector<std::string>& panels);
-/// Those that the viewer brings along, in their order.
+/// The lessons compiled into the viewer, in their order.
 const std::vector<Lesson>& built_in_lessons();
 
 }  // namespace transillum::viewer

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Lesson": text and page turning. Each page turned to is passed on by page_shown(); the
+// window applies its state.
 #include "lessons/lesson_panel.h"
 
 #include <QAction>
@@ -25,7 +28,8 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double text_scale = 1.25, title_scale = 1.6;  // of the window's font: read from afar
+constexpr double text_scale = 1.25,
+                 title_scale = 1.6;  // relative to the window's font, for projectors
 
 QToolButton* button_for(QAction* action, Qt::ToolButtonStyle style) {
   auto* button = new QToolButton;
@@ -42,7 +46,7 @@ QAction* make_action(QObject* parent, const char* name, const QString& text, con
   return action;
 }
 
-// Qt sets Markdown's paragraphs without room between them.
+// Qt lays out Markdown paragraphs without space between them.
 void spread_paragraphs(QTextDocument& document) {
   const double room = 0.6 * QFontInfo(document.defaultFont()).pixelSize();
   for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
@@ -68,6 +72,20 @@ void spread_paragraphs(QTextDocument& document) {
 
 LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
     : QWidget(parent), lessons_(std::move(lessons)) {
+  make_page();
+  make_actions();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(12, 10, 12, 10);
+  layout->setSpacing(10);
+  layout->addWidget(list_);
+  layout->addWidget(title_);
+  layout->addWidget(text_, 1);
+  layout->addLayout(make_buttons());
+  fill_list();
+  show_state();
+}
+
+void LessonPanel::make_page() {
   list_ = new ElidedComboBox;
   list_->setObjectName("lesson_list");
   list_->setPlaceholderText(tr("Lessons"));
@@ -81,35 +99,9 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
   text_->setOpenExternalLinks(true);
   text_->setFrameShape(QFrame::NoFrame);
   text_->setFocusPolicy(Qt::ClickFocus);
-  place_ = new QLabel;
-  place_->setObjectName("lesson_place");
-  place_->setAlignment(Qt::AlignCenter);
-
-  previous_ = make_action(this, "lesson_previous", tr("Previous page"), tr("Page up"));
-  previous_->setShortcut(Qt::Key_PageUp);
-  next_ =
-      make_action(this, "lesson_next", tr("Next page"), tr("Page down, as a presenter sends it"));
-  next_->setShortcut(Qt::Key_PageDown);
-  again_ = make_action(this, "lesson_again", tr("Show this page again"),
-                       tr("Bring the window back to what this page tells"));
-  again_->setShortcut(QKeySequence(QStringLiteral("Ctrl+L")));
-  open_ = make_action(this, "lesson_open", tr("Open a lesson…"), tr("Open a lesson's JSON file"));
-  previous_->setIcon(theme::icon(theme::Icon::step_back));
-  next_->setIcon(theme::icon(theme::Icon::step_on));
-
-  auto* turns = new QHBoxLayout;
-  turns->setSpacing(8);
-  turns->addWidget(button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
-  turns->addWidget(place_, 1);
-  turns->addWidget(button_for(next_, Qt::ToolButtonTextBesideIcon), 2);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(12, 10, 12, 10);
-  layout->setSpacing(10);
-  layout->addWidget(list_);
-  layout->addWidget(title_);
-  layout->addWidget(text_, 1);
-  layout->addLayout(turns);
-
+  page_number_ = new QLabel;
+  page_number_->setObjectName("lesson_place");
+  page_number_->setAlignment(Qt::AlignCenter);
   connect(list_, qOverload<int>(&QComboBox::activated), this, [this](int row) {
     if (row < static_cast<int>(lessons_.size())) {
       show_page(row, 0);
@@ -118,12 +110,35 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
     }
     show_state();
   });
+}
+
+void LessonPanel::make_actions() {
+  previous_ = make_action(this, "lesson_previous", tr("Previous page"),
+                          tr("Go to the previous page (Page Up)"));
+  previous_->setShortcut(Qt::Key_PageUp);
+  next_ = make_action(this, "lesson_next", tr("Next page"),
+                      tr("Go to the next page (Page Down, as presenter remotes send)"));
+  next_->setShortcut(Qt::Key_PageDown);
+  again_ = make_action(this, "lesson_again", tr("Show this page again"),
+                       tr("Restore the window to the state of this page"));
+  again_->setShortcut(QKeySequence(QStringLiteral("Ctrl+L")));
+  open_ =
+      make_action(this, "lesson_open", tr("Open a lesson…"), tr("Open a lesson from a JSON file"));
+  previous_->setIcon(theme::icon(theme::Icon::step_back));
+  next_->setIcon(theme::icon(theme::Icon::step_on));
   connect(previous_, &QAction::triggered, this, [this] { turn(-1); });
   connect(next_, &QAction::triggered, this, [this] { turn(1); });
   connect(again_, &QAction::triggered, this, [this] { turn(0); });
   connect(open_, &QAction::triggered, this, &LessonPanel::open_clicked);
-  fill_list();
-  show_state();
+}
+
+QLayout* LessonPanel::make_buttons() {
+  auto* buttons = new QHBoxLayout;
+  buttons->setSpacing(8);
+  buttons->addWidget(button_for(previous_, Qt::ToolButtonTextBesideIcon), 2);
+  buttons->addWidget(page_number_, 1);
+  buttons->addWidget(button_for(next_, Qt::ToolButtonTextBesideIcon), 2);
+  return buttons;
 }
 
 void LessonPanel::add_to(QMenu& menu) {
@@ -181,7 +196,7 @@ bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
   if (watched == list_ && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
-      return true;  // they turn pages
+      return true;  // these keys turn pages
     }
   }
   return QWidget::eventFilter(watched, event);
@@ -200,15 +215,15 @@ void LessonPanel::show_state() {
   if (!any) {
     title_->setText(tr("Choose a lesson"));
     text_->setMarkdown(
-        tr("Each page drives the window. Look around as you like; *Show this page "
-           "again* (Ctrl+L) brings back what the page tells."));
-    place_->clear();
+        tr("Each page sets up the window. Explore as you like; *Show this page "
+           "again* (Ctrl+L) restores the page's state."));
+    page_number_->clear();
   } else {
     const Lesson& lesson = at(lessons_, lesson_);
     const Lesson::Page& page = at(lesson.pages, page_);
     title_->setText(QString::fromStdString(page.title.empty() ? lesson.title : page.title));
     text_->setMarkdown(QString::fromStdString(page.text));
-    place_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
+    page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
   const int size = QFontInfo(qApp->font()).pixelSize();
   QFont large = font();

@@ -9,13 +9,13 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QLayout;
 class QMenu;
 class QTextBrowser;
 
 namespace transillum::viewer {
 
-/// The lessons there are, and the page of one: its text, and the ways to the next and the previous
-/// page.
+/// The list of lessons, and one page of the current lesson with buttons to the previous and next.
 class LessonPanel : public QWidget {
   Q_OBJECT
 
@@ -23,7 +23,7 @@ class LessonPanel : public QWidget {
   explicit LessonPanel(std::vector<Lesson> lessons, QWidget* parent = nullptr);
 
   void add_to(QMenu& menu);
-  /// A lesson of a file: it comes first in the list from now on.
+  /// Inserts a lesson, read from a file, at the top of the list.
   void add(Lesson lesson);
   const std::vector<Lesson>& lessons() const { return lessons_; }
 
@@ -31,11 +31,11 @@ class LessonPanel : public QWidget {
   int lesson() const { return lesson_; }
   int page() const { return page_; }
   void show_page(int lesson, int page);
-  /// Takes the application's font anew.
+  /// To be called after the application's font has changed.
   void refresh() { show_state(); }
 
  signals:
-  /// The window is to show what the page tells.
+  /// The window is to show `state`, that of the new page.
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
 
@@ -43,8 +43,11 @@ class LessonPanel : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void make_page();
+  void make_actions();
+  QLayout* make_buttons();
   void fill_list();
-  /// Over the ends to the lessons beside.
+  /// Turns pages, past the last (first) page to the next (previous) lesson.
   void turn(int pages);
   int pages_of(int lesson) const;
   void show_state();
@@ -52,7 +55,7 @@ class LessonPanel : public QWidget {
   std::vector<Lesson> lessons_;
   int lesson_ = -1, page_ = 0;
   QComboBox* list_;
-  QLabel *title_, *place_;
+  QLabel *title_, *page_number_;
   QTextBrowser* text_;
   QAction *previous_, *next_, *again_, *open_;
 };

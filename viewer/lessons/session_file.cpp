@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Session files: the state of the window, breakpoints, kept views and notes as JSON, saved and
+// opened by the user.
 #include "lessons/session_file.h"
 
 #include <QFile>
@@ -13,8 +16,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int most_patches = 1 << 30;
-constexpr qint64 largest_file = 16 << 20;  // words and settings
+constexpr int largest_patch_id = 1 << 30;
+constexpr qint64 largest_file = 16 << 20;  // bytes
 
 Breakpoint breakpoint_from(const json& value, const std::string& where) {
   Breakpoint breakpoint;
@@ -23,11 +26,11 @@ Breakpoint breakpoint_from(const json& value, const std::string& where) {
   object.read("kind", kind);
   const auto known = breakpoint_kind(kind);
   if (!known) {
-    object.fail_at("kind", "there is no kind \"" + kind + "\"");
+    object.fail_at("kind", "unknown kind \"" + kind + "\"");
   }
   breakpoint.kind = *known;
-  object.read("patch", breakpoint.patch, 0, most_patches);
-  object.read("other", breakpoint.other, 0, most_patches);
+  object.read("patch", breakpoint.patch, 0, largest_patch_id);
+  object.read("other", breakpoint.other, 0, largest_patch_id);
   object.read("value", breakpoint.value);
   if (!std::isfinite(breakpoint.value)) {
     object.fail_at("value", "must be a number");
@@ -79,7 +82,7 @@ std::string relative_to(const std::string& scene, const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::exists(scene, error)) {
-    return scene;  // a built-in
+    return scene;  // a built-in scene
   }
   const fs::path path = fs::relative(fs::absolute(scene), fs::absolute(folder), error);
   if (error || path.empty() || *path.begin() == "..") {
@@ -146,7 +149,7 @@ std::string text_of_file(const std::string& path) {
     throw InputError(path + ": " + file.errorString().toStdString());
   }
   if (file.size() > largest_file) {
-    throw InputError(path + ": too large to be words and settings");
+    throw InputError(path + ": larger than 16 MiB, the limit for lessons and sessions");
   }
   return file.readAll().toStdString();
 }

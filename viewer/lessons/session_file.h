@@ -11,27 +11,30 @@
 
 namespace transillum::viewer {
 
-/// What a session file keeps: where one was, to go on from there or to hand it on.
+/// The contents of a session file: everything needed to continue, or to pass on, a work session.
 struct Session {
   ViewState state;
   std::vector<Breakpoint> breakpoints;
   std::vector<CameraBookmarks::Bookmark> kept_views;
-  std::string notes;  ///< the user's own words
-  QByteArray docks;   ///< QMainWindow::saveState of `layout`; empty: the layout as it comes
+  std::string notes;  ///< free text
+  QByteArray docks;   ///< QMainWindow::saveState() of state.layout; empty: its default
 };
 
-/// @param name what messages call the file. @param folder where it lies: its scene may lie there.
-/// @throws InputError naming file, key and what is wrong.
+/// Parses the text of a session file.
+/// @param name the file's name in error messages
+/// @param folder of the file; a relative scene file is searched there first
+/// @throws InputError naming file, key and problem
 Session session_from_text(const std::string& text, const std::string& name,
                           const std::string& folder);
-/// A scene file in or below `folder` is named relative to it, so that both can move together.
+/// The text of a session file. A scene file in or below `folder` is named relative to it, so that
+/// both can be moved together.
 std::string to_text(const Session& session, const std::string& folder);
 
-/// What a JSON file of the viewer is. @throws InputError where it is neither.
+/// The kind of a JSON file. @throws InputError if it is neither
 enum class JsonFile { session, lesson };
 JsonFile kind_of_json(const std::string& text, const std::string& name);
 
-/// The text of a file, which has to be of a sensible size. @throws InputError
+/// Reads a file. @throws InputError if it cannot be read or is larger than 16 MiB
 std::string text_of_file(const std::string& path);
 
 }  // namespace transillum::viewer

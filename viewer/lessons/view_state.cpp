@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The state of the window to and from JSON. Each enumeration has one table of its names in files,
+// used in both directions.
 #include "lessons/view_state.h"
 
 #include <algorithm>
@@ -15,20 +18,20 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int most = std::numeric_limits<int>::max() - 1;
+constexpr int largest_number = std::numeric_limits<int>::max() - 1;  ///< as a step: the last one
 
-// The words of a file for the values of an enumeration.
+// The name of an enumerator in files.
 template <class Value>
-struct Word {
-  const char* word;
+struct Name {
+  const char* name;
   Value value;
 };
-constexpr Word<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color},
+constexpr Name<ColorMode> color_modes[] = {{"true-color", ColorMode::true_color},
                                            {"luminance", ColorMode::luminance},
                                            {"red", ColorMode::red},
                                            {"green", ColorMode::green},
                                            {"blue", ColorMode::blue}};
-constexpr Word<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
+constexpr Name<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"exitance", Quantity::exitance},
                                          {"reflectance", Quantity::reflectance},
                                          {"irradiance", Quantity::irradiance},
@@ -38,52 +41,52 @@ constexpr Word<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"fragments", Quantity::fragments},
                                          {"error", Quantity::error},
                                          {"last-change", Quantity::last_change}};
-constexpr Word<ColorMap> color_maps[] = {
+constexpr Name<ColorMap> color_maps[] = {
     {"viridis", ColorMap::viridis}, {"cividis", ColorMap::cividis}, {"inferno", ColorMap::inferno}};
-constexpr Word<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
+constexpr Name<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
                                            {"locked", RangeRule::widening},
                                            {"fixed", RangeRule::fixed}};
-constexpr Word<Overlay> overlays[] = {{"normals", Overlay::normals},
+constexpr Name<Overlay> overlays[] = {{"normals", Overlay::normals},
                                       {"back-sides", Overlay::back_sides},
                                       {"cuts", Overlay::cuts},
                                       {"wireframe", Overlay::wireframe},
                                       {"smooth", Overlay::smooth}};
-constexpr Word<MapKind> algorithms[] = {{"local-map", MapKind::local},
+constexpr Name<MapKind> algorithms[] = {{"local-map", MapKind::local},
                                         {"global-map", MapKind::global}};
-constexpr Word<Phase> phases[] = {
+constexpr Name<Phase> phases[] = {
     {"before", Phase::before}, {"split", Phase::split}, {"after", Phase::after}};
-constexpr Word<StepName> step_names[] = {{"exchange", StepName::exchange},
+constexpr Name<StepName> step_names[] = {{"exchange", StepName::exchange},
                                          {"cut", StepName::cut},
                                          {"event", StepName::event},
                                          {"fullest", StepName::fullest},
                                          {"polygon", StepName::polygon}};
-constexpr Word<Layout> layouts[] = {
+constexpr Name<Layout> layouts[] = {
     {"teach", Layout::teach}, {"inspect", Layout::inspect}, {"debug", Layout::debug}};
 
 template <class Value, std::size_t n>
-Value value_of(const Word<Value> (&words)[n], const json& word, const std::string& where) {
+Value value_of(const Name<Value> (&names)[n], const json& name, const std::string& where) {
   std::string choices;
-  for (const Word<Value>& known : words) {
-    if (word == known.word) {
+  for (const Name<Value>& known : names) {
+    if (name == known.name) {
       return known.value;
     }
-    choices += (choices.empty() ? "\"" : ", \"") + std::string(known.word) + '"';
+    choices += (choices.empty() ? "\"" : ", \"") + std::string(known.name) + '"';
   }
   throw InputError(where + ": must be one of " + choices);
 }
 
 template <class Value, std::size_t n>
-void read(JsonObject& object, const char* key, const Word<Value> (&words)[n], Value& value) {
+void read(JsonObject& object, const char* key, const Name<Value> (&names)[n], Value& value) {
   if (const json* found = object.find(key)) {
-    value = value_of(words, *found, object.where(key));
+    value = value_of(names, *found, object.where(key));
   }
 }
 
 template <class Value, std::size_t n>
-const char* word_of(const Word<Value> (&words)[n], Value value) {
-  return std::find_if(std::begin(words), std::end(words),
-                      [value](const Word<Value>& known) { return known.value == value; })
-      ->word;
+const char* name_in_file(const Name<Value> (&names)[n], Value value) {
+  return std::find_if(std::begin(names), std::end(names),
+                      [value](const Name<Value>& known) { return known.value == value; })
+      ->name;
 }
 
 Goal goal_from(const json& value, const std::string& where) {
@@ -93,7 +96,7 @@ Goal goal_from(const json& value, const std::string& where) {
   const double passes = value.is_number() ? value.get<double>() : -1;
   constexpr double most_passes = 1e15;
   if (!(passes >= 0 && passes <= most_passes) || passes != std::floor(passes)) {
-    throw InputError(where + ": must be \"finished\", or how many directions to take");
+    throw InputError(where + ": must be \"finished\" or a number of directions");
   }
   if (passes == 0) {
     return {};
@@ -115,20 +118,20 @@ std::optional<FocusChoice> focus_from(const json& value, const std::string& wher
   FocusChoice focus;
   JsonObject object(value, where);
   int iteration = 1, direction = 1;
-  object.read("iteration", iteration, 1, most);
-  object.read("direction", direction, 1, most);
+  object.read("iteration", iteration, 1, largest_number);
+  object.read("direction", direction, 1, largest_number);
   focus.iteration = iteration - 1;
   focus.direction = direction - 1;
   if (const json* step = object.find("step")) {
     if (step->is_string()) {
       if (*step == "last") {
-        focus.step = std::int32_t{most};
+        focus.step = std::int32_t{largest_number};
       } else {
         focus.step = value_of(step_names, *step, object.where("step"));
       }
     } else {
       int number = 0;
-      object.read("step", number, 0, most);
+      object.read("step", number, 0, largest_number);
       focus.step = std::int32_t{number - 1};
     }
   }
@@ -143,11 +146,11 @@ json to_json(const std::optional<FocusChoice>& focus) {
   }
   json result = {{"iteration", focus->iteration + 1},
                  {"direction", focus->direction + 1},
-                 {"phase", word_of(phases, focus->phase)}};
+                 {"phase", name_in_file(phases, focus->phase)}};
   if (const auto* step = std::get_if<std::int32_t>(&focus->step)) {
-    result["step"] = *step == most ? json("last") : json(*step + 1);
+    result["step"] = *step == largest_number ? json("last") : json(*step + 1);
   } else {
-    result["step"] = word_of(step_names, std::get<StepName>(focus->step));
+    result["step"] = name_in_file(step_names, std::get<StepName>(focus->step));
   }
   return result;
 }
@@ -167,7 +170,7 @@ MaterialChange material_from(const json& value, const std::string& where) {
     const Vec3 c = vec3_from_json(*channels, object.where(key));
     for (const double x : {c.x, c.y, c.z}) {
       if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1))) {
-        object.fail_at(key, below_one ? "must be 0 to below 1" : "must be at least 0");
+        object.fail_at(key, below_one ? "must be at least 0 and below 1" : "must be at least 0");
       }
     }
     return Rgb{c.x, c.y, c.z};
@@ -192,9 +195,9 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   read(object, "map", color_maps, state.color_map);
   object.read("logarithmic", state.logarithmic);
   if (const json* range = object.find("range")) {
-    const bool numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
-                         (*range)[1].is_number();
-    if (!numbers) {
+    const bool two_numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
+                             (*range)[1].is_number();
+    if (!two_numbers) {
       object.fail_at("range", "must be two numbers [low, high]");
     }
     state.range = {(*range)[0].get<double>(), (*range)[1].get<double>()};
@@ -202,10 +205,10 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   }
   read(object, "range-rule", range_rules, state.range_rule);
   if (state.range_rule == RangeRule::fixed && !state.range) {
-    object.fail_at("range-rule", "\"fixed\" wants a \"range\"");
+    object.fail_at("range-rule", "\"fixed\" requires a \"range\"");
   }
   if (state.range_rule == RangeRule::automatic && state.range) {
-    object.fail_at("range-rule", "\"automatic\" has no \"range\"");
+    object.fail_at("range-rule", "\"automatic\" excludes a \"range\"");
   }
   if (object.find("exposure")) {
     object.read("exposure", state.exposure.emplace());
@@ -220,8 +223,49 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   object.done();
 }
 
-// A file beside the lesson comes before one of the working folder.
-std::string beside(const std::string& scene, const std::string& folder) {
+void read_materials(ViewState& state, JsonObject& object) {
+  const json* list = object.find("materials");
+  if (!list) {
+    return;
+  }
+  if (!list->is_array()) {
+    object.fail_at("materials", "must be a list [ … ]");
+  }
+  for (const json& one : *list) {
+    state.materials.push_back(
+        material_from(one, object.where("material " + std::to_string(state.materials.size() + 1))));
+  }
+}
+
+void read_overlays(ViewState& state, JsonObject& object) {
+  const json* list = object.find("overlays");
+  if (!list) {
+    return;
+  }
+  if (!list->is_array()) {
+    object.fail_at("overlays", "must be a list of names [\"normals\", …]");
+  }
+  for (const json& name : *list) {
+    state.overlays.push_back(value_of(overlays, name, object.where("overlays")));
+  }
+}
+
+void read_panels(ViewState& state, JsonObject& object) {
+  const json* list = object.find("panels");
+  if (!list) {
+    return;
+  }
+  const bool names =
+      list->is_array() &&
+      std::all_of(list->begin(), list->end(), [](const json& name) { return name.is_string(); });
+  if (!names) {
+    object.fail_at("panels", "must be a list of names [\"map\", …]");
+  }
+  state.panels = list->get<std::vector<std::string>>();
+}
+
+// A file in `folder` takes precedence over one in the working folder.
+std::string scene_path(const std::string& scene, const std::string& folder) {
   if (folder.empty() || scene.empty()) {
     return scene;
   }
@@ -242,8 +286,8 @@ ViewPoint view_point_from_json(const json& value, const std::string& where) {
   object.read("up", camera.up);
   object.read("angle", camera.view_angle);
   object.done();
-  const Vec3 sight = camera.target - camera.eye;
-  if (!(norm(cross(sight, camera.up)) > 1e-9 * norm(sight) * norm(camera.up))) {
+  const Vec3 view_axis = camera.target - camera.eye;
+  if (!(norm(cross(view_axis, camera.up)) > 1e-9 * norm(view_axis) * norm(camera.up))) {
     object.fail("eye and target must differ, and \"up\" must not lie along the line between them");
   }
   if (!(camera.view_angle > 0 && camera.view_angle < 170)) {
@@ -264,7 +308,7 @@ ViewState view_state_from_json(const json& value, const std::string& where,
   ViewState state;
   JsonObject object(value, where);
   object.read("scene", state.scene);
-  state.scene = beside(state.scene, folder);
+  state.scene = scene_path(state.scene, folder);
   if (const json* options = object.find("options")) {
     state.options = run_options_from_json(*options, object.where("options"));
   }
@@ -274,16 +318,8 @@ ViewState view_state_from_json(const json& value, const std::string& where,
   if (const json* focus = object.find("focus")) {
     state.focus = focus_from(*focus, object.where("focus"));
   }
-  if (const json* list = object.find("materials")) {
-    if (!list->is_array()) {
-      object.fail_at("materials", "must be a list [ … ]");
-    }
-    for (const json& one : *list) {
-      state.materials.push_back(material_from(
-          one, object.where("material " + std::to_string(state.materials.size() + 1))));
-    }
-  }
-  object.read("select", state.selection, 0, most);
+  read_materials(state, object);
+  object.read("select", state.selection, 0, largest_number);
   if (const json* camera = object.find("camera")) {
     state.camera = view_point_from_json(*camera, object.where("camera"));
   }
@@ -294,28 +330,13 @@ ViewState view_state_from_json(const json& value, const std::string& where,
     object.read("outlines", state.outlines.emplace());
   }
   object.read("direction", state.direction_shown);
-  if (const json* list = object.find("overlays")) {
-    if (!list->is_array()) {
-      object.fail_at("overlays", "must be a list of words [\"normals\", …]");
-    }
-    for (const json& word : *list) {
-      state.overlays.push_back(value_of(overlays, word, object.where("overlays")));
-    }
-  }
+  read_overlays(state, object);
   read(object, "algorithm", algorithms, state.algorithm);
   object.read("labels", state.labels);
   if (object.find("layout")) {
     read(object, "layout", layouts, state.layout.emplace());
   }
-  if (const json* panels = object.find("panels")) {
-    const bool words =
-        panels->is_array() &&
-        std::all_of(panels->begin(), panels->end(), [](const json& p) { return p.is_string(); });
-    if (!words) {
-      object.fail_at("panels", "must be a list of names [\"map\", …]");
-    }
-    state.panels = panels->get<std::vector<std::string>>();
-  }
+  read_panels(state, object);
   object.done();
   return state;
 }
@@ -326,14 +347,14 @@ json to_json(const ViewState& state) {
                  {"solve", to_json(state.solve)},
                  {"focus", to_json(state.focus)},
                  {"colors",
-                  {{"quantity", word_of(quantities, state.quantity)},
-                   {"show", word_of(color_modes, state.color_mode)},
-                   {"map", word_of(color_maps, state.color_map)},
+                  {{"quantity", name_in_file(quantities, state.quantity)},
+                   {"show", name_in_file(color_modes, state.color_mode)},
+                   {"map", name_in_file(color_maps, state.color_map)},
                    {"logarithmic", state.logarithmic},
-                   {"range-rule", word_of(range_rules, state.range_rule)},
+                   {"range-rule", name_in_file(range_rules, state.range_rule)},
                    {"gamma", state.gamma}}},
                  {"overlays", json::array()},
-                 {"algorithm", word_of(algorithms, state.algorithm)},
+                 {"algorithm", name_in_file(algorithms, state.algorithm)},
                  {"direction", state.direction_shown},
                  {"labels", state.labels}};
   if (state.range) {
@@ -343,7 +364,7 @@ json to_json(const ViewState& state) {
     result["colors"]["exposure"] = *state.exposure;
   }
   for (const Overlay overlay : state.overlays) {
-    result["overlays"].push_back(word_of(overlays, overlay));
+    result["overlays"].push_back(name_in_file(overlays, overlay));
   }
   for (const MaterialChange& change : state.materials) {
     result["materials"].push_back(to_json(change));
@@ -358,7 +379,7 @@ json to_json(const ViewState& state) {
     result["outlines"] = *state.outlines;
   }
   if (state.layout) {
-    result["layout"] = word_of(layouts, *state.layout);
+    result["layout"] = name_in_file(layouts, *state.layout);
   }
   if (!state.panels.empty()) {
     result["panels"] = state.panels;

@@ -21,59 +21,61 @@
 
 namespace transillum::viewer {
 
-/// A step of a direction, as it is numbered or as what is found first in it.
+/// A step of a direction described by its kind: the first such step of the direction.
 enum class StepName {
-  exchange,  ///< a polygon that exchanges light
-  cut,       ///< one that cuts a fragment of V in two
-  event,     ///< one that concerns the selected patch
-  fullest,   ///< the one after which most of V shines
-  polygon,   ///< the selected patch's own
+  exchange,  ///< its fragment exchanges light
+  cut,       ///< it splits a polygon of V
+  event,     ///< it concerns the selected patch
+  fullest,   ///< MapRecord::fullest_step()
+  polygon,   ///< its fragment is part of the selected patch
 };
+/// A step by number or by kind.
 using StepChoice = std::variant<std::int32_t, StepName>;
 
-/// Which moment of a run is to be looked at.
+/// The position of a run to show.
 struct FocusChoice {
   int iteration = 0, direction = 0;  ///< from 0
   StepChoice step = -1;              ///< from 0; -1: before the first; beyond the last: the last
   Phase phase = Phase::after;
 };
 
-/// All that the window shows, as lessons and session files tell it. Whatever is not told has the
-/// value of a window that was just opened.
+/// The state of the window, as lessons and session files describe it. Default values are those of
+/// a newly opened window.
 struct ViewState {
-  std::string scene;  ///< file or built-in; empty: whichever is open
+  std::string scene;  ///< file or built-in; empty: the open one
   RunOptions options;
   Goal solve{Goal::Kind::finished};
-  std::optional<FocusChoice> focus;       ///< none: the newest direction is followed
-  std::vector<MaterialChange> materials;  ///< the others are the scene's own
+  std::optional<FocusChoice> focus;       ///< none: follow the newest direction
+  std::vector<MaterialChange> materials;  ///< relative to the scene's own
   PatchId selection = no_patch;
-  std::optional<ViewPoint> camera;          ///< none: as at first
-  Quantity quantity = Quantity::radiosity;  ///< colored; a difference is not kept
+  std::optional<ViewPoint> camera;          ///< none: the initial view
+  Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = ColorMap::viridis;
   bool logarithmic = false;
   RangeRule range_rule = RangeRule::automatic;
-  std::optional<std::pair<double, double>> range;  ///< ends of the color map, unless automatic
-  std::optional<double> exposure;                  ///< of true color; none: automatic
+  std::optional<std::pair<double, double>> range;  ///< ends of the color map; none: automatic
+  std::optional<double> exposure;                  ///< of true color, EV; none: automatic
   double gamma = ColorScale().gamma;
-  std::optional<bool> outlines;  ///< none: as the scene has it at first
+  std::optional<bool> outlines;  ///< none: the default for the scene
   bool direction_shown = true;
   std::vector<Overlay> overlays;
   MapKind algorithm = MapKind::local;  ///< whose pseudo-code is shown
-  bool labels = false;                 ///< patches named in the map
-  std::optional<Layout> layout;        ///< none: as it is
-  std::vector<std::string> panels;     ///< brought to the front, by their short names
+  bool labels = false;                 ///< patch numbers shown in the map
+  std::optional<Layout> layout;        ///< none: unchanged
+  std::vector<std::string> panels;     ///< short names of panels to bring to the front
 };
 
-/// @throws InputError that begins with `where`.
+/// @throws InputError with a message that begins with `where`
 ViewPoint view_point_from_json(const nlohmann::json& value, const std::string& where);
 nlohmann::json to_json(const ViewPoint& camera);
 
-/// Numbers are counted from 1, as in the window. Files of scenes are relative to `folder`.
-/// @throws InputError that begins with `where`.
+/// In the JSON, iterations, directions and steps count from 1, as in the window.
+/// @param folder where a relative scene file is searched first
+/// @throws InputError with a message that begins with `where`
 ViewState view_state_from_json(const nlohmann::json& value, const std::string& where,
                                const std::string& folder);
-/// Complete: read again, it gives the same.
+/// Complete: view_state_from_json() restores the same state.
 nlohmann::json to_json(const ViewState& state);
 
 }  // namespace transillum::viewer
