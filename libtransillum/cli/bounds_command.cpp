@@ -20,7 +20,7 @@ struct BoundsCall {
   std::string scene;
   SceneOptions scene_options;
   SequenceOptions sequence;
-  BoundsQuestion question;
+  BoundsOptions options;
   bool one_way = false;
   std::string out;
 };
@@ -32,15 +32,15 @@ int run(const BoundsCall& call) {
   check_output_files(call.out.empty() ? std::vector<std::string>() : std::vector{call.out},
                      call.scene);
   const Cancellation& cancellation = cancel_on_signals();
-  BoundsQuestion question = call.question;
-  question.directions = call.sequence.directions;
-  question.sets = {call.sequence.sampling, call.sequence.seed, call.sequence.rotation,
-                   !call.one_way};
+  BoundsOptions options = call.options;
+  options.directions = call.sequence.directions;
+  options.sets = {call.sequence.sampling, call.sequence.seed, call.sequence.rotation,
+                  !call.one_way};
   if (!call.scene.empty()) {
-    question.scene = load_scene(call.scene, call.scene_options, cancellation);
-    print_warnings(*question.scene);
+    options.scene = load_scene(call.scene, call.scene_options, cancellation);
+    print_warnings(*options.scene);
   }
-  const BoundsReport report = answer(question, cancellation);
+  const BoundsReport report = make_bounds_report(options, cancellation);
   if (call.out.empty()) {
     fmt::print("{}", text_of(report));
   } else {
@@ -49,7 +49,7 @@ int run(const BoundsCall& call) {
   return success;
 }
 
-/// A number between 0 and `high`, neither included unless `zero` is.
+/// A number between 0 and `high`, both excluded; 0 is valid if `zero`.
 double parse_between(const std::string& option, const std::string& text, bool zero, double high) {
   const double number = parse_number(option, text);
   if (!(zero ? number >= 0 : number > 0) || !(number < high)) {
@@ -59,28 +59,28 @@ double parse_between(const std::string& option, const std::string& text, bool ze
   return number;
 }
 
-void add_question(CLI::App& command, BoundsQuestion& question) {
+void add_bounds_options(CLI::App& command, BoundsOptions& options) {
   add_parsed_option(command, "--reflectance", "R",
-                    "the largest reflectance (default: the scene's, or the paper's 0.2 to 0.9)",
-                    [&question](const std::string& text) {
-                      question.rho = parse_between("--reflectance", text, true, 1);
+                    "largest reflectance (default: the scene's, or the paper's 0.2 to 0.9)",
+                    [&options](const std::string& text) {
+                      options.rho = parse_between("--reflectance", text, true, 1);
                     });
   add_parsed_option(
       command, "--accuracy", "A",
-      fmt::format("the error of B to stay below, of the largest B (default {})", question.accuracy),
-      [&question](const std::string& text) {
-        question.accuracy = parse_between("--accuracy", text, false, 1);
+      fmt::format("largest error of B, relative to the largest B (default {})", options.accuracy),
+      [&options](const std::string& text) {
+        options.accuracy = parse_between("--accuracy", text, false, 1);
       });
   add_parsed_option(command, "--size-ratio", "Q",
-                    "R2/A, the square of the scene's extent over the smallest patch's area "
+                    "R2/A, the square of the scene's extent divided by the smallest patch's area "
                     "(default: the scene's, or the paper's 150)",
-                    [&question](const std::string& text) {
-                      question.size_ratio = parse_between("--size-ratio", text, false, 1e30);
+                    [&options](const std::string& text) {
+                      options.size_ratio = parse_between("--size-ratio", text, false, 1e30);
                     });
   add_parsed_option(command, "--tolerance", "T",
-                    fmt::format("of the iteration (default {})", question.tolerance),
-                    [&question](const std::string& text) {
-                      question.tolerance = parse_between("--tolerance", text, false, 1);
+                    fmt::format("tolerance of the iteration (default {})", options.tolerance),
+                    [&options](const std::string& text) {
+                      options.tolerance = parse_between("--tolerance", text, false, 1);
                     });
 }
 
@@ -89,23 +89,26 @@ void add_question(CLI::App& command, BoundsQuestion& question) {
 Run add_bounds_command(CLI::App& program) {
   auto call = std::make_shared<BoundsCall>();
   CLI::App& command = *program.add_subcommand(
-      "bounds", "Tells how many directions the paper's bounds ask for, and how many it takes");
-  command.add_option("SCENE", call->scene, "whose reflectance and R2/A to take")->type_name("");
-  add_question(command, call->question);
+      "bounds",
+      "Prints how many directions guarantee an accuracy by the paper, and how many are estimated");
+  command.add_option("SCENE", call->scene, "scene that defines the largest reflectance and R2/A")
+      ->type_name("");
+  add_bounds_options(command, call->options);
   add_sequence_options(command, call->sequence);
-  command.add_flag("--one-way", call->one_way,
-                   "measure each direction alone, not with its opposite");
+  command.add_flag("--one-way", call->one_way, "measure the directions without their opposites");
   add_scene_options(command, call->scene_options);
   command
-      .add_option("--run", call->question.run,
-                  "what solve --stats wrote, with --replicas: estimates M from its error")
+      .add_option("--run", call->options.run,
+                  "file of solve --stats with --replicas; M is estimated from its error")
       ->type_name("STATS.json");
-  command.add_option("-o,--out", call->out, "JSON instead of the text on standard output")
+  command.add_option("-o,--out", call->out, "write JSON instead of text on standard output")
       ->type_name("FILE.json");
   command.footer(
-      "Prints Tables 1, 2 and 3 of the paper: its figures, those its formulas give, and what the "
-      "sets of\nthe chosen sampling need. For one reflectance, or a scene, also what M directions "
-      "promise.\n"
+      "Prints Tables 1, 2 and 3 of the paper: its values, those of its formulas, and the numbers "
+      "of\n"
+      "directions that the chosen sampling requires. For one reflectance, or a scene, also "
+      "predicts\n"
+      "the convergence and errors with M directions.\n"
       "Example: transillum bounds cornell-box --accuracy 0.005");
   return [call] { return run(*call); };
 }

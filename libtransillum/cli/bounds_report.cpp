@@ -15,8 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The paper's row for rho, if it has one; and its figures only where they mean the same.
-void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double size_ratio) {
+/// Adds the paper's values for row.rho, if its tables have them for the same accuracy and size
+/// ratio.
+void add_paper_figures(BoundsRow& row, const BoundsOptions& options, double size_ratio) {
   const PaperTables& paper = paper_tables();
   const auto found = std::find(paper.rho.begin(), paper.rho.end(), row.rho);
   if (found == paper.rho.end()) {
@@ -24,7 +25,7 @@ void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double si
   }
   const auto k = static_cast<std::size_t>(found - paper.rho.begin());
   row.paper_contract = paper.to_contract[k];
-  if (question.accuracy != PaperTables::accuracy) {
+  if (options.accuracy != PaperTables::accuracy) {
     return;
   }
   row.paper_homogeneous = paper.if_homogeneous[k];
@@ -33,13 +34,13 @@ void add_paper_figures(BoundsRow& row, const BoundsQuestion& question, double si
   }
 }
 
-BoundsRow make_row(double rho, const BoundsQuestion& question, double size_ratio,
+BoundsRow make_row(double rho, const BoundsOptions& options, double size_ratio,
                    const Cancellation& cancellation) {
-  const DirectionSetFamily& sets = question.sets;
-  const double accuracy = question.accuracy;
+  const DirectionSetFamily& sets = options.sets;
+  const double accuracy = options.accuracy;
   BoundsRow row;
   row.rho = rho;
-  add_paper_figures(row, question, size_ratio);
+  add_paper_figures(row, options, size_ratio);
   row.contract = directions_to_contract(rho);
   row.homogeneous = directions_if_homogeneous(rho, accuracy);
   row.heterogeneous = directions_if_heterogeneous(rho, accuracy, size_ratio);
@@ -50,20 +51,20 @@ BoundsRow make_row(double rho, const BoundsQuestion& question, double size_ratio
   return row;
 }
 
-BoundsPrediction predict(double rho, const BoundsQuestion& question, double size_ratio,
+BoundsPrediction predict(double rho, const BoundsOptions& options, double size_ratio,
                          const Cancellation& cancellation) {
   BoundsPrediction p;
   p.rho = rho;
-  p.eps_bound = quadrature_error_bound(question.directions);
-  p.eps = measured_quadrature_error(question.sets, question.directions, cancellation);
+  p.eps_bound = quadrature_error_bound(options.directions);
+  p.eps = measured_quadrature_error(options.sets, options.directions, cancellation);
   p.contraction_bound = contraction_bound(rho, p.eps_bound);
   p.contraction = contraction_bound(rho, p.eps);
-  p.steps_bound = iterations_to(question.tolerance, p.contraction_bound);
-  p.steps = iterations_to(question.tolerance, p.contraction);
+  p.iterations_bound = iterations_to(options.tolerance, p.contraction_bound);
+  p.iterations = iterations_to(options.tolerance, p.contraction);
   p.homogeneous_bound = homogeneous_error_bound(rho, p.eps_bound);
   p.homogeneous = homogeneous_error_bound(rho, p.eps);
   p.heterogeneous_bound =
-      heterogeneous_error_bound(rho, size_ratio, star_discrepancy_bound(question.directions));
+      heterogeneous_error_bound(rho, size_ratio, star_discrepancy_bound(options.directions));
   return p;
 }
 
@@ -85,7 +86,7 @@ RunEstimate read_run(const std::string& path, double accuracy) {
     throw InputError(fmt::format("{}: {}", path, what));
   };
   if (!json.is_object() || !json.contains("options")) {
-    fail("no statistics of a solve (--stats)");
+    fail("not statistics written by solve --stats");
   }
   try {
     RunEstimate run;
@@ -94,40 +95,40 @@ RunEstimate read_run(const std::string& path, double accuracy) {
     run.passes = json.at("passes");
     const Json estimate = json.value("error_estimate", Json());
     if (!estimate.is_object()) {
-      fail("has no error estimate; solve with --replicas 4");
+      fail("no error estimate; solve with --replicas 4");
     }
     run.error = estimate.at("rms");
     const double replicas = estimate.at("replicas");
     if (!(run.error > 0 && run.passes >= 1 && replicas >= 1)) {
-      fail("its error estimate is 0");
+      fail("the error estimate is 0");
     }
     run.estimated_passes =
         estimated_passes_by_replicas(run.sampling, run.passes, replicas, run.error, accuracy);
     return run;
   } catch (const Json::exception&) {
-    throw InputError(path + ": not the statistics that solve --stats writes");
+    throw InputError(path + ": not statistics written by solve --stats");
   }
 }
 
 }  // namespace
 
-BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancellation) {
+BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation& cancellation) {
   BoundsReport report;
-  report.question = question;
-  if (!question.run.empty()) {
-    report.run = read_run(question.run, question.accuracy);
+  report.options = options;
+  if (!options.run.empty()) {
+    report.run = read_run(options.run, options.accuracy);
   }
-  if (question.scene) {
-    report.measures = measure(*question.scene, cancellation);
+  if (options.scene) {
+    report.measures = measure(*options.scene, cancellation);
   }
-  report.size_ratio = question.size_ratio.value_or(report.measures ? report.measures->size_ratio
-                                                                   : PaperTables::size_ratio);
-  std::optional<double> rho = question.rho;
+  report.size_ratio = options.size_ratio.value_or(report.measures ? report.measures->size_ratio
+                                                                  : PaperTables::size_ratio);
+  std::optional<double> rho = options.rho;
   if (!rho && report.measures) {
     rho = report.measures->rho_max;
   }
   const auto add_row = [&](double r) {
-    report.rows.push_back(make_row(r, question, report.size_ratio, cancellation));
+    report.rows.push_back(make_row(r, options, report.size_ratio, cancellation));
   };
   if (rho) {
     add_row(*rho);
@@ -137,7 +138,7 @@ BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancella
     }
   }
   if (rho) {
-    report.prediction = predict(*rho, question, report.size_ratio, cancellation);
+    report.prediction = predict(*rho, options, report.size_ratio, cancellation);
   }
   return report;
 }

@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+// The report of `transillum bounds`: Tables 1 to 3 of the paper and predictions for one
+// reflectance.
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,19 +14,20 @@
 
 namespace transillum::cli {
 
-/// What `transillum bounds` is asked.
-struct BoundsQuestion {
-  std::optional<double> rho;         ///< else the scene's, or the paper's eight
-  double accuracy = 0.01;            ///< relative, in the maximum norm
-  std::optional<double> size_ratio;  ///< R²/A; else the scene's, or the paper's 150
+/// Options of `transillum bounds`.
+struct BoundsOptions {
+  std::optional<double> rho;         ///< default: the scene's, or the paper's eight values
+  double accuracy = 0.01;            ///< largest error of B, relative, in the maximum norm
+  std::optional<double> size_ratio;  ///< R²/A; default: the scene's, or the paper's 150
   double tolerance = 1e-6;           ///< of the iteration
   int directions = 1024;
   DirectionSetFamily sets;
   std::shared_ptr<const Scene> scene;
-  std::string run;  ///< statistics of a solve, or empty
+  std::string run;  ///< file with statistics of a solve, or empty
 };
 
-/// A rho's line of the tables. The paper's figures where it has them, for its accuracy and ratio.
+/// Numbers of directions for one rho, a row of each table. The paper's values only where it has
+/// them: for its reflectances, accuracy and size ratio.
 struct BoundsRow {
   double rho = 0;
   std::optional<double> paper_contract, paper_homogeneous, paper_heterogeneous;
@@ -32,37 +36,41 @@ struct BoundsRow {
   double estimated_heterogeneous = 0;
 };
 
-/// What M directions promise for a rho: proven for Hammersley's, and with the measured eps(M).
+/// Predictions for one rho with M directions: proven for Hammersley points (bound), and computed
+/// from the measured eps(M).
 struct BoundsPrediction {
   double rho = 0;
   double eps_bound = 0, eps = 0;
   double contraction_bound = 0, contraction = 0;
-  std::optional<double> steps_bound, steps;
+  std::optional<double> iterations_bound, iterations;
   double homogeneous_bound = 0, homogeneous = 0;
   double heterogeneous_bound = 0;
 };
 
-/// What a solve says of its own error.
+/// The error estimate of a solve run, and the passes that would reach the accuracy.
 struct RunEstimate {
   std::string scene;
   Sampling sampling = Sampling::fibonacci;
-  double passes = 0, error = 0;  ///< RMS of B, relative
-  double estimated_passes = 0;   ///< to the accuracy, without replicas
+  double passes = 0, error = 0;  ///< relative RMS error of B
+  double estimated_passes = 0;   ///< to reach the accuracy, without replicas
 };
 
 struct BoundsReport {
-  BoundsQuestion question;
-  double size_ratio = 0;  ///< the one that was used
+  BoundsOptions options;
+  double size_ratio = 0;  ///< R²/A used
   std::vector<BoundsRow> rows;
-  std::optional<BoundsPrediction> prediction;  ///< where there is one rho
+  std::optional<BoundsPrediction> prediction;  ///< if there is one rho only
   std::optional<SceneMeasures> measures;
   std::optional<RunEstimate> run;
 };
 
+/// Computes the report.
 /// @throws InputError, Canceled
-BoundsReport answer(const BoundsQuestion& question, const Cancellation& cancellation);
+BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation& cancellation);
 
+/// The report as text.
 std::string text_of(const BoundsReport& report);
+/// Writes the report as JSON.
 void write_bounds_report(const std::string& path, const BoundsReport& report);
 
 }  // namespace transillum::cli

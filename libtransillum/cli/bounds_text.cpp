@@ -31,26 +31,26 @@ std::string table_row(const std::string& rho, const std::string& paper, const st
   return fmt::format("  {:>8} {:>12} {:>12} {:>22}\n", rho, paper, formula, actual);
 }
 
-std::string row(const std::string& name, const std::string& bound, const std::string& measured) {
-  return fmt::format("  {:<30} {:>16} {:>16}\n", name, bound, measured);
+std::string prediction_row(const std::string& name, const std::string& bound,
+                           const std::string& measured) {
+  return fmt::format("  {:<36} {:>14} {:>14}\n", name, bound, measured);
 }
 
 std::string rho_text(double rho) { return fmt::format("{:.6g}", rho); }
 
 std::string tables_text(const BoundsReport& report) {
-  const BoundsQuestion& question = report.question;
+  const BoundsOptions& options = report.options;
   const std::string set =
-      name_of(question.sets.sampling) + (question.sets.two_way ? "" : ", one-way");
-  const std::string accuracy = percent_text(question.accuracy);
-  std::string text = "Table 1: directions M for the iteration to converge (eq. 24)\n";
+      name_of(options.sets.sampling) + (options.sets.two_way ? "" : ", one-way");
+  const std::string accuracy = percent_text(options.accuracy);
+  std::string text = "Table 1: number of directions M for convergence of the iteration (eq. 24)\n";
   text += table_row("rho", "paper", "formula", set);
   for (const BoundsRow& r : report.rows) {
     text += table_row(rho_text(r.rho), count_text(r.paper_contract, "-"), count_text(r.contract),
                       count_text(r.actual_contract, "> 65536"));
   }
   text += fmt::format(
-      "\nTable 2: M for an error of {} where the environment is nearly homogeneous (eq. 37)\n",
-      accuracy);
+      "\nTable 2: M for an error of {} in a nearly homogeneous environment (eq. 37)\n", accuracy);
   text += table_row("rho", "paper", "formula", set);
   for (const BoundsRow& r : report.rows) {
     text += table_row(rho_text(r.rho), count_text(r.paper_homogeneous, "-"),
@@ -66,57 +66,64 @@ std::string tables_text(const BoundsReport& report) {
   }
   return text +
          fmt::format(
-             "\npaper: as printed there. formula: Hammersley's points, by eq. 20 and 21. {}: the "
-             "same\nequations with what was measured of M such directions{}: eps(M) over all "
-             "normals, and\nthe star discrepancy of the points, continued to larger M.\n",
-             name_of(question.sets.sampling), question.sets.two_way ? " used both ways" : "");
+             "\npaper: values printed in the paper. formula: the equations with the bounds for "
+             "Hammersley points\n(eq. 20 and 21). {}: the equations with the measured errors of "
+             "such directions{}: eps(M)\nover all normals; star discrepancy of the points, "
+             "extrapolated to larger M.\n",
+             name_of(options.sets.sampling), options.sets.two_way ? " and their opposites" : "");
 }
 
 std::string prediction_text(const BoundsReport& report) {
   const BoundsPrediction& p = *report.prediction;
-  const BoundsQuestion& question = report.question;
-  std::string text = fmt::format("\nWith rho = {:.6g} and M = {}\n", p.rho, question.directions);
-  text += row("", "bound", name_of(question.sets.sampling));
+  const BoundsOptions& options = report.options;
+  std::string text =
+      fmt::format("\nPrediction for rho = {:.6g} and M = {}\n", p.rho, options.directions);
+  text += prediction_row("", "guaranteed", name_of(options.sets.sampling));
+  text += prediction_row("eps(M)  (eq. 21, 17)", fmt::format("{:.3g}", p.eps_bound),
+                         fmt::format("{:.3g}", p.eps));
+  text += prediction_row("contraction per iteration  (eq. 22)",
+                         fmt::format("{:.6f}", p.contraction_bound),
+                         fmt::format("{:.6f}", p.contraction));
+  text += prediction_row(fmt::format("iterations to {:.3g}  (eq. 25)", options.tolerance),
+                         count_text(p.iterations_bound, "may diverge"),
+                         count_text(p.iterations, "may diverge"));
+  text += prediction_row("error, nearly homogeneous  (eq. 37)", percent_text(p.homogeneous_bound),
+                         percent_text(p.homogeneous));
   text +=
-      row("eps(M)  (eq. 21, 17)", fmt::format("{:.3g}", p.eps_bound), fmt::format("{:.3g}", p.eps));
-  text += row("contraction a step  (eq. 22)", fmt::format("{:.6f}", p.contraction_bound),
-              fmt::format("{:.6f}", p.contraction));
-  text += row(fmt::format("steps to {:.3g}  (eq. 25)", question.tolerance),
-              count_text(p.steps_bound, "may diverge"), count_text(p.steps, "may diverge"));
-  text += row("error if homogeneous  (eq. 37)", percent_text(p.homogeneous_bound),
-              percent_text(p.homogeneous));
-  text += row("error anywhere  (eq. 43)", percent_text(p.heterogeneous_bound), "");
+      prediction_row("error, any environment  (eq. 43)", percent_text(p.heterogeneous_bound), "");
   return text;
 }
 
 std::string scene_text(const BoundsReport& report) {
   const SceneMeasures& m = *report.measures;
-  const Scene& scene = *report.question.scene;
+  const Scene& scene = *report.options.scene;
   std::string text =
-      fmt::format("{:<16} {}, {} patches\n", "scene", scene.name(), scene.patch_count());
-  text += fmt::format("{:<16} {:.6g}\n", "rho_max", m.rho_max);
-  text += fmt::format("{:<16} {:.4g}: R = {:.4g} m across, smallest patch {} of {:.3g} m2\n\n",
-                      "R2/A", m.size_ratio, m.extent, m.smallest, m.smallest_area);
+      fmt::format("{:<18} {}, {} patches\n", "scene", scene.name(), scene.patch_count());
+  text += fmt::format("{:<18} {:.6g}\n", "rho max", m.rho_max);
+  text +=
+      fmt::format("{:<18} {:.4g}: extent R = {:.4g} m, smallest patch {} with A = {:.3g} m2\n\n",
+                  "R2/A", m.size_ratio, m.extent, m.smallest, m.smallest_area);
   return text;
 }
 
-std::string verdict_text(const BoundsReport& report) {
+std::string directions_text(const BoundsReport& report) {
   const BoundsRow& r = report.rows.front();
-  std::string text =
-      fmt::format("\nTo reach {} you need at most\n", percent_text(report.question.accuracy));
-  text += fmt::format("  M = {:<12} where the environment is nearly homogeneous (eq. 37)\n",
-                      count_text(r.homogeneous));
-  text += fmt::format("  M = {:<12} in any environment (eq. 43)\n", count_text(r.heterogeneous));
+  std::string text = fmt::format("\nDirections for {}\n", percent_text(report.options.accuracy));
+  text += prediction_row("", "guaranteed", "estimated");
+  text += prediction_row("nearly homogeneous  (eq. 37)", count_text(r.homogeneous),
+                         count_text(r.actual_homogeneous, "> 65536"));
+  text += prediction_row("any environment  (eq. 43)", count_text(r.heterogeneous),
+                         count_text(r.estimated_heterogeneous));
   return text;
 }
 
 std::string run_text(const BoundsReport& report) {
   const RunEstimate& run = *report.run;
   return fmt::format(
-      "\nFrom the last run ({}: {} RMS error of B with {} passes, {}) we estimate\n"
+      "\nEstimated from the solve run ({}: {} RMS error of B with {} passes, {}):\n"
       "  M = {:<12} for {}\n",
       run.scene, percent_text(run.error), run.passes, name_of(run.sampling),
-      count_text(run.estimated_passes), percent_text(report.question.accuracy));
+      count_text(run.estimated_passes), percent_text(report.options.accuracy));
 }
 
 template <class Number>
@@ -144,7 +151,7 @@ Json json_of(const BoundsPrediction& p) {
   return {{"rho", p.rho},
           {"eps", {{"bound", p.eps_bound}, {"actual", p.eps}}},
           {"contraction", {{"bound", p.contraction_bound}, {"actual", p.contraction}}},
-          {"steps", {{"bound", json_of(p.steps_bound)}, {"actual", json_of(p.steps)}}},
+          {"steps", {{"bound", json_of(p.iterations_bound)}, {"actual", json_of(p.iterations)}}},
           {"homogeneous_error", {{"bound", p.homogeneous_bound}, {"actual", p.homogeneous}}},
           {"heterogeneous_error", {{"bound", p.heterogeneous_bound}}}};
 }
@@ -158,7 +165,7 @@ std::string text_of(const BoundsReport& report) {
   }
   text += tables_text(report);
   if (report.prediction) {
-    text += prediction_text(report) + verdict_text(report);
+    text += prediction_text(report) + directions_text(report);
   }
   if (report.run) {
     text += run_text(report);
@@ -167,15 +174,15 @@ std::string text_of(const BoundsReport& report) {
 }
 
 void write_bounds_report(const std::string& path, const BoundsReport& report) {
-  const BoundsQuestion& question = report.question;
+  const BoundsOptions& options = report.options;
   Json json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
-  json["accuracy"] = question.accuracy;
+  json["accuracy"] = options.accuracy;
   json["size_ratio"] = report.size_ratio;
-  json["tolerance"] = question.tolerance;
-  json["directions"] = question.directions;
-  json["sampling"] = name_of(question.sets.sampling);
-  json["two_way"] = question.sets.two_way;
+  json["tolerance"] = options.tolerance;
+  json["directions"] = options.directions;
+  json["sampling"] = name_of(options.sets.sampling);
+  json["two_way"] = options.sets.two_way;
   json["tables"] = Json::array();
   for (const BoundsRow& r : report.rows) {
     json["tables"].push_back(json_of(r));
@@ -184,7 +191,7 @@ void write_bounds_report(const std::string& path, const BoundsReport& report) {
   json["scene"] = Json();
   if (report.measures) {
     const SceneMeasures& m = *report.measures;
-    json["scene"] = {{"name", question.scene->name()},
+    json["scene"] = {{"name", options.scene->name()},
                      {"rho_max", m.rho_max},
                      {"extent", m.extent},
                      {"smallest_patch", m.smallest},

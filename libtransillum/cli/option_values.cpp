@@ -25,15 +25,13 @@ std::string_view without_plus(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const std::string& option, std::string_view text,
-                         const std::string& wanted) {
-  throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, wanted));
+                         const std::string& expected) {
+  throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, expected));
 }
 
-/// Three finite numbers with commas between, not all 0; returns the unit vector.
+/// Parses X,Y,Z: three finite numbers, not all 0. Returns a unit vector.
 Vec3 parse_direction(const std::string& option, const std::string& text) {
-  const auto wrong = [&] {
-    refuse(option, text, "three finite numbers X,Y,Z with commas between, not all 0");
-  };
+  const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
   std::array<double, 3> xyz{};
   std::string_view rest = text;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -53,8 +51,8 @@ Vec3 parse_direction(const std::string& option, const std::string& text) {
   if (largest == 0) {
     wrong();
   }
-  // Scaled first, or the squares of huge numbers overflow and those of tiny ones vanish; by a
-  // power of two, so that a unit vector keeps its bits.
+  // Scaled first, since squares of huge numbers overflow and those of tiny ones underflow; by a
+  // power of two, so a unit vector is not changed.
   int exponent = 0;
   std::frexp(largest, &exponent);
   return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
@@ -90,7 +88,9 @@ double parse_number(const std::string& option, const std::string& text) {
 }
 
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text) {
-  const auto wrong = [&] { refuse(option, text, "a size such as 2G, 800M or a number of bytes"); };
+  const auto wrong = [&] {
+    refuse(option, text, "a size such as 2G or 800M, or a number of bytes");
+  };
   std::string_view digits = text;
   int shift = 0;
   if (!digits.empty()) {
@@ -115,15 +115,15 @@ std::uint64_t parse_memory_size(const std::string& option, const std::string& te
 
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name) {
-  return fmt::format("{}: {} (default {})", fmt::join(names, " | "), description_of(setting),
+  return fmt::format("{}: {} (default {})", description_of(setting), fmt::join(names, " | "),
                      default_name);
 }
 
 void add_scene_argument(CLI::App& command, std::string& scene) {
   command
       .add_option("SCENE", scene,
-                  "an .obj file (its .mtl: Kd = reflectance, Ke = emitted exitance in W/m2), or a "
-                  "built-in with parameters, such as sphere-flake:levels=1")
+                  "an .obj file (in its .mtl: Kd = reflectance, Ke = exitance in W/m2), or a "
+                  "built-in scene with parameters, such as sphere-flake:levels=1")
       ->required()
       ->type_name("");
 }
@@ -131,7 +131,7 @@ void add_scene_argument(CLI::App& command, std::string& scene) {
 void add_direction_option(CLI::App& command, Vec3& direction) {
   add_parsed_option(
       command, "--direction", "X,Y,Z",
-      "omega, from the receivers toward the sources; of any length",
+      "omega, pointing from the receivers to the sources; any length",
       [&direction](const std::string& text) { direction = parse_direction("--direction", text); })
       ->required();
 }
@@ -176,7 +176,7 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) {
   add_parsed_option(command, "--memory", "SIZE", help_of("memory", "a quarter of the machine's"),
                     [&memory](const std::string& text) {
-                      // 0 means the default to the library; here it means that nothing is kept.
+                      // To the library, 0 means the default; here it means that nothing is stored.
                       memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
                     });
   add_parsed_option(command, "--threads", "N", help_of("threads", "all cores"),
@@ -187,7 +187,7 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) 
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--two-sided", options.two_sided, description_of("two-sided"));
-  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "leave them whole"),
+  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "do not divide"),
                     [&options](const std::string& text) {
                       options.max_patch_area = parse_number("--max-patch-area", text);
                       if (!(options.max_patch_area > 0)) {

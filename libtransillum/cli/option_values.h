@@ -14,37 +14,37 @@
 
 namespace transillum::cli {
 
-// Texts of the command line to values. All throw InputError that names the option, the text and
-// what is allowed. `option` is what the message calls it, such as "--threads".
+// Parsers of option values. All throw InputError with the option's name, the text and the valid
+// range. `option` is the name in the message, such as "--threads".
 
 std::int64_t parse_whole_number(const std::string& option, const std::string& text,
                                 std::int64_t low, std::int64_t high);
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
-/// Finite.
+/// A finite number.
 double parse_number(const std::string& option, const std::string& text);
 /// EngineOptions::resolution
 int parse_resolution(const std::string& option, const std::string& text);
-/// Bytes: a number with K, M, G or T (powers of 1024) behind it or nothing.
+/// A size in bytes: a number, optionally followed by K, M, G or T (powers of 1024).
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
 
-// What the help says of a setting: its sentence of settings.h, and its default.
+// Help text of a setting: its description in settings.h and its default.
 
 template <typename Default>
 std::string help_of(const std::string& setting, const Default& value) {
   return fmt::format("{} (default {})", description_of(setting), value);
 }
-/// The same behind the names that it takes.
+/// The same with the list of valid names.
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name);
 
 // Options that several commands share.
 
 void add_scene_argument(CLI::App& command, std::string& scene);
-/// --direction, required; a unit vector of it
+/// --direction, required; normalized to a unit vector
 void add_direction_option(CLI::App& command, Vec3& direction);
 /// --engine, --lines, --resolution, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
-/// What they have but --engine.
+/// The same without --engine.
 void add_engine_details(CLI::App& command, EngineOptions& options);
 /// --order
 void add_order_option(CLI::App& command, EngineOptions& options);
@@ -53,7 +53,7 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 /// --two-sided and --max-patch-area
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-/// An option whose text goes through `parse` when it is met, so that the message is ours.
+/// An option whose value is parsed by `parse`, which gives the error message.
 template <typename Parse>
 CLI::Option* add_parsed_option(CLI::App& command, const std::string& names, const std::string& type,
                                const std::string& help, Parse parse) {

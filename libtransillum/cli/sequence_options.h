@@ -9,7 +9,7 @@
 
 namespace transillum::cli {
 
-/// Which directions, for all commands that sample them.
+/// The set of directions, for all commands that use one.
 struct SequenceOptions {
   int directions = 1024;
   Sampling sampling = Sampling::fibonacci;
