@@ -113,7 +113,7 @@ TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
       {{"furnace", "--rotations", "0"}, "--rotations: \"0\""},
       {{"furnace", "--reference", "0"}, "--reference: \"0\""},
       {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},
-      {{"furnace", "--plot", "s.pdf"}, "a plot ends in .svg or .png"},
+      {{"furnace", "--plot", "s.pdf"}, "must end in .svg or .png"},
       {{"furnace", "--out", "s.svg", "--plot", "s.svg"}, "named twice"},
       {{"furnace", "--out", "/no/such/folder/s.csv"}, "/no/such/folder"},
   };

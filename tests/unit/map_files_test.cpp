@@ -66,8 +66,8 @@ void expect_same_areas(const Areas& areas, const Areas& expected, double toleran
   }
 }
 
-/// Looking straight up: a floor of 2 m by 2 m; above it, half beyond it, a lamp of 1 m²; above
-/// both a red board of 1 m²; and close to the floor a shelf of 1 m² that turns its back on it.
+/// Seen along +z: a floor of 2 m by 2 m; above it, extending half beyond it, a lamp of 1 m²; above
+/// both a gray board of 1 m²; and close above the floor a shelf of 1 m² whose back faces the floor.
 std::shared_ptr<const Scene> still_life(const std::string& name = "still life") {
   Sketch sketch(name);
   const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 3);
@@ -109,12 +109,12 @@ TEST(VisibilityMap, OfTheStillLifeIsKnown) {
   ASSERT_EQ(floor.window.size(), 1U);
   EXPECT_NEAR(floor.window[0].area, 4, 1e-14);
   expect_same_areas(areas_in(map_of_receiver(direction, 3)), {}, 1e-13);
-  // The lamp and the board look down.
+  // The lamp and the board face down.
   EXPECT_THAT(map_of_receiver(direction, 1).window, IsEmpty());
   EXPECT_THAT(map_of_receiver(direction, 1).polygons, IsEmpty());
 }
 
-/// Receivers' maps against the engine's numbers, scene by scene.
+/// Compares receivers' maps with the engine's transfers.
 TEST(VisibilityMap, OfAReceiverAddsUpToItsTransfers) {
   for (const char* spec : {"rooms", "boards"}) {
     const auto scene = load_scene(spec);
@@ -123,7 +123,7 @@ TEST(VisibilityMap, OfAReceiverAddsUpToItsTransfers) {
     for (const Transfer& t : direction.transfers.exchanges) {
       exchanged[{t.receiver, t.source}] = t.area;
     }
-    std::size_t looked = 0;
+    std::size_t maps_with_polygons = 0;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
       const VisibilityMap map = map_of_receiver(direction, i);
       const Coverage& coverage = at(direction.transfers.forward, i);
@@ -140,13 +140,13 @@ TEST(VisibilityMap, OfAReceiverAddsUpToItsTransfers) {
       }
       EXPECT_NEAR(covered, coverage.covered, 1e-12);
       EXPECT_NEAR(window, coverage.projected, 1e-12);
-      looked += map.polygons.empty() ? 0 : 1;
+      maps_with_polygons += map.polygons.empty() ? 0 : 1;
     }
-    EXPECT_GT(looked, 10U);
+    EXPECT_GT(maps_with_polygons, 10U);
   }
 }
 
-TEST(VisibilityMap, FromBelowCoversTheWholeShadowOfAClosedRoom) {
+TEST(VisibilityMap, FromBelowCoversTheWholeProjectionOfAClosedRoom) {
   const auto scene = load_scene("furnace");
   const Vec3 omega = normalized(Vec3{0.5, 0.7, -0.3});
   double area = 0;
@@ -293,9 +293,9 @@ double area_of_path(const std::string& path) {
   return area;
 }
 
-double pixels_a_meter(vtkXMLDataElement& svg) {
+double pixels_per_meter(vtkXMLDataElement& svg) {
   const std::string text = elements(svg, "desc").at(0)->GetCharacterData();
-  const std::size_t end = text.find(" pixels a meter");
+  const std::size_t end = text.find(" pixels per meter");
   return std::stod(text.substr(text.rfind(' ', end - 1)));
 }
 
@@ -305,8 +305,8 @@ TEST_F(MapFiles, SvgIsXmlWhosePathsHaveTheAreasOfThePatches) {
     write_map(folder / "m.svg", *scene_, map);
     const auto svg = parsed(read_file(folder / "m.svg"));
     ASSERT_NE(svg, nullptr);
-    const double scale = pixels_a_meter(*svg);
-    Areas drawn, told;
+    const double scale = pixels_per_meter(*svg);
+    Areas drawn, by_attribute;
     for (vtkXMLDataElement* path : elements(*svg, "path")) {
       std::istringstream words(attribute(*path, "class"));
       std::string kind, patch, facing;
@@ -316,36 +316,36 @@ TEST_F(MapFiles, SvgIsXmlWhosePathsHaveTheAreasOfThePatches) {
       }
       const std::pair key{std::stoi(patch.substr(1)), facing == "front"};
       drawn[key] += area_of_path(attribute(*path, "d")) / (scale * scale);
-      told[key] += std::stod(attribute(*path, "data-area"));
+      by_attribute[key] += std::stod(attribute(*path, "data-area"));
       EXPECT_EQ(elements(*path, "title").size(), 1U);
     }
     const Areas& expected = map.receiver == 0 ? seen_by_floor : seen_from_below;
-    expect_same_areas(told, expected, 1e-13);
+    expect_same_areas(by_attribute, expected, 1e-13);
     expect_same_areas(drawn, expected, 1e-5);
   }
 }
 
-TEST_F(MapFiles, SvgTellsWhatAPatchIs) {
+TEST_F(MapFiles, SvgDescribesPatchesInToolTips) {
   const std::string below = written("m.svg", map_from_below(direction_));
-  EXPECT_THAT(below, HasSubstr("patch 0 (m0), turns its back, sees patches 2, 1, area 4 m"));
-  EXPECT_THAT(below, HasSubstr("patch 1 (m1), shines down: emits 3, 3, 3 W/m"));
+  EXPECT_THAT(below, HasSubstr("patch 0 (m0): back side, sees patches 2, 1; area 4 m"));
+  EXPECT_THAT(below, HasSubstr("patch 1 (m1): emits 3, 3, 3 W/m"));
   EXPECT_THAT(below, HasSubstr("class=\"patch p1 back emits\""));
   EXPECT_THAT(below, HasSubstr(">Visibility map of still life<"));
   EXPECT_THAT(below, HasSubstr(">0.5 m</text>"));  // the scale bar
 }
 
-TEST_F(MapFiles, SvgHasTheColorsAsked) {
+TEST_F(MapFiles, SvgHasTheRequestedColors) {
   MapPictureOptions options;
   options.patch_colors.assign(static_cast<std::size_t>(scene_->patch_count()), {0x12, 0x34, 0x56});
   options.patch_colors[1] = {0xab, 0xcd, 0xef};
   const std::string colored = written("m.svg", map_from_below(direction_), options);
   EXPECT_THAT(colored, HasSubstr("fill=\"#abcdef\""));
-  EXPECT_THAT(colored, ::testing::Not(HasSubstr(">emits<")));  // the colors do not tell that
+  EXPECT_THAT(colored, ::testing::Not(HasSubstr(">emits<")));  // not what these colors mean
   EXPECT_THAT(colored, HasSubstr(">back side<"));
   EXPECT_THAT(written("m.svg", map_from_below(direction_)), HasSubstr(">emits<"));
 }
 
-TEST_F(MapFiles, SvgHasTheSizeAsked) {
+TEST_F(MapFiles, SvgHasTheRequestedSize) {
   for (const int size : {300, 1200, 5000}) {
     const auto svg = parsed(written("m.svg", of_floor(), {.size = size}));
     const double width = std::stod(attribute(*svg, "width"));
@@ -401,25 +401,25 @@ class Picture {
   std::array<int, 3> size_{};
 };
 
-TEST_F(MapFiles, PngCountsAsManyPixelsAsThereIsArea) {
+TEST_F(MapFiles, PngAreasArePixelCounts) {
   written("m.png", of_floor(), {.size = 1600});
   const Picture picture(folder_ / "m.png");
   EXPECT_EQ(std::max(picture.width(), picture.height()), 1600);
-  // Pixels along the outlines are mixed: less than a thousandth of all.
+  // Pixels along the outlines have mixed colors: less than a thousandth of all.
   const auto counts = picture.counts();
-  // The lamp is white and shows 0.5 m² of the floor's 4, which fill the picture but for a margin.
+  // The lamp is white; 0.5 m² of it are visible. The floor's 4 m² fill the picture up to a margin.
   ASSERT_TRUE(counts.contains({255, 255, 255}));
   const double floor_pixels = 1504.0 * 1504.0;
   EXPECT_NEAR(counts.at({255, 255, 255}) / floor_pixels, 0.5 / 4, 0.003);
-  // Next comes the ground and the floor where nothing is above it: 1.625 m².
+  // The floor where nothing is above it: 1.625 m². Then the background.
   ASSERT_TRUE(counts.contains({0x2c, 0x32, 0x3b}));
   EXPECT_NEAR(counts.at({0x2c, 0x32, 0x3b}) / floor_pixels, 1.625 / 4, 0.003);
   ASSERT_TRUE(counts.contains({0x1d, 0x21, 0x27}));
   EXPECT_NEAR(counts.at({0x1d, 0x21, 0x27}), 1600 * 1600 - floor_pixels, 4 * 1600);
 }
 
-/// Looking up along z, u points left and v up: which way round is a fact of the frame.
-TEST_F(MapFiles, PngHasTheLampWhereItBelongs) {
+/// In a view along z, u points left and v up; the directions of u and v are those of the frame.
+TEST_F(MapFiles, PngHasTheLampAtItsPlace) {
   written("m.png", of_floor(), {.size = 400});
   const Picture picture(folder_ / "m.png");
   const Vec2 middle = direction_.record.frame.project({1, 1, 0});
@@ -430,7 +430,7 @@ TEST_F(MapFiles, PngHasTheLampWhereItBelongs) {
   EXPECT_EQ(picture.at(x, y), (std::array<int, 3>{255, 255, 255})) << x << ", " << y;
 }
 
-/// Where two polygons meet under a slant, no pixel shows the ground between them.
+/// At a slanted edge between two polygons, no pixel shows the background.
 TEST(MapPng, HasNoSeams) {
   Sketch sketch;
   const int lamp = sketch.material(0, 1);
@@ -441,7 +441,7 @@ TEST(MapPng, HasNoSeams) {
   const TemporaryFolder folder;
   write_map(folder / "m.png", *scene, map, {.size = 301});
   const Picture picture(folder / "m.png");
-  // Of the edge only its line may darken the white, and never down to the ground below.
+  // Only the line along the edge darkens the white, and never to the background.
   int row_minimum = 255;
   for (int x = 120; x < 200; ++x) {
     row_minimum = std::min(row_minimum, picture.at(x, 150)[0]);
@@ -466,8 +466,7 @@ TEST_F(MapFiles, EmptyMapsAreFilesToo) {
     EXPECT_THAT(nlohmann::json::parse(read_file(folder_ / "m.json")).at("polygons"), IsEmpty());
   }
   EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
-  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)),
-              HasSubstr("turns its back"));
+  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)), HasSubstr("faces away"));
   EXPECT_EQ(empty_map_reason(*scene_, of_floor()), "");
 }
 

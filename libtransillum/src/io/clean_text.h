@@ -5,10 +5,11 @@
 
 namespace transillum {
 
-/// Valid UTF-8 without control characters: names of files and materials may be anything.
+/// `text` as valid UTF-8: invalid bytes become U+FFFD, control characters become blanks. For names
+/// of files, scenes and materials, which may contain any bytes.
 std::string clean_text(const std::string& text);
 
-/// The same, for between tags or quotes of XML.
+/// clean_text() with &, <, > and " escaped, for XML content and attributes.
 std::string xml_text(const std::string& text);
 
 }  // namespace transillum

@@ -8,7 +8,7 @@
 
 namespace transillum {
 
-/// `.csv` of `RESULT.CSV`.
+/// The extension in lower case: `.csv` of `RESULT.CSV`.
 inline std::string lower_case_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),

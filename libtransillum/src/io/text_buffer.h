@@ -9,11 +9,12 @@
 
 namespace transillum {
 
-/// Text on its way to a stream, handed over in large parts.
+/// Formats text into memory and writes it to a stream in large blocks, since streams are slow on
+/// small pieces. The destructor writes the rest.
 class TextBuffer {
  public:
   explicit TextBuffer(std::ostream& out) : out_(out) {}
-  ~TextBuffer() { hand_over(); }
+  ~TextBuffer() { flush(); }
   TextBuffer(const TextBuffer&) = delete;
   TextBuffer& operator=(const TextBuffer&) = delete;
 
@@ -21,12 +22,12 @@ class TextBuffer {
   void add(fmt::format_string<Values...> format, Values&&... values) {
     fmt::format_to(std::back_inserter(buffer_), format, std::forward<Values>(values)...);
     if (buffer_.size() > 1U << 16) {
-      hand_over();
+      flush();
     }
   }
 
  private:
-  void hand_over() {
+  void flush() {
     out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     buffer_.clear();
   }

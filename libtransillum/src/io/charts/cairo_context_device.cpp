@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The drawing primitives that VTK's charts call, on Cairo. Colors, widths and fonts come from the
+// pen, brush and text properties of vtkContextDevice2D.
 #include "io/charts/cairo_context_device.h"
 
 #include <vtkBrush.h>
@@ -9,14 +12,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <utility>
 
 namespace transillum {
 namespace {
 
-/// On, off, … in widths of the line.
+/// Lengths of dashes and gaps, in line widths.
 std::vector<double> dashes_of(int line_type) {
   switch (line_type) {
     case vtkPen::DASH_LINE:
@@ -29,6 +31,31 @@ std::vector<double> dashes_of(int line_type) {
       return {3, 1.5, 1, 1.5, 1, 1.5};
     case vtkPen::DENSE_DOT_LINE:
       return {1, 1};
+    default:
+      return {};
+  }
+}
+
+/// Corners of a polygonal marker, relative to its center.
+/// @param s half its size, @param w half the width of the bars of crosses
+std::vector<std::pair<double, double>> marker_corners(int shape, double s, double w) {
+  switch (shape) {
+    case marker_pointer:
+      return {{-0.7 * s, -s}, {0, 0}, {0.7 * s, -s}};
+    case VTK_MARKER_SQUARE:
+      return {{-s, -s}, {s, -s}, {s, s}, {-s, s}};
+    case marker_triangle:
+      return {{-1.2 * s, s}, {0, -1.2 * s}, {1.2 * s, s}};
+    case marker_down:
+      return {{-1.2 * s, -s}, {0, 1.2 * s}, {1.2 * s, -s}};
+    case VTK_MARKER_DIAMOND:
+      return {{-1.3 * s, 0}, {0, -1.3 * s}, {1.3 * s, 0}, {0, 1.3 * s}};
+    case VTK_MARKER_CROSS:
+      return {{-s, -s + w}, {-s + w, -s}, {0, -w}, {s - w, -s}, {s, -s + w}, {w, 0},
+              {s, s - w},   {s - w, s},   {0, w},  {-s + w, s}, {-s, s - w}, {-w, 0}};
+    case VTK_MARKER_PLUS:
+      return {{-w, -s}, {w, -s}, {w, -w}, {s, -w}, {s, w},   {w, w},
+              {w, s},   {-w, s}, {-w, w}, {-s, w}, {-s, -w}, {-w, -w}};
     default:
       return {};
   }
@@ -78,7 +105,7 @@ void CairoContextDevice::DrawPoly(float* points, int n, unsigned char*, int) {
   cairo_new_path(cairo_);
   Place begin = place(points), end = place(points + 2 * (n - 1));
   if (n == 2 && (begin.x == end.x || begin.y == end.y)) {
-    // Straight lines are sharp when they fill whole pixels.
+    // Align horizontal and vertical lines with whole pixels, so that they are sharp.
     double width = Pen->GetWidth(), none = 0;
     cairo_user_to_device_distance(cairo_, &width, &none);
     const double middle = std::max(1L, std::lround(width)) % 2 == 1 ? 0.5 : 0;
@@ -96,7 +123,7 @@ void CairoContextDevice::DrawPoly(float* points, int n, unsigned char*, int) {
     cairo_line_to(cairo_, p.x, p.y);
   }
   cairo_line_to(cairo_, end.x, end.y);
-  // Round joins of a dense line cost most of its time, and are not seen.
+  // Round joins of a dense line take most of the drawing time and are not visible.
   cairo_set_line_join(cairo_, n > 100 ? CAIRO_LINE_JOIN_BEVEL : CAIRO_LINE_JOIN_ROUND);
   stroke();
 }
@@ -112,7 +139,7 @@ void CairoContextDevice::DrawPoints(float* points, int n, unsigned char* colors,
 }
 
 void CairoContextDevice::DrawMarkers(int shape, bool, float* points, int n, unsigned char*, int) {
-  const double half = 0.69 * Pen->GetWidth();  // by VTK's least width of 8 pixels 11 pixels wide
+  const double half = 0.69 * Pen->GetWidth();  // 11 pixels wide for VTK's smallest width, 8 pixels
   cairo_set_line_width(cairo_, 0.36 * half);
   cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
   cairo_reset_clip(cairo_);
@@ -146,66 +173,18 @@ void CairoContextDevice::DrawColoredPolygon(float* points, int n, unsigned char*
 }
 
 void CairoContextDevice::trace_marker(int shape, const Place& center, double half) const {
-  const double s = half, w = half / 2.5;
-  const auto outline = [&](std::initializer_list<std::pair<double, double>> corners) {
-    for (const auto& [dx, dy] : corners) {
-      cairo_line_to(cairo_, center.x + dx, center.y + dy);
-    }
-    cairo_close_path(cairo_);
-  };
   cairo_new_path(cairo_);
-  switch (shape) {
-    case marker_dot:
-      cairo_arc(cairo_, center.x, center.y, s / 2.5, 0, 2 * std::numbers::pi);
-      break;
-    case marker_pointer:
-      outline({{-0.7 * s, -s}, {0, 0}, {0.7 * s, -s}});
-      break;
-    case VTK_MARKER_CIRCLE:
-      cairo_arc(cairo_, center.x, center.y, s, 0, 2 * std::numbers::pi);
-      break;
-    case VTK_MARKER_SQUARE:
-      outline({{-s, -s}, {s, -s}, {s, s}, {-s, s}});
-      break;
-    case marker_triangle:
-      outline({{-1.2 * s, s}, {0, -1.2 * s}, {1.2 * s, s}});
-      break;
-    case marker_down:
-      outline({{-1.2 * s, -s}, {0, 1.2 * s}, {1.2 * s, -s}});
-      break;
-    case VTK_MARKER_DIAMOND:
-      outline({{-1.3 * s, 0}, {0, -1.3 * s}, {1.3 * s, 0}, {0, 1.3 * s}});
-      break;
-    case VTK_MARKER_CROSS:
-      outline({{-s, -s + w},
-               {-s + w, -s},
-               {0, -w},
-               {s - w, -s},
-               {s, -s + w},
-               {w, 0},
-               {s, s - w},
-               {s - w, s},
-               {0, w},
-               {-s + w, s},
-               {-s, s - w},
-               {-w, 0}});
-      break;
-    case VTK_MARKER_PLUS:
-      outline({{-w, -s},
-               {w, -s},
-               {w, -w},
-               {s, -w},
-               {s, w},
-               {w, w},
-               {w, s},
-               {-w, s},
-               {-w, w},
-               {-s, w},
-               {-s, -w},
-               {-w, -w}});
-      break;
-    default:
-      break;
+  if (shape == marker_dot || shape == VTK_MARKER_CIRCLE) {
+    cairo_arc(cairo_, center.x, center.y, shape == marker_dot ? half / 2.5 : half, 0,
+              2 * std::numbers::pi);
+    return;
+  }
+  const auto corners = marker_corners(shape, half, half / 2.5);
+  for (const auto& [dx, dy] : corners) {
+    cairo_line_to(cairo_, center.x + dx, center.y + dy);
+  }
+  if (!corners.empty()) {
+    cairo_close_path(cairo_);
   }
 }
 
@@ -221,7 +200,7 @@ void CairoContextDevice::DrawString(float* point, const Text& text) {
   cairo_font_extents(cairo_, &font);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo_, text.c_str(), &extents);
-  double down = -font.descent;  // the base line, from the point
+  double down = -font.descent;  // of the baseline below the point
   if (TextProp->GetVerticalJustification() == VTK_TEXT_CENTERED) {
     down = (font.ascent - font.descent) / 2;
   }

@@ -21,8 +21,8 @@ enum CairoMarker {
   marker_down
 };
 
-/// Draws VTK's charts on any surface of Cairo: no window, no OpenGL. What charts of lines do not
-/// use, such as images and wedges, is not drawn. y runs upwards from the bottom, as in VTK.
+/// Draws VTK's charts on any Cairo surface, without a window or OpenGL. Primitives that line charts
+/// do not use, such as images and wedges, are not drawn. y runs upward from the bottom, as in VTK.
 class CairoContextDevice : public vtkContextDevice2D {
   /// VTK's string class, which is std::string from some version on.
   template <class Text>
@@ -35,19 +35,20 @@ class CairoContextDevice : public vtkContextDevice2D {
   vtkTypeMacro(CairoContextDevice, vtkContextDevice2D)
       // clang-format on
 
-      /// Draws by `cairo`, which is to outlive this, on a part `height` high of the surface.
+      /// Sets the context to draw with, which must outlive this object, and the height of the part
+      /// of the surface to draw on.
       void draw_on(cairo_t* cairo, double height);
 
   void DrawPoly(float* points, int n, unsigned char* colors, int components) override;
   void DrawLines(float* points, int n, unsigned char* colors, int components) override;
   void DrawPoints(float* points, int n, unsigned char* colors, int components) override;
-  /// Whole, where their centers are inside the clipping rectangle.
+  /// Draws the markers whose centers are inside the clipping rectangle, unclipped.
   void DrawMarkers(int shape, bool highlight, float* points, int n, unsigned char* colors,
                    int components) override;
   void DrawQuad(float* points, int n) override { DrawColoredPolygon(points, n, nullptr, 0); }
   void DrawColoredPolygon(float* points, int n, unsigned char* colors, int components) override;
   void DrawString(float* point, const Text& text) override;
-  /// Width and height of the line, from its left bottom.
+  /// Bounds of a line of text, relative to its lower left corner.
   void ComputeStringBounds(const Text& text, float bounds[4]) override;
   void ComputeJustifiedStringBounds(const char* text, float bounds[4]) override;
   void DrawMathTextString(float* point, const Text& text) override { DrawString(point, text); }
@@ -71,7 +72,7 @@ class CairoContextDevice : public vtkContextDevice2D {
   void SetLineWidth(float) override {}
   void SetLineType(int) override {}
 
-  // Virtual up to VTK 9.1, where nothing calls them, and gone later.
+  // Pure virtual up to VTK 9.1, where nothing calls them; removed in later versions.
   virtual void DrawString(float*, const vtkUnicodeString&) {}                   // NOLINT
   virtual void ComputeStringBounds(const vtkUnicodeString&, float bounds[4]) {  // NOLINT
     std::fill(bounds, bounds + 4, 0.0F);

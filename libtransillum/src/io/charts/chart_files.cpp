@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Line charts as SVG or PNG files, or painted into pixels in memory.
 #include <cairo-svg.h>
 #include <fmt/format.h>
 
@@ -23,11 +25,12 @@ using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 void check(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS) {
     throw std::runtime_error(
-        fmt::format("the chart cannot be drawn: {}", cairo_status_to_string(status)));
+        fmt::format("chart: drawing failed: {}", cairo_status_to_string(status)));
   }
 }
 
-/// Charts below one another on a surface of `width` and `height` units of `scale` pixels.
+/// Paints charts one below the other, of equal height, on a surface of `width` by `height` units;
+/// `scale`: pixels per unit. Returns the plot area of the last.
 ChartArea paint(cairo_surface_t* surface, const std::vector<LineChart>& charts, double width,
                 double height, double scale) {
   const Context cairo(cairo_create(surface), cairo_destroy);
@@ -48,10 +51,10 @@ ChartArea paint(cairo_surface_t* surface, const std::vector<LineChart>& charts, 
 
 cairo_status_t append(void* out, const unsigned char* data, unsigned length) {
   static_cast<std::ostream*>(out)->write(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;  // the stream keeps its own failure
+  return CAIRO_STATUS_SUCCESS;  // the stream records its own failure
 }
 
-/// For who looks with other means than eyes: letters are outlines.
+/// Title and description for screen readers: the letters of the drawing are outlines.
 std::string description_of(const std::vector<LineChart>& charts) {
   std::string title, lines;
   for (const LineChart& chart : charts) {
@@ -100,7 +103,7 @@ ChartWriter writer_for(const std::filesystem::path& path) {
   if (ending == ".png") {
     return write_png;
   }
-  throw InputError(fmt::format("{}: a plot ends in .svg or .png", path.string()));
+  throw InputError(fmt::format("{}: the name of a plot must end in .svg or .png", path.string()));
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Lays out a LineChart (title, axes, plot, legend) and paints it: the plot by VTK's chart, all text
+// and the legend directly. Lengths are in user units of the Cairo context.
 #include "io/charts/chart_painter.h"
 
 #include <vtkBrush.h>
@@ -18,7 +21,9 @@
 namespace transillum {
 namespace {
 
-constexpr double axis_title_gap = 10;  // VTK's own, from the labels' outer side less their offset
+/// VTK's gap between labels and axis title.
+constexpr double axis_title_gap = 10;
+/// Lengths of the line samples in a legend row and a legend column.
 constexpr double row_sample = 20, column_sample = 36;
 
 LineChart with_clean_texts(LineChart chart) {
@@ -38,7 +43,7 @@ LineChart with_clean_texts(LineChart chart) {
   return chart;
 }
 
-/// One chart and where its parts lie. y runs downwards here, upwards in VTK.
+/// One chart and the layout of its parts. y runs downward here, upward in VTK.
 class ChartPainter {
  public:
   ChartPainter(cairo_t* cairo, const LineChart& chart, double width, double height)
@@ -61,7 +66,7 @@ class ChartPainter {
  private:
   double line_of(double size) const { return 1.2 * size; }
   double width_of(const std::string& text, double size, bool bold = false);
-  /// As much of `text` as fits, with dots at its end.
+  /// `text`, shortened with an ellipsis if it is wider than `room`.
   std::string elided(const std::string& text, double room, double size, bool bold = false);
   void draw(const std::string& text, double x, double middle, double align, double size,
             const ChartColor& color, bool bold = false);
@@ -125,7 +130,7 @@ void ChartPainter::draw(const std::string& text, double x, double middle, double
   device_->DrawString(point, text);
 }
 
-/// What the column of the legend takes, the type as large as fits.
+/// Sets legend_size_ to the largest font size that fits; returns the width of the legend's column.
 double ChartPainter::measure_legend() {
   legend_size_ = style_.label_size;
   if (chart_.legend_below_title || legend_.empty()) {
@@ -162,7 +167,7 @@ void ChartPainter::lay_out() {
   }
   plot_.bottom =
       height_ - (chart_.axis_titles ? line + axis_title_gap + title : line + 6) - 0.5 * margin;
-  // Whole pixels, as those of VTK's axes.
+  // Round to whole pixels, as VTK does for its axes.
   for (double* side : {&plot_.left, &plot_.top}) {
     *side = std::ceil(*side);
   }
@@ -174,7 +179,8 @@ void ChartPainter::lay_out() {
   keep_labels_apart(chart_.y, plot_.bottom - plot_.top, false);
 }
 
-/// From the last tick on: its number is the one that matters. Lines of the grid need room too.
+/// Removes labels that would touch another, and grid lines too close to each other. Starts at the
+/// last tick, whose label is the most important.
 void ChartPainter::keep_labels_apart(ChartAxis& axis, double length, bool across) {
   const double low = axis_value(axis, axis.low), high = axis_value(axis, axis.high);
   double free = HUGE_VAL, last_line = HUGE_VAL;
@@ -214,7 +220,7 @@ void ChartPainter::draw_title() {
        style_.ink, style_.bold_title);
 }
 
-/// In the middle of the plot, on as many lines as it takes.
+/// Draws the hint in the middle of the plot, wrapped to its width.
 void ChartPainter::draw_hint() {
   const double room = plot_.right - plot_.left - 8;
   std::vector<std::string> lines;

@@ -7,7 +7,8 @@
 
 namespace transillum {
 
-/// Paints `chart` as VTK's chart on a part of a surface: `width` and `height` in units of `cairo`.
+/// Paints `chart` with VTK at the origin of `cairo`.
+/// @param width, height of the chart, in user units of `cairo`
 /// @returns the plot's area in the same units
 ChartArea paint_chart(cairo_t* cairo, const LineChart& chart, double width, double height);
 

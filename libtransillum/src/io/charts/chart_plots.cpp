@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// From the description of a LineChart to the axes and plots of a vtkChartXY.
 #include "io/charts/chart_plots.h"
 
 #include <vtkAxis.h>
@@ -19,7 +21,7 @@
 namespace transillum {
 namespace {
 
-constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_shown = std::numeric_limits<double>::quiet_NaN();
 
 int marker_of(ChartMarker marker) {
   switch (marker) {
@@ -65,7 +67,7 @@ int line_type_of(ChartDashes dashes) {
   return vtkPen::SOLID_LINE;
 }
 
-/// Those of the fine grid, or the others.
+/// Sets the minor ticks, or the others.
 void set_ticks(vtkAxis& axis, const ChartAxis& description, bool minor) {
   const vtkNew<vtkDoubleArray> positions;
   const vtkNew<vtkStringArray> labels;
@@ -96,7 +98,7 @@ void set_axis(vtkAxis& axis, const ChartAxis& description, const LineChart& char
   set_text(*axis.GetTitleProperties(), style, style.text_size, style.dim);
 }
 
-/// The opposite axis, which carries the fine grid.
+/// Sets the opposite axis, which has the fine grid.
 void set_fine_axis(vtkAxis& axis, const ChartAxis& description, const ChartStyle& style) {
   set_ticks(axis, description, true);
   axis.SetTitle("");
@@ -108,7 +110,7 @@ void set_fine_axis(vtkAxis& axis, const ChartAxis& description, const ChartStyle
   set_pen(*axis.GetGridPen(), style.grid, 0.4 * style.line_width);
 }
 
-/// One column of pixels shows its lowest and highest value: as good as all of them, and quick.
+/// Keeps the lowest and highest point per column of pixels, which looks the same and draws faster.
 std::vector<ChartPoint> thinned(const std::vector<ChartPoint>& points, double left,
                                 double column_width) {
   std::vector<ChartPoint> kept;
@@ -131,7 +133,7 @@ std::vector<ChartPoint> thinned(const std::vector<ChartPoint>& points, double le
     }
     end = std::max(end, begin + 1);
     if (low == points.size()) {
-      kept.push_back({points[begin].x, nowhere});
+      kept.push_back({points[begin].x, not_shown});
     } else {
       kept.push_back(points[std::min(low, high)]);
       if (low != high) {
@@ -160,8 +162,8 @@ std::vector<ChartPoint> placed_points(const ChartSeries& series, const LineChart
 }  // namespace
 
 double axis_value(const ChartAxis& axis, double value) {
-  const double at = axis.logarithmic ? (value > 0 ? std::log10(value) : nowhere) : value;
-  return std::abs(at) < 1e30 ? at : nowhere;
+  const double at = axis.logarithmic ? (value > 0 ? std::log10(value) : not_shown) : value;
+  return std::abs(at) < 1e30 ? at : not_shown;
 }
 
 void set_text(vtkTextProperty& text, const ChartStyle& style, double size, const ChartColor& color,
@@ -199,7 +201,7 @@ std::vector<vtkPlot*> add_plots(vtkChartXY& chart, const LineChart& description,
   for (const ChartSeries& series : description.series) {
     std::vector<ChartPoint> points = placed_points(series, description, columns);
     if (points.size() == 1) {
-      points.push_back(points.front());  // VTK wants two of a line
+      points.push_back(points.front());  // VTK requires two points per line
     }
     const vtkNew<vtkDoubleArray> x, y;
     x->SetName("x");

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The chart of a study: error of B against passes or processor time, one line per series, with the
+// bound of eq. 37.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +17,9 @@ namespace transillum {
 namespace {
 
 constexpr ChartColor bound_color{128, 128, 135};
-constexpr ChartColor black{26, 26, 31};  ///< stands for the ink, whichever that is
-/// Okabe and Ito's, which most who are color-blind tell apart; the light ones darkened.
+constexpr ChartColor black{26, 26, 31};  ///< replaced by the ink color of the chart's style
+/// Okabe and Ito's palette, distinguishable with most kinds of color blindness; light colors are
+/// darkened.
 constexpr std::array<ChartColor, 7> palette{{{0, 115, 179},
                                              {214, 94, 0},
                                              {0, 140, 107},
@@ -28,8 +32,8 @@ constexpr std::array markers{ChartMarker::circle,  ChartMarker::square, ChartMar
                              ChartMarker::plus};
 constexpr int dashes_count = 6;
 
-/// Marker and color by sampling, or by engine where there is but one sampling; dashes by what else
-/// sets series apart, and colors too where there is nothing else.
+/// Style of each series: marker and color by sampling, or by engine if there is only one sampling;
+/// dashes by the other settings (the variant), and colors too if only they differ.
 std::vector<ChartSeries> styles_of(const std::vector<StudySeries>& series) {
   std::vector<Sampling> samplings;
   std::vector<Engine> engines;
@@ -46,7 +50,7 @@ std::vector<ChartSeries> styles_of(const std::vector<StudySeries>& series) {
     s.sampling = {};
     return s;
   };
-  // Both ways, the default, gets the solid line, whichever comes first.
+  // Two-way variants, the default, come first and so get the solid line.
   for (const bool two_way : {true, false}) {
     for (const StudySeries& s : series) {
       if (s.two_way == two_way) {
@@ -85,7 +89,8 @@ std::string slope_text(double slope) {
   return number;
 }
 
-/// Decades, with labels, and what lies between them; 2 and 5 get labels too where `detailed`.
+/// Ticks at decades, with labels; if `fine`, also at 2 to 9 times a decade, with labels at 2 and 5
+/// if `detailed`.
 std::vector<ChartTick> decade_ticks(double low, double high, bool detailed, bool fine,
                                     const std::function<std::string(double)>& text) {
   std::vector<ChartTick> ticks;
@@ -120,8 +125,8 @@ class StudyPlot {
   StudyAxis against_;
   std::vector<std::string> names_;
   std::vector<ChartSeries> styles_;                        ///< without names and points
-  std::map<std::size_t, std::vector<StudyPoint>> points_;  ///< with an error, a series
-  std::map<double, double> bounds_;                        ///< by passes, where these are the axis
+  std::map<std::size_t, std::vector<StudyPoint>> points_;  ///< by series: points with an error > 0
+  std::map<double, double> bounds_;                        ///< by passes, if these are the abscissa
 };
 
 StudyPlot::StudyPlot(const std::vector<StudySeries>& series, const Study& study,
@@ -164,7 +169,7 @@ LineChart StudyPlot::chart(const std::string& scene, const ChartStyle& style) co
     chart.series.push_back(bound());
     chart.legend.push_back(0);
   }
-  std::map<std::size_t, std::size_t> place;  // of a series in the chart
+  std::map<std::size_t, std::size_t> place;  // of each series in chart.series
   for (const auto& [series, points] : points_) {
     place[series] = chart.series.size();
     chart.series.push_back(line_of(series, points));
@@ -191,7 +196,7 @@ ChartAxis StudyPlot::abscissa_axis() const {
       last = std::max(last, abscissa(point));
     }
   }
-  // Room for markers at the ends; a single M stands in the middle.
+  // Margins leave room for markers at the ends and center a single M.
   const double margin = std::max(1.12, std::pow(last / first, 0.03));
   ChartAxis axis;
   axis.logarithmic = true;
@@ -208,7 +213,8 @@ ChartAxis StudyPlot::abscissa_axis() const {
   return axis;
 }
 
-/// Whole decades round all errors, and of the bound its end and what lies up to one decade above.
+/// Whole decades that contain all errors, extended toward the bound by at most one decade, or to
+/// show its smallest value.
 ChartAxis StudyPlot::error_axis() const {
   double low = HUGE_VAL, high = 0;
   for (const auto& [series, points] : points_) {
@@ -261,7 +267,8 @@ ChartSeries StudyPlot::line_of(std::size_t series, const std::vector<StudyPoint>
   return line;
 }
 
-/// As the lines end in the plot.
+/// Indexes of series by their error at the last point, largest first: the order in which the lines
+/// end at the right of the plot.
 std::vector<std::size_t> StudyPlot::worst_first() const {
   std::vector<std::size_t> order;
   for (const auto& [series, points] : points_) {

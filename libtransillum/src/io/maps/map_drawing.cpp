@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Colors, layout and line widths that the SVG and PNG pictures of a map share.
 #include "io/maps/map_drawing.h"
 
 #include <algorithm>
@@ -33,11 +35,11 @@ struct Box {
 
 }  // namespace
 
-PatchLook look_of(const Scene& scene, const VisibilityMap::Polygon& polygon) {
+PatchRole role_of(const Scene& scene, const VisibilityMap::Polygon& polygon) {
   if (polygon.front_facing) {
-    return PatchLook::back_side;
+    return PatchRole::back_side;
   }
-  return max_abs(scene.exitance(polygon.patch)) > 0 ? PatchLook::emits : PatchLook::reflects;
+  return max_abs(scene.exitance(polygon.patch)) > 0 ? PatchRole::emits : PatchRole::reflects;
 }
 
 Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
@@ -48,20 +50,20 @@ Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
   }
   const Rgb& exitance = scene.exitance(polygon.patch);
   const Rgb& reflectance = scene.reflectance(polygon.patch);
-  switch (look_of(scene, polygon)) {
-    case PatchLook::emits:
+  switch (role_of(scene, polygon)) {
+    case PatchRole::emits:
       return encoded({exitance.r / max_abs(exitance), exitance.g / max_abs(exitance),
                       exitance.b / max_abs(exitance)});
-    case PatchLook::reflects:
+    case PatchRole::reflects:
       return encoded(Rgb{0.02, 0.02, 0.02} + 0.5 * reflectance);
-    case PatchLook::back_side:
+    case PatchRole::back_side:
       break;
   }
-  // A trace of the surface's own hue keeps neighbors apart.
+  // A trace of the surface's own hue distinguishes neighbors.
   return encoded(Rgb{0.05, 0.062, 0.08} + 0.04 * reflectance);
 }
 
-MapPlate fit_map(const VisibilityMap& map, double width, double height) {
+MapLayout fit_map(const VisibilityMap& map, double width, double height) {
   constexpr double margin = 0.03, least_share = 0.3;
   Box box;
   for (const Vec2& p : map.corners) {
@@ -71,17 +73,17 @@ MapPlate fit_map(const VisibilityMap& map, double width, double height) {
     box.add({0, 0});
   }
   const double size = std::max(box.x1 - box.x0, box.y1 - box.y0);
-  // Whatever the map is, even nothing, the plate is no thread.
+  // Even for an empty or very narrow map, the picture has a minimum width.
   const double wide = size > 0 ? std::max(box.x1 - box.x0, least_share * size) : 1;
   const double high = size > 0 ? std::max(box.y1 - box.y0, least_share * size) : least_share;
   const double border = margin * std::max(width, height);
-  MapPlate plate;
-  plate.transform.scale = std::min((width - 2 * border) / wide, (height - 2 * border) / high);
-  plate.transform.center = {box.x0 + (box.x1 - box.x0) / 2, box.y0 + (box.y1 - box.y0) / 2};
-  plate.width = wide * plate.transform.scale + 2 * border;
-  plate.height = high * plate.transform.scale + 2 * border;
-  plate.transform.middle = {plate.width / 2, plate.height / 2};
-  return plate;
+  MapLayout layout;
+  layout.transform.scale = std::min((width - 2 * border) / wide, (height - 2 * border) / high);
+  layout.transform.center = {box.x0 + (box.x1 - box.x0) / 2, box.y0 + (box.y1 - box.y0) / 2};
+  layout.width = wide * layout.transform.scale + 2 * border;
+  layout.height = high * layout.transform.scale + 2 * border;
+  layout.transform.middle = {layout.width / 2, layout.height / 2};
+  return layout;
 }
 
 double total_area(const std::vector<VisibilityMap::Polygon>& polygons) {

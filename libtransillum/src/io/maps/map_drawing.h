@@ -11,7 +11,7 @@
 
 namespace transillum {
 
-// What the pictures of a map have in common.
+// Colors, layout and line widths that the SVG and PNG pictures of a map share.
 
 /// sRGB.
 struct Color8 {
@@ -19,55 +19,57 @@ struct Color8 {
 };
 
 namespace map_colors {
-/// Light is looked at before a dark, neutral ground, as in the viewer.
+/// Background of the map: dark and neutral, as in the viewer.
 inline constexpr Color8 ground{0x1d, 0x21, 0x27};
 inline constexpr Color8 edge{0x0a, 0x0c, 0x0f};
-/// A receiver's own polygon where nothing is above it.
+/// The receiver's projection where nothing is above it.
 inline constexpr Color8 nothing{0x2c, 0x32, 0x3b};
-/// Where a picture in pixels shows not what is there.
+/// Where a map in pixels differs from the exact map.
 inline constexpr Color8 difference{0x19, 0xe3, 0xff};
 inline constexpr double difference_opacity = 0.85;
 }  // namespace map_colors
 
-enum class PatchLook {
-  emits,      ///< shines down with light of its own
-  reflects,   ///< shines down what it reflects
-  back_side,  ///< receives from above and shows its back
+/// The side of a patch that is visible along omega.
+enum class PatchRole {
+  emits,      ///< the front; its exitance is > 0
+  reflects,   ///< the front; it only reflects
+  back_side,  ///< the back: the patch receives from above
 };
-PatchLook look_of(const Scene& scene, const VisibilityMap::Polygon& polygon);
-/// As the options say, or emitters bright in the hue of their exitance, reflectors dimmer in that
-/// of their reflectance; back sides nearly gray.
+PatchRole role_of(const Scene& scene, const VisibilityMap::Polygon& polygon);
+/// Fill color: options.patch_colors if given; otherwise emitters bright in the hue of their
+/// exitance, reflectors darker in the color of their reflectance. Back sides are nearly gray.
 Color8 color_of(const Scene& scene, const VisibilityMap::Polygon& polygon,
                 const MapPictureOptions& options);
 
-/// From meters on the plane to pixels, x to the right and y downward. Seen along omega, u points
-/// to the left.
+/// From meters on the plane to pixels, x to the right and y downward. In a view along omega, u
+/// points to the left.
 struct MapTransform {
-  Vec2 center;       ///< meters; lies at `middle`
+  Vec2 center;       ///< meters; drawn at `middle`
   Vec2 middle;       ///< pixels
-  double scale = 1;  ///< pixels a meter
+  double scale = 1;  ///< pixels per meter
 
   Vec2 to_pixels(const Vec2& p) const {
     return {middle.x - scale * (p.x - center.x), middle.y - scale * (p.y - center.y)};
   }
 };
 
-/// A rectangle of pixels that shows all of a map, with a margin round it.
-struct MapPlate {
+/// Size in pixels of a rectangle that shows all of a map with a margin, and the map's place in it.
+struct MapLayout {
   double width = 0, height = 0;
-  MapTransform transform;  ///< from the plate's upper left corner
+  MapTransform transform;  ///< pixels are counted from the rectangle's upper left corner
 };
-/// The largest plate of the map's own proportions, or nearly, that fits in width x height.
-MapPlate fit_map(const VisibilityMap& map, double width, double height);
+/// The largest layout that fits in width x height with the map's proportions, limited to 0.3 : 1.
+MapLayout fit_map(const VisibilityMap& map, double width, double height);
 
-/// m².
+/// Sum of the areas, m².
 double total_area(const std::vector<VisibilityMap::Polygon>& polygons);
 
-/// Width in pixels of the lines between polygons: thinner where they crowd. Of a picture in pixels
-/// that of its borders.
+/// Width in pixels of the lines between polygons, thinner for smaller polygons; of a map in pixels,
+/// of the borders between pixels. @param scale pixels per meter
 double line_width(const VisibilityMap& map, double scale);
 
-/// Shares of the window, or of all that is seen: what a picture in pixels shows wrongly.
+/// Area in which a map in pixels differs from the exact one, as a share of the receiver's
+/// projection or, without a receiver, of the map.
 double difference_share(const VisibilityMap& map);
 
 }  // namespace transillum

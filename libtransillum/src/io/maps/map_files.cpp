@@ -31,7 +31,8 @@ MapWriter writer_for(const std::filesystem::path& path, const MapPictureOptions&
   if (ending == ".json") {
     return write_map_json;
   }
-  throw InputError(fmt::format("{}: a map ends in .svg, .vtp, .png or .json", path.string()));
+  throw InputError(
+      fmt::format("{}: the name of a map must end in .svg, .vtp, .png or .json", path.string()));
 }
 
 }  // namespace
@@ -47,9 +48,8 @@ std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
     return fmt::format("nothing is above patch {}", map.receiver);
   }
   const double cosine = dot(scene.patch(map.receiver).normal, map.frame.omega);
-  return fmt::format(
-      "patch {} {}: it sees nothing", map.receiver,
-      cosine < -1e-9 ? "turns its back on the direction" : "is edge-on to the direction");
+  return fmt::format("patch {} {} the direction and sees nothing", map.receiver,
+                     cosine < -1e-9 ? "faces away from" : "is edge-on to");
 }
 
 void check_map_path(const std::filesystem::path& path) {

@@ -8,14 +8,14 @@
 namespace transillum {
 namespace {
 
-// Maps have hundreds of thousands of numbers, so they are written as they come. fmt's "{}" of a
-// double is the shortest text that reads back to the same bits.
+// Maps have hundreds of thousands of numbers, so they are written without building a document in
+// memory. fmt's "{}" of a double is the shortest text that reads back to the same bits.
 
 void add_vector(TextBuffer& text, const char* name, const Vec3& v, const char* after) {
   text.add("\"{}\": [{}, {}, {}]{}", name, v.x, v.y, v.z, after);
 }
 
-/// A list, a line a polygon.
+/// Writes a list, one line per polygon.
 void add_polygons(TextBuffer& text, const VisibilityMap& map,
                   const std::vector<VisibilityMap::Polygon>& polygons, const char* indent) {
   const char* before = "";
@@ -38,7 +38,7 @@ void add_polygons(TextBuffer& text, const VisibilityMap& map,
 
 void write_map_json(std::ostream& out, const Scene& scene, const VisibilityMap& map) {
   TextBuffer text(out);
-  // A file name need not be UTF-8, but JSON must be.
+  // A scene's name may be a file name, which need not be UTF-8; JSON must be.
   const std::string name =
       nlohmann::json(scene.name()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   text.add("{{\n  \"program\": \"transillum " TRANSILLUM_VERSION "\",\n  \"scene\": {},\n", name);

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Maps as PNG: an anti-aliased rasterizer for the convex polygons and lines of a map, encoded by
+// VTK.
 #include <fmt/format.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -17,33 +20,33 @@
 namespace transillum {
 namespace {
 
-/// A picture under way: how much of each pixel is covered, and by what color.
+/// An image that accumulates per pixel how much is covered, and by what color.
 ///
-/// The polygons of a map do not overlap, so coverage times color may simply be added up, and no
-/// seam shows the ground where two of them meet.
+/// The polygons of a map do not overlap, so coverage times color can be summed, and the background
+/// does not show between two neighbors.
 class Canvas {
  public:
   Canvas(int width, int height)
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
 
   void fill(std::span<const Vec2> outline, const Color8& color) {
-    cover(outline, [&](std::size_t at, float share) {
-      Pixel& pixel = pixels_[at];
-      pixel.covered += share;
-      pixel.r += share * static_cast<float>(color.r);
-      pixel.g += share * static_cast<float>(color.g);
-      pixel.b += share * static_cast<float>(color.b);
+    cover(outline, [&](std::size_t pixel, float share) {
+      Pixel& target = pixels_[pixel];
+      target.covered += share;
+      target.r += share * static_cast<float>(color.r);
+      target.g += share * static_cast<float>(color.g);
+      target.b += share * static_cast<float>(color.b);
     });
   }
 
-  /// Takes the place of the ground, under all that fill() puts in.
-  void lay_under(std::span<const Vec2> outline) {
-    cover(outline, [&](std::size_t at, float share) { pixels_[at].window += share; });
+  /// Fills a polygon of the receiver's projection: background below all that fill() draws.
+  void fill_window(std::span<const Vec2> outline) {
+    cover(outline, [&](std::size_t pixel, float share) { pixels_[pixel].window += share; });
   }
 
-  /// Lies over all but lines.
-  void lay_over(std::span<const Vec2> outline) {
-    cover(outline, [&](std::size_t at, float share) { pixels_[at].difference += share; });
+  /// Fills a difference: above all but lines.
+  void fill_difference(std::span<const Vec2> outline) {
+    cover(outline, [&](std::size_t pixel, float share) { pixels_[pixel].difference += share; });
   }
 
   void draw_edges(std::span<const Vec2> outline, double line_width) {
@@ -62,10 +65,10 @@ class Canvas {
     const std::array<Vec2, 4> bar{
         Vec2{a.x + aside.x, a.y + aside.y}, Vec2{b.x + aside.x, b.y + aside.y},
         Vec2{b.x - aside.x, b.y - aside.y}, Vec2{a.x - aside.x, a.y - aside.y}};
-    cover(bar, [&](std::size_t at, float part) { pixels_[at].line += part; });
+    cover(bar, [&](std::size_t pixel, float part) { pixels_[pixel].line += part; });
   }
 
-  /// VTK's pictures begin at the bottom.
+  /// Copies the image bottom row first, as VTK stores images.
   void copy_to(vtkImageData& image) const {
     image.SetDimensions(width_, height_, 1);
     image.AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -84,7 +87,7 @@ class Canvas {
     float covered = 0, r = 0, g = 0, b = 0;
     float window = 0, difference = 0, line = 0;
   };
-  /// Lines of sampling a pixel; along them, coverage is exact.
+  /// Sampling lines per pixel; along them, coverage is exact.
   static constexpr int scan_lines = 8;
 
   std::size_t index(int x, int y) const {
@@ -92,9 +95,10 @@ class Canvas {
            static_cast<std::size_t>(x);
   }
 
-  /// Tells `take` the pixels that a convex polygon touches, and the share of each.
-  template <typename Take>
-  void cover(std::span<const Vec2> outline, Take take) const {
+  /// Calls add(pixel index, share) for each pixel that a convex polygon touches and the share of it
+  /// covered. A pixel's share may come in several calls.
+  template <typename Add>
+  void cover(std::span<const Vec2> outline, Add add) const {
     double top = HUGE_VAL, bottom = -HUGE_VAL;
     for (const Vec2& p : outline) {
       top = std::min(top, p.y);
@@ -105,7 +109,7 @@ class Canvas {
     for (int line = first; line < end && line + 0.5 < bottom * scan_lines; ++line) {
       const auto [left, right] = crossing(outline, (line + 0.5) / scan_lines);
       cover_span(line / scan_lines, std::max(left, 0.0),
-                 std::min(right, static_cast<double>(width_)), take);
+                 std::min(right, static_cast<double>(width_)), add);
     }
   }
 
@@ -117,7 +121,7 @@ class Canvas {
       if ((a.y > y) == (b.y > y)) {
         continue;
       }
-      // From the upper end, whichever neighbor the edge is seen from: the same crossing.
+      // Compute from the upper end, so that both neighbors at an edge get the same crossing.
       const Vec2 &upper = a.y < b.y ? a : b, &lower = a.y < b.y ? b : a;
       const double x = upper.x + (y - upper.y) / (lower.y - upper.y) * (lower.x - upper.x);
       left = std::min(left, x);
@@ -126,11 +130,11 @@ class Canvas {
     return {left, right};
   }
 
-  template <typename Take>
-  void cover_span(int y, double left, double right, Take take) const {
+  template <typename Add>
+  void cover_span(int y, double left, double right, Add add) const {
     for (int x = static_cast<int>(left); x < width_ && x < right; ++x) {
       const double part = std::min(right, x + 1.0) - std::max(left, static_cast<double>(x));
-      take(index(x, y), static_cast<float>(part / scan_lines));
+      add(index(x, y), static_cast<float>(part / scan_lines));
     }
   }
 
@@ -156,17 +160,17 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
-/// What the picture shows, for those who look into the file.
+/// Adds title and description as text chunks.
 void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map, double scale) {
   const Vec3& omega = map.frame.omega;
   writer.AddText("Software", "transillum " TRANSILLUM_VERSION);
   writer.AddText("Title", ("Visibility map of " + scene.name()).c_str());
   writer.AddText(
       "Description",
-      fmt::format("direction omega = {}, {}, {}; seen along omega{}; {} pixels a meter{}", omega.x,
-                  omega.y, omega.z,
+      fmt::format("direction omega = {}, {}, {}; view along omega{}; {} pixels per meter{}",
+                  omega.x, omega.y, omega.z,
                   map.receiver == no_patch ? std::string(" from below")
-                                           : fmt::format(" by patch {}", map.receiver),
+                                           : fmt::format(" from patch {}", map.receiver),
                   scale,
                   map.pixels.side > 0
                       ? fmt::format("; the engine's pixels are {} m wide", map.pixels.side)
@@ -178,31 +182,31 @@ void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map
 
 void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options) {
-  const MapPlate plate = fit_map(map, options.size, options.size);
-  Canvas canvas(static_cast<int>(std::lround(plate.width)),
-                static_cast<int>(std::lround(plate.height)));
+  const MapLayout layout = fit_map(map, options.size, options.size);
+  Canvas canvas(static_cast<int>(std::lround(layout.width)),
+                static_cast<int>(std::lround(layout.height)));
   std::vector<Vec2> outline;
   const auto projected = [&](const VisibilityMap::Polygon& polygon) -> std::span<const Vec2> {
     outline.clear();
     for (const Vec2& p : map.outline(polygon)) {
-      outline.push_back(plate.transform.to_pixels(p));
+      outline.push_back(layout.transform.to_pixels(p));
     }
     return outline;
   };
   for (const auto& polygon : map.window) {
-    canvas.lay_under(projected(polygon));
+    canvas.fill_window(projected(polygon));
   }
   for (const auto& polygon : map.polygons) {
     canvas.fill(projected(polygon), color_of(scene, polygon, options));
   }
   for (const auto& polygon : map.pixels.differences) {
-    canvas.lay_over(projected(polygon));
+    canvas.fill_difference(projected(polygon));
   }
-  const double width = line_width(map, plate.transform.scale);
+  const double width = line_width(map, layout.transform.scale);
   if (map.pixels.side > 0) {
     const std::vector<Vec2>& ends = map.pixels.borders;
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-      canvas.draw_line(plate.transform.to_pixels(ends[k]), plate.transform.to_pixels(ends[k + 1]),
+      canvas.draw_line(layout.transform.to_pixels(ends[k]), layout.transform.to_pixels(ends[k + 1]),
                        width);
     }
   } else {
@@ -216,11 +220,11 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
   writer->WriteToMemoryOn();
-  describe(*writer, scene, map, plate.transform.scale);
+  describe(*writer, scene, map, layout.transform.scale);
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
   if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
-    throw std::runtime_error("VTK could not write the picture");
+    throw std::runtime_error("PNG: VTK could not encode the picture");
   }
   out.write(reinterpret_cast<const char*>(bytes->GetPointer(0)),
             static_cast<std::streamsize>(bytes->GetNumberOfValues()));

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Maps as SVG figures: title, one path per patch with a tool tip, scale bar, axes and legend. The
+// classes and attributes of the paths are described in data/FILES.md.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -28,14 +31,14 @@ constexpr const char* style = R"(  <style>
 
 std::string hex(const Color8& c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-/// The end of a name that is too long for its place, after an ellipsis: of a path that is what
-/// tells it apart.
-std::string shortened(const std::string& text, std::size_t most) {
+/// A name of at most `max_size` bytes: the end of a longer one, after an ellipsis. The end is the
+/// distinctive part of a path.
+std::string shortened(const std::string& text, std::size_t max_size) {
   const std::string clean = clean_text(text);
-  if (clean.size() <= most) {
+  if (clean.size() <= max_size) {
     return clean;
   }
-  std::size_t begin = clean.size() - most;
+  std::size_t begin = clean.size() - max_size;
   while (begin < clean.size() && (clean[begin] & 0xc0) == 0x80) {
     ++begin;  // inside a character
   }
@@ -47,18 +50,18 @@ class SvgFigure {
   SvgFigure(std::ostream& out, const Scene& scene, const VisibilityMap& map,
             const MapPictureOptions& options)
       : text_(out), scene_(scene), map_(map), options_(options) {
-    plate_ = fit_map(map, options.size - 2 * padding, options.size - header - footer);
-    width_ = std::max(plate_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
-    height_ = plate_.height + header + footer;
-    left_ = (width_ - plate_.width) / 2;
-    plate_.transform.middle.x += left_;
-    plate_.transform.middle.y += header;
+    layout_ = fit_map(map, options.size - 2 * padding, options.size - header - footer);
+    width_ = std::max(layout_.width + 2 * padding, in_pixels() ? least_width + 130 : least_width);
+    height_ = layout_.height + header + footer;
+    left_ = (width_ - layout_.width) / 2;
+    layout_.transform.middle.x += left_;
+    layout_.transform.middle.y += header;
   }
 
   void write() {
     begin();
     add_header();
-    add_plate();
+    add_map();
     if (!map_.corners.empty()) {
       add_scale_bar();
     }
@@ -69,13 +72,13 @@ class SvgFigure {
 
  private:
   static constexpr double padding = 24, header = 104, footer = 92, least_width = 470;
-  /// Of the bold letters of the title, at most, on average.
+  /// Upper bound of the mean width of the title's bold letters, pixels.
   static constexpr double title_letter = 13;
 
   std::string heading(const std::string& scene_name) const {
     return map_.receiver == no_patch
                ? fmt::format("Visibility map of {}", scene_name)
-               : fmt::format("What patch {} of {} sees", map_.receiver, scene_name);
+               : fmt::format("Visible from patch {} of {}", map_.receiver, scene_name);
   }
 
   void begin() {
@@ -87,8 +90,8 @@ class SvgFigure {
     text_.add("  <title>{}</title>\n", xml_text(heading(scene_.name())));
     const Vec3& omega = map_.frame.omega;
     text_.add("  <desc>transillum " TRANSILLUM_VERSION
-              "; direction omega = {}, {}, {}; seen along omega; {} pixels a meter</desc>\n",
-              omega.x, omega.y, omega.z, plate_.transform.scale);
+              "; direction omega = {}, {}, {}; view along omega; {} pixels per meter</desc>\n",
+              omega.x, omega.y, omega.z, layout_.transform.scale);
     text_.add("{}", style);
     text_.add("  <rect class=\"page\" width=\"100%\" height=\"100%\"/>\n");
   }
@@ -101,7 +104,7 @@ class SvgFigure {
               xml_text(heading(name)));
     const Vec3& omega = map_.frame.omega;
     text_.add(
-        "  <text x=\"{}\" y=\"66\">Seen along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the "
+        "  <text x=\"{}\" y=\"66\">View along \u03c9 = ({:.4g}, {:.4g}, {:.4g}), toward the "
         "light</text>\n",
         padding, omega.x, omega.y, omega.z);
     double area = 0;
@@ -112,23 +115,21 @@ class SvgFigure {
       patches += polygon.patch != last ? 1 : 0;
       last = polygon.patch;
     }
-    const std::string parts =
-        in_pixels()
-            ? fmt::format("pixels of {:.3g} m, together {:.4g} m\u00b2", map_.pixels.side, area)
-            : fmt::format("{} polygons of together {:.4g} m\u00b2", map_.polygons.size(), area);
-    text_.add("  <text x=\"{}\" y=\"86\">{} of {} patches, in {}</text>\n", padding, patches,
-              scene_.patch_count(), parts);
+    const std::string parts = in_pixels() ? fmt::format("pixels of {:.3g} m", map_.pixels.side)
+                                          : fmt::format("{} polygons", map_.polygons.size());
+    text_.add("  <text x=\"{}\" y=\"86\">{} of {} patches, {}, total area {:.4g} m\u00b2</text>\n",
+              padding, patches, scene_.patch_count(), parts, area);
   }
 
-  void add_plate() {
+  void add_map() {
     text_.add(
         "  <rect class=\"ground\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
         "rx=\"4\" fill=\"{}\"/>\n",
-        left_, header, plate_.width, plate_.height, hex(map_colors::ground));
+        left_, header, layout_.width, layout_.height, hex(map_colors::ground));
     add_window();
-    // Crisp: rectangles that meet leave no seam between them.
+    // crispEdges: no background shows between adjacent rectangles.
     text_.add("  <g class=\"map\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\"{}>\n",
-              line_width(map_, plate_.transform.scale),
+              line_width(map_, layout_.transform.scale),
               in_pixels() ? " shape-rendering=\"crispEdges\"" : "");
     auto first = map_.polygons.begin();
     while (first != map_.polygons.end()) {
@@ -147,14 +148,14 @@ class SvgFigure {
       return;
     }
     text_.add("  <text class=\"note\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", width_ / 2,
-              header + plate_.height / 2, xml_text(reason));
+              header + layout_.height / 2, xml_text(reason));
   }
 
   void add_outlines(std::span<const VisibilityMap::Polygon> polygons) {
     for (const VisibilityMap::Polygon& polygon : polygons) {
       char command = 'M';
       for (const Vec2& p : map_.outline(polygon)) {
-        const Vec2 at = plate_.transform.to_pixels(p);
+        const Vec2 at = layout_.transform.to_pixels(p);
         text_.add("{}{:.7g} {:.7g}", command, at.x, at.y);
         command = 'L';
       }
@@ -169,16 +170,16 @@ class SvgFigure {
       text_.add("    <path class=\"difference\" fill=\"{}\" fill-opacity=\"{}\" d=\"",
                 hex(map_colors::difference), map_colors::difference_opacity);
       add_outlines({&polygon, 1});
-      text_.add("\"><title>{} is seen here</title></path>\n",
+      text_.add("\"><title>{} is visible here</title></path>\n",
                 polygon.patch == no_patch ? std::string("nothing")
                                           : fmt::format("patch {}", polygon.patch));
     }
     const std::vector<Vec2>& ends = map_.pixels.borders;
     text_.add("  <path class=\"border\" stroke-width=\"{:.3g}\" stroke-opacity=\"0.6\" d=\"",
-              line_width(map_, plate_.transform.scale));
+              line_width(map_, layout_.transform.scale));
     for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-      const Vec2 a = plate_.transform.to_pixels(ends[k]),
-                 b = plate_.transform.to_pixels(ends[k + 1]);
+      const Vec2 a = layout_.transform.to_pixels(ends[k]),
+                 b = layout_.transform.to_pixels(ends[k + 1]);
       text_.add("M{:.7g} {:.7g}L{:.7g} {:.7g}", a.x, a.y, b.x, b.y);
     }
     text_.add("\"/>\n");
@@ -194,7 +195,7 @@ class SvgFigure {
     text_.add("\"><title>patch {} sees nothing here</title></path>\n", map_.receiver);
   }
 
-  /// All polygons of one patch as one path.
+  /// Writes all polygons of one patch as one path.
   void add_patch(std::span<const VisibilityMap::Polygon> polygons) {
     const VisibilityMap::Polygon& any = polygons.front();
     double area = 0;
@@ -203,56 +204,56 @@ class SvgFigure {
     }
     text_.add("    <path class=\"{} p{} {}{}\" data-area=\"{}\" fill=\"{}\" d=\"",
               in_pixels() ? "patch pixel" : "patch", any.patch, any.front_facing ? "front" : "back",
-              look_of(scene_, any) == PatchLook::emits ? " emits" : "", area,
+              role_of(scene_, any) == PatchRole::emits ? " emits" : "", area,
               hex(color_of(scene_, any, options_)));
     add_outlines(polygons);
-    text_.add("\"><title>patch {} ({}), {}, area {:.4g} m\u00b2</title></path>\n", any.patch,
+    text_.add("\"><title>patch {} ({}): {}; area {:.4g} m\u00b2</title></path>\n", any.patch,
               xml_text(scene_.material(any.patch).name), description(any), area);
   }
 
   std::string description(const VisibilityMap::Polygon& polygon) const {
     const Rgb& exitance = scene_.exitance(polygon.patch);
-    switch (look_of(scene_, polygon)) {
-      case PatchLook::emits:
-        return fmt::format("shines down: emits {:.4g}, {:.4g}, {:.4g} W/m\u00b2", exitance.r,
-                           exitance.g, exitance.b);
-      case PatchLook::reflects:
-        return "shines down";
-      case PatchLook::back_side:
+    switch (role_of(scene_, polygon)) {
+      case PatchRole::emits:
+        return fmt::format("emits {:.4g}, {:.4g}, {:.4g} W/m\u00b2", exitance.r, exitance.g,
+                           exitance.b);
+      case PatchRole::reflects:
+        return "reflects";
+      case PatchRole::back_side:
         break;
     }
-    return "turns its back, " + what_it_sees(polygon.patch);
+    return "back side, " + sources_text(polygon.patch);
   }
 
-  /// The sources of most area first.
-  std::string what_it_sees(PatchId patch) const {
-    constexpr std::size_t most = 6;
+  /// Which patches a receiver sees, those of largest area first.
+  std::string sources_text(PatchId patch) const {
+    constexpr std::size_t max_listed = 6;
     const auto [first, last] =
         std::equal_range(map_.exchanges.begin(), map_.exchanges.end(), Transfer{patch, 0, 0},
                          [](const auto& a, const auto& b) { return a.receiver < b.receiver; });
     if (first == last) {
-      return "sees no patch above";
+      return "sees no patch";
     }
     std::vector<Transfer> seen(first, last);
     std::stable_sort(seen.begin(), seen.end(),
                      [](const auto& a, const auto& b) { return a.area > b.area; });
-    std::string words = seen.size() == 1 ? "sees patch " : "sees patches ";
-    for (std::size_t k = 0; k < std::min(most, seen.size()); ++k) {
-      words += fmt::format("{}{}", k > 0 ? ", " : "", seen[k].source);
+    std::string text = seen.size() == 1 ? "sees patch " : "sees patches ";
+    for (std::size_t k = 0; k < std::min(max_listed, seen.size()); ++k) {
+      text += fmt::format("{}{}", k > 0 ? ", " : "", seen[k].source);
     }
-    if (seen.size() > most) {
-      words += fmt::format(" and {} more", seen.size() - most);
+    if (seen.size() > max_listed) {
+      text += fmt::format(" and {} more", seen.size() - max_listed);
     }
-    return words;
+    return text;
   }
 
   void add_scale_bar() {
-    // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
-    const double most = width_ / 4 / plate_.transform.scale;
-    const double power = std::pow(10.0, std::floor(std::log10(most)));
-    const double lead = most / power;
+    // The largest 1, 2 or 5 times a power of ten that is at most a quarter of the width.
+    const double max_length = width_ / 4 / layout_.transform.scale;
+    const double power = std::pow(10.0, std::floor(std::log10(max_length)));
+    const double lead = max_length / power;
     const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
-    const double length = meters * plate_.transform.scale;
+    const double length = meters * layout_.transform.scale;
     const double y = height_ - 62;
     text_.add("  <path class=\"rule\" d=\"M{0} {2}v8M{0} {3}H{1:.2f}M{1:.2f} {2}v8\"/>\n", padding,
               padding + length, y - 4, y);
@@ -269,12 +270,9 @@ class SvgFigure {
     text_.add("  <text x=\"{}\" y=\"{}\">v</text>\n", x + 7, y - 13);
   }
 
-  /// Whether the receiver sees nothing in a part of its window.
+  /// Whether nothing is above a part of the receiver.
   bool leaves_a_gap() const {
-    double area = 0;
-    for (const VisibilityMap::Polygon& polygon : map_.window) {
-      area += polygon.area;
-    }
+    const double area = total_area(map_.window);
     double open = area;
     for (const VisibilityMap::Polygon& polygon : map_.polygons) {
       open -= polygon.area;
@@ -292,23 +290,23 @@ class SvgFigure {
       text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", x + 22, height_ - 21.5, words);
       x += width;
     };
-    const auto add = [&](PatchLook look, const char* words, double width) {
+    const auto add = [&](PatchRole role, const char* words, double width) {
       const auto found =
           std::find_if(map_.polygons.begin(), map_.polygons.end(), [&](const auto& polygon) {
-            // Not what no eye can see, such as what rounding leaves over.
-            const double pixels = polygon.area * std::pow(plate_.transform.scale, 2);
-            return pixels > 0.1 && look_of(scene_, polygon) == look;
+            // Ignore polygons too small to be visible, such as rounding residues.
+            const double pixels = polygon.area * std::pow(layout_.transform.scale, 2);
+            return pixels > 0.1 && role_of(scene_, polygon) == role;
           });
       if (found != map_.polygons.end()) {
         entry(color_of(scene_, *found, options_), words, width);
       }
     };
-    // Colors of the caller's mean what the caller says.
+    // The meaning of the caller's colors is not known here.
     if (options_.patch_colors.empty()) {
-      add(PatchLook::emits, "emits", 84);
-      add(PatchLook::reflects, "reflects", 102);
+      add(PatchRole::emits, "emits", 84);
+      add(PatchRole::reflects, "reflects", 102);
     }
-    add(PatchLook::back_side, "back side", 112);
+    add(PatchRole::back_side, "back side", 112);
     if (leaves_a_gap()) {
       entry(map_colors::nothing, "nothing above", 132);
     }
@@ -322,7 +320,7 @@ class SvgFigure {
   const Scene& scene_;
   const VisibilityMap& map_;
   const MapPictureOptions& options_;
-  MapPlate plate_;
+  MapLayout layout_;
   double width_ = 0, height_ = 0, left_ = 0;
 };
 

@@ -16,7 +16,7 @@ void add_vector(vtkFieldData& fields, const char* name, const Vec3& vector) {
   add_numbers(fields, name, 3, [&](int k) { return xyz[k]; });
 }
 
-/// Differences lie over what a picture in pixels shows.
+/// The polygons of a map, followed by the differences if it is a map in pixels.
 std::vector<VisibilityMap::Polygon> all_polygons(const VisibilityMap& map) {
   std::vector<VisibilityMap::Polygon> all = map.polygons;
   all.insert(all.end(), map.pixels.differences.begin(), map.pixels.differences.end());

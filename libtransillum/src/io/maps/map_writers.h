@@ -7,7 +7,7 @@
 
 namespace transillum {
 
-// One writer a format of write_map().
+// One writer per format of write_map().
 
 void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options);
