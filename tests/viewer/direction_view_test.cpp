@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The sphere of directions and the table of received light, against eq. 11.
 #include "directions/direction_view.h"
 
 #include <QDockWidget>
@@ -10,6 +12,7 @@
 #include "directions/received_table.h"
 #include "solved_window.h"
 #include "state/step_events.h"
+#include "transillum/at.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -51,7 +54,7 @@ class DirectionViewTest : public QObject {
   }
 
   /// Eq. 11: what a patch receives is the sum over directions.
-  void parts_add_up_to_the_irradiance() {
+  void contributions_sum_to_the_irradiance() {
     Shown shown("cornell-box");
     const Solution solution = solve(load_scene("cornell-box"), {.directions = 32});
     for (const PatchId patch : {0, 3, 7}) {
@@ -60,13 +63,13 @@ class DirectionViewTest : public QObject {
       QCOMPARE(received.size(), std::size_t{64});
       const double sum = std::accumulate(received.begin(), received.end(), 0.0);
       const double irradiance = luminance(at(solution.irradiance, patch));
-      // The view takes the newest B, H is of the one before: as far apart as the tolerance says.
+      // The view uses the newest B, H the previous one: they differ by the tolerance at most.
       QVERIFY2(std::abs(sum - irradiance) <= 1e-4 * irradiance,
                qPrintable(QString("patch %1: %2, not %3").arg(patch).arg(sum).arg(irradiance)));
     }
   }
 
-  void light_comes_from_where_the_patch_looks() {
+  void only_directions_on_the_front_side_contribute() {
     Shown shown("cornell-box");
     shown.select(0);
     const Vec3 normal = shown.window->snapshot()->loaded->scene->patch(0).normal;
@@ -83,8 +86,8 @@ class DirectionViewTest : public QObject {
     QVERIFY(lit > 8);
   }
 
-  /// Eq. 11 to the last step: B(n+1) = E + rho H, H what the table adds up.
-  void the_table_adds_up_to_the_next_radiosity() {
+  /// Eq. 11: B(n+1) = E + rho H, with H the sum over the table.
+  void the_table_sums_to_the_next_radiosity() {
     Shown shown("cornell-box");
     shown.window->findChild<QDockWidget*>("received_dock")->raise();
     auto* view = shown.window->findChild<QTableView*>("received_light");
@@ -98,23 +101,22 @@ class DirectionViewTest : public QObject {
       QVERIFY(wait_for([&] { return focus.arrived(); }));
       for (const PatchId patch : {0, 3, 7}) {
         shown.window->selection().select(patch);
-        // Edge-on ones take no part.
+        // One of each pair is on the front side; edge-on directions are not listed.
         QVERIFY(wait_for([&] { return table->rowCount() >= 30 && table->rowCount() <= 32; }));
-        const auto at = static_cast<std::size_t>(patch);
-        const Rgb next = (*snapshot->kept_radiosity[static_cast<std::size_t>(n) + 1])[at];
+        const Rgb next = at(*at(snapshot->kept_radiosity, n + 1), patch);
         QTRY_VERIFY(max_abs(scene.exitance(patch) + scene.reflectance(patch) * table->irradiance() -
                             next) <= 1e-9 * max_abs(next));
       }
     }
-    // The strongest comes first, and a double click goes to where it is received.
-    double last = HUGE_VAL, seen = 0;
+    // The largest contribution comes first; a double click goes to the step that receives it.
+    double last = HUGE_VAL, largest = 0;
     for (int row = 0; row < table->rowCount(); ++row) {
       QVERIFY(luminance(table->light(row).irradiance) <= last);
       QVERIFY(table->light(row).cosine > 0);
       last = luminance(table->light(row).irradiance);
-      seen = std::max(seen, last);
+      largest = std::max(largest, last);
     }
-    QVERIFY(seen > 0);
+    QVERIFY(largest > 0);
     const ReceivedLight most = table->light(0);
     const QPoint place = view->visualRect(table->index(0, ReceivedTable::of_share)).center();
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place);
@@ -133,8 +135,8 @@ class DirectionViewTest : public QObject {
     save_picture(*shown.window, "received");
   }
 
-  /// Of a growing run: each step with as many directions as it had.
-  void the_table_adds_up_in_a_growing_run() {
+  /// In a growing run each iteration has its own number of directions.
+  void the_table_sums_to_the_next_radiosity_in_a_growing_run() {
     MainWindow window(false);
     SolveOptions options;
     options.directions = 64;
@@ -156,13 +158,13 @@ class DirectionViewTest : public QObject {
       window.focus().go_to({n, 5, 10});
       QVERIFY(wait_for([&] { return window.focus().arrived(); }));
       QCOMPARE(window.focus().passes_of(n), 16 << n);
-      const Rgb next = (*snapshot->kept_radiosity[static_cast<std::size_t>(n) + 1])[3];
+      const Rgb next = (*at(snapshot->kept_radiosity, n + 1))[3];
       QTRY_VERIFY(max_abs(scene.exitance(3) + scene.reflectance(3) * table->irradiance() - next) <=
                   1e-9 * max_abs(next));
     }
   }
 
-  void a_click_takes_the_focus_there() {
+  void a_click_moves_the_focus_to_the_direction() {
     Shown shown("cornell-box");
     const auto directions = shown.window->snapshot()->directions;
     const QSize size = shown.view->size();
@@ -178,7 +180,7 @@ class DirectionViewTest : public QObject {
     QFAIL("no point was hit");
   }
 
-  void forgets_with_the_scene() {
+  void is_cleared_with_the_scene() {
     Shown shown("cornell-box");
     shown.select(3);
     QVERIFY(!shown.view->received().empty());
@@ -190,4 +192,3 @@ class DirectionViewTest : public QObject {
 
 TRANSILLUM_VIEWER_TEST_MAIN(DirectionViewTest)
 #include "direction_view_test.moc"
-#include "transillum/at.h"

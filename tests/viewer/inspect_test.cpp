@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Inspecting a solved scene in the window: tables, materials, the kept run, overlays and views.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -25,6 +27,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
+/// A solved window with shortcuts to its parts.
 struct Inspected : SolvedWindow {
   using SolvedWindow::SolvedWindow;
 
@@ -54,7 +57,7 @@ class InspectTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void form_factors_come_when_they_are_asked_for() {
+  void form_factors_are_computed_on_demand() {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     QVERIFY(!shown.window->snapshot()->form_factors);
@@ -95,7 +98,7 @@ class InspectTest : public QObject {
     QVERIFY(partners.row_of(7) >= 0);
   }
 
-  void a_search_finds_and_a_file_is_written_whole() {
+  void search_selects_a_patch_and_csv_has_every_row() {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     shown.trigger("find_patch");
@@ -105,7 +108,7 @@ class InspectTest : public QObject {
     QTest::keyClicks(search, "12");
     QTest::keyClick(search, Qt::Key_Return);
     QCOMPARE(shown.window->selection().patch(), PatchId{12});
-    // That number itself, though the numbers of patches further up begin so too.
+    // Patch 1 itself, not one listed before it whose number begins with 1.
     shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::DescendingOrder);
     QTest::keyClicks(search, "1");
     QVERIFY(all.rowCount() > 1 && all.patch(0) != PatchId{1});
@@ -123,14 +126,14 @@ class InspectTest : public QObject {
                              std::runtime_error);
   }
 
-  void a_slider_changes_the_light_and_undo_brings_it_back_data() {
+  void a_slider_relights_the_scene_and_undo_restores_it_data() {
     QTest::addColumn<QString>("how");
     for (const char* how : {"fixed", "first shot", "semi-iterative"}) {
       QTest::newRow(how) << QString::fromLatin1(how);
     }
   }
 
-  void a_slider_changes_the_light_and_undo_brings_it_back() {
+  void a_slider_relights_the_scene_and_undo_restores_it() {
     QFETCH(const QString, how);
     SolveOptions options{.directions = 32};
     if (how == "first shot") {
@@ -160,7 +163,7 @@ class InspectTest : public QObject {
     QVERIFY(exposure->isHidden());
     slider->setValue(2 * slider->value());
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
-    // All is twice as bright, but not in the picture.
+    // B doubles, but automatic exposure keeps the picture the same.
     QVERIFY(!exposure->isHidden());
     shown.window->colors().set_automatic_exposure(false);
     QVERIFY(exposure->isHidden());
@@ -168,7 +171,8 @@ class InspectTest : public QObject {
     const auto after = shown.window->snapshot();
     QCOMPARE(after->progress.passes, before->progress.passes);
     QVERIFY(std::abs(material_of(*after, light).exitance.r / scene.exitance(light).r - 2) < 1e-9);
-    // The relation of the channels is kept, so all light doubles; but it is that of all iterations.
+    // The slider keeps the ratio of the channels, so B doubles; relighting solves to convergence,
+    // hence the comparison with the relit original.
     const Rgb dark =
         relight(scene, *before->form_factors, scene.materials(), {.shot = before->shot.get()})
             .radiosity[0];
@@ -182,7 +186,7 @@ class InspectTest : public QObject {
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
   }
 
-  void an_error_without_replicas_offers_to_solve_with_them() {
+  void coloring_by_error_offers_to_solve_with_replicas() {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     const auto* button = shown.part<QPushButton>("solve_with_replicas");
@@ -201,7 +205,7 @@ class InspectTest : public QObject {
     QVERIFY(!shown.window->colors().values().empty());
   }
 
-  void a_drag_is_undone_as_one() {
+  void a_drag_is_one_undo_step() {
     MaterialEdits edits;
     edits.start_with(load_scene("cornell-box")->materials());
     const Rgb rho = edits.materials()[0].reflectance;
@@ -223,7 +227,7 @@ class InspectTest : public QObject {
     QCOMPARE(edits.materials()[0].reflectance.r, 0.3);
   }
 
-  void a_held_key_shows_the_kept_run() {
+  void holding_a_key_shows_the_kept_run() {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     shown.trigger("keep_run");
@@ -239,7 +243,7 @@ class InspectTest : public QObject {
     QTest::keyPress(shown.window.get(), Qt::Key_A);
     QVERIFY(shown.window->colors().shows_kept_run());
     QVERIFY(shown.window->colors().patch_colors() != second);
-    // A blink comparison: but for the light nothing changes.
+    // For a blink comparison nothing may move: only colors change.
     QTest::qWait(50);
     QVERIFY(shown.part<QLabel>("kept_run_label")->isVisible());
     QCOMPARE(place(), before);
@@ -251,7 +255,7 @@ class InspectTest : public QObject {
     QVERIFY(shown.window->colors().missing().isEmpty());
   }
 
-  void each_thing_to_show_changes_the_picture() {
+  void each_overlay_changes_the_picture() {
     const Inspected shown("rooms");
     QVERIFY(shown.ready);
     for (const char* name :
@@ -264,7 +268,7 @@ class InspectTest : public QObject {
     }
   }
 
-  void views_are_from_their_sides_and_show_all() {
+  void standard_views_show_the_whole_scene_from_their_side() {
     for (const char* spec : {"cornell-box", "rooms"}) {
       const auto scene = load_scene(spec);
       const Vec3 middle = scene->bounds().center();
@@ -273,13 +277,13 @@ class InspectTest : public QObject {
       for (const Side side :
            {Side::front, Side::back, Side::left, Side::right, Side::top, Side::bottom}) {
         const ViewPoint view = standard_view(*scene, side, 1.5);
-        const Vec3 way = normalized(view.eye - middle);
-        sum = sum + way;
-        QVERIFY(std::abs(dot(way, normalized(view.up))) < 1e-12);
-        QCOMPARE(dot(way, up) > 0.5, side == Side::top);
+        const Vec3 toward_eye = normalized(view.eye - middle);
+        sum = sum + toward_eye;
+        QVERIFY(std::abs(dot(toward_eye, normalized(view.up))) < 1e-12);
+        QCOMPARE(dot(toward_eye, up) > 0.5, side == Side::top);
         for (const Vec3& p : scene->points()) {
-          // Within the cone of sight, upright.
-          const double depth = dot(view.eye - p, way);
+          // Within the vertical field of view.
+          const double depth = dot(view.eye - p, toward_eye);
           QVERIFY(std::abs(dot(p - view.eye, view.up)) <=
                   depth * std::tan(0.5 * view.view_angle * 0.017453292519943295));
         }
@@ -288,7 +292,7 @@ class InspectTest : public QObject {
     }
   }
 
-  void kept_views_bring_the_camera_back() {
+  void kept_views_restore_the_camera() {
     const Inspected shown("rooms");
     QVERIFY(shown.ready);
     const ViewPoint first = shown.scene_view->view_point();

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The format of lesson files: every key, its default, and the error for each mistake.
 #include <QTest>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +25,7 @@ class LessonFormatTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_page_tells_all() {
+  void reads_every_key_of_a_page() {
     const Lesson l = lesson_from_text(
         lesson(page(R"("scene": "boards", "options": {"directions": 16, "two-way": false,
           "sampling": "random", "seed": 7, "first-shot": "auto", "max-patch-area": 0.5},
@@ -68,7 +70,7 @@ class LessonFormatTest : public QObject {
     QCOMPARE(to_json(view_state_from_json(written, "w", "")).dump(), written.dump());
   }
 
-  void a_page_keeps_what_the_one_before_told() {
+  void a_page_keeps_the_state_of_the_page_before() {
     const Lesson l = lesson_from_text(
         lesson(page(R"("scene": "boards", "options": {"directions": 16}, "select": 3,
                        "layout": "teach")") +
@@ -80,7 +82,7 @@ class LessonFormatTest : public QObject {
     QCOMPARE(second.options.solve.directions, 16);
     QVERIFY(second.options.solve.sampling == Sampling::random);
     QCOMPARE(second.selection, no_patch);
-    // Another scene begins anew, but for the layout.
+    // Another scene resets everything but the layout.
     const ViewState& third = l.pages[2].state;
     QCOMPARE(third.options.solve.directions, SolveOptions().directions);
     QVERIFY(third.layout == Layout::teach);
@@ -92,11 +94,11 @@ class LessonFormatTest : public QObject {
     QCOMPARE(l.pages[0].text, std::string("a\n\nb\n"));
   }
 
-  void a_bad_file_is_told_by_file_page_and_what_data() {
+  void errors_name_file_page_and_key_data() {
     QTest::addColumn<QString>("text");
-    QTest::addColumn<QString>("told");
-    const auto row = [](const char* name, const std::string& text, const char* told) {
-      QTest::newRow(name) << QString::fromStdString(text) << QString(told);
+    QTest::addColumn<QString>("expected");
+    const auto row = [](const char* name, const std::string& text, const char* expected) {
+      QTest::newRow(name) << QString::fromStdString(text) << QString(expected);
     };
     row("no JSON", "{\n\"title\": \"T\"\n\"pages\": []}", "bad.json, line 3: ");
     row("empty", "", "bad.json, line 1: ");
@@ -146,20 +148,20 @@ class LessonFormatTest : public QObject {
     row("layout", lesson(page(R"("layout": "debugging")")), "page 1, layout: ");
     row("panels", lesson(page(R"("panels": "map")")), "page 1, panels: ");
   }
-  void a_bad_file_is_told_by_file_page_and_what() {
+  void errors_name_file_page_and_key() {
     QFETCH(QString, text);
-    QFETCH(QString, told);
+    QFETCH(QString, expected);
     try {
       lesson_from_text(text.toStdString(), "bad.json");
-      QFAIL("it was taken");
+      QFAIL("the lesson was accepted");
     } catch (const InputError& error) {
       const QString message = error.what();
-      QVERIFY2(message.startsWith("bad.json") && message.contains(told), qPrintable(message));
+      QVERIFY2(message.startsWith("bad.json") && message.contains(expected), qPrintable(message));
       QVERIFY2(!message.contains('\n'), qPrintable(message));
     }
   }
 
-  void a_file_that_is_not_there_is_told() {
+  void a_missing_file_is_an_error() {
     QVERIFY_EXCEPTION_THROWN(read_lesson("/no/such/lesson.json"), InputError);
   }
 
@@ -188,7 +190,7 @@ class LessonFormatTest : public QObject {
     QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});
   }
 
-  void unknown_panels_are_told() {
+  void unknown_panels_are_errors() {
     const Lesson l = lesson_from_text(lesson(page(R"("panels": ["map", "mop"])")), "a.json");
     QVERIFY_EXCEPTION_THROWN(check_panels(l, "a.json", {"map"}), InputError);
     check_panels(l, "a.json", {"map", "mop"});

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Lessons in the viewer's window: pages set it up, errors are reported, pages turn in any order.
 #include <QComboBox>
 #include <QDir>
 #include <QLabel>
@@ -7,6 +9,7 @@
 
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
+#include "transillum/at.h"
 #include "window/view_state_applier.h"
 
 using namespace transillum;
@@ -15,6 +18,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
+/// A window for lessons.
 struct Taught {
   std::unique_ptr<MainWindow> window = make_window();
   LessonPanel* panel = window->findChild<LessonPanel*>();
@@ -40,7 +44,7 @@ class LessonsTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_lesson_drives_the_window() {
+  void pages_set_up_the_window() {
     Taught taught;
     MainWindow& window = *taught.window;
     const QTemporaryDir folder;
@@ -64,7 +68,7 @@ class LessonsTest : public QObject {
 
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
-    QCOMPARE(window.snapshot()->progress.direction, 5);  // not solved anew
+    QCOMPARE(window.snapshot()->progress.direction, 5);  // not solved again
     QVERIFY(!taught.focus().following());
     QCOMPARE(taught.focus().position().direction, 8);
     QCOMPARE(taught.focus().position().step, 2);
@@ -81,7 +85,7 @@ class LessonsTest : public QObject {
     QVERIFY(taught.focus().map()->history.step(taught.focus().position().step).exchanges > 0);
     QCOMPARE(window.findChild<QAction*>("lesson_next")->text(), QString("Next lesson"));
 
-    // Back is back: fewer directions than are solved mean a solve anew.
+    // The first page shows fewer directions than are solved: they are solved again.
     taught.trigger("lesson_previous");
     taught.trigger("lesson_previous");
     QVERIFY(taught.settles());
@@ -91,14 +95,14 @@ class LessonsTest : public QObject {
     QVERIFY(window.colors().scale().mode == ColorMode::true_color);
     QVERIFY(!window.findChild<QAction*>("lesson_previous")->isEnabled());
 
-    // Who has looked around comes back.
+    // Changes by the user are reverted.
     window.selection().select(1);
     taught.trigger("lesson_again");
     QVERIFY(taught.settles());
     QCOMPARE(window.selection().patch(), PatchId{4});
   }
 
-  void a_bad_lesson_is_told_and_changes_nothing() {
+  void a_bad_lesson_is_reported_and_changes_nothing() {
     Taught taught;
     const std::size_t lessons = taught.panel->lessons().size();
     const QTemporaryDir folder;
@@ -106,13 +110,13 @@ class LessonsTest : public QObject {
     write(path,
           R"({"title": "T", "pages": [{"text": ""}, {"text": "", "show": {"panels": ["mop"]}}]})");
     taught.window->open_lesson(path);
-    const QString told = taught.window->banner_text();
-    QVERIFY2(told.contains("bad.json, page 2") && told.contains("mop"), qPrintable(told));
+    const QString message = taught.window->banner_text();
+    QVERIFY2(message.contains("bad.json, page 2") && message.contains("mop"), qPrintable(message));
     QCOMPARE(taught.panel->lessons().size(), lessons);
     QCOMPARE(taught.panel->lesson(), -1);
   }
 
-  void a_page_whose_scene_is_missing_says_so_and_can_be_left() {
+  void a_missing_scene_is_reported_and_the_next_page_works() {
     Taught taught;
     const QTemporaryDir folder;
     const QString path = folder.filePath("lost.json");
@@ -125,7 +129,7 @@ class LessonsTest : public QObject {
     QCOMPARE(QString::fromStdString(taught.window->spec()), QString("furnace"));
   }
 
-  void a_page_that_asks_for_what_is_not_there_says_so() {
+  void missing_patches_and_directions_are_reported() {
     Taught taught;
     const QTemporaryDir folder;
     const QString path = folder.filePath("beyond.json");
@@ -139,7 +143,7 @@ class LessonsTest : public QObject {
     QVERIFY(wait_for([&] { return taught.window->banner_text().contains("no direction 5"); }));
   }
 
-  void pages_turn_over_the_ends_of_lessons() {
+  void turning_past_the_last_page_opens_the_next_lesson() {
     LessonPanel panel(built_in_lessons());
     panel.show();
     const auto at = [&panel] { return std::pair(panel.lesson(), panel.page()); };
@@ -155,7 +159,7 @@ class LessonsTest : public QObject {
     const int end = static_cast<int>(panel.lessons().back().pages.size()) - 1;
     panel.show_page(lessons - 1, end);
     QVERIFY(!next->isEnabled());
-    // The list has the same keys for its rows.
+    // The list of lessons does not handle these keys.
     for (const int key : {Qt::Key_PageDown, Qt::Key_PageUp}) {
       panel.show_page(key == Qt::Key_PageUp ? 0 : lessons - 1, key == Qt::Key_PageUp ? 0 : end);
       const auto before = at();
@@ -164,14 +168,14 @@ class LessonsTest : public QObject {
     }
   }
 
-  void a_scene_that_is_chosen_keeps_nothing_of_a_lesson() {
+  void opening_a_scene_resets_what_a_lesson_set() {
     Taught taught;
     MainWindow& window = *taught.window;
     window.colors().set_logarithmic(true);
     window.begin_lesson("2", 3);
     QVERIFY(taught.settles());
     QVERIFY(window.map_view()->labels_shown() && !taught.focus().following());
-    // The lesson's own scene, and another; a fixed exposure is the scene's before.
+    // The lesson's scene and another one, each after the exposure was fixed.
     for (const std::string& scene : {window.spec(), std::string("furnace")}) {
       window.colors().set_exposure(-3);
       window.findChild<SceneView*>()->look_from_side(Side::top);
@@ -191,7 +195,7 @@ class LessonsTest : public QObject {
     }
   }
 
-  void pages_that_come_quickly_end_with_the_last() {
+  void turning_pages_quickly_ends_with_the_last() {
     Taught taught;
     QVERIFY(!taught.panel->lessons().empty());
     const auto& first = taught.panel->lessons().front();
@@ -204,19 +208,19 @@ class LessonsTest : public QObject {
     QCOMPARE(taught.window->selection().patch(), last.selection);
   }
 
-  void every_page_that_comes_along_can_be_shown_data() {
+  void every_built_in_page_can_be_shown_data() {
     QTest::addColumn<int>("lesson");
     for (int k = 0; k < static_cast<int>(built_in_lessons().size()); ++k) {
       QTest::newRow(at(built_in_lessons(), k).title.c_str()) << k;
     }
   }
-  void every_page_that_comes_along_can_be_shown() {
+  void every_built_in_page_can_be_shown() {
     QFETCH(int, lesson);
     Taught taught;
     check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->docks().panels());
     const auto& pages = at(built_in_lessons(), lesson).pages;
     for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
-      // What a page shows does not hang on how finely it is solved, but how long it takes does.
+      // Few directions, to save time: what is checked here does not depend on their number.
       ViewState state = at(pages, k).state;
       state.options.solve.directions = state.focus ? state.focus->direction + 1 : 4;
       state.options.solve.iterations = state.focus ? state.focus->iteration + 1 : 1;
@@ -235,4 +239,3 @@ class LessonsTest : public QObject {
 
 TRANSILLUM_VIEWER_TEST_MAIN(LessonsTest)
 #include "lessons_test.moc"
-#include "transillum/at.h"

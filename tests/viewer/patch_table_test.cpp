@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// PatchTable and its columns: contents, sorting, searching and CSV, on a solved Cornell box.
 #include "patches/patch_table.h"
 
 #include <QElapsedTimer>
@@ -11,6 +13,7 @@
 #include "colors/color_scale.h"
 #include "patches/patch_columns.h"
 #include "solved_snapshot.h"
+#include "transillum/at.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -18,6 +21,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
+/// A table with contents, and its columns by CSV name.
 struct Filled {
   PatchTable table;
   std::vector<PatchColumn> columns;
@@ -60,7 +64,7 @@ class PatchTableTest : public QObject {
   const std::shared_ptr<SolverSnapshot> box_ = solved_snapshot("cornell-box", 64, 2);
 
  private slots:
-  void lists_every_patch_with_what_is_known() {
+  void lists_every_patch_with_all_quantities() {
     const Filled all(rows_of_all(*box_));
     QCOMPARE(all.table.rowCount(), int(box_->loaded->scene->patch_count()));
     for (const char* name : {"patch", "material", "B", "E", "rho", "H", "area", "face", "F_sum",
@@ -73,7 +77,7 @@ class PatchTableTest : public QObject {
     }
   }
 
-  void sorts_both_ways_and_keeps_equals_in_order() {
+  void sorts_ascending_and_descending_and_stably() {
     Filled all(rows_of_all(*box_));
     const int by = all.column("B");
     const auto key = [&](PatchId i) { return luminance(at(box_->radiosity, i)); };
@@ -94,7 +98,7 @@ class PatchTableTest : public QObject {
     }
   }
 
-  void what_is_no_number_does_not_break_the_order() {
+  void nan_sorts_last_in_descending_order() {
     PatchTable table;
     table.sort(0, Qt::DescendingOrder);
     table.set_contents({0, 1, 2, 3}, {numbers("x", {{2}, {NAN}, {3}, {1}})});
@@ -123,7 +127,7 @@ class PatchTableTest : public QObject {
     QCOMPARE(all.table.rowCount(), int(scene.patch_count()));
   }
 
-  void new_values_keep_what_is_marked() {
+  void new_values_keep_the_selection() {
     PatchTable table;
     table.sort(0, Qt::AscendingOrder);
     table.set_contents({0, 1, 2}, {numbers("x", {{1}, {2}, {3}})});
@@ -134,7 +138,7 @@ class PatchTableTest : public QObject {
     QCOMPARE(marked.row(), 2);
   }
 
-  void partners_receive_what_the_irradiance_says() {
+  void received_power_of_partners_sums_to_the_irradiance() {
     const PatchId i = 3;
     const auto& scene = *box_->loaded->scene;
     const PatchRows rows = rows_of_partners(*box_, i);
@@ -172,7 +176,7 @@ class PatchTableTest : public QObject {
     QVERIFY(max_abs(values("sent").front() - there) <= 1e-15 + 1e-12 * max_abs(there));
   }
 
-  void the_csv_is_the_table_bit_for_bit() {
+  void csv_matches_the_table_bit_for_bit() {
     Filled all(rows_of_all(*box_));
     all.table.sort(all.column("area"), Qt::DescendingOrder);
     const auto lines = all.csv_lines();
@@ -185,7 +189,7 @@ class PatchTableTest : public QObject {
     QCOMPARE(all.csv_lines().size(), std::size_t{1});
   }
 
-  void words_with_commas_are_quoted() {
+  void csv_quotes_words_with_commas() {
     PatchTable table;
     PatchColumn word{"Material", {}, "material", PatchColumn::Kind::word, {{0}}, {"a \"b\", c"}};
     table.set_contents({0}, {word});
@@ -194,7 +198,7 @@ class PatchTableTest : public QObject {
     QCOMPARE(out.str(), std::string("material\n\"a \"\"b\"\", c\"\n"));
   }
 
-  void twenty_thousand_rows_are_quick() {
+  void sorts_twenty_thousand_rows_fast() {
     std::vector<PatchId> patches;
     std::vector<Rgb> values;
     for (int i = 0; i < 20000; ++i) {
@@ -215,4 +219,3 @@ class PatchTableTest : public QObject {
 
 QTEST_APPLESS_MAIN(PatchTableTest)
 #include "patch_table_test.moc"
-#include "transillum/at.h"

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The pictures of the manual and of the welcome page. Where TRANSILLUM_PICTURES names a folder they
-// are written there (viewer/pictures/make); otherwise a few are taken, and looked at only by
-// machine: none may be blank.
+// Renders the pictures of the manual and of the welcome page. If TRANSILLUM_PICTURES names a
+// folder, they are written there (viewer/pictures/make); otherwise only a few are rendered and
+// checked not to be blank.
 #include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
@@ -27,9 +27,9 @@ constexpr QSize window_size{1440, 900};
 
 QString folder() { return qEnvironmentVariable("TRANSILLUM_PICTURES"); }
 
-// Not blank, and not one view in front of nothing; kept where it is asked for.
+// Checks that a picture is not blank, and writes it if folder() is set.
 void keep(const QImage& picture, const QString& name, const QSize& size) {
-  // A furnace has one radiosity: what is left are outlines.
+  // A furnace has one radiosity: only its outlines differ in color.
   QVERIFY2(color_count(picture) > (name == "scene-furnace.png" ? 10 : 40), qPrintable(name));
   if (folder().isEmpty()) {
     return;
@@ -43,7 +43,7 @@ bool settles(MainWindow& window) {
   if (!wait_for(still, 120000)) {
     return false;
   }
-  QTest::qWait(150);  // views that are about to ask for a new picture
+  QTest::qWait(150);  // views may still be about to request a new picture
   return wait_for(still, 120000);
 }
 
@@ -91,7 +91,7 @@ class PicturesTest : public QObject {
     window.selection().select(14);
     window.focus().go_to({0, 3, 20});
     QVERIFY(settles(window));
-    // The map as each engine sees it, side by side.
+    // The map of each engine, side by side.
     auto* map_dock = window.findChild<QDockWidget*>("map_dock");
     map_dock->setFloating(true);
     map_dock->resize(460, 400);
@@ -138,7 +138,7 @@ class PicturesTest : public QObject {
       QVERIFY(settles(window));
       keep(whole(window), QStringLiteral("lesson-%1.png").arg(lesson + 1), {960, 600});
     }
-    // The layout to teach, where something happens.
+    // The Teach layout at a step with an exchange.
     panel->show_page(2, 1);
     QVERIFY(settles(window));
     keep(whole(window), "layout-teach.png", {960, 600});
@@ -166,7 +166,7 @@ class PicturesTest : public QObject {
       window.docks().bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
-      QTest::qWait(500);  // what it asks for beside the solver
+      QTest::qWait(500);  // requests that the panel makes beside the solver
       QVERIFY(settles(window));
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());
@@ -207,14 +207,14 @@ class PicturesTest : public QObject {
         refined.max_patch_area = 0.25;
       }
       window.set_options(options, refined);
-      // One iteration brings the light of a sky; a room wants them all.
+      // One iteration shows the light of a sky; a room requires all of them.
       window.open(name, {name == "sphere-flake" ? Goal::Kind::iteration : Goal::Kind::finished});
       QVERIFY(settles(window));
       auto* view = window.findChild<SceneView*>();
       view->set_outlines_shown(name == "furnace" || name == "boards");
       view->set_direction_shown(false);
       const QImage picture = view->picture(1);
-      // The middle, of the card's shape.
+      // The center, cropped to the aspect ratio of the card.
       const int height = std::min(picture.height(), picture.width() * 5 / 8);
       const int width = height * 8 / 5;
       keep(picture.copy((picture.width() - width) / 2, (picture.height() - height) / 2, width,

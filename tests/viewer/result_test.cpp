@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Opening and exporting result files (.vtp) in the viewer's window.
 #include <QAction>
 #include <QCheckBox>
 #include <QLabel>
@@ -32,7 +34,7 @@ class ResultTest : public QObject {
     write_result(path_.toStdString(), written_);
   }
 
-  void the_figures_of_a_file_are_shown_at_once_and_nothing_is_solved() {
+  void a_result_file_is_shown_without_solving() {
     const auto window = make_window();
     window->files().open(path_);
     QVERIFY(settles(*window));
@@ -52,7 +54,7 @@ class ResultTest : public QObject {
     save_picture(*window, "result");
   }
 
-  void running_solves_its_patches_from_zero_and_stopping_shows_the_file_again() {
+  void run_solves_its_patches_and_start_over_shows_the_file_again() {
     const auto window = make_window(16);
     window->files().open(path_);
     QVERIFY(settles(*window));
@@ -70,7 +72,7 @@ class ResultTest : public QObject {
     QVERIFY(wait_for([&] { return window->snapshot()->of_file; }));
   }
 
-  void what_is_exported_opens_with_the_same_figures() {
+  void an_exported_result_opens_with_the_same_values() {
     const QString path = folder_.filePath("exported.vtp");
     std::vector<Rgb> radiosity;
     {
@@ -90,7 +92,7 @@ class ResultTest : public QObject {
     QVERIFY(text(*window, "color_note").contains("stopped early"));
   }
 
-  void what_cannot_be_read_is_told_with_its_name() {
+  void an_error_names_the_unreadable_file() {
     const QString bad = folder_.filePath("bad.vtp");
     QFile file(bad);
     QVERIFY(file.open(QIODevice::WriteOnly));
@@ -102,7 +104,7 @@ class ResultTest : public QObject {
     QVERIFY(window->banner_text().startsWith(bad + ": "));
   }
 
-  void a_session_comes_back_to_the_file() {
+  void a_session_reopens_the_result_file() {
     const QString session = folder_.filePath("s.json");
     {
       const auto window = make_window();

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Session files in the viewer's window: saving, opening and errors; recent files; exports.
 #include <QAction>
 #include <QDir>
 #include <QPlainTextEdit>
@@ -43,8 +45,39 @@ bool settles(MainWindow& window) {
 class SessionFileTest : public QObject {
   Q_OBJECT
 
+  // Colors, materials and overlays that differ from the defaults.
+  static void change_appearance(MainWindow& window) {
+    window.colors().set_mode(ColorMode::luminance);
+    window.colors().set_range(0.25, 4);
+    window.colors().set_gamma(1.8);
+    window.inspection().edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
+    window.colors().set_exposure(-2);
+    ShowMenu& show = *window.findChild<ShowMenu*>();
+    show.overlay(Overlay::normals)->setChecked(true);
+    show.overlay(Overlay::wireframe)->setChecked(true);
+  }
+  static void check_appearance(MainWindow& window) {
+    QVERIFY(window.colors().scale().mode == ColorMode::luminance);
+    QVERIFY(window.colors().range_rule() == RangeRule::fixed);
+    QCOMPARE(window.colors().scale().low, 0.25);
+    QCOMPARE(window.colors().scale().high, 4.0);
+    QCOMPARE(window.colors().scale().gamma, 1.8);
+    QCOMPARE(window.colors().scale().exposure, -2.0);
+    QVERIFY(!window.colors().exposure_is_automatic());
+    const std::vector<MaterialChange> materials = window.inspection().edits().changes();
+    QCOMPARE(materials.size(), std::size_t{1});
+    QCOMPARE(materials[0].name, window.snapshot()->loaded->scene->material(0).name);
+    QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
+    QVERIFY((materials[0].reflectance == Rgb{0.1, 0.25, 0.625}));
+    const ShowMenu& show = *window.findChild<ShowMenu*>();
+    for (const Overlay overlay : all_overlays) {
+      QCOMPARE(show.overlay(overlay)->isChecked(),
+               overlay == Overlay::normals || overlay == Overlay::wireframe);
+    }
+  }
+
  private slots:
-  void what_is_saved_comes_back() {
+  void a_saved_session_is_restored() {
     const QTemporaryDir folder;
     const QString path = folder.filePath("mine.json");
     ViewPoint camera;
@@ -53,19 +86,12 @@ class SessionFileTest : public QObject {
       QVERIFY(solved.ready);
       MainWindow& window = *solved.window;
       window.selection().select(7);
-      window.colors().set_mode(ColorMode::luminance);
       window.focus().go_to({0, 5, 3});
       QVERIFY(settles(window));
       window.focus().set_phase(Phase::split);
       window.breakpoints().set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
-      window.colors().set_range(0.25, 4);
-      window.colors().set_gamma(1.8);
-      window.inspection().edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
-      window.colors().set_exposure(-2);
-      ShowMenu& show = *window.findChild<ShowMenu*>();
-      show.overlay(Overlay::normals)->setChecked(true);
-      show.overlay(Overlay::wireframe)->setChecked(true);
+      change_appearance(window);
       window.algorithm()->set_kind(MapKind::global);
       camera = solved.scene_view->view_point();
       window.page()->bookmarks().add(camera, "the \"first\" one");
@@ -79,7 +105,6 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->spec(), std::string("furnace"));
     QCOMPARE(window->snapshot()->options.directions, 32);
     QCOMPARE(window->selection().patch(), PatchId{7});
-    QVERIFY(window->colors().scale().mode == ColorMode::luminance);
     const RunPosition there{0, 5, 3};
     QVERIFY(window->focus().position() == there);
     QVERIFY(window->focus().phase() == Phase::split);
@@ -89,22 +114,7 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->findChild<QPlainTextEdit*>("notes")->toPlainText(),
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
-    QVERIFY(window->colors().range_rule() == RangeRule::fixed);
-    QCOMPARE(window->colors().scale().low, 0.25);
-    QCOMPARE(window->colors().scale().high, 4.0);
-    QCOMPARE(window->colors().scale().gamma, 1.8);
-    QCOMPARE(window->colors().scale().exposure, -2.0);
-    QVERIFY(!window->colors().exposure_is_automatic());
-    const std::vector<MaterialChange> materials = window->inspection().edits().changes();
-    QCOMPARE(materials.size(), std::size_t{1});
-    QCOMPARE(materials[0].name, window->snapshot()->loaded->scene->material(0).name);
-    QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
-    QVERIFY((materials[0].reflectance == Rgb{0.1, 0.25, 0.625}));
-    const ShowMenu& show = *window->findChild<ShowMenu*>();
-    for (const Overlay overlay : all_overlays) {
-      QCOMPARE(show.overlay(overlay)->isChecked(),
-               overlay == Overlay::normals || overlay == Overlay::wireframe);
-    }
+    check_appearance(*window);
     QVERIFY(window->algorithm()->kind() == MapKind::global);
     const auto& views = window->page()->bookmarks().all();
     QCOMPARE(views.size(), std::size_t{1});
@@ -113,7 +123,7 @@ class SessionFileTest : public QObject {
     QVERIFY(!window->findChild<QAction*>("undo")->isEnabled());
   }
 
-  void a_locked_range_goes_on_from_its_ends() {
+  void a_locked_range_keeps_its_ends() {
     const QTemporaryDir folder;
     const QString path = folder.filePath("locked.json");
     {
@@ -160,9 +170,9 @@ class SessionFileTest : public QObject {
     QCOMPARE(QString::fromStdString(read.state.scene), other.filePath("room.obj"));
   }
 
-  void a_bad_session_is_told_data() {
+  void errors_name_file_and_key_data() {
     QTest::addColumn<QString>("text");
-    QTest::addColumn<QString>("told");
+    QTest::addColumn<QString>("expected");
     QTest::newRow("no JSON") << "{"
                              << "bad.json, line 1";
     QTest::newRow("neither") << "{}"
@@ -185,19 +195,19 @@ class SessionFileTest : public QObject {
     QTest::newRow("key") << R"({"show": {}, "note": ""})"
                          << "\"note\"";
   }
-  void a_bad_session_is_told() {
+  void errors_name_file_and_key() {
     QFETCH(QString, text);
-    QFETCH(QString, told);
+    QFETCH(QString, expected);
     const QTemporaryDir folder;
     const QString path = folder.filePath("bad.json");
     write(path, text.toUtf8());
     const auto window = make_window();
     window->files().try_open(path);
-    QVERIFY2(window->banner_text().contains(told), qPrintable(window->banner_text()));
+    QVERIFY2(window->banner_text().contains(expected), qPrintable(window->banner_text()));
     QVERIFY(!window->snapshot());
   }
 
-  void files_opened_lately_are_kept() {
+  void recent_files_are_listed() {
     const QTemporaryDir folder;
     const QString path = folder.filePath("room.obj");
     write(path, triangle_room);
@@ -207,7 +217,7 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->files().recent(), QStringList{path});
     window->files().open("furnace");
     QVERIFY(wait_for([&] { return window->spec() == "furnace"; }));
-    QCOMPARE(window->files().recent(), QStringList{path});  // a built-in is no file
+    QCOMPARE(window->files().recent(), QStringList{path});  // built-in scenes are not listed
   }
 
   void a_file_that_changes_is_read_again() {
@@ -219,7 +229,7 @@ class SessionFileTest : public QObject {
     QVERIFY(settles(*window) && window->snapshot()->radiosity.size() == 4);
     window->selection().select(2);
     window->findChild<QAction*>("watch")->setChecked(true);
-    // As a program that writes beside and renames.
+    // As programs do that write a new file and rename it.
     write(path + ".new", QByteArray(triangle_room) + "f 1 2 3\n");
     QVERIFY(QFile::remove(path) && QFile::rename(path + ".new", path));
     QVERIFY(wait_for([&] { return window->snapshot()->radiosity.size() == 5; }, 10000));
@@ -227,7 +237,7 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->selection().patch(), PatchId{2});
   }
 
-  void exports() {
+  void exports_pictures_charts_and_figures() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const ExportActions& exports = solved.window->exports();
@@ -244,7 +254,7 @@ class SessionFileTest : public QObject {
     exports.write_charts(folder.filePath("charts.svg"));
     const QByteArray charts = contents(folder.filePath("charts.svg"));
     QVERIFY(charts.contains("<polyline") || charts.contains("<path"));
-    QVERIFY(!charts.contains("<image"));  // true vectors
+    QVERIFY(!charts.contains("<image"));  // vector graphics
     exports.write_chart_figures(folder.filePath("figures.csv"));
     const QByteArray figures = contents(folder.filePath("figures.csv"));
     QVERIFY(figures.startsWith("chart,x,change,quadrature_error\niteration,1,"));
@@ -254,7 +264,7 @@ class SessionFileTest : public QObject {
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), 4);
   }
 
-  void frames_are_the_progress() {
+  void records_a_frame_per_change() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
@@ -267,7 +277,7 @@ class SessionFileTest : public QObject {
     solved.trigger("one_direction");
     QTest::qWait(200);
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
-    // Steps are pictures too, and an earlier recording goes on.
+    // Steps are recorded too, after the frames of the earlier recording.
     const QByteArray first = contents(folder.filePath("frame_00001.png"));
     exports.begin_frames(folder.path());
     solved.window->focus().go_to({0, 0, 2});

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The study dialog and the figures on the number of directions.
 #include "solve/study_dialog.h"
 
 #include <QCheckBox>
@@ -22,7 +24,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-/// A study of few passes, not begun.
+/// A study of few passes, not started.
 struct Shown : SolvedWindow {
   StudyDialog* dialog;
 
@@ -54,7 +56,7 @@ class StudyTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void tells_errors_and_slopes() {
+  void shows_errors_and_slopes() {
     const Shown shown("cornell-box");
     shown.choose("one_way", true);
     shown.study();
@@ -66,7 +68,7 @@ class StudyTest : public QObject {
     const QString rms_slope = shown.cell(0, 1);
     shown.dialog->findChild<QComboBox*>("study_error")->setCurrentIndex(1);
     QVERIFY(shown.cell(0, 1) != rms_slope);
-    // Lines in color on a page.
+    // The chart has colored lines.
     auto* chart = shown.dialog->findChild<StudyChart*>();
     QVERIFY(color_count(chart->grab().toImage()) > 8);
   }
@@ -89,7 +91,7 @@ class StudyTest : public QObject {
     QVERIFY2(banner->text().contains("s.pdf"), qPrintable(banner->text()));
   }
 
-  void wants_a_scene_and_a_choice() {
+  void requires_a_scene_and_a_choice() {
     const auto window = make_window();
     const auto* dialog = window->findChild<StudyDialog*>();
     QVERIFY(!dialog->findChild<QPushButton*>("study_run")->isEnabled());
@@ -100,9 +102,9 @@ class StudyTest : public QObject {
     QVERIFY(!shown.dialog->findChild<QPushButton*>("study_save")->isEnabled());
   }
 
-  void stopped_it_keeps_its_points() {
+  void stops_while_the_reference_is_solved() {
     const Shown shown("rooms");
-    shown.choose("16384", true);  // and four times as many of the reference
+    shown.choose("16384", true);  // the reference takes four times as many
     shown.run()->click();
     QVERIFY(wait_for([&] { return shown.phase().startsWith("Reference"); }));
     QElapsedTimer timer;
@@ -113,8 +115,8 @@ class StudyTest : public QObject {
     QCOMPARE(shown.run()->text(), QString("Run the study"));
   }
 
-  /// Before any study: by the bounds, and from the run.
-  void figures_tell_what_one_percent_takes() {
+  /// Without a study: by the bounds, and from the run.
+  void figures_show_the_directions_for_one_percent() {
     const auto window = make_window();
     window->set_options({.directions = 96, .replicas = 4}, {});
     window->open("cornell-box");
@@ -127,7 +129,7 @@ class StudyTest : public QObject {
              qPrintable(text("summary_bound")));
   }
 
-  void stopped_at_once_it_is_stopped() {
+  void stopping_at_once_works() {
     const Shown shown("cornell-box");
     for (int k = 0; k < 5; ++k) {
       shown.run()->click();
@@ -136,8 +138,8 @@ class StudyTest : public QObject {
     }
   }
 
-  void changes_stay_below_what_is_predicted() {
-    // In a brighter scene eq. 21 promises nothing of 64 directions.
+  void changes_stay_below_the_prediction() {
+    // For a scene of higher reflectance eq. 21 gives no bound with 64 directions.
     const SolvedWindow shown("furnace");
     shown.window->runner().run();
     QVERIFY(wait_for([&] { return shown.window->snapshot()->progress.finished; }));
@@ -150,7 +152,7 @@ class StudyTest : public QObject {
     }
   }
 
-  void another_scene_ends_it() {
+  void opening_another_scene_ends_the_study() {
     const Shown shown("cornell-box");
     shown.choose("16384", true);
     shown.run()->click();
