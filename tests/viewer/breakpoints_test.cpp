@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Breakpoints, events and the state of the algorithm: what the debugger says, without a window.
+// Breakpoints, events and the state of the algorithm, without a window.
 #include "state/breakpoints.h"
 
 #include <QSettings>
@@ -13,6 +13,7 @@
 #include "state/algorithm_state.h"
 #include "state/camera_views.h"
 #include "state/step_events.h"
+#include "transillum/at.h"
 #include "transillum/directions.h"
 #include "transillum/map_region.h"
 
@@ -58,7 +59,7 @@ class BreakpointsTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_patch_breaks_where_it_takes_part() {
+  void a_patch_breakpoint_holds_where_the_patch_is_involved() {
     const Direction d("cornell-box");
     for (PatchId patch = 0; patch < d.scene->scene->patch_count(); ++patch) {
       const auto expected = d.history().steps_of(patch);
@@ -75,7 +76,7 @@ class BreakpointsTest : public QObject {
     }
   }
 
-  void a_pair_breaks_where_it_exchanges() {
+  void a_pair_breakpoint_holds_where_the_pair_exchanges() {
     const Direction d("cornell-box");
     QVERIFY(!d.transfers.exchanges.empty());
     for (const Transfer& transfer : d.transfers.exchanges) {
@@ -89,32 +90,32 @@ class BreakpointsTest : public QObject {
     QVERIFY(steps_where(d.history(), {Kind::pair, 0, 0}).empty());
   }
 
-  void figures_break_where_they_pass_their_bound() {
+  void a_figure_breakpoint_holds_where_its_bound_is_passed() {
     const Direction d("cornell-box");
     const MapHistory& history = d.history();
-    int most = 0;
-    double least = HUGE_VAL;
+    int largest = 0;
+    double smallest = HUGE_VAL;
     for (std::int32_t k = 0; k < history.step_count(); ++k) {
-      most = std::max(most, history.step(k).map_size);
+      largest = std::max(largest, history.step(k).map_size);
       if (history.step(k).row != MapRecord::no_row) {
-        least = std::min(least, history.step(k).smallest);
+        smallest = std::min(smallest, history.step(k).smallest);
       }
     }
-    QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(most)}).empty());
-    // Once for each time that V grows so large, not for as long as it is.
-    for (const std::int32_t k : steps_where(history, {Kind::large_map, 0, 0, most / 2.0})) {
-      QVERIFY(history.step(k).map_size > most / 2.0);
-      QVERIFY(k == 0 || history.step(k - 1).map_size <= most / 2.0);
+    QVERIFY(steps_where(history, {Kind::large_map, 0, 0, static_cast<double>(largest)}).empty());
+    // At each step where V passes the bound, not for as long as it stays above.
+    for (const std::int32_t k : steps_where(history, {Kind::large_map, 0, 0, largest / 2.0})) {
+      QVERIFY(history.step(k).map_size > largest / 2.0);
+      QVERIFY(k == 0 || history.step(k - 1).map_size <= largest / 2.0);
     }
-    QVERIFY(!steps_where(history, {Kind::large_map, 0, 0, most - 1.0}).empty());
-    QVERIFY(steps_where(history, {Kind::small_fragment, 0, 0, least}).empty());
-    QVERIFY(!steps_where(history, {Kind::small_fragment, 0, 0, least + 1e-9}).empty());
+    QVERIFY(!steps_where(history, {Kind::large_map, 0, 0, largest - 1.0}).empty());
+    QVERIFY(steps_where(history, {Kind::small_fragment, 0, 0, smallest}).empty());
+    QVERIFY(!steps_where(history, {Kind::small_fragment, 0, 0, smallest + 1e-9}).empty());
   }
 
   void a_closed_scene_has_no_open_receiver() {
     const Breakpoint open{Kind::open_receiver, 0, 0, 1e-9};
     QVERIFY(steps_where(Direction("furnace").history(), open).empty());
-    // A bound below any share: every receiver.
+    // With a bound below any share, it holds at every receiver.
     const Direction d("furnace");
     std::vector<std::int32_t> receivers;
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
@@ -125,7 +126,7 @@ class BreakpointsTest : public QObject {
     QCOMPARE(steps_where(d.history(), {Kind::open_receiver, 0, 0, -1}), receivers);
   }
 
-  void those_switched_off_do_not_break() {
+  void disabled_breakpoints_do_not_hold() {
     const Direction d("cornell-box");
     Breakpoints breakpoints;
     breakpoints.add({Kind::patch, 3});
@@ -142,7 +143,7 @@ class BreakpointsTest : public QObject {
     QCOMPARE(breakpoints.list()[0].patch, 5);
   }
 
-  void they_run_on_and_back_to_the_same_steps() {
+  void running_forward_and_back_finds_the_same_steps() {
     const Direction d("cornell-box");
     Breakpoints breakpoints;
     breakpoints.add({Kind::patch, 3});
@@ -158,7 +159,7 @@ class BreakpointsTest : public QObject {
     QCOMPARE(back, steps);
   }
 
-  void they_are_kept() {
+  void breakpoints_are_saved_in_settings() {
     const QTemporaryDir folder;
     Breakpoints before, after;
     before.add({Kind::pair, 12, 7});
@@ -171,13 +172,13 @@ class BreakpointsTest : public QObject {
     QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
     after.load(settings);
     QVERIFY(after.list() == before.list());
-    // What a later version may have written is left out.
-    settings.setValue("breakpoints/2/kind", "of-another-world");
+    // A kind that only a later version knows is ignored.
+    settings.setValue("breakpoints/2/kind", "unknown-kind");
     after.load(settings);
     QCOMPARE(after.list().size(), std::size_t{2});
   }
 
-  void events_of_a_step_are_its_meetings() {
+  void events_of_a_step_are_its_cuts() {
     const Direction d("cornell-box");
     std::map<std::pair<PatchId, PatchId>, double> exchanged;
     for (std::int32_t k = 0; k < d.history().step_count(); ++k) {
@@ -200,7 +201,7 @@ class BreakpointsTest : public QObject {
     }
   }
 
-  void events_of_a_patch_are_those_of_all_steps_that_name_it() {
+  void events_of_a_patch_are_those_of_all_steps_with_it() {
     const Direction d("cornell-box");
     for (const PatchId patch : {0, 5, 11}) {
       std::size_t expected = 0;
@@ -217,7 +218,7 @@ class BreakpointsTest : public QObject {
     }
   }
 
-  void a_line_meets_patches_one_after_the_other() {
+  void a_line_lists_its_patches_in_order() {
     const Direction d("furnace", {0, 0.2, 1});
     const Vec3 middle = d.scene->scene->bounds().center();
     const auto events =
@@ -231,7 +232,7 @@ class BreakpointsTest : public QObject {
     QVERIFY(events_at_point(d.history(), {1e3, 1e3}).empty());
   }
 
-  void a_line_tells_what_its_pairs_exchange_altogether() {
+  void a_line_lists_the_whole_area_that_its_pairs_exchange() {
     const Direction d("cornell-box", {0.1, 0.2, 1});
     std::map<std::pair<PatchId, PatchId>, double> areas;
     for (const Transfer& t : d.transfers.exchanges) {
@@ -253,7 +254,7 @@ class BreakpointsTest : public QObject {
     QCOMPARE(exchanged_area(d.history(), 0, 0), 0.0);
   }
 
-  void a_global_map_is_walked_down_at_the_probed_point() {
+  void a_global_map_is_traversed_at_the_probed_point() {
     const Direction d("furnace", {0, 0.2, 1});
     const Scene& scene = *d.scene->scene;
     SolverSnapshot snapshot;
@@ -293,7 +294,7 @@ class BreakpointsTest : public QObject {
       const bool gathers = lines.back() == CodeLine::gather_region;
       QCOMPARE(gathers, here->kind == StepEvent::Kind::exchange);
       exchanges += gathers;
-      // As the line says: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
+      // As in the line of pseudo-code: A(R)/A_i · rho_i/(pi M) · 4 pi · B_j.
       QCOMPARE(state->gathered.has_value(), gathers);
       if (!gathers) {
         continue;
@@ -306,7 +307,7 @@ class BreakpointsTest : public QObject {
     QVERIFY(exchanges > 0);
   }
 
-  void the_algorithm_adds_up_to_one_iteration() {
+  void the_steps_of_a_direction_sum_to_eq_11() {
     // Summed over the steps of a direction, line `gather` is eq. 11 for that direction.
     const Direction d("cornell-box");
     const Scene& scene = *d.scene->scene;
@@ -356,7 +357,7 @@ class BreakpointsTest : public QObject {
     }
   }
 
-  void changes_are_undone_by_name() {
+  void undo_names_the_change_of_a_breakpoint() {
     QUndoStack undo;
     Breakpoints breakpoints;
     breakpoints.set_undo_stack(&undo);
@@ -367,10 +368,10 @@ class BreakpointsTest : public QObject {
     const auto before = breakpoints.list();
     breakpoints.remove(0);
     QCOMPARE(undo.count(), 4);
-    QCOMPARE(undo.undoText(), QString("removal of breakpoint: Patch 3 takes part"));
+    QCOMPARE(undo.undoText(), QString("remove breakpoint: Patch 3 takes part"));
     undo.undo();
     QVERIFY(breakpoints.list() == before);
-    QCOMPARE(undo.undoText(), QString("switching off of breakpoint: V grows beyond 50 fragments"));
+    QCOMPARE(undo.undoText(), QString("disable breakpoint: V grows beyond 50 polygons"));
     undo.undo();
     QVERIFY(breakpoints.list()[1].enabled);
     undo.undo();
@@ -380,7 +381,7 @@ class BreakpointsTest : public QObject {
     QVERIFY(breakpoints.list() == before);
   }
 
-  void changes_of_kept_views_are_undone() {
+  void changes_of_saved_views_can_be_undone() {
     QUndoStack undo;
     CameraBookmarks views;
     views.set_undo_stack(&undo);
@@ -394,10 +395,10 @@ class BreakpointsTest : public QObject {
     views.add({});
     views.add({});
     views.remove(0);
-    views.add({});  // a name that is free
+    views.add({});  // takes an unused name
     QCOMPARE(names(), QStringList({"View 2", "View 3"}));
     views.rename(0, "mine");
-    QCOMPARE(undo.undoText(), QString("renaming of view: View 2"));
+    QCOMPARE(undo.undoText(), QString("rename view: View 2"));
     views.clear();
     QCOMPARE(names(), QStringList());
     undo.undo();
@@ -411,4 +412,3 @@ class BreakpointsTest : public QObject {
 
 QTEST_GUILESS_MAIN(BreakpointsTest)
 #include "breakpoints_test.moc"
-#include "transillum/at.h"

@@ -5,6 +5,7 @@
 #include <QTest>
 #include <algorithm>
 
+#include "transillum/at.h"
 #include "transillum/directions.h"
 
 using namespace transillum;
@@ -14,15 +15,15 @@ namespace {
 
 constexpr int passes = 4;
 
-/// A focus with the recorded directions of a small scene, handed out when the test says so.
-struct Watched {
+/// A focus with the recorded directions of a small scene; the test decides when each arrives.
+struct FocusWithMaps {
   std::shared_ptr<LoadedScene> loaded = std::make_shared<LoadedScene>();
   std::vector<std::shared_ptr<const RecordedMap>> maps;
   Focus focus;
-  std::vector<int> wanted;
-  bool at_once = true;
+  std::vector<int> requested;  ///< directions
+  bool answers_at_once = true;
 
-  Watched() {
+  FocusWithMaps() {
     loaded->scene = load_scene("boards");
     loaded->tree = std::make_shared<BspTree>(*loaded->scene);
     const auto samples = make_directions(Sampling::random, passes, 3);
@@ -36,8 +37,8 @@ struct Watched {
       maps.push_back(map);
     }
     QObject::connect(&focus, &Focus::map_requested, &focus, [this](int iteration, int direction) {
-      wanted.push_back(direction);
-      if (at_once) {
+      requested.push_back(direction);
+      if (answers_at_once) {
         show(direction, iteration);
       }
     });
@@ -63,14 +64,14 @@ class FocusTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void moments_are_ordered() {
+  void positions_are_ordered() {
     QVERIFY((RunPosition{0, 3, 100}) < (RunPosition{1, 0, -1}));
     QVERIFY((RunPosition{1, 2, 7}) < (RunPosition{1, 3, -1}));
     QVERIFY((RunPosition{1, 2, -1}) < (RunPosition{1, 2, 0}));
   }
 
-  void follows_the_newest_until_told_otherwise() {
-    Watched w;
+  void follows_the_newest_until_it_is_moved() {
+    FocusWithMaps w;
     w.focus.follow(0, 0);
     QCOMPARE(w.focus.position().step, w.maps[0]->record().fullest_step());
     w.focus.follow(0, 2);
@@ -84,37 +85,37 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 3, w.maps[3]->record().fullest_step()}));
   }
 
-  /// A growing run: the first step had one direction, the second two, the third all four.
-  void offers_the_directions_that_a_step_had() {
-    Watched w;
-    w.focus.set_passes_of_steps({1, 2, 4});
+  /// Of a run whose first iteration had one direction, the second two, the third all four.
+  void offers_the_directions_that_an_iteration_had() {
+    FocusWithMaps w;
+    w.focus.set_passes_of_iterations({1, 2, 4});
     w.focus.set_iterations(3);
     w.focus.go_to({0, 3, 1});
     QVERIFY(w.arrived_at({0, 0, 1}));
-    std::vector<std::pair<int, int>> way;
+    std::vector<std::pair<int, int>> visited;
     for (int k = 0; k < 8; ++k) {
-      way.emplace_back(w.focus.position().iteration, w.focus.position().direction);
+      visited.emplace_back(w.focus.position().iteration, w.focus.position().direction);
       w.focus.direction_by(1);
     }
     const std::vector<std::pair<int, int>> expected{{0, 0}, {1, 0}, {1, 1}, {2, 0},
                                                     {2, 1}, {2, 2}, {2, 3}, {2, 3}};
-    QCOMPARE(way, expected);
+    QCOMPARE(visited, expected);
     w.focus.direction_by(-4);
     QCOMPARE(w.focus.position().iteration, 1);
     QCOMPARE(w.focus.position().direction, 1);
     w.focus.iteration_by(-1);
     QCOMPARE(w.focus.position().direction, 0);
-    // A search goes through later steps to directions that the earlier ones had not.
+    // A search reaches directions of later iterations that the earlier ones did not have.
     w.focus.go_to({0, 0, w.last_step(0)});
-    w.wanted.clear();
+    w.requested.clear();
     w.focus.seek([](const MapHistory&, std::int32_t, StepOrder) { return MapHistory::none; },
                  StepOrder::forward);
-    QVERIFY(std::find(w.wanted.begin(), w.wanted.end(), 3) != w.wanted.end());
+    QVERIFY(std::find(w.requested.begin(), w.requested.end(), 3) != w.requested.end());
     QCOMPARE(w.focus.position().iteration, 0);
   }
 
   void goes_to_the_first_step_that_is_found() {
-    Watched w;
+    FocusWithMaps w;
     w.focus.follow(0, 0);
     const PatchId patch = w.maps[2]->history.step(w.last_step(2)).patch;
     w.focus.go_to_first(0, 2, find_exchanges_of(patch));
@@ -134,8 +135,8 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 3, -1}));
   }
 
-  void hears_of_the_same_newest_direction_once() {
-    Watched w;
+  void the_same_newest_direction_is_shown_once() {
+    FocusWithMaps w;
     w.focus.follow(0, 1);
     const QSignalSpy moved(&w.focus, &Focus::moved);
     w.focus.follow(0, 1);
@@ -143,23 +144,23 @@ class FocusTest : public QObject {
   }
 
   void steps_go_through_all_directions_and_back() {
-    Watched w;
+    FocusWithMaps w;
     w.focus.go_to({0, 0, -1});
-    std::vector<RunPosition> way{w.focus.position()};
+    std::vector<RunPosition> visited{w.focus.position()};
     while (w.focus.step_by(1)) {
-      way.push_back(w.focus.position());
+      visited.push_back(w.focus.position());
     }
     std::size_t expected = 0;
     for (int d = 0; d < passes; ++d) {
       expected += static_cast<std::size_t>(w.last_step(d) + 2);
     }
-    QCOMPARE(way.size(), expected);
+    QCOMPARE(visited.size(), expected);
     QVERIFY(w.arrived_at({0, passes - 1, w.last_step(passes - 1)}));
-    for (std::size_t k = 1; k < way.size(); ++k) {
-      QVERIFY(way[k - 1] < way[k]);
+    for (std::size_t k = 1; k < visited.size(); ++k) {
+      QVERIFY(visited[k - 1] < visited[k]);
     }
-    for (std::size_t k = way.size(); k-- > 1;) {
-      QVERIFY(w.arrived_at(way[k]));
+    for (std::size_t k = visited.size(); k-- > 1;) {
+      QVERIFY(w.arrived_at(visited[k]));
       QVERIFY(w.focus.step_by(-1));
     }
     QVERIFY(w.arrived_at({0, 0, -1}));
@@ -167,7 +168,7 @@ class FocusTest : public QObject {
   }
 
   void a_phase_is_a_part_of_a_step() {
-    Watched w;
+    FocusWithMaps w;
     w.focus.go_to({0, 0, -1});
     w.focus.phase_by(1);
     for (std::int32_t k = 0; k <= w.last_step(0); ++k) {
@@ -183,14 +184,14 @@ class FocusTest : public QObject {
     QVERIFY(w.focus.phase() == Phase::after);
     w.focus.phase_by(-1);
     QVERIFY(w.focus.phase() == Phase::split);
-    // There is nothing before the beginning.
+    // There is no phase before the start of the run.
     w.focus.go_to({0, 0, -1});
     w.focus.phase_by(-1);
     QVERIFY(w.arrived_at({0, 0, -1}));
   }
 
-  void iterations_that_have_not_begun_are_out_of_reach() {
-    Watched w;
+  void iterations_that_have_not_begun_cannot_be_focused() {
+    FocusWithMaps w;
     w.focus.go_to({0, 1, 2});
     w.focus.iteration_by(1);
     QVERIFY(w.arrived_at({0, 1, 2}));
@@ -206,28 +207,28 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 0, -1}));
   }
 
-  void steps_may_have_directions_of_their_own() {
-    Watched w;
+  void iterations_may_have_directions_of_their_own() {
+    FocusWithMaps w;
     w.focus.begin_run(passes, true);
     w.focus.set_iterations(3);
     w.focus.go_to({0, 2, 1});
     QVERIFY(w.arrived_at({0, 2, 1}));
-    w.wanted.clear();
+    w.requested.clear();
     w.focus.iteration_by(2);
     QVERIFY(w.arrived_at({2, 2, 1}));
     QCOMPARE(w.focus.map()->iteration, 2);
-    QCOMPARE(w.wanted, std::vector<int>{2});  // not the map at hand
+    QCOMPARE(w.requested, std::vector<int>{2});  // not the current map
     w.focus.go_to({1, 2, 0});
     QCOMPARE(w.focus.map()->iteration, 1);
-    // A search goes through those of all iterations.
-    w.wanted.clear();
+    // A search goes through the directions of all iterations.
+    w.requested.clear();
     w.focus.go_to({0, 0, -1});
     w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }),
                  StepOrder::forward);
     QVERIFY(w.arrived_at({0, 0, -1}));
-    QCOMPARE(w.wanted.size(), std::size_t{3 * passes});
-    // One that comes late is shown as what it is.
-    w.at_once = false;
+    QCOMPARE(w.requested.size(), std::size_t{3 * passes});
+    // An outdated map is shown with its own iteration.
+    w.answers_at_once = false;
     w.focus.go_to({1, 1, 0});
     w.focus.go_to({2, 1, 0});
     w.show(1, 1);
@@ -237,10 +238,10 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({2, 1, 0}));
   }
 
-  void the_old_moment_stays_until_the_new_one_is_recorded() {
-    Watched w;
+  void the_old_position_stays_until_the_new_one_is_recorded() {
+    FocusWithMaps w;
     w.focus.go_to({0, 0, 1});
-    w.at_once = false;
+    w.answers_at_once = false;
     w.focus.go_to({0, 2, 3});
     QVERIFY(!w.focus.arrived());
     QCOMPARE(w.focus.position().direction, 0);
@@ -250,23 +251,23 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 2, 3}));
   }
 
-  void the_newest_wish_wins() {
-    Watched w;
+  void the_newest_target_wins() {
+    FocusWithMaps w;
     w.focus.go_to({0, 0, 1});
-    w.at_once = false;
+    w.answers_at_once = false;
     w.focus.go_to({0, 1, 0});
     w.focus.go_to({0, 3, 0});
-    w.show(1);  // shown in passing
+    w.show(1);  // shown although it is outdated
     QVERIFY(!w.focus.arrived());
     QCOMPARE(w.focus.position().direction, 1);
     w.show(3);
     QVERIFY(w.arrived_at({0, 3, 0}));
-    w.show(1);  // nobody waits for it any more
+    w.show(1);  // outdated
     QVERIFY(w.arrived_at({0, 3, 0}));
   }
 
-  void seeks_through_the_directions() {
-    Watched w;
+  void searches_all_directions() {
+    FocusWithMaps w;
     w.focus.go_to({0, 0, -1});
     const PatchId patch = 2;
     std::vector<RunPosition> expected;
@@ -290,24 +291,24 @@ class FocusTest : public QObject {
     }
   }
 
-  void a_vain_search_ends_after_every_direction() {
-    Watched w;
+  void a_search_without_a_match_ends_after_all_directions() {
+    FocusWithMaps w;
     w.focus.set_iterations(1000);
     w.focus.go_to({500, 1, 3});
-    w.wanted.clear();
+    w.requested.clear();
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
     for (const StepOrder order : {StepOrder::forward, StepOrder::backward}) {
       w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }), order);
       QVERIFY(w.arrived_at({500, 1, 3}));
     }
     QCOMPARE(ended.count(), 2);
-    QVERIFY(w.wanted.size() <= 2 * passes);
+    QVERIFY(w.requested.size() <= 2 * passes);
   }
 
   void a_search_can_be_stopped() {
-    Watched w;
+    FocusWithMaps w;
     w.focus.go_to({0, 0, 3});
-    w.at_once = false;
+    w.answers_at_once = false;
     const QSignalSpy ended(&w.focus, &Focus::seek_ended);
     w.focus.seek(find_where([](const MapHistory&, std::int32_t) { return false; }),
                  StepOrder::forward);
@@ -323,8 +324,8 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 0, 3}));
   }
 
-  void finds_what_covers_a_point() {
-    const Watched w;
+  void finds_the_steps_that_cover_a_point() {
+    const FocusWithMaps w;
     const MapHistory& history = w.maps[1]->history;
     const MapRecord& record = history.record();
     const MapRecord::Row& row = record.rows[record.rows.size() / 2];
@@ -355,4 +356,3 @@ class FocusTest : public QObject {
 
 QTEST_GUILESS_MAIN(FocusTest)
 #include "focus_test.moc"
-#include "transillum/at.h"

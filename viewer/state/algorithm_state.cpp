@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Maps the position of the focus to lines of the paper's pseudo-code and to the values of its
+// variables, from the recorded map and the newest snapshot of the solver.
 #include "state/algorithm_state.h"
 
 #include <algorithm>
@@ -21,7 +24,7 @@ const std::vector<CodeText>& algorithm_code() {
       {L::empty_map, 2, QStringLiteral("V ← nothing")},
       {L::each_patch, 2, QStringLiteral("for each patch i of L")},
       {L::clip, 3, QStringLiteral("clip V by i: I inside, O outside")},
-      {L::if_front, 3, QStringLiteral("if i faces the light")},
+      {L::if_front, 3, QStringLiteral("if i is front-facing")},
       {L::gather, 4,
        QStringLiteral("B_i(n+1) += Σ over j in I: A(j)/A_i · ρ_i/(π M) · J_d · B_j(n)")},
       {L::leave_hole, 4, QStringLiteral("V ← O, a hole where i is")},
@@ -30,9 +33,9 @@ const std::vector<CodeText>& algorithm_code() {
       {L::global_map, 2, QStringLiteral("M ← the visibility map of all patches along ω_d")},
       {L::each_region, 2, QStringLiteral("for each region R of M")},
       {L::region_list, 3, QStringLiteral("L ← the patches over R, sorted along ω_d")},
-      {L::each_receiver, 3, QStringLiteral("for each i of L that faces the light")},
+      {L::each_receiver, 3, QStringLiteral("for each front-facing i of L")},
       {L::next_above, 4, QStringLiteral("j ← the next of L above i")},
-      {L::if_back, 4, QStringLiteral("if j shines down")},
+      {L::if_back, 4, QStringLiteral("if j is back-facing")},
       {L::gather_region, 5, QStringLiteral("B_i(n+1) += A(R)/A_i · ρ_i/(π M) · J_d · B_j(n)")},
   };
   return code;
@@ -58,7 +61,7 @@ std::vector<CodeLine> lines_of_local_map(const Focus& focus, const MapHistory& h
   return {CodeLine::put_in};
 }
 
-/// The last event of the line that the focus has come to, if any.
+/// The last event of the line at or before `step`; null: none.
 const StepEvent* event_reached(const std::vector<StepEvent>& line, std::int32_t step) {
   const StepEvent* reached = nullptr;
   for (const StepEvent& event : line) {
@@ -93,18 +96,18 @@ std::vector<CodeLine> lines_of_global_map(const Focus& focus, const MapHistory& 
 
 constexpr double weight = 4 * std::numbers::pi;  // J_d
 
-/// M of the step in focus; a pass both ways counts as two.
+/// M of the iteration in focus; a two-way pass counts as two.
 int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
   return snapshot.passes_of(focus.position().iteration) * (snapshot.options.two_way ? 2 : 1);
 }
 
-/// B_j(n), where it has been kept.
+/// B_j(n), if it was stored.
 std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
   const auto n = static_cast<std::size_t>(iteration);
   if (n >= snapshot.kept_radiosity.size() || !snapshot.kept_radiosity[n]) {
     return std::nullopt;
   }
-  return at((*snapshot.kept_radiosity[n]), patch);
+  return at(*snapshot.kept_radiosity[n], patch);
 }
 
 }  // namespace
@@ -175,7 +178,7 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   state.weight = weight;
   state.directions = directions_of(snapshot, focus);
 
-  std::map<PatchId, double> areas;  // A(j) of what lights i
+  std::map<PatchId, double> areas;  // A(j) of each patch j that i receives from
   for (const std::int32_t r : history.inside_at(k)) {
     if (history.exchanges(r)) {
       areas[history.row(r).patch] += history.record().area(history.row(r));

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Conditions on steps of a recorded direction, and the user's list of them.
 #include "state/breakpoints.h"
 
 #include <QSettings>
@@ -14,7 +16,7 @@ namespace {
 
 using Kind = Breakpoint::Kind;
 
-// As the settings name them.
+// Names in settings and session files.
 constexpr std::pair<Kind, const char*> kind_names[] = {
     {Kind::patch, "patch"},
     {Kind::cut, "cut"},
@@ -42,7 +44,7 @@ bool cuts(const MapHistory& history, std::int32_t k, PatchId patch) {
                      [&](std::int32_t r) { return history.row(r).patch == patch; });
 }
 
-bool concerns(const MapHistory& history, std::int32_t k, PatchId patch) {
+bool involves(const MapHistory& history, std::int32_t k, PatchId patch) {
   const auto steps = history.steps_of(patch);
   return std::binary_search(steps.begin(), steps.end(), k);
 }
@@ -53,9 +55,9 @@ bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t
   const MapHistory::Step& step = history.step(k);
   switch (breakpoint.kind) {
     case Kind::patch:
-      return concerns(history, k, breakpoint.patch);
+      return involves(history, k, breakpoint.patch);
     case Kind::cut:
-      return concerns(history, k, breakpoint.patch) && cuts(history, k, breakpoint.patch);
+      return involves(history, k, breakpoint.patch) && cuts(history, k, breakpoint.patch);
     case Kind::pair:
       return exchanges_with(history, k, breakpoint.patch, breakpoint.other);
     case Kind::small_fragment:
@@ -83,7 +85,7 @@ QString text_of(const Breakpoint& b) {
     case Kind::open_receiver:
       return Breakpoints::tr("A receiver's closure defect is above %1").arg(number_text(b.value));
     case Kind::large_map:
-      return Breakpoints::tr("V grows beyond %1 fragments").arg(number_text(b.value));
+      return Breakpoints::tr("V grows beyond %1 polygons").arg(number_text(b.value));
   }
   return {};
 }
@@ -116,13 +118,13 @@ void Breakpoints::change(const QString& what, std::vector<Breakpoint> list) {
 void Breakpoints::add(const Breakpoint& breakpoint) {
   auto list = list_;
   list.push_back(breakpoint);
-  change(tr("new breakpoint: %1").arg(text_of(breakpoint)), std::move(list));
+  change(tr("add breakpoint: %1").arg(text_of(breakpoint)), std::move(list));
 }
 
 void Breakpoints::remove(std::size_t k) {
   auto list = list_;
   list.erase(list.begin() + static_cast<std::ptrdiff_t>(k));
-  change(tr("removal of breakpoint: %1").arg(text_of(list_[k])), std::move(list));
+  change(tr("remove breakpoint: %1").arg(text_of(list_[k])), std::move(list));
 }
 
 void Breakpoints::set_enabled(std::size_t k, bool enabled) {
@@ -131,9 +133,9 @@ void Breakpoints::set_enabled(std::size_t k, bool enabled) {
   }
   auto list = list_;
   list[k].enabled = enabled;
-  change((enabled ? tr("switching on of breakpoint: %1") : tr("switching off of breakpoint: %1"))
-             .arg(text_of(list_[k])),
-         std::move(list));
+  change(
+      (enabled ? tr("enable breakpoint: %1") : tr("disable breakpoint: %1")).arg(text_of(list_[k])),
+      std::move(list));
 }
 
 bool Breakpoints::any_enabled() const {

@@ -14,15 +14,15 @@ class QUndoStack;
 
 namespace transillum::viewer {
 
-/// A condition on a step that a run through the polygons stops at.
+/// A condition on a step; a run through the steps stops where it holds.
 struct Breakpoint {
   enum class Kind {
     patch,           ///< the step processes, cuts or covers a polygon of `patch`
     cut,             ///< it cuts a fragment of `patch`
     pair,            ///< `patch` and `other` exchange light, either way
     small_fragment,  ///< it makes a fragment smaller than `value` m²
-    open_receiver,   ///< more than the share `value` of its receiver lies open: closure defect
-    large_map,       ///< V grows beyond `value` fragments
+    open_receiver,   ///< the closure defect of its receiver exceeds `value`, 0 to 1
+    large_map,       ///< V grows beyond `value` polygons
   };
   Kind kind = Kind::patch;
   PatchId patch = 0, other = 0;
@@ -34,18 +34,18 @@ struct Breakpoint {
 
 bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t step);
 QString text_of(const Breakpoint& breakpoint);
-/// As files and settings name a kind.
+/// The name of a kind in files and settings.
 const char* name_of(Breakpoint::Kind kind);
 std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);
 
-/// The list of breakpoints, kept from one run of the program to the next.
+/// The list of breakpoints; saved in the settings between runs of the program.
 class Breakpoints : public QObject {
   Q_OBJECT
 
  public:
   using QObject::QObject;
 
-  /// Where changes can be taken back, but for set_list() and load(); null: nowhere.
+  /// Changes can be undone there, except set_list() and load(); null: no undo.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   const std::vector<Breakpoint>& list() const { return list_; }
   void set_list(std::vector<Breakpoint> list);
@@ -54,13 +54,13 @@ class Breakpoints : public QObject {
   void set_enabled(std::size_t k, bool enabled);
   bool any_enabled() const;
 
-  /// The nearest step where an enabled one holds.
+  /// Finds the nearest step where an enabled breakpoint holds.
   StepFinder finder() const;
-  /// All such steps of a direction, ascending.
+  /// All steps of a direction where one holds, ascending.
   std::vector<std::int32_t> steps_in(const MapHistory& history) const;
 
   void save(QSettings& settings) const;
-  /// What cannot be read is left out.
+  /// Entries that cannot be read are skipped.
   void load(QSettings& settings);
 
  signals:

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Camera positions computed from the scene's bounds or from a patch, and the user's bookmarks.
 #include "state/camera_views.h"
 
 #include <algorithm>
@@ -12,8 +14,8 @@ namespace transillum::viewer {
 
 namespace {
 
-// Any unit vector across `v`.
-Vec3 across(const Vec3& v) {
+// A unit vector perpendicular to `v`.
+Vec3 perpendicular_to(const Vec3& v) {
   const Vec3 other = std::abs(v.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   return normalized(cross(v, other));
 }
@@ -23,7 +25,7 @@ Vec3 across(const Vec3& v) {
 ViewPoint standard_view(const Scene& scene, Side side, double aspect) {
   const ViewPoint first = initial_view(scene, aspect);
   const Vec3 up = first.up;
-  // With z up one looks along y, as in a plan; with y up against z, as at a screen.
+  // If z is up, the front view is along +y, as in a plan; if y is up, along -z, as on a screen.
   const Vec3 front = std::abs(up.z) > 0.5 ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
   const Vec3 right = cross(up, front);
   switch (side) {
@@ -59,11 +61,11 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
   }
   ViewPoint view = from;
   view.target = p.center;
-  // The patch and as much again around it.
+  // Twice the size of the patch fits into the picture.
   const double distance = 2 * radius / std::sin(0.5 * from.view_angle * std::numbers::pi / 180);
   view.eye = p.center + distance * toward_eye;
   if (norm(cross(view.up, toward_eye)) < 1e-3) {
-    view.up = across(toward_eye);
+    view.up = perpendicular_to(toward_eye);
   }
   return view;
 }
@@ -86,7 +88,7 @@ void CameraBookmarks::add(const ViewPoint& view, const QString& name) {
   }
   auto bookmarks = bookmarks_;
   bookmarks.push_back({free, view});
-  change(tr("keeping of view: %1").arg(free), std::move(bookmarks));
+  change(tr("keep view: %1").arg(free), std::move(bookmarks));
 }
 
 void CameraBookmarks::rename(std::size_t k, const QString& name) {
@@ -95,18 +97,18 @@ void CameraBookmarks::rename(std::size_t k, const QString& name) {
   }
   auto bookmarks = bookmarks_;
   bookmarks[k].name = name;
-  change(tr("renaming of view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
+  change(tr("rename view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
 }
 
 void CameraBookmarks::remove(std::size_t k) {
   auto bookmarks = bookmarks_;
   bookmarks.erase(bookmarks.begin() + static_cast<std::ptrdiff_t>(k));
-  change(tr("removal of view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
+  change(tr("remove view: %1").arg(bookmarks_[k].name), std::move(bookmarks));
 }
 
 void CameraBookmarks::clear() {
   if (!bookmarks_.empty()) {
-    change(tr("removal of all kept views"), {});
+    change(tr("remove all kept views"), {});
   }
 }
 

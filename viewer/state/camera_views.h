@@ -11,17 +11,19 @@ class QUndoStack;
 
 namespace transillum::viewer {
 
-/// The sides that a scene can be looked at from.
+/// Sides of a scene for standard views.
 enum class Side { front, back, left, right, top, bottom };
 
-/// The whole of `scene` from a side; which way is up is as in its initial view.
+/// A view of the whole scene from a side; `up` as in its initial view.
+/// @param aspect  width / height of the picture
 ViewPoint standard_view(const Scene& scene, Side side, double aspect);
-/// The whole of `scene` from where `from` looks at it.
+/// A view of the whole scene in the viewing direction of `from`.
 ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect);
-/// One patch, near, from where `from` looks; from its lit side where that would show its back.
+/// A close view of one patch in the viewing direction of `from`, turned to the front of the patch
+/// if needed.
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
-/// Places of the camera that the user keeps.
+/// The user's list of camera positions.
 class CameraBookmarks : public QObject {
   Q_OBJECT
 
@@ -33,9 +35,9 @@ class CameraBookmarks : public QObject {
   using QObject::QObject;
 
   const std::vector<Bookmark>& all() const { return bookmarks_; }
-  /// Where changes can be taken back, but for set(); null: nowhere.
+  /// Changes can be undone there, except set(); null: no undo.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
-  /// Named by a number that is free where there is no name.
+  /// @param name  empty: "View" and an unused number
   void add(const ViewPoint& view, const QString& name = {});
   void rename(std::size_t k, const QString& name);
   void remove(std::size_t k);

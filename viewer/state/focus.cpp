@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// State machine of the shown position: a command sets the target and a rule that selects the step;
+// the recorded map of the target's direction comes later, by show_map(), and completes the move.
 #include "state/focus.h"
 
 #include <algorithm>
@@ -19,7 +22,7 @@ void Focus::begin_run(int passes, bool renews) {
   passes_ = passes;
   renews_ = renews;
   iterations_ = 1;
-  step_passes_.clear();
+  iteration_passes_.clear();
   position_ = target_ = newest_ = {};
   map_ = nullptr;
   set_probe(std::nullopt);
@@ -39,11 +42,11 @@ void Focus::set_iterations(int count) {
   emit target_changed();
 }
 
-void Focus::set_passes_of_steps(std::vector<int> passes) {
-  if (passes == step_passes_) {
+void Focus::set_passes_of_iterations(std::vector<int> passes) {
+  if (passes == iteration_passes_) {
     return;
   }
-  step_passes_ = std::move(passes);
+  iteration_passes_ = std::move(passes);
   emit target_changed();
 }
 
@@ -51,19 +54,20 @@ void Focus::go_to(const RunPosition& position) {
   if (passes_ == 0) {
     return;
   }
-  leave_newest();
+  end_following();
   seek_left_ = 0;
-  go(position.iteration, position.direction, position.step,
-     [step = position.step](const MapHistory& history) { return nearest_step(history, step); });
+  set_target(
+      position.iteration, position.direction, position.step,
+      [step = position.step](const MapHistory& history) { return nearest_step(history, step); });
 }
 
 void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
   if (passes_ == 0) {
     return;
   }
-  leave_newest();
+  end_following();
   seek_left_ = 0;
-  go(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
+  set_target(iteration, direction, -1, [finder = std::move(finder)](const MapHistory& history) {
     return finder(history, -1, StepOrder::forward);
   });
 }
@@ -91,7 +95,8 @@ bool Focus::step_by(std::int32_t steps) {
   }
   const std::int32_t last = map_->history.step_count() - 1;
   RunPosition to = position_;
-  // After the last step comes the next direction's empty map, before that the last step.
+  // After the last step comes the empty map of the next direction; before an empty map, the last
+  // step of the previous direction.
   if (steps > 0 && position_.step == last) {
     to = moved_by(position_, 1, -1);
   } else if (steps < 0 && position_.step == -1) {
@@ -117,10 +122,10 @@ void Focus::iteration_by(int iterations) {
 }
 
 void Focus::set_phase(Phase phase) {
-  const bool news = following_ || phase != phase_;
-  leave_newest();
+  const bool changed = following_ || phase != phase_;
+  end_following();
   phase_ = phase;
-  if (news) {
+  if (changed) {
     emit moved();
   }
 }
@@ -147,12 +152,12 @@ void Focus::seek(StepFinder finder, StepOrder order) {
   if (!map_) {
     return;
   }
-  leave_newest();
+  end_following();
   finder_ = std::move(finder);
   order_ = order;
-  // Every direction once; the last one is the first again, for what lies on its other side.
-  const bool all_alike = !renews_ && passes_of(0) == passes_;
-  seek_all_ = seek_left_ = (all_alike ? 1 : std::int64_t{iterations_}) * passes_ + 1;
+  // Every direction once, and the first one again for its steps on the other side of the position.
+  const bool same_directions = !renews_ && passes_of(0) == passes_;
+  seek_total_ = seek_left_ = (same_directions ? 1 : std::int64_t{iterations_}) * passes_ + 1;
   target_ = position_;
   const std::int32_t from = position_.step;
   const std::int32_t step = finder_(map_->history, from, order_);
@@ -162,11 +167,11 @@ void Focus::seek(StepFinder finder, StepOrder order) {
     emit moved();
     emit seek_ended(true);
   } else {
-    seek_on();
+    continue_seek();
   }
 }
 
-void Focus::seek_on() {
+void Focus::continue_seek() {
   const int by = order_ == StepOrder::forward ? 1 : -1;
   const RunPosition next = moved_by(target_, by, -1);
   if (--seek_left_ <= 0 || next == target_) {
@@ -175,7 +180,7 @@ void Focus::seek_on() {
     emit seek_ended(false);
     return;
   }
-  go(next.iteration, next.direction, -1, [this](const MapHistory& history) {
+  set_target(next.iteration, next.direction, -1, [this](const MapHistory& history) {
     return finder_(history, order_ == StepOrder::forward ? -1 : history.step_count(), order_);
   });
 }
@@ -187,9 +192,9 @@ void Focus::end_seek() {
 }
 
 void Focus::stop() {
-  leave_newest();
+  end_following();
   const bool sought = seeking();
-  const auto searched = static_cast<int>(seek_all_ - seek_left_);
+  const auto searched = static_cast<int>(seek_total_ - seek_left_);
   target_ = position_;
   end_seek();
   if (sought) {
@@ -207,11 +212,11 @@ void Focus::set_following(bool following) {
     phase_ = Phase::after;
     go_to_newest();
   } else {
-    emit moved();  // the step is marked from now on
+    emit moved();  // views mark the step only while not following
   }
 }
 
-void Focus::leave_newest() {
+void Focus::end_following() {
   if (!following_) {
     return;
   }
@@ -221,9 +226,9 @@ void Focus::leave_newest() {
 
 void Focus::follow(int iteration, int direction) {
   const RunPosition newest{iteration, direction, -1};
-  const bool news = newest != newest_ || !map_;
+  const bool changed = newest != newest_ || !map_;
   newest_ = newest;
-  if (following_ && news) {
+  if (following_ && changed) {
     go_to_newest();
   }
 }
@@ -233,11 +238,11 @@ void Focus::go_to_newest() {
     return;
   }
   seek_left_ = 0;
-  go(newest_.iteration, newest_.direction, -1,
-     [](const MapHistory& history) { return history.record().fullest_step(); });
+  set_target(newest_.iteration, newest_.direction, -1,
+             [](const MapHistory& history) { return history.record().fullest_step(); });
 }
 
-void Focus::go(int iteration, int direction, std::int32_t step, Arrival arrival) {
+void Focus::set_target(int iteration, int direction, std::int32_t step, Arrival arrival) {
   const int n = std::clamp(iteration, 0, iterations_ - 1);
   target_ = {n, std::clamp(direction, 0, passes_of(n) - 1), step};
   arrival_ = std::move(arrival);
@@ -256,13 +261,13 @@ bool Focus::shows(const RecordedMap& map, const RunPosition& position) const {
 
 void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   const bool stale = !under_way_ || map->passes != passes_;
-  const bool on_the_way = !shows(*map, target_);
-  if (stale || (on_the_way && seek_left_ > 0)) {
+  const bool superseded = !shows(*map, target_);
+  if (stale || (superseded && seek_left_ > 0)) {
     return;
   }
   const std::int32_t step = arrival_(map->history);
   if (seek_left_ > 0 && step == MapHistory::none) {
-    seek_on();
+    continue_seek();
     return;
   }
   const bool another = map != map_;
@@ -270,8 +275,8 @@ void Focus::show_map(std::shared_ptr<const RecordedMap> map) {
   if (another && probe_) {
     set_probe(std::nullopt);
   }
-  if (on_the_way) {
-    // Scrubbing is faster than recording: what comes by is shown, and the newest still awaited.
+  if (superseded) {
+    // Scrubbing is faster than recording: show maps of older targets while waiting for the newest.
     position_ = {renews_ ? map_->iteration : target_.iteration, map_->direction, step};
     emit moved();
   } else {

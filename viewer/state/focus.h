@@ -14,113 +14,119 @@
 
 namespace transillum::viewer {
 
-/// A point in the time of a run; later ones are larger.
+/// A position in the sequence of steps of a solve run, ordered by time.
 struct RunPosition {
-  int iteration = 0;       ///< from 0: the step that makes B(n+1) of B(n)
+  int iteration = 0;       ///< n, from 0: computes B(n+1) from B(n)
   int direction = 0;       ///< from 0: number of the pass
-  std::int32_t step = -1;  ///< of the direction, from 0; -1: before its first
+  std::int32_t step = -1;  ///< of the direction, from 0; -1: before the first
 
   friend auto operator<=>(const RunPosition&, const RunPosition&) = default;
 };
 
-/// What of a step is looked at; the order of the paper's pseudo-code (section 3.2).
+/// The part of a step that is shown, in the order of the paper's pseudo-code (section 3.2).
 enum class Phase {
-  before,  ///< polygon i is taken, V is what the steps before left
-  split,   ///< what it cut out of V: the inside and the outside list
+  before,  ///< polygon i is next; V as the steps before left it
+  split,   ///< V is clipped by i: the inside and the outside list
   after,   ///< V without the inside list and with i
 };
 
-/// The moment that all views show, and the ways to another one. The views know it, and never each
-/// other.
+/// The position in the solve run that all views show, and the commands that change it. Views follow
+/// it and do not refer to each other.
 ///
-/// A direction's history has to be recorded first: what is wanted goes out by map_requested() and
-/// comes back by show_map(); until then the old moment stays, and a newer wish replaces an older.
+/// The history of a direction must be recorded before it can be shown: map_requested() requests it
+/// and show_map() delivers it. Until then the old position stays; a newer target replaces an older.
+///
+/// Threads: the main thread only.
 class Focus : public QObject {
   Q_OBJECT
 
  public:
   using QObject::QObject;
 
-  /// New directions, `passes` a step, of which nothing has been shown yet. `renews`: each step has
-  /// directions of its own.
+  /// Starts a solve run with new directions; nothing is shown yet.
+  /// @param passes  per iteration
+  /// @param renews  each iteration has its own directions
   void begin_run(int passes, bool renews = false);
-  /// How many iteration steps have begun; no others can be focused.
+  /// The number of iterations that have begun; later ones cannot be shown.
   void set_iterations(int count);
-  /// Of each step that has begun, where they have not all `passes`.
-  void set_passes_of_steps(std::vector<int> passes);
+  /// The number of passes of each iteration that has begun, if not all have passes().
+  void set_passes_of_iterations(std::vector<int> passes);
   int iterations() const { return iterations_; }
   int passes() const { return passes_; }
-  /// Directions that can be focused in a step.
+  /// The number of passes of an iteration.
   int passes_of(int iteration) const {
     const auto n = static_cast<std::size_t>(iteration);
-    return n < step_passes_.size() ? step_passes_[n] : passes_;
+    return n < iteration_passes_.size() ? iteration_passes_[n] : passes_;
   }
 
-  /// What is shown; its direction is map()'s. Without a map there is no moment to show.
+  /// The shown position; its direction is map()'s. Valid only with a map.
   const RunPosition& position() const { return position_; }
   std::shared_ptr<const RecordedMap> map() const { return map_; }
   Phase phase() const { return phase_; }
-  /// Where it is going, or position(); of a direction not recorded yet the step may be unknown
-  /// (-1).
+  /// The requested position, else position(). The step may be unknown (-1) until the direction is
+  /// recorded.
   const RunPosition& target() const { return target_; }
   bool arrived() const { return !under_way_; }
-  /// Whether it stays with the newest direction.
+  /// Whether the position follows the newest direction.
   bool following() const { return following_; }
   bool seeking() const { return under_way_ && seek_left_ > 0; }
 
-  /// The point of the plane whose line is asked about; forgotten with its direction.
+  /// The point of the plane whose line along omega is inspected; cleared with its direction.
   const std::optional<Vec2>& probe() const { return probe_; }
   void set_probe(const std::optional<Vec2>& probe);
 
-  /// Each of these but follow() ends the following. Out of range means the nearest there is.
+  // Each of these functions, except follow(), ends following. Values out of range are clamped.
+
   void go_to(const RunPosition& position);
-  /// To the first step of a direction that `finder` finds; before its first where there is none.
+  /// To the first step of a direction that `finder` finds; before the first step if it finds none.
   void go_to_first(int iteration, int direction, StepFinder finder);
-  /// To an end of the direction at most; from there on to the next one. False at the run's end.
+  /// At most to an end of the direction; from there to the next direction.
+  /// @return false at an end of the run
   bool step_by(std::int32_t steps);
-  /// The same step of another direction, and of another iteration step.
+  /// The same step of another direction or iteration.
   void direction_by(int directions);
   void iteration_by(int iterations);
-  /// One phase on (or back), at the end of a step to the next (previous) one.
+  /// One phase forward (+1) or back (-1), over the ends of a step.
   void phase_by(int phases);
   void set_phase(Phase phase);
-  /// To the nearest step after (before) this one that `finder` finds, through all directions of the
-  /// run if need be; ends with seek_ended(), or with seek_stopped().
+  /// To the nearest step after (before) this one that `finder` finds, searching all directions of
+  /// the run; ends with seek_ended() or seek_stopped().
   void seek(StepFinder finder, StepOrder order);
-  /// Stays where it is.
+  /// Drops the target and ends a search.
   void stop();
-  /// Goes to the fullest step of a direction and stays with the newest ones, if `following`.
+  /// If `following`, goes to the fullest step of the newest direction, now and on each follow().
   void set_following(bool following);
+  /// Reports the newest direction of the solve run.
   void follow(int iteration, int direction);
 
-  /// The answer to map_requested().
+  /// Delivers a map after map_requested().
   void show_map(std::shared_ptr<const RecordedMap> map);
 
  signals:
   void moved();           ///< position, map or phase
-  void target_changed();  ///< what is wanted, what can be, whether it follows or seeks
+  void target_changed();  ///< target, valid range, following() or seeking()
   void map_requested(int iteration, int direction);
   void seek_ended(bool found);
-  void seek_stopped(int searched);  ///< in vain until now: so many directions
+  void seek_stopped(int searched);  ///< number of directions searched without success
   void probed();
 
  private:
-  /// The step to show of a direction once it is known; MapHistory::none: another direction.
+  /// Selects the step of a recorded direction; MapHistory::none: continue with another direction.
   using Arrival = std::function<std::int32_t(const MapHistory&)>;
 
-  /// Whether `map` is of the direction at `moment`.
+  /// Whether `map` is of the direction at `position`.
   bool shows(const RecordedMap& map, const RunPosition& position) const;
-  /// `from` where the run does not reach so far.
+  /// `from` if the result would be outside the run.
   RunPosition moved_by(const RunPosition& from, int directions, std::int32_t step) const;
-  void go(int iteration, int direction, std::int32_t step, Arrival arrival);
+  void set_target(int iteration, int direction, std::int32_t step, Arrival arrival);
   void go_to_newest();
   void arrive(std::int32_t step);
-  void seek_on();
+  void continue_seek();
   void end_seek();
-  void leave_newest();
+  void end_following();
 
   int passes_ = 0, iterations_ = 1;
-  std::vector<int> step_passes_;
+  std::vector<int> iteration_passes_;
   bool renews_ = false;
   RunPosition position_, target_, newest_;
   std::shared_ptr<const RecordedMap> map_;
@@ -131,7 +137,8 @@ class Focus : public QObject {
   Arrival arrival_;
   StepFinder finder_;
   StepOrder order_ = StepOrder::forward;
-  std::int64_t seek_all_ = 0, seek_left_ = 0;  ///< directions to be searched
+  std::int64_t seek_total_ = 0,
+               seek_left_ = 0;  ///< numbers of directions: of the search, and to be searched
 };
 
 }  // namespace transillum::viewer

@@ -34,7 +34,7 @@ void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
     focus_.begin_run(static_cast<int>(snapshot_->directions->size()),
                      snapshot_->options.scheme == Scheme::semi_iterative);
   }
-  focus_.set_passes_of_steps(snapshot_->kept_passes);
+  focus_.set_passes_of_iterations(snapshot_->kept_passes);
   focus_.set_iterations(begun);
   follow();
 }
@@ -49,7 +49,8 @@ void FocusFeed::follow() {
     return;
   }
   const SolveProgress& progress = snapshot_->progress;
-  // Of a step that has just ended, the last direction; a growing one had fewer than there are.
+  // After the end of an iteration: its last direction, which in the growing scheme is not the last
+  // of all directions.
   if (progress.direction > 0) {
     focus_.follow(progress.iteration, progress.direction - 1);
   } else if (progress.iteration > 0) {
@@ -69,11 +70,11 @@ void FocusFeed::record(int iteration, int direction) {
   const auto& directions = n < kept.size() ? kept[n] : snapshot_->directions;
   if (!directions) {
     focus_.stop();
-    emit failed(tr("The directions of iteration %1 have not been kept: there are too many")
+    emit failed(tr("The directions of iteration %1 were not stored: they exceed the memory limit")
                     .arg(iteration + 1));
     return;
   }
-  recorder_.request({snapshot_->loaded, at((*directions), direction), iteration, direction,
+  recorder_.request({snapshot_->loaded, at(*directions, direction), iteration, direction,
                      focus_.passes(), focus_.following()});
 }
 

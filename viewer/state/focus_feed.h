@@ -10,17 +10,17 @@
 
 namespace transillum::viewer {
 
-/// Tells the focus how far the run is, and records the directions that it wants.
+/// Reports the progress of the solve run to the focus, and records the maps that it requests.
 class FocusFeed : public QObject {
   Q_OBJECT
 
  public:
   explicit FocusFeed(Focus& focus, QObject* parent = nullptr);
 
-  /// A new scene: nothing of the old one is delivered any more.
+  /// For a new scene: drops all requests for the old one.
   void clear();
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
-  /// Whether somebody looks: else no time is spent on the newest directions.
+  /// Whether a view shows the maps; if not, the newest directions are not recorded.
   void set_watched(bool watched);
 
  signals:

@@ -9,11 +9,11 @@ namespace transillum::viewer {
 
 namespace {
 
-// How each built-in shows best: the way from the target to the eye, and which way is up.
+// The initial view of each built-in scene.
 struct Pose {
   const char* scene;
-  Vec3 toward_eye, up;
-  double radius_share;  ///< of half the diagonal: what matters may be small in its enclosure
+  Vec3 toward_eye, up;  ///< toward_eye: direction from the target to the eye
+  double radius_share;  ///< radius of the region of interest over half the diagonal of the scene
   double view_angle = 30;
 };
 constexpr Pose poses[] = {
@@ -24,7 +24,7 @@ constexpr Pose poses[] = {
     {"rooms", {0.35, -0.65, 0.8}, {0, 0, 1}, 1},
     {"stars", {0.35, -0.9, 0.4}, {0, 0, 1}, 1},
 };
-// OBJ files mostly have y up.
+// In most OBJ files, y is up.
 constexpr Pose file_pose{"", {0.5, 0.45, 0.75}, {0, 1, 0}, 1};
 
 const Pose& pose_of(const Scene& scene) {
@@ -44,7 +44,7 @@ ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up
   view.target = scene.bounds().center();
   view.radius = std::max(0.5 * scene.bounds().diagonal(), 1e-9);
 
-  // Far enough for every corner to be within the picture, and no farther.
+  // The least distance at which every point is within the picture.
   const Vec3 back = normalized(toward_eye);
   const Vec3 right = normalized(cross(up, back));
   const Vec3 above = cross(back, right);
@@ -66,7 +66,7 @@ ViewPoint initial_view(const Scene& scene, double aspect) {
   const Pose& pose = pose_of(scene);
   ViewPoint view = view_of_all(scene, pose.toward_eye, pose.up, pose.view_angle, aspect);
   if (pose.radius_share < 1) {
-    // What matters is small in its enclosure: far enough for a sphere round that.
+    // Fit a sphere around the region of interest.
     view.radius *= pose.radius_share;
     const double tangent =
         std::tan(view.view_angle / 2 * std::numbers::pi / 180) * std::min(1.0, aspect);

@@ -5,20 +5,22 @@
 
 namespace transillum::viewer {
 
-/// Where to look from, and what at.
+/// A camera position, meters in scene coordinates.
 struct ViewPoint {
   Vec3 eye, target, up;
   double view_angle = 30;  ///< vertical, degrees
-  double radius = 1;       ///< of what is worth looking at, round `target`, meters
+  double radius = 1;       ///< of the region of interest around `target`, meters
 
   friend bool operator==(const ViewPoint&, const ViewPoint&) = default;
 };
 
-/// A first look at `scene`, `aspect` = width / height of the picture. Surfaces seen from behind are
-/// not drawn, so a closed room is looked into from outside, through its nearest wall.
+/// The view of a scene after it is opened. Back faces are not drawn, so a closed room is viewed
+/// from outside, through its nearest wall.
+/// @param aspect  width / height of the picture
 ViewPoint initial_view(const Scene& scene, double aspect);
 
-/// All of `scene`, with the eye from its middle toward `toward_eye`.
+/// A view of the whole scene, with the eye in the direction `toward_eye` from its center.
+/// @param view_angle  vertical, degrees
 ViewPoint view_of_all(const Scene& scene, const Vec3& toward_eye, const Vec3& up, double view_angle,
                       double aspect);
 

@@ -3,7 +3,7 @@
 
 namespace transillum::viewer {
 
-/// The arrangements of the window's docks, one for each kind of user.
+/// Arrangements of the docks, one per task.
 enum class Layout { teach, inspect, debug };
 
 }  // namespace transillum::viewer

@@ -3,7 +3,7 @@
 
 namespace transillum::viewer {
 
-/// What the Show menu draws beside the colored patches, or in their place.
+/// Parts of the 3-D picture that the Show menu switches.
 enum class Overlay { normals, back_sides, cuts, wireframe, smooth };
 inline constexpr Overlay all_overlays[] = {Overlay::normals, Overlay::back_sides, Overlay::cuts,
                                            Overlay::wireframe, Overlay::smooth};

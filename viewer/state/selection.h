@@ -7,7 +7,7 @@
 
 namespace transillum::viewer {
 
-/// The patch that all views highlight. The views know it, and never each other.
+/// The patch that all views highlight. Views follow it and do not refer to each other.
 class Selection : public QObject {
   Q_OBJECT
 

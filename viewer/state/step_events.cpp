@@ -18,13 +18,13 @@ Kind kind_of(bool below_front_facing, bool above_front_facing) {
   return above_front_facing ? Kind::back_to_back : Kind::back_shown;
 }
 
-StepEvent arrival(const MapHistory& history, std::int32_t k) {
+StepEvent insertion(const MapHistory& history, std::int32_t k) {
   const MapHistory::Step& step = history.step(k);
-  const Kind kind = step.row == MapRecord::no_row ? Kind::edge_on : Kind::comes;
+  const Kind kind = step.row == MapRecord::no_row ? Kind::edge_on : Kind::inserted;
   return {k, kind, step.patch, no_patch, step.area, 0};
 }
 
-StepEvent meeting(const MapHistory& history, std::int32_t inside_row, int parts) {
+StepEvent cut_of(const MapHistory& history, std::int32_t inside_row, int parts) {
   const MapRecord::Row& row = history.row(inside_row);
   const MapHistory::Step& step = history.step(row.made);
   return {row.made,
@@ -35,7 +35,7 @@ StepEvent meeting(const MapHistory& history, std::int32_t inside_row, int parts)
           parts};
 }
 
-std::vector<StepEvent> meetings(const MapHistory& history, std::int32_t k) {
+std::vector<StepEvent> cuts_of(const MapHistory& history, std::int32_t k) {
   std::map<std::int32_t, int> parts;  // by the row that was cut
   for (const std::int32_t r : history.outside_at(k)) {
     ++parts[history.row(r).parent];
@@ -43,7 +43,7 @@ std::vector<StepEvent> meetings(const MapHistory& history, std::int32_t k) {
   std::vector<StepEvent> events;
   for (const std::int32_t r : history.inside_at(k)) {
     const auto left = parts.find(history.row(r).parent);
-    events.push_back(meeting(history, r, left == parts.end() ? 0 : left->second));
+    events.push_back(cut_of(history, r, left == parts.end() ? 0 : left->second));
   }
   return events;
 }
@@ -54,11 +54,11 @@ std::vector<StepEvent> events_of_step(const MapHistory& history, std::int32_t st
   if (step < 0) {
     return {};
   }
-  std::vector<StepEvent> events{arrival(history, step)};
-  std::vector<StepEvent> met = meetings(history, step);
-  std::stable_sort(met.begin(), met.end(),
+  std::vector<StepEvent> events{insertion(history, step)};
+  std::vector<StepEvent> cuts = cuts_of(history, step);
+  std::stable_sort(cuts.begin(), cuts.end(),
                    [](const StepEvent& a, const StepEvent& b) { return a.area > b.area; });
-  events.insert(events.end(), met.begin(), met.end());
+  events.insert(events.end(), cuts.begin(), cuts.end());
   return events;
 }
 
@@ -67,9 +67,9 @@ std::vector<StepEvent> events_of_patch(const MapHistory& history, PatchId patch)
   for (const std::int32_t k : history.steps_of(patch)) {
     const bool own = history.step(k).patch == patch;
     if (own) {
-      events.push_back(arrival(history, k));
+      events.push_back(insertion(history, k));
     }
-    for (const StepEvent& event : meetings(history, k)) {
+    for (const StepEvent& event : cuts_of(history, k)) {
       if (own || event.above == patch) {
         events.push_back(event);
       }
@@ -105,7 +105,7 @@ std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p)
     const auto above = std::find_if(inside.begin(), inside.end(), [&](std::int32_t r) {
       return record.covers(history.row(r), p);
     });
-    StepEvent event = above == inside.end() ? arrival(history, k) : meeting(history, *above, 0);
+    StepEvent event = above == inside.end() ? insertion(history, k) : cut_of(history, *above, 0);
     if (event.kind == Kind::exchange) {
       event.pair_area = exchanged_area(history, event.below, event.above);
     }
@@ -115,12 +115,12 @@ std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p)
 }
 
 QString text_of(StepEvent::Kind kind) {
-  const auto tr = [](const char* words) { return QCoreApplication::translate("StepEvent", words); };
+  const auto tr = [](const char* text) { return QCoreApplication::translate("StepEvent", text); };
   switch (kind) {
     case Kind::edge_on:
-      return tr("is seen edge-on");
-    case Kind::comes:
-      return tr("is put into V");
+      return tr("is edge-on");
+    case Kind::inserted:
+      return tr("is inserted into V");
     case Kind::exchange:
       return tr("receives from");
     case Kind::back_seen:

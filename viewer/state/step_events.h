@@ -8,37 +8,37 @@
 
 namespace transillum::viewer {
 
-/// One thing that happened in a step: a polygon came, or one of V was cut by it.
+/// An event of a step: its polygon is inserted, or it cuts a polygon of V.
 struct StepEvent {
   enum class Kind {
-    edge_on,       ///< the polygon takes no part
-    comes,         ///< the polygon is put into V
+    edge_on,       ///< the polygon is edge-on: not processed
+    inserted,      ///< the polygon is inserted into V
     exchange,      ///< below receives from above
-    back_seen,     ///< below looks at the back of above
-    back_shown,    ///< above looks (along -omega) at the back of below
-    back_to_back,  ///< neither looks at the other
+    back_seen,     ///< below faces the back of above
+    back_shown,    ///< above faces (along -omega) the back of below
+    back_to_back,  ///< neither faces the other
   };
   std::int32_t step = 0;
-  Kind kind = Kind::comes;
-  PatchId below = no_patch;  ///< whose polygon the step processes
-  PatchId above = no_patch;  ///< what it met; no_patch where it came or is edge-on
-  double area = 0;           ///< m²: of the polygon, or of the part above it
-  int parts = 0;             ///< of what was cut, left in V
-  double pair_area = 0;      ///< of an exchange along a line: A(below, above) of the direction, m²
+  Kind kind = Kind::inserted;
+  PatchId below = no_patch;  ///< patch of the polygon that the step processes
+  PatchId above = no_patch;  ///< patch of the cut polygon; no_patch: inserted or edge-on
+  double area = 0;           ///< m²: of the polygon, or of the cut part above it
+  int parts = 0;             ///< number of parts of the cut polygon that stay in V
+  double pair_area = 0;      ///< events_at_point(): A(below, above) of the direction, m²
 
   friend bool operator==(const StepEvent&, const StepEvent&) = default;
 };
 
-/// All of a step: its polygon first, then what it cut, the largest first.
+/// The events of a step: its polygon first, then the cut parts by decreasing area.
 std::vector<StepEvent> events_of_step(const MapHistory& history, std::int32_t step);
-/// Those of a direction that concern one patch, in order.
+/// The events of a direction that involve one patch, in order.
 std::vector<StepEvent> events_of_patch(const MapHistory& history, PatchId patch);
-/// A(i, j, omega), m²: what `receiver` sees of `source` at all steps of the direction.
+/// A(i, j, omega), m²: area of `source` that `receiver` sees, over all steps of the direction.
 double exchanged_area(const MapHistory& history, PatchId receiver, PatchId source);
-/// The polygons that cover point `p`, from the light down, each with what it meets there.
+/// The polygons that cover point `p`, in BSP order, each with the polygon above it there.
 std::vector<StepEvent> events_at_point(const MapHistory& history, const Vec2& p);
 
-/// In a few words, without the patches.
+/// A verb phrase without the patches.
 QString text_of(StepEvent::Kind kind);
 
 }  // namespace transillum::viewer

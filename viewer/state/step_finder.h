@@ -9,19 +9,19 @@ namespace transillum::viewer {
 
 enum class StepOrder { forward, backward };
 
-/// The nearest step after `from` (before it) of what is looked for, or MapHistory::none.
+/// Returns the nearest matching step after `from` (backward: before it), or MapHistory::none.
 using StepFinder =
     std::function<std::int32_t(const MapHistory& history, std::int32_t from, StepOrder order)>;
 
-/// Steps that process, cut or cover a polygon of the patch.
+/// Finds steps that process, cut or cover a polygon of the patch.
 StepFinder find_events_of(PatchId patch);
-/// Steps at which the patch receives or gives light.
+/// Finds steps in which the patch receives light, or emits it to another patch.
 StepFinder find_exchanges_of(PatchId patch);
-/// Steps whose polygon exchanges light with what lies above it.
+/// Finds steps whose polygon receives light from polygons above it.
 StepFinder find_exchanges();
-/// Steps that put something else on top at point `p` of the plane, seen from below.
+/// Finds steps whose polygon covers point `p` of the plane.
 StepFinder find_changes_at(const Vec2& p);
-/// Steps of which `holds` is true, one by one.
+/// Finds steps for which `holds` returns true; tests each step.
 StepFinder find_where(std::function<bool(const MapHistory& history, std::int32_t step)> holds);
 
 }  // namespace transillum::viewer

@@ -82,7 +82,7 @@ QWidget* AlgorithmView::make_code(CodeLine first, CodeLine last) {
     if (text.line < first || text.line > last) {
       continue;
     }
-    lines_.push_back(code_line(text.words, text.indent));
+    lines_.push_back(code_line(text.text, text.indent));
     layout->addWidget(lines_.back());
   }
   return box;
