@@ -76,7 +76,7 @@ class ResultReader : public ::testing::Test {
     write_result(path_, solution_);
   }
 
-  /// Writes a file anew after a change by VTK's means.
+  /// Reads the file with VTK, applies `edit`, and writes it back.
   void change(const std::function<void(vtkPolyData&)>& edit) const {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path_.c_str());
@@ -102,9 +102,9 @@ class ResultReader : public ::testing::Test {
   Solution solution_;
 };
 
-TEST_F(ResultReader, GivesWhatWasWritten) { expect_same(read_result(path_), solution_); }
+TEST_F(ResultReader, ReadsBackWhatWasWritten) { expect_same(read_result(path_), solution_); }
 
-TEST_F(ResultReader, GivesBothSidesOfRefinedFacesAndTheErrorEstimate) {
+TEST_F(ResultReader, ReadsBothSidesOfRefinedFacesAndTheErrorEstimate) {
   const auto scene = load_scene("boards", {.two_sided = true, .max_patch_area = 0.4});
   ASSERT_GT(scene->patch_count(), 2 * scene->report().faces);
   solution_ = solve(scene, {.directions = 16, .replicas = 2});
@@ -120,7 +120,7 @@ TEST_F(ResultReader, GivesBothSidesOfRefinedFacesAndTheErrorEstimate) {
   expect_same(read_result(path_), solution_);
 }
 
-TEST_F(ResultReader, NeedsNoMaterialsNorFigures) {
+TEST_F(ResultReader, NeedsNeitherMaterialsNorFigures) {
   change([](vtkPolyData& mesh) {
     mesh.GetCellData()->RemoveArray("material");
     mesh.GetFieldData()->Initialize();
@@ -132,8 +132,8 @@ TEST_F(ResultReader, NeedsNoMaterialsNorFigures) {
   EXPECT_EQ(read.scene->material(1).exitance, solution_.scene->material(1).exitance);
 }
 
-TEST_F(ResultReader, TellsMaterialsApartByNumberAndValues) {
-  // Patches 0 and 2 are of one material.
+TEST_F(ResultReader, DistinguishesMaterialsByNumberAndValues) {
+  // Patches 0 and 2 share a material.
   change([](vtkPolyData& mesh) {
     for (int c = 0; c < 3; ++c) {
       mesh.GetCellData()->GetArray("rho")->SetComponent(2, c, 0.25);
@@ -151,7 +151,7 @@ TEST_F(ResultReader, TellsMaterialsApartByNumberAndValues) {
   EXPECT_EQ(read.scene->reflectance(2), read.scene->reflectance(0));
 }
 
-TEST_F(ResultReader, TakesNoControlCharactersForNames) {
+TEST_F(ResultReader, RemovesControlCharactersFromNames) {
   change([](vtkPolyData& mesh) {
     vtkNew<vtkStringArray> names;
     names->SetName("materials");
@@ -165,7 +165,7 @@ TEST_F(ResultReader, TakesNoControlCharactersForNames) {
   EXPECT_EQ(read.scene->material(1).name, "plain");
 }
 
-TEST_F(ResultReader, RefusesTwoSidesThatAreNotOfOneFace) {
+TEST_F(ResultReader, RefusesPairsThatAreNotSidesOfOneFace) {
   solution_ = solve(load_scene("boards", {.two_sided = true}), {.directions = 16});
   for (const bool materials : {true, false}) {
     SCOPED_TRACE(materials);
@@ -182,7 +182,7 @@ TEST_F(ResultReader, RefusesTwoSidesThatAreNotOfOneFace) {
         corners.SetTuple1(first + 1, moved);
       }
     });
-    expect_refused("patch 0 has no other side");
+    expect_refused("patch 0 is not followed by its other side");
   }
 }
 
@@ -192,7 +192,7 @@ TEST_F(ResultReader, RefusesOtherFiles) {
   for (const char* text : {"", "v 0 0 0\n", "<a><AppendedData", "<VTKFile/><AppendedData/>",
                            "<VTKFile type=\"ImageData\"><AppendedData encoding=\"raw\">_"}) {
     write_text(path_, text);
-    expect_refused("is no VTK file");
+    expect_refused("is not a VTK file");
   }
 }
 
@@ -201,7 +201,7 @@ TEST_F(ResultReader, RefusesOtherPolygons) {
   expect_refused("has no array \"B\"");
 }
 
-TEST_F(ResultReader, RefusesValuesThatCannotBe) {
+TEST_F(ResultReader, RefusesImpossibleValues) {
   struct Case {
     const char* what;
     std::function<void(vtkPolyData&)> edit;
@@ -218,14 +218,14 @@ TEST_F(ResultReader, RefusesValuesThatCannotBe) {
       {"H of patch 1 is not a finite number", set("H", HUGE_VAL)},
       {"reflectance rho (Kd) is 1", set("rho", 1)},
       {"exitance E (Ke) is -1", set("E", -1)},
-      {"passes is -1, which cannot be", figure("passes", -1)},
+      {"passes is -1, not a whole number from 0 to 1073741824", figure("passes", -1)},
       {"passes is 1e+300", figure("passes", 1e300)},
       {"transfers is 0.5", figure("transfers", 0.5)},
-      {"patch 0 has no other side", figure("two_sided", 1)},
-      {"two_sided is 7", figure("two_sided", 7)},
+      {"patch 0 is not followed by its other side", figure("two_sided", 1)},
+      {"two_sided is 7, not a whole number from 0 to 1", figure("two_sided", 7)},
       {"a polygon's corner is point 99",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 99); }},
-      {"a polygon's corner is point 10, but there are 10",
+      {"a polygon's corner is point 10, not from 0 to 9",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 10); }},
       {"a polygon's corner is point -1",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, -1); }},
@@ -234,10 +234,9 @@ TEST_F(ResultReader, RefusesValuesThatCannotBe) {
       {"is not planar", [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, 2, 3); }},
       {"coordinate is not a finite number",
        [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, std::nan(""), 3); }},
-      {"must hold polygons, and nothing else",
-       [](vtkPolyData& mesh) { mesh.SetLines(mesh.GetPolys()); }},
+      {"must contain polygons only", [](vtkPolyData& mesh) { mesh.SetLines(mesh.GetPolys()); }},
       {"has no polygons", [](vtkPolyData& mesh) { mesh.SetPolys(vtkNew<vtkCellArray>()); }},
-      {"\"E\" must be 3 numbers each",
+      {"array \"E\" must have 3 numbers per entry",
        [](vtkPolyData& mesh) {
          vtkNew<vtkDoubleArray> gray;
          gray->SetName("E");
@@ -253,7 +252,7 @@ TEST_F(ResultReader, RefusesValuesThatCannotBe) {
   }
 }
 
-TEST_F(ResultReader, MakesNoRoomForWhatAFileCannotHold) {
+TEST_F(ResultReader, AllocatesNoMoreThanAFileCanHold) {
   for (const char* claim : {"1000000000000", "-1", "99999999999999999999999", "x"}) {
     write_result(path_, solution_);
     replace("NumberOfPolys=\"3\"", "NumberOfPolys=\"" + std::string(claim) + "\"");
@@ -264,17 +263,17 @@ TEST_F(ResultReader, MakesNoRoomForWhatAFileCannotHold) {
   expect_refused("NumberOfComponents cannot be `1000`");
 }
 
-/// Half a file, and files with a few bytes changed: a sentence, or a scene.
+/// Truncated files give an error message; files with a few changed bytes give one, or a scene.
 TEST_F(ResultReader, SurvivesDamage) {
   const std::string whole = read_file(path_);
-  const auto take = [&](const std::string& text) {
+  const auto error_of = [&](const std::string& text) {
     write_text(path_, text);
     const std::string sentence = refusal([&] { read_result(path_); });
     EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     return sentence;
   };
   for (std::size_t size = 0; size < whole.find("AppendedData>\n</"); size += 397) {
-    EXPECT_NE(take(whole.substr(0, size)), "") << size;
+    EXPECT_NE(error_of(whole.substr(0, size)), "") << size;
   }
   std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same files each time
   for (int k = 0; k < 150; ++k) {
@@ -282,7 +281,7 @@ TEST_F(ResultReader, SurvivesDamage) {
     for (int n = 0; n <= k % 4; ++n) {
       text[random() % text.size()] = "0AzM\"<=9"[random() % 8];
     }
-    take(text);
+    error_of(text);
   }
 }
 
@@ -292,7 +291,7 @@ TEST_F(ResultReader, CanBeCanceled) {
   EXPECT_THROW(read_result(path_, canceled), Canceled);
 }
 
-TEST(CliResult, IsNoSceneToSolve) {
+TEST(CliResult, IsNotASceneToSolve) {
   const ProgramResult result = run_program({"solve", "r.vtp"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("r.vtp: no such file"));

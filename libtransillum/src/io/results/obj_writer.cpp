@@ -1,42 +1,20 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Writes a scene description as OBJ with MTL, so that the OBJ reader gets back the same
+// description.
 #include <fmt/format.h>
 
 #include <ostream>
 #include <set>
 #include <stdexcept>
 
+#include "io/text_buffer.h"
 #include "transillum/files.h"
 
 namespace transillum {
 namespace {
 
-/// Formats into a block of memory, since streams are slow on small pieces.
-class Text {
- public:
-  explicit Text(std::ostream& stream) : stream_(stream) {}
-  ~Text() { flush(); }
-  Text(const Text&) = delete;
-  Text& operator=(const Text&) = delete;
-
-  template <typename... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(block_), format, std::forward<Values>(values)...);
-    constexpr std::size_t full = 1 << 16;
-    if (block_.size() >= full) {
-      flush();
-    }
-  }
-
- private:
-  void flush() {
-    stream_.write(block_.data(), static_cast<std::streamsize>(block_.size()));
-    block_.clear();
-  }
-  std::ostream& stream_;
-  fmt::memory_buffer block_;
-};
-
-/// Names that survive a line of text each and differ from one another.
+/// Names of the materials, changed so that each fits on a line of text and no two are equal.
 std::vector<std::string> written_names(const std::vector<Material>& materials) {
   std::set<std::string> taken;
   std::vector<std::string> names;
@@ -47,7 +25,7 @@ std::vector<std::string> written_names(const std::vector<Material>& materials) {
         c = '_';
       }
     }
-    // Blanks at the ends would be lost, and a backslash there would join two lines.
+    // A reader drops blanks at the ends, and a backslash at the end joins two lines.
     if (name.empty() || name.front() == ' ') {
       name.insert(name.begin(), '_');
     }
@@ -65,7 +43,7 @@ std::vector<std::string> written_names(const std::vector<Material>& materials) {
 
 void write_materials(std::ostream& stream, const std::vector<Material>& materials,
                      const std::vector<std::string>& names) {
-  Text text(stream);
+  TextBuffer text(stream);
   text.add("# Kd: reflectance; Ke: emitted exitance, W/m2\n");
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const Rgb& rho = materials[m].reflectance;
@@ -76,7 +54,7 @@ void write_materials(std::ostream& stream, const std::vector<Material>& material
 
 void write_faces(std::ostream& stream, const SceneDescription& description,
                  const std::string& library, const std::vector<std::string>& names) {
-  Text text(stream);
+  TextBuffer text(stream);
   text.add("# {} vertices, {} faces; meters\n", description.points.size(),
            description.face_count());
   if (!names.empty()) {
@@ -85,13 +63,13 @@ void write_faces(std::ostream& stream, const SceneDescription& description,
   for (const Vec3& p : description.points) {
     text.add("v {} {} {}\n", p.x, p.y, p.z);
   }
-  std::int32_t in_use = -1;
+  std::int32_t current = -1;
   for (std::size_t f = 0; f < description.face_count(); ++f) {
     const std::int32_t material = description.face_material[f];
-    if (material != in_use) {
+    if (material != current) {
       text.add("usemtl {}\n", names.at(static_cast<std::size_t>(material)));
     }
-    in_use = material;
+    current = material;
     text.add("f");
     for (const PointId p : description.outline(f)) {
       text.add(" {}", p + 1);
@@ -107,10 +85,10 @@ void write_obj(const std::filesystem::path& path, const SceneDescription& descri
   const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
   write_file_whole(path, [&](std::ostream& stream) {
     write_faces(stream, description, library.filename().string(), names);
-    // Both or neither: the MTL takes its place when all of the OBJ is on the disk, and the OBJ
-    // right after.
+    // Both or neither: the MTL is renamed into place after all of the OBJ is written, and the OBJ
+    // directly after it.
     if (!stream.flush()) {
-      throw std::runtime_error(path.string() + ": cannot be written");
+      throw std::runtime_error(path.string() + ": cannot be written: input/output error");
     }
     write_file_whole(library, [&](std::ostream& materials) {
       write_materials(materials, description.materials, names);

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Cache of reference solutions for studies. A file's name is the hash of the scene and of all
+// options that change B; it holds a line with format version and hash, the doubles of B in memory
+// order, and a hash of both.
 #include "transillum/reference_cache.h"
 
 #include <fmt/format.h>
@@ -23,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Against accidents, not against enemies: MD5.
+/// MD5: detects accidental changes, not deliberate ones.
 class Hash {
  public:
   Hash() : md5_(vtksysMD5_New(), vtksysMD5_Delete) { vtksysMD5_Initialize(md5_.get()); }
@@ -48,7 +52,7 @@ class Hash {
     add(text.size());
     append(text.data(), text.size());
   }
-  /// 32 hexadecimal digits; the hash is used up.
+  /// The hash as 32 hexadecimal digits; may be called once.
   std::string digits() {
     std::array<char, 32> text{};
     vtksysMD5_FinalizeHex(md5_.get(), text.data());
@@ -57,11 +61,12 @@ class Hash {
 
  private:
   void append(const void* data, std::size_t size) {
-    // MD5.h counts in int, and takes a negative one for "up to the final zero".
-    constexpr std::size_t most = 1U << 30;
+    // MD5.h counts in int, and a negative length means "up to the final zero".
+    constexpr std::size_t max_block = 1U << 30;
     const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t done = 0; done < size; done += most) {
-      vtksysMD5_Append(md5_.get(), bytes + done, static_cast<int>(std::min(most, size - done)));
+    for (std::size_t done = 0; done < size; done += max_block) {
+      vtksysMD5_Append(md5_.get(), bytes + done,
+                       static_cast<int>(std::min(max_block, size - done)));
     }
   }
 
@@ -84,7 +89,7 @@ void add_scene(Hash& hash, const Scene& scene) {
   }
 }
 
-/// What changes B by more than rounding: not the memory, nor the number of threads.
+/// Adds the options that change B: not the memory nor the number of threads.
 void add_options(Hash& hash, const SolveOptions& options) {
   hash.add(options.directions);
   hash.add(name_of(options.sampling));
@@ -128,12 +133,12 @@ std::string digits_of(const std::string& key, const std::vector<Rgb>& radiosity)
   return hash.digits();
 }
 
-static_assert(sizeof(Rgb) == 3 * sizeof(double), "values are written as they lie in memory");
+static_assert(sizeof(Rgb) == 3 * sizeof(double), "values are written in memory order");
 
 }  // namespace
 
 fs::path ReferenceCache::default_folder() {
-  // The XDG specification: what is not absolute is to be ignored.
+  // XDG Base Directory Specification: paths that are not absolute must be ignored.
   for (const auto& [variable, below] : {std::pair{"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}}) {
     const char* value = std::getenv(variable);
     if (value != nullptr && fs::path(value).is_absolute()) {
@@ -161,7 +166,7 @@ std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
   const fs::path file = folder_ / (key + ".reference");
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
-    return std::nullopt;  // to open a pipe would wait
+    return std::nullopt;  // opening a pipe would block
   }
   if (fs::file_size(file, error) != head.size() + size + digits.size()) {
     return std::nullopt;

@@ -5,9 +5,9 @@
 
 namespace transillum {
 
-/// Shows `visit` each single number that a .vtp file keeps of a solve, by its name there. Any may
-/// be missing from a file, of an older version for one.
-/// @tparam Result Solution, or const Solution.
+/// Calls visit(name, value) for each single number of a solve that a .vtp file keeps, by the name
+/// of its field data array. Any may be missing from a file, for instance from an older version.
+/// @tparam Result Solution, or const Solution
 template <class Result, class Visit>
 void visit_figures(Result& solution, Visit visit) {
   visit("complete", solution.complete);

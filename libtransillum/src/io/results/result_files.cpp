@@ -27,7 +27,8 @@ ResultWriter writer_for(const std::filesystem::path& path) {
   if (ending == ".obj") {
     return write_result_obj;
   }
-  throw InputError(fmt::format("{}: a result ends in .csv, .vtp, .ply or .obj", path.string()));
+  throw InputError(
+      fmt::format("{}: the name of a result must end in .csv, .vtp, .ply or .obj", path.string()));
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ void check_result_path(const std::filesystem::path& path) {
 void check_statistics_path(const std::filesystem::path& path) {
   if (lower_case_ending(path) != ".json") {
     throw InputError(
-        fmt::format("{}: statistics are JSON, their file ends in .json", path.string()));
+        fmt::format("{}: the name of a statistics file must end in .json", path.string()));
   }
   check_writable(path);
 }

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Reads a solution from a .vtp file that write_result_vtp() wrote; data/FILES.md lists its arrays.
+// All values are checked: a damaged file gives an InputError.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +24,7 @@
 namespace transillum {
 namespace {
 
-/// What a .vtp file holds, checked as it is asked for.
+/// Builds a Solution from the arrays of a .vtp file, which are checked when they are read.
 class ResultReader {
  public:
   ResultReader(const std::filesystem::path& path, const Cancellation& cancellation)
@@ -49,11 +52,12 @@ class ResultReader {
     }
     const double number = file_.numbers("FieldData", name, 1, 1).front();
     if constexpr (std::is_integral_v<Number>) {
-      const double most = std::is_same_v<Number, bool>  ? 1
-                          : std::is_same_v<Number, int> ? 0x1p30
-                                                        : 0x1p53;
-      if (!(number >= 0 && number <= most && number == std::floor(number))) {
-        file_.fail(fmt::format("{} is {}, which cannot be", name, number));
+      const double max_value = std::is_same_v<Number, bool>  ? 1
+                               : std::is_same_v<Number, int> ? 0x1p30
+                                                             : 0x1p53;
+      if (!(number >= 0 && number <= max_value && number == std::floor(number))) {
+        file_.fail(
+            fmt::format("{} is {}, not a whole number from 0 to {:.0f}", name, number, max_value));
       }
     }
     value = static_cast<Number>(number);
@@ -84,32 +88,32 @@ class ResultReader {
     return colors;
   }
 
-  std::vector<std::string> words(const char* name) const {
+  std::vector<std::string> strings(const char* name) const {
     if (!file_.has("FieldData", name)) {
       return {};
     }
-    std::vector<std::string> words = file_.words(name);
-    for (std::string& word : words) {
-      word = clean_text(word);
+    std::vector<std::string> texts = file_.strings(name);
+    for (std::string& text : texts) {
+      text = clean_text(text);
     }
-    return words;
+    return texts;
   }
 
-  /// Patches with the same number, E and rho are of one material.
+  /// Patches with the same material number, E and rho share a material.
   void add_materials(SceneDescription& description, std::vector<std::int32_t>& of_patch) const {
     const std::vector<Rgb> exitance = colors("E"), reflectance = colors("rho");
-    const std::vector<std::string> names = words("materials");
+    const std::vector<std::string> names = strings("materials");
     std::vector<std::int64_t> numbers(file_.polygons());
     if (file_.has("CellData", "material")) {
       numbers = file_.whole_numbers("CellData", "material", numbers.size());
     }
     const auto channels = [](const Rgb& c) { return std::array{c.r, c.g, c.b}; };
     using Channels = std::array<double, 3>;
-    std::map<std::tuple<std::int64_t, Channels, Channels>, std::int32_t> known;
+    std::map<std::tuple<std::int64_t, Channels, Channels>, std::int32_t> index_of;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const auto next = static_cast<std::int32_t>(description.materials.size());
       const auto [entry, is_new] =
-          known.try_emplace({numbers[i], channels(exitance[i]), channels(reflectance[i])}, next);
+          index_of.try_emplace({numbers[i], channels(exitance[i]), channels(reflectance[i])}, next);
       of_patch.push_back(entry->second);
       if (!is_new) {
         continue;
@@ -145,7 +149,8 @@ class ResultReader {
     std::int64_t before = 0;
     for (const std::int64_t end : outlines.end) {
       if (end < before || end > std::numeric_limits<std::int32_t>::max()) {
-        file_.fail("its polygons have no sensible lists of corners");
+        file_.fail(fmt::format("a polygon's corners end at {}, which is not from {} to {}", end,
+                               before, std::numeric_limits<std::int32_t>::max()));
       }
       before = end;
     }
@@ -153,17 +158,17 @@ class ResultReader {
     const auto points = static_cast<std::int64_t>(file_.points());
     for (const std::int64_t p : file_.whole_numbers("Polys", "connectivity", count)) {
       if (p < 0 || p >= points) {
-        file_.fail(fmt::format("a polygon's corner is point {}, but there are {}", p, points));
+        file_.fail(fmt::format("a polygon's corner is point {}, not from 0 to {}", p, points - 1));
       }
       outlines.corners.push_back(static_cast<PointId>(p));
     }
     return outlines;
   }
 
-  /// One patch a polygon; where both sides count, two polygons make one face.
+  /// One patch per polygon; in a two-sided scene, two polygons are the sides of one face.
   std::shared_ptr<const Scene> make_scene() const {
     SceneDescription description;
-    const std::vector<std::string> names = words("scene");
+    const std::vector<std::string> names = strings("scene");
     description.name = names.size() == 1 && !names.front().empty() ? names.front() : file_.name();
     add_points(description);
     std::vector<std::int32_t> materials;
@@ -183,7 +188,8 @@ class ResultReader {
       ++i;
       if (i == file_.polygons() || materials[i] != materials[i - 1] ||
           !std::equal(outline.rbegin(), outline.rend(), outlines[i].begin(), outlines[i].end())) {
-        file_.fail(fmt::format("is two-sided, but patch {} has no other side next to it", i - 1));
+        file_.fail(
+            fmt::format("is two-sided, but patch {} is not followed by its other side", i - 1));
       }
     }
     return checked(description, {.two_sided = two_sided});
@@ -202,7 +208,8 @@ class ResultReader {
     }
     if (static_cast<std::size_t>(scene->patch_count()) != file_.polygons()) {
       const auto& warnings = scene->report().warnings;
-      file_.fail(warnings.empty() ? "its polygons are no patches" : warnings.front());
+      file_.fail(warnings.empty() ? "some of its polygons are not valid patches"
+                                  : warnings.front());
     }
     return scene;
   }

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Results as text: CSV, PLY and OBJ. data/FILES.md lists their columns and properties.
 #include "io/results/result_writers.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
@@ -10,8 +12,8 @@ void add_color(TextBuffer& text, const Rgb& rgb, char separator) {
   text.add("{}{}{}{}{}{}", separator, rgb.r, separator, rgb.g, separator, rgb.b);
 }
 
-/// face, patch, area, E, rho and B of patch i; fmt's "{}" of a double is the shortest text that
-/// reads back to the same bits.
+/// Writes face, patch, area, E, rho and B of patch i. fmt's "{}" of a double is the shortest text
+/// that reads back to the same bits.
 void add_patch_values(TextBuffer& text, const Solution& solution, PatchId i, char separator) {
   const Scene& scene = *solution.scene;
   const Patch& patch = scene.patch(i);
@@ -52,7 +54,7 @@ void write_result_ply(std::ostream& out, const Solution& solution) {
   text.add("ply\nformat ascii 1.0\ncomment transillum; lengths in m, E and B in W/m2\n");
   text.add("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
            scene.points().size());
-  // Most readers know lists counted in bytes only.
+  // Most readers support only lists whose length is a byte.
   text.add("element face {}\nproperty list {} int vertex_indices\n", scene.patch_count(),
            has_large_outlines(scene) ? "uint" : "uchar");
   text.add("property int face\nproperty int patch\n");
@@ -79,7 +81,7 @@ void write_result_obj(std::ostream& out, const Solution& solution) {
   const Scene& scene = *solution.scene;
   TextBuffer text(out);
   text.add(
-      "# transillum: a face a patch; v x y z r g b, where r g b is the patch's radiosity B, "
+      "# transillum: one face per patch; v x y z r g b, where r g b is the patch's radiosity B, "
       "W/m2, linear\n");
   std::int64_t corner = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Results as VTK PolyData. data/FILES.md lists the arrays; result_reader.cpp reads them back.
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -69,7 +71,7 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
 }
 
-void add_words(vtkFieldData& fields, const char* name, const std::vector<Material>& materials) {
+void add_names(vtkFieldData& fields, const char* name, const std::vector<Material>& materials) {
   vtkNew<vtkStringArray> array;
   array->SetName(name);
   for (const Material& material : materials) {
@@ -78,12 +80,12 @@ void add_words(vtkFieldData& fields, const char* name, const std::vector<Materia
   fields.AddArray(array);
 }
 
-/// What the viewer needs to say what it shows.
+/// Adds the options, statistics and error estimate of the solve as field data, for the viewer.
 void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   const Scene& scene = *solution.scene;
   add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
   add_field(fields, "scene", scene.name());
-  add_words(fields, "materials", scene.materials());
+  add_names(fields, "materials", scene.materials());
   add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
   add_field(fields, "max_patch_area", scene.options().max_patch_area);
   visit_figures(solution, [&](const char* name, const auto& value) {

@@ -7,16 +7,19 @@
 
 namespace transillum {
 
-// One writer a format of write_result(). Doubles are written so that they read back bit for bit.
+// One writer per format of write_result(). Doubles are written so that they read back bit for bit.
+// data/FILES.md lists the columns, arrays and properties.
 
-/// face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b
+/// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
+/// also SE_r,SE_g,SE_b.
 void write_result_csv(std::ostream& out, const Solution& solution);
-/// VTK PolyData with cell arrays face, patch, area, material, E, rho, B, H and, as field data, the
-/// scene's name, that of its materials and what is known of the solve: what read_result() needs.
+/// VTK PolyData with cell arrays face, patch, area, material, E, rho, B, H, with replicas also
+/// standard_error; field data: names of the scene and its materials, options and statistics of the
+/// solve. read_result() reads it back.
 void write_result_vtp(std::ostream& out, const Solution& solution);
-/// ASCII, doubles; a polygon a patch with its face, patch, area, E, rho, B.
+/// ASCII PLY, doubles; one polygon per patch with its face, patch, area, E, rho, B.
 void write_result_ply(std::ostream& out, const Solution& solution);
-/// A polygon a patch with corners of its own, whose color is the patch's B, linear, unscaled.
+/// One polygon per patch with corners of its own, whose color is the patch's B, linear, unscaled.
 void write_result_obj(std::ostream& out, const Solution& solution);
 
 }  // namespace transillum

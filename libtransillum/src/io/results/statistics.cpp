@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Options, statistics and error estimate of a solve as JSON. data/FILES.md lists the keys.
 #include <nlohmann/json.hpp>
 
 #include <ostream>
@@ -25,7 +27,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["burn_in"] = options.scheme == Scheme::semi_iterative ? Json(options.burn_in) : Json();
   json["replicas"] = options.replicas;
   json["first_shot"] = options.first_shot ? Json(*options.first_shot) : Json();
-  // One of them rules; the other is null.
+  // The stopping rule is one of them; the other is null.
   json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
   json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
   json["memory"] = options.memory > 0 ? Json(options.memory) : Json();
@@ -47,7 +49,7 @@ Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
 
 Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
 
-/// Null without replicas.
+/// The error estimate; null without replicas.
 Json error_json(const ErrorEstimate& error) {
   if (error.replicas == 0) {
     return {};
@@ -60,7 +62,7 @@ Json error_json(const ErrorEstimate& error) {
           {"mean_B_standard_error", list_of(error.mean_standard_error)}};
 }
 
-/// The names of cli.md; what was never measured, for want of a finished step, is null.
+/// Figures that are known only after an iteration are null without one.
 Json statistics_json(const SolveStatistics& statistics) {
   const bool stepped = statistics.iterations > 0;
   Json json;
@@ -120,7 +122,7 @@ void write_statistics(const std::filesystem::path& path, const SolveOptions& opt
   json.update(statistics_json(solution.statistics));
   json["error_estimate"] = error_json(solution.error);
   // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
-  // A file name need not be UTF-8, but JSON must be.
+  // A scene's name may be a file name, which need not be UTF-8; JSON must be.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
   write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
 }

@@ -8,7 +8,7 @@
 namespace transillum {
 namespace {
 
-/// What is left of a projected area within this share of it is rounding (method, oracle 1).
+/// A remainder below this share of the projected area is rounding (ALGORITHM.md, oracle 1).
 constexpr double rounding_share = 1e-12;
 
 }  // namespace

@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A reader of .vtp files as write_polygons() writes them: XML, then appended arrays in base64,
+// packed by zlib in blocks. Every size that the file states is checked against the file's own size
+// before memory is allocated.
 #include "io/results/vtp_file.h"
 
 #include <expat.h>
@@ -21,17 +25,17 @@ namespace transillum {
 namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
-constexpr std::size_t most_arrays = 256, most_words = 16 << 20;
-/// Points and polygons take more bytes than this, however well they are packed.
-constexpr std::size_t least_bytes_an_item = 4;
-/// What deflate makes of one byte at most.
-constexpr std::size_t best_packing = 1032;
+constexpr std::size_t max_arrays = 256, max_string_bytes = 16 << 20;
+/// Lower bound of the compressed size of a point or polygon, bytes.
+constexpr std::size_t min_bytes_per_item = 4;
+/// Upper bound of deflate's compression ratio.
+constexpr std::size_t max_compression = 1032;
 
 constexpr std::array<std::string_view, 8> sections{"FieldData", "PointData", "CellData", "Points",
                                                    "Verts",     "Lines",     "Strips",   "Polys"};
 
-std::optional<std::size_t> count_from(const std::string& word) {
-  const std::string_view digits = trimmed(word);
+std::optional<std::size_t> count_from(const std::string& text) {
+  const std::string_view digits = trimmed(text);
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
   if (error != std::errc() || end != digits.data() + digits.size()) {
@@ -47,34 +51,36 @@ std::size_t size_of_type(const std::string& type) {
   return type == "Float32" || type == "Int32" ? 4 : 0;
 }
 
-template <class Stored, class Wanted>
-void convert(const std::vector<unsigned char>& bytes, std::vector<Wanted>& values) {
+/// Converts numbers of type Stored in `bytes` to the type of `values`, which sets their count.
+template <class Stored, class Value>
+void convert(const std::vector<unsigned char>& bytes, std::vector<Value>& values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     Stored stored;
     std::memcpy(&stored, bytes.data() + k * sizeof(Stored), sizeof(Stored));
-    values[k] = static_cast<Wanted>(stored);
+    values[k] = static_cast<Value>(stored);
   }
 }
 
 }  // namespace
 
-/// The elements up to the appended data, as expat finds them.
-class VtpFile::Head {
+/// Parses the XML elements up to the appended data with expat.
+class VtpFile::HeaderParser {
  public:
-  explicit Head(VtpFile& file) : file_(file), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+  explicit HeaderParser(VtpFile& file)
+      : file_(file), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
     XML_SetUserData(parser_.get(), this);
     XML_SetStartElementHandler(
         parser_.get(), [](void* self, const XML_Char* element, const XML_Char** attributes) {
-          static_cast<Head*>(self)->begin(element, attributes);
+          static_cast<HeaderParser*>(self)->begin(element, attributes);
         });
-    // Without a document type there are no entities that grow.
+    // Stop at a document type: without one there are no entities to expand.
     XML_SetStartDoctypeDeclHandler(
         parser_.get(), [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-          static_cast<Head*>(self)->stop();
+          static_cast<HeaderParser*>(self)->stop();
         });
   }
 
-  /// Fills the file's fields; the place behind the tag of the appended data.
+  /// Sets the file's members. Returns the position of the end of the tag AppendedData.
   std::size_t read() {
     constexpr std::size_t stride = 1 << 16;
     const std::string& text = file_.text_;
@@ -87,8 +93,8 @@ class VtpFile::Head {
         file_.refuse();
       }
     }
-    if (!complaint_.empty()) {
-      file_.fail(complaint_);
+    if (!error_.empty()) {
+      file_.fail(error_);
     }
     if (!complete_) {
       file_.refuse();
@@ -99,22 +105,22 @@ class VtpFile::Head {
  private:
   using Attributes = std::map<std::string, std::string>;
 
-  void stop(const std::string& complaint = {}) {
+  void stop(const std::string& error = {}) {
     if (stopped_) {
       return;
     }
-    complaint_ = complaint;
+    error_ = error;
     stopped_ = true;
     XML_StopParser(parser_.get(), XML_FALSE);
   }
 
-  void begin(const std::string& element, const XML_Char** words) {
+  void begin(const std::string& element, const XML_Char** pairs) {
     if (stopped_) {
       return;
     }
     Attributes attributes;
-    for (; words[0] != nullptr; words += 2) {
-      attributes[words[0]] = words[1];
+    for (; pairs[0] != nullptr; pairs += 2) {
+      attributes[pairs[0]] = pairs[1];
     }
     if (element == "VTKFile") {
       check_format(attributes);
@@ -136,7 +142,9 @@ class VtpFile::Head {
     const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     if (is_vtk_ && (attributes["byte_order"] != order || attributes["header_type"] != "UInt64" ||
                     attributes["compressor"] != "vtkZLibDataCompressor")) {
-      stop("is not packed as transillum does it, which alone can be read");
+      stop(
+          "is not encoded as transillum does it (UInt64 headers, zlib, native byte order); other "
+          "encodings cannot be read");
     }
   }
 
@@ -144,19 +152,19 @@ class VtpFile::Head {
     ++pieces_;
     for (const char* others : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips"}) {
       if (count_from(attributes[others]) != 0) {
-        stop("must hold polygons, and nothing else");
+        stop("must contain polygons only");
       }
     }
-    file_.points_ = count_of(attributes, "NumberOfPoints", most());
-    file_.polygons_ = count_of(attributes, "NumberOfPolys", most());
+    file_.points_ = count_of(attributes, "NumberOfPoints", max_items());
+    file_.polygons_ = count_of(attributes, "NumberOfPolys", max_items());
     if (file_.polygons_ == 0) {
       stop("has no polygons");
     }
   }
 
   void add_array(Attributes& attributes) {
-    if (file_.arrays_.size() == most_arrays) {
-      stop(fmt::format("has more than {} arrays", most_arrays));
+    if (file_.arrays_.size() == max_arrays) {
+      stop(fmt::format("has more than {} arrays", max_arrays));
       return;
     }
     Array array{attributes["type"]};
@@ -164,17 +172,17 @@ class VtpFile::Head {
       array.components = count_of(attributes, "NumberOfComponents", 9);
     }
     if (attributes.contains("NumberOfTuples")) {
-      array.entries = count_of(attributes, "NumberOfTuples", most());
+      array.entries = count_of(attributes, "NumberOfTuples", max_items());
     }
     array.offset = count_of(attributes, "offset", file_.text_.size());
     file_.arrays_[{section_, attributes["Name"]}] = array;
   }
 
-  std::size_t most() const { return file_.text_.size() / least_bytes_an_item; }
+  std::size_t max_items() const { return file_.text_.size() / min_bytes_per_item; }
 
-  std::size_t count_of(Attributes& attributes, const char* name, std::size_t most) {
+  std::size_t count_of(Attributes& attributes, const char* name, std::size_t max_count) {
     const std::optional<std::size_t> count = count_from(attributes[name]);
-    if (count && *count <= most) {
+    if (count && *count <= max_count) {
       return *count;
     }
     stop(fmt::format("{} cannot be {} in a file of {} bytes", name, in_quotes(attributes[name]),
@@ -184,15 +192,15 @@ class VtpFile::Head {
 
   VtpFile& file_;
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
-  std::string section_, complaint_;
-  std::size_t tag_ = 0;  ///< where that of the appended data begins
+  std::string section_, error_;
+  std::size_t tag_ = 0;  ///< position of the tag AppendedData
   int pieces_ = 0;
   bool is_vtk_ = false, stopped_ = false, complete_ = false;
 };
 
 VtpFile::VtpFile(const std::filesystem::path& path, const Cancellation& cancellation)
     : name_(path.string()), cancellation_(cancellation), text_(read_text_file(path, largest_file)) {
-  data_begin_ = text_.find('_', Head(*this).read());
+  data_begin_ = text_.find('_', HeaderParser(*this).read());
   if (data_begin_ == std::string::npos) {
     refuse();
   }
@@ -201,7 +209,7 @@ VtpFile::VtpFile(const std::filesystem::path& path, const Cancellation& cancella
 
 void VtpFile::fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
-void VtpFile::refuse() const { fail("is no VTK file of polygons (.vtp), or a damaged one"); }
+void VtpFile::refuse() const { fail("is not a VTK file of polygons (.vtp), or is damaged"); }
 
 bool VtpFile::has(const char* section, const std::string& name) const {
   return arrays_.contains({section, name});
@@ -210,7 +218,7 @@ bool VtpFile::has(const char* section, const std::string& name) const {
 const VtpFile::Array& VtpFile::array(const char* section, const std::string& name) const {
   const auto found = arrays_.find({section, name});
   if (found == arrays_.end()) {
-    fail(fmt::format("has no array \"{}\", so it is no result of a solve", name));
+    fail(fmt::format("has no array \"{}\", so it is not the result of a solve", name));
   }
   return found->second;
 }
@@ -224,7 +232,7 @@ std::vector<double> VtpFile::numbers(const char* section, const std::string& nam
   const Array& stored = array(section, name);
   const std::size_t bytes = size_of_type(stored.type);
   if (bytes == 0 || stored.components != components) {
-    fail(fmt::format("\"{}\" must be {} number{} each", name, components,
+    fail(fmt::format("array \"{}\" must have {} number{} per entry", name, components,
                      components == 1 ? "" : "s"));
   }
   std::vector<double> values(components * entries);
@@ -249,7 +257,7 @@ std::vector<std::int64_t> VtpFile::whole_numbers(const char* section, const std:
   const Array& stored = array(section, name);
   const bool wide = stored.type == "Int64";
   if ((!wide && stored.type != "Int32") || stored.components != 1) {
-    fail(fmt::format("\"{}\" must be a whole number each", name));
+    fail(fmt::format("array \"{}\" must have one whole number per entry", name));
   }
   const std::vector<unsigned char> raw = decode(stored, (wide ? 8 : 4) * entries, true);
   std::vector<std::int64_t> values(entries);
@@ -261,25 +269,25 @@ std::vector<std::int64_t> VtpFile::whole_numbers(const char* section, const std:
   return values;
 }
 
-std::vector<std::string> VtpFile::words(const std::string& name) const {
+std::vector<std::string> VtpFile::strings(const std::string& name) const {
   const Array& stored = array("FieldData", name);
   if (stored.type != "String") {
-    fail(fmt::format("\"{}\" must be words", name));
+    fail(fmt::format("array \"{}\" must be of type String, not {}", name, stored.type));
   }
-  std::vector<std::string> words;
+  std::vector<std::string> strings;
   if (stored.entries == 0) {
-    return words;
+    return strings;
   }
-  std::string word;
-  for (const unsigned char c : decode(stored, most_words, false)) {
+  std::string text;
+  for (const unsigned char c : decode(stored, max_string_bytes, false)) {
     if (c != 0) {
-      word += static_cast<char>(c);
+      text += static_cast<char>(c);
     } else {
-      words.push_back(std::move(word));
-      word.clear();
+      strings.push_back(std::move(text));
+      text.clear();
     }
   }
-  return words;
+  return strings;
 }
 
 std::vector<unsigned char> VtpFile::from_base64(std::size_t at, std::size_t bytes) const {
@@ -297,8 +305,9 @@ std::vector<unsigned char> VtpFile::from_base64(std::size_t at, std::size_t byte
   return decoded;
 }
 
-/// Two runs of base64. First 64-bit numbers: how many blocks, the size of each when unpacked, that
-/// of the last if it is smaller (else 0), and the size of each as it is. Then the blocks.
+/// An array is two runs of base64. The first has 64-bit numbers: the number of blocks, the size of
+/// a block when unpacked, that of the last block if it is smaller (else 0), and the packed size of
+/// each. The second has the packed blocks.
 std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expected,
                                            bool exactly) const {
   if (exactly && expected == 0) {
@@ -313,9 +322,9 @@ std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expec
   const std::size_t begin = data_begin_ + array.offset;
   const std::vector<std::uint64_t> first = numbers_at(begin, 3);
   const std::uint64_t blocks = first[0], block_size = first[1], last = first[2];
-  const std::uint64_t most = best_packing * text_.size();
-  if (blocks == 0 || blocks > text_.size() || block_size == 0 || block_size > most ||
-      last > block_size || blocks > most / block_size + 1) {
+  const std::uint64_t max_size = max_compression * text_.size();
+  if (blocks == 0 || blocks > text_.size() || block_size == 0 || block_size > max_size ||
+      last > block_size || blocks > max_size / block_size + 1) {
     refuse();
   }
   const std::uint64_t size = last > 0 ? (blocks - 1) * block_size + last : blocks * block_size;
@@ -332,7 +341,7 @@ std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expec
     }
     packed_size += numbers[b];
   }
-  if (size > best_packing * packed_size) {
+  if (size > max_compression * packed_size) {
     refuse();
   }
   const std::vector<unsigned char> packed =
@@ -341,14 +350,14 @@ std::vector<unsigned char> VtpFile::decode(const Array& array, std::size_t expec
   std::size_t from = 0, to = 0;
   for (std::size_t b = 3; b < head; ++b) {
     cancellation_.throw_if_canceled();
-    const std::size_t wanted = std::min<std::size_t>(block_size, size - to);
-    uLongf unpacked = wanted;
+    const std::size_t expected_size = std::min<std::size_t>(block_size, size - to);
+    uLongf unpacked = expected_size;
     if (::uncompress(bytes.data() + to, &unpacked, packed.data() + from, numbers[b]) != Z_OK ||
-        unpacked != wanted) {
+        unpacked != expected_size) {
       refuse();
     }
     from += numbers[b];
-    to += wanted;
+    to += expected_size;
   }
   return bytes;
 }

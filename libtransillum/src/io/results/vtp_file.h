@@ -14,8 +14,8 @@
 
 namespace transillum {
 
-/// A .vtp file as write_polygons() writes it: its arrays, decoded as they are asked for. VTK's own
-/// reader ends the program where a file is damaged, and believes whatever sizes it tells.
+/// The arrays of a .vtp file that write_polygons() wrote, decoded on request. VTK's own reader may
+/// end the program on a damaged file and allocates whatever sizes the file states.
 ///
 /// All functions throw InputError naming the file.
 class VtpFile {
@@ -30,15 +30,15 @@ class VtpFile {
 
   /// @param section FieldData, CellData, Points or Polys
   bool has(const char* section, const std::string& name) const;
-  /// How many entries an array of field data has.
+  /// Number of entries of a field data array.
   std::size_t size_of_field(const std::string& name) const;
-  /// All numbers of an array, which has to have so many components and entries.
+  /// All numbers of an array, which must have this many components and entries.
   std::vector<double> numbers(const char* section, const std::string& name, std::size_t components,
                               std::size_t entries) const;
   std::vector<std::int64_t> whole_numbers(const char* section, const std::string& name,
                                           std::size_t entries) const;
-  /// The words of an array of field data.
-  std::vector<std::string> words(const std::string& name) const;
+  /// The strings of a field data array.
+  std::vector<std::string> strings(const std::string& name) const;
 
  private:
   struct Array {
@@ -46,10 +46,10 @@ class VtpFile {
     std::size_t components = 1, entries = 0;  ///< entries: of field data only
     std::size_t offset = 0;                   ///< in the appended data
   };
-  class Head;
+  class HeaderParser;
 
   const Array& array(const char* section, const std::string& name) const;
-  /// The bytes of an array; as many as `expected`, or at most so many where not `exactly`.
+  /// The bytes of an array: `expected` of them, or at most that many if not `exactly`.
   std::vector<unsigned char> decode(const Array& array, std::size_t expected, bool exactly) const;
   std::vector<unsigned char> from_base64(std::size_t at, std::size_t bytes) const;
   [[noreturn]] void refuse() const;

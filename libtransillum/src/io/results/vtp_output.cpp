@@ -22,7 +22,7 @@ void add_field(vtkFieldData& fields, const char* name, const std::string& value)
 }
 
 void write_polygons(std::ostream& out, vtkPolyData& mesh) {
-  // Base64 keeps it well-formed XML, and every bit of the doubles.
+  // Base64 keeps the file well-formed XML, and all bits of the doubles.
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(&mesh);
   writer->SetDataModeToAppended();
@@ -30,7 +30,7 @@ void write_polygons(std::ostream& out, vtkPolyData& mesh) {
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) {
-    throw std::runtime_error("VTK could not write the result");
+    throw std::runtime_error("VTP: VTK could not encode the polygons");
   }
   const std::string text = writer->GetOutputString();
   out.write(text.data(), static_cast<std::streamsize>(text.size()));

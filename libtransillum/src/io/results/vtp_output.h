@@ -13,7 +13,7 @@ class vtkPolyData;
 
 namespace transillum {
 
-// What the VTK files have in common.
+// Field data arrays and output shared by the .vtp files of results and maps.
 
 /// An array of `count` whole numbers, value_of(0) first.
 template <typename ValueOf>
@@ -27,6 +27,7 @@ void add_integers(vtkFieldData& fields, const char* name, int count, ValueOf val
   fields.AddArray(array);
 }
 
+/// An array of `count` doubles, value_of(0) first.
 template <typename ValueOf>
 void add_numbers(vtkFieldData& fields, const char* name, int count, ValueOf value_of) {
   vtkNew<vtkDoubleArray> array;
@@ -38,10 +39,12 @@ void add_numbers(vtkFieldData& fields, const char* name, int count, ValueOf valu
   fields.AddArray(array);
 }
 
+/// An array of one entry.
 void add_field(vtkFieldData& fields, const char* name, double value);
 void add_field(vtkFieldData& fields, const char* name, const std::string& value);
 
-/// As a .vtp file: well-formed XML that keeps every bit of the doubles.
+/// Writes `mesh` as a .vtp file: well-formed XML that keeps all bits of the doubles.
+/// @throws std::runtime_error if VTK cannot encode it
 void write_polygons(std::ostream& out, vtkPolyData& mesh);
 
 }  // namespace transillum
