@@ -29,7 +29,7 @@ struct Shown {
   std::vector<DirectionSample> samples;
 
   Shown(int lesson, int number)
-      : page(at(built_in_lessons(), lesson - 1).pages[static_cast<std::size_t>(number - 1)]),
+      : page(at(at(built_in_lessons(), lesson - 1).pages, number - 1)),
         scene(load_scene(page.state.scene, page.state.options.scene)),
         tree(std::make_shared<const BspTree>(*scene)) {
     const SolveOptions& solve = page.state.options.solve;

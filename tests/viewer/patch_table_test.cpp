@@ -171,8 +171,7 @@ class PatchTableTest : public QObject {
     const Filled back(rows_of_partners(*box_, j));
     const int row = back.table.row_of(i);
     QVERIFY(row >= 0);
-    const Rgb there =
-        at(back.columns, back.column("received")).values[static_cast<std::size_t>(row)];
+    const Rgb there = at(at(back.columns, back.column("received")).values, row);
     QVERIFY(max_abs(values("sent").front() - there) <= 1e-15 + 1e-12 * max_abs(there));
   }
 
@@ -189,10 +188,11 @@ class PatchTableTest : public QObject {
     QCOMPARE(all.csv_lines().size(), std::size_t{1});
   }
 
-  void csv_quotes_words_with_commas() {
+  void csv_quotes_text_with_commas() {
     PatchTable table;
-    PatchColumn word{"Material", {}, "material", PatchColumn::Kind::word, {{0}}, {"a \"b\", c"}};
-    table.set_contents({0}, {word});
+    PatchColumn material{"Material",    {}, "material", PatchColumn::Kind::text, {{0}},
+                         {"a \"b\", c"}};
+    table.set_contents({0}, {material});
     std::ostringstream out;
     table.write_csv(out);
     QCOMPARE(out.str(), std::string("material\n\"a \"\"b\"\", c\"\n"));

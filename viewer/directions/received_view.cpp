@@ -11,10 +11,12 @@
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "directions/received_table.h"
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "widgets/figure_table.h"
 
 namespace transillum::viewer {
@@ -127,33 +129,31 @@ void ReceivedView::show_lights() {
     return;
   }
   const PatchId patch = selection_.patch();
+  const int iteration = focus_.position().iteration;
   if (!snapshot_ || patch == no_patch) {
     table_->show_lights({}, 1);
     caption_->setText(
         tr("Select a patch to see what each direction contributes to its irradiance."));
     return;
   }
-  if (visibility_.current_request().patch != patch ||
-      visibility_.current_request().loaded != snapshot_->loaded ||
-      visibility_.current_request().directions !=
-          snapshot_->directions_of(focus_.position().iteration)) {
+  const PerDirectionVisibility::Request& request = visibility_.current_request();
+  if (request.patch != patch || request.loaded != snapshot_->loaded ||
+      request.directions != snapshot_->directions_of(iteration)) {
     return;
   }
-  const auto n = static_cast<std::size_t>(focus_.position().iteration);
   const auto& kept = snapshot_->kept_radiosity;
-  const bool known = n < kept.size() && kept[n];
+  const bool known = iteration < std::ssize(kept) && at(kept, iteration);
   const auto& found = visibility_.found();
   const int count = std::min(directions_done(), static_cast<int>(found.size()));
-  table_->show_lights(
-      received_light(visibility_.current_request(), {found.data(), static_cast<std::size_t>(count)},
-                     known ? *kept[n] : snapshot_->radiosity,
-                     snapshot_->passes_of(focus_.position().iteration)),
-      snapshot_->loaded->scene->patch(patch).area);
+  table_->show_lights(received_light(request, {found.data(), static_cast<std::size_t>(count)},
+                                     known ? *at(kept, iteration) : snapshot_->radiosity,
+                                     snapshot_->passes_of(iteration)),
+                      snapshot_->loaded->scene->patch(patch).area);
   table_->set_current_pass(focus_.map() ? focus_.position().direction : -1);
   const QString what =
       known ? tr("Iteration %1: contribution of each direction to the irradiance of patch %2; sum "
                  "%3 W/m².")
-                  .arg(count_text(focus_.position().iteration + 1))
+                  .arg(count_text(iteration + 1))
             : tr("Contribution of each direction to the irradiance of patch %1; sum %2 W/m².");
   caption_->setText(what.arg(patch).arg(number_text(luminance(table_->irradiance()))) +
                     (count < directions_done()

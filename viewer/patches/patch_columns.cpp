@@ -53,9 +53,9 @@ PatchColumn material_column(const std::vector<PatchId>& patches, const Scene& sc
     number_of_material.push_back(names.at(QString::fromStdString(material.name)));
   }
   PatchColumn result =
-      column(patches, tr("Material"), tr("Material of the patch"), "material", Kind::word,
+      column(patches, tr("Material"), tr("Material of the patch"), "material", Kind::text,
              [&](PatchId i) { return at(number_of_material, scene.patch(i).material); });
-  result.words = sorted;
+  result.texts = sorted;
   return result;
 }
 

@@ -22,19 +22,19 @@ double key_of(const PatchColumn& column, int entry) {
   return column.kind == PatchColumn::Kind::channels ? luminance(value) : value.r;
 }
 
-QString word_of(const PatchColumn& column, int entry) {
-  return column.words.value(static_cast<int>(at(column.values, entry).r));
+QString text_of(const PatchColumn& column, int entry) {
+  return column.texts.value(static_cast<int>(at(column.values, entry).r));
 }
 
 std::string exact_text(double value) {
   return QByteArray::number(value, 'g', QLocale::FloatingPointShortest).toStdString();
 }
 
-std::string quoted(const QString& word) {
-  if (!word.contains(',') && !word.contains('"') && !word.contains('\n')) {
-    return word.toStdString();
+std::string quoted(const QString& text) {
+  if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) {
+    return text.toStdString();
   }
-  return '"' + QString(word).replace('"', "\"\"").toStdString() + '"';
+  return '"' + QString(text).replace('"', "\"\"").toStdString() + '"';
 }
 
 }  // namespace
@@ -74,8 +74,8 @@ bool PatchTable::matches(int entry) const {
     return true;
   }
   return std::any_of(columns_.begin(), columns_.end(), [&](const PatchColumn& column) {
-    return column.kind == PatchColumn::Kind::word &&
-           word_of(column, entry).contains(search_, Qt::CaseInsensitive);
+    return column.kind == PatchColumn::Kind::text &&
+           text_of(column, entry).contains(search_, Qt::CaseInsensitive);
   });
 }
 
@@ -146,8 +146,8 @@ void PatchTable::write_csv(std::ostream& out) const {
     for (const PatchColumn& column : columns_) {
       const Rgb& value = at(column.values, entry);
       out << std::exchange(separator, ",");
-      if (column.kind == PatchColumn::Kind::word) {
-        out << quoted(word_of(column, entry));
+      if (column.kind == PatchColumn::Kind::text) {
+        out << quoted(text_of(column, entry));
       } else if (column.kind == PatchColumn::Kind::channels) {
         out << exact_text(value.r) << ',' << exact_text(value.g) << ',' << exact_text(value.b);
       } else {
@@ -171,8 +171,8 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
   const int entry = at(shown_, index.row());
   switch (role) {
     case Qt::DisplayRole:
-      if (column.kind == PatchColumn::Kind::word) {
-        return word_of(column, entry);
+      if (column.kind == PatchColumn::Kind::text) {
+        return text_of(column, entry);
       }
       // Written as in files, without group separators.
       if (column.kind == PatchColumn::Kind::integer) {
@@ -184,7 +184,7 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
                  ? QVariant(tr("Red, green, blue: %1").arg(rgb_text(at(column.values, entry))))
                  : QVariant();
     case Qt::TextAlignmentRole:
-      return QVariant(column.kind == PatchColumn::Kind::word ? Qt::AlignLeft | Qt::AlignVCenter
+      return QVariant(column.kind == PatchColumn::Kind::text ? Qt::AlignLeft | Qt::AlignVCenter
                                                              : Qt::AlignRight | Qt::AlignVCenter);
     default:
       return {};

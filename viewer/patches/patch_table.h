@@ -17,14 +17,14 @@ struct PatchColumn {
     integer,
     number,
     channels,  ///< sorted and shown by luminance
-    word       ///< index into `words`
+    text       ///< index into `texts`
   };
   QString title;
   QString tip;
   std::string csv_name;  ///< channels add _r, _g, _b
   Kind kind = Kind::number;
   std::vector<Rgb> values;  ///< one per patch; only red is used, except for channels
-  QStringList words = {};
+  QStringList texts = {};
 };
 
 /// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of
@@ -38,7 +38,7 @@ class PatchTable : public QAbstractTableModel {
   /// Replaces the contents; order and search stay.
   /// @param columns each with one value per entry of `patches`
   void set_contents(std::vector<PatchId> patches, std::vector<PatchColumn> columns);
-  /// Shows only patches with `text` in a word column, or whose number begins with it; empty: all.
+  /// Shows only patches with `text` in a text column, or whose number begins with it; empty: all.
   void set_search(const QString& text);
 
   /// The patch in a shown row.

@@ -24,14 +24,14 @@ std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
       !(rate > 0 && rate < 1)) {
     return predicted;
   }
-  const int wanted = snapshot.options.iterations;
+  const int requested = snapshot.options.iterations;
   // At most twice the iterations done, so that the chart leaves room for these.
-  const auto last = wanted > 0 ? static_cast<std::size_t>(wanted)
-                               : std::max<std::size_t>(8, 2 * s.iteration_records.size());
+  const auto last = requested > 0 ? static_cast<std::size_t>(requested)
+                                  : std::max<std::size_t>(8, 2 * s.iteration_records.size());
   for (double change = s.iteration_records.front().change; predicted.size() < last;
        change *= rate) {
     predicted.push_back(change);
-    if (wanted == 0 && change <= snapshot.options.tolerance) {
+    if (requested == 0 && change <= snapshot.options.tolerance) {
       break;
     }
   }
