@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The panel that compares two engines on one direction.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QSpinBox>
@@ -37,7 +38,7 @@ class CompareTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void tells_how_two_engines_differ() {
+  void shows_how_two_engines_differ() {
     const ComparedWindow shown;
     QVERIFY(shown.ready);
     CompareView* view = shown.view;
@@ -60,7 +61,7 @@ class CompareTest : public QObject {
     const double coarse = total();
     QVERIFY(coarse > 0);
 
-    // Finer pixels come nearer, and the same engine is the same.
+    // The difference shrinks with finer pixels and is 0 for the same engine.
     const QString before = shown.text("compare_words");
     view->findChild<QSpinBox*>("other_resolution")->setValue(1024);
     QVERIFY(!view->up_to_date());
@@ -94,7 +95,7 @@ class CompareTest : public QObject {
     }
     save_picture(*shown.window, "compare-corrected");
 
-    // They move and grow together, and show the same patch and point.
+    // They share one view, the selected patch and the probed point.
     auto* moved = view->findChild<MapCanvas*>("first_map");
     QWheelEvent wheel(QPointF(60, 60), QPointF(moved->mapToGlobal(QPoint(60, 60))), {}, {0, 480},
                       Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
@@ -136,13 +137,13 @@ class CompareTest : public QObject {
       QVERIFY(picture->share(j) >= 0 && picture->share(j) <= 1 + 1e-9);
     }
     save_picture(*shown.window, "compare-hemicube");
-    // The same by the same, whatever the direction.
+    // The same engine on both sides shows no difference, along any direction.
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
   }
 
-  void settings_offer_what_an_engine_takes() {
+  void settings_show_the_options_of_an_engine() {
     SettingsPanel panel;
     panel.show();
     auto* engine = panel.findChild<QComboBox*>("engine");
@@ -172,7 +173,7 @@ class CompareTest : public QObject {
     QVERIFY(another.solve_options() == options);
   }
 
-  void tells_why_there_is_nothing() {
+  void a_new_scene_clears_the_comparison() {
     SolvedWindow shown(QStringLiteral("boards"));
     QVERIFY(shown.ready);
     auto* view = shown.window->findChild<CompareView*>();

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Stepping through visibility maps with the pointer and the keys.
+// Stepping through visibility maps with the mouse and the keyboard.
 #include <QComboBox>
 #include <QListWidget>
 #include <QMenu>
@@ -12,6 +12,7 @@
 #include "map/pixel_view.h"
 #include "solved_window.h"
 #include "stepping/timeline_lanes.h"
+#include "transillum/at.h"
 #include "transillum/errors.h"
 #include "widgets/log_chart.h"
 
@@ -35,7 +36,7 @@ struct Stepping : SolvedWindow {
     return QPointF(TimelineLanes::position(rect, k, count), rect.center().y()).toPoint();
   }
   int steps() const { return focus.map()->history.step_count(); }
-  /// With the left button held; QTest::mouseMove() has none.
+  /// With the left button held, which QTest::mouseMove() does not support.
   void drag_to(const QPoint& place) const {
     QMouseEvent move(QEvent::MouseMove, place, Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
     QCoreApplication::sendEvent(lanes, &move);
@@ -51,7 +52,7 @@ class SteppingTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_lane_knows_its_places() {
+  void positions_on_a_lane_map_to_indices() {
     const QRectF lane(80, 0, 500, 10);
     for (const int count : {1, 7, 500, 499}) {
       for (int k = 0; k < count; ++k) {
@@ -107,7 +108,7 @@ class SteppingTest : public QObject {
     QVERIFY(of_zbuffer > 0.001 && of_zbuffer < 0.1);
     QVERIFY(s.text("map_text").contains("differ"));
     QVERIFY(choose("map_painter"));
-    QCOMPARE(wrong(), of_zbuffer);  // the same centers
+    QCOMPARE(wrong(), of_zbuffer);  // the same pixel centers
     QVERIFY(choose("map_newell"));
     QCOMPARE(wrong(), of_zbuffer);
     QVERIFY(choose("map_rays"));
@@ -129,7 +130,7 @@ class SteppingTest : public QObject {
     QVERIFY(!s.map_view->canvas()->pixels());
   }
 
-  void pictures_under_way_can_be_given_up() {
+  void painting_can_be_canceled() {
     const Stepping s("cornell-box");
     QVERIFY(s.ready);
     MapPictureRequest request;
@@ -138,14 +139,14 @@ class SteppingTest : public QObject {
     request.patch_colors = std::make_shared<const std::vector<Color8>>(27);
     request.size = {300, 200};
     request.transform = fit_map(*request.map, request.size);
-    Cancellation given_up;
-    given_up.cancel();
+    Cancellation canceled;
+    canceled.cancel();
     for (const std::optional<Engine> engine :
          {std::optional<Engine>(), std::optional(Engine::zbuffer), std::optional(Engine::painter),
           std::optional(Engine::rays), std::optional(Engine::corrected)}) {
       request.pixels.engine = engine;
       QVERIFY(!paint_map(request).image.isNull());
-      QVERIFY_EXCEPTION_THROWN(paint_map(request, given_up), Canceled);
+      QVERIFY_EXCEPTION_THROWN(paint_map(request, canceled), Canceled);
     }
   }
 
@@ -184,7 +185,7 @@ class SteppingTest : public QObject {
     QVERIFY(!hemicube->comparison());
   }
 
-  void tells_why_newell_gives_up() {
+  void shows_why_newells_order_fails() {
     const Stepping s("boards");
     QVERIFY(s.ready);
     s.focus.go_to({0, 3, 2});
@@ -194,10 +195,10 @@ class SteppingTest : public QObject {
     const auto pixels = s.map_view->canvas()->pixels();
     QVERIFY2(pixels->failure.find("overlap in a cycle") != std::string::npos,
              pixels->failure.c_str());
-    QVERIFY(s.text("map_text").contains("gave up"));
+    QVERIFY(s.text("map_text").contains("failed"));
     const QImage picture = s.map_view->canvas()->grab().toImage();
     QVERIFY(share_of(picture, theme::scene_background) > 0.8);
-    QVERIFY(color_count(picture) > 4);  // the words
+    QVERIFY(color_count(picture) > 4);  // the message
     save_picture(*s.window, "map-newell");
   }
 
@@ -292,10 +293,10 @@ class SteppingTest : public QObject {
     const QImage scene = s.scene_view->canvas()->grab().toImage();
     QVERIFY(scene != scene_before);
     QVERIFY(share_of(scene, theme::processed) > 0);
-    // A click in the table selects the patch that the polygon met.
-    const QModelIndex met = events->model()->index(1, 3);
-    QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(met).center());
-    QCOMPARE(s.window->selection().patch(), met.data().toInt());
+    // A click in the table selects the patch of the polygon that was cut.
+    const QModelIndex above = events->model()->index(1, 3);
+    QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(above).center());
+    QCOMPARE(s.window->selection().patch(), above.data().toInt());
     QTest::qWait(100);
     save_picture(*s.window, "step");
   }
@@ -314,18 +315,18 @@ class SteppingTest : public QObject {
     QVERIFY(line->model()->rowCount() >= 2);
     const int last = line->model()->rowCount() - 1;
     QCOMPARE(line->model()->index(last, 1).data().toInt(), s.window->selection().patch());
-    // Back to where the line's first polygon came.
+    // Go to the step of the line's first fragment.
     const QPoint first = line->visualRect(line->model()->index(0, 1)).center();
     QTest::mouseClick(line->viewport(), Qt::LeftButton, {}, first);
     QTest::mouseDClick(line->viewport(), Qt::LeftButton, {}, first);
     QCOMPARE(s.focus.position().step + 1, line->model()->index(0, 0).data().toInt());
-    // The same by a global map: the line's patches are the region's list.
+    // With the global map, the line's patches are the region's list.
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(1);
     QCOMPARE(s.text("value_region_list").split(", ").size(), line->model()->rowCount());
     QVERIFY(s.text("value_region_i").startsWith(line->model()->index(0, 1).data().toString()));
     QTest::qWait(100);
     save_picture(*s.window, "global");
-    // R is marked on the map, and only then.
+    // R is highlighted on the map, but only with the global map.
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) > 0.002);
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(0);
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) < 1e-4);
@@ -349,7 +350,7 @@ class SteppingTest : public QObject {
       const auto steps = s.focus.map()->history.steps_of(9);
       QVERIFY(std::find(steps.begin(), steps.end(), s.focus.position().step) != steps.end());
     }
-    // The list says which one it was.
+    // The list marks the breakpoint that holds.
     s.window->breakpoints().add({Breakpoint::Kind::large_map, 0, 0, 1e6, true});
     const auto* marked = s.window->findChild<QListWidget*>("breakpoint_list");
     QVERIFY(marked->item(0)->text().endsWith("here") && marked->item(0)->font().bold());
@@ -364,7 +365,7 @@ class SteppingTest : public QObject {
     auto* list = s.window->findChild<QListWidget*>("breakpoint_list");
     list->item(0)->setCheckState(Qt::Unchecked);
     QVERIFY(!s.window->findChild<QAction*>("run_on")->isEnabled());
-    // One by one, switched off or not.
+    // Each can be run to from its menu, even if disabled.
     const QPoint item = list->visualItemRect(list->item(0)).center();
     for (const int action : {1, 0}) {
       emit list->customContextMenuRequested(item);
@@ -381,7 +382,7 @@ class SteppingTest : public QObject {
     QCOMPARE(list->count(), 0);
   }
 
-  void charts_mark_the_moment_and_lead_to_others() {
+  void charts_mark_the_position_and_change_it() {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     auto* directions = s.window->findChild<LogChart*>("direction_chart");
@@ -405,7 +406,7 @@ class SteppingTest : public QObject {
     QCOMPARE(iterations->mark(), std::optional(2));
   }
 
-  void every_iteration_of_the_semi_iterative_scheme_can_be_looked_at() {
+  void every_iteration_of_the_semi_iterative_scheme_can_be_shown() {
     const auto window = make_window();
     SolveOptions options;
     options.directions = 16;
@@ -427,7 +428,7 @@ class SteppingTest : public QObject {
     }
   }
 
-  void a_new_run_starts_anew() {
+  void a_new_run_resets_the_focus() {
     const Stepping s("furnace");
     QVERIFY(s.ready);
     s.focus.go_to({0, 2, 1});
@@ -442,4 +443,3 @@ class SteppingTest : public QObject {
 
 TRANSILLUM_VIEWER_TEST_MAIN(SteppingTest)
 #include "stepping_test.moc"
-#include "transillum/at.h"

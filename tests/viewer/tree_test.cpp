@@ -10,6 +10,7 @@
 #include <set>
 
 #include "solved_window.h"
+#include "transillum/at.h"
 #include "transillum/directions.h"
 #include "tree/order_bar.h"
 #include "tree/tree_model.h"
@@ -286,5 +287,4 @@ class TreeTest : public QObject {
 };
 
 TRANSILLUM_VIEWER_TEST_MAIN(TreeTest)
-#include "transillum/at.h"
 #include "tree_test.moc"

@@ -24,39 +24,39 @@ namespace transillum::viewer {
 
 namespace {
 
-/// While the newest direction is followed, so often at most.
+/// Shortest time between two comparisons while the newest direction is followed.
 constexpr int refresh_interval_ms = 400;
-constexpr int map_height = 110;  ///< pixels, where there is no more room
+constexpr int map_height = 110;  ///< size hint, pixels
 
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
 
-QString words_of_figures(const EngineComparison::Side& side, double exchanged) {
+QString figures_text(const EngineComparison::Side& side, double exchanged) {
   return CompareView::tr("%1 ms, %2 pairs\n%3 m² exchanged\n%4 covered")
       .arg(number_text(1000 * side.seconds), count_text(static_cast<std::int64_t>(side.pairs)),
            number_text(exchanged), percent_text(side.covered_share));
 }
 
-QString words_of_direction(const EngineComparison& c) {
+QString direction_text(const EngineComparison& c) {
   QString text = CompareView::tr(
-                     "Along this direction %1 of what “%2” exchanges is between other "
-                     "patches by “%3”.")
+                     "Along this direction, “%3” assigns %1 of the area that “%2” exchanges to "
+                     "other pairs of patches.")
                      .arg(percent_text(c.transfers.misplaced), engine_label(c.first.engine),
                           engine_label(c.other.engine));
   const Transfer& largest = c.transfers.largest;
   if (largest.receiver == no_patch) {
     return text;
   }
-  return text + CompareView::tr(" Most: patches %1 and %2, %3 m² %4.")
+  return text + CompareView::tr(" Largest difference: patches %1 and %2, %3 m² %4.")
                     .arg(largest.receiver)
                     .arg(largest.source)
                     .arg(number_text(std::abs(largest.area)),
                          largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
 }
 
-QString words_of_row(const EngineComparison& c, std::size_t directions) {
+QString row_text(const EngineComparison& c, std::size_t directions) {
   QString text = CompareView::tr(
-                     "A hemicube knows no direction. Of what patch %1 sees by “%2”, %3 "
-                     "is other patches by “%4” (all %5 directions of the run).")
+                     "A hemicube has no direction, so one patch is compared: “%4” assigns %3 of "
+                     "what patch %1 sees by “%2” to other patches (all %5 directions of the run).")
                      .arg(c.eye)
                      .arg(engine_label(c.first.engine), percent_text(c.transfers.misplaced),
                           engine_label(c.other.engine))
@@ -66,7 +66,7 @@ QString words_of_row(const EngineComparison& c, std::size_t directions) {
     return text;
   }
   const double area = at(c.projected, c.eye);
-  return text + CompareView::tr(" Most: patch %1, form factor %2 %3.")
+  return text + CompareView::tr(" Largest difference: patch %1, form factor %2 %3.")
                     .arg(largest.source)
                     .arg(number_text(std::abs(largest.area) / area),
                          largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
@@ -85,34 +85,34 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   grid->setVerticalSpacing(0);
   grid->addLayout(column_of(first_), 0, 0);
   grid->addLayout(column_of(other_), 0, 1);
-  words_ = new QLabel;
-  words_->setObjectName(QStringLiteral("compare_words"));
-  words_->setWordWrap(true);
-  words_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  words_->setContentsMargins(10, 6, 10, 6);
-  picture_ = new DifferencePicture(selection_);
-  picture_->canvas()->set_height_hint(map_height);
-  link({first_.map, other_.map, picture_->canvas()});
-  grid->addWidget(words_, 1, 0);
-  grid->addWidget(picture_, 1, 1);
+  text_ = new QLabel;
+  text_->setObjectName(QStringLiteral("compare_words"));
+  text_->setWordWrap(true);
+  text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  text_->setContentsMargins(10, 6, 10, 6);
+  difference_ = new DifferencePicture(selection_);
+  difference_->canvas()->set_height_hint(map_height);
+  link({first_.map, other_.map, difference_->canvas()});
+  grid->addWidget(text_, 1, 0);
+  grid->addWidget(difference_, 1, 1);
   for (const int part : {0, 1}) {
     grid->setRowStretch(part, 1);
     grid->setColumnStretch(part, 1);
   }
 
-  later_ = new QTimer(this);
-  later_->setSingleShot(true);
-  later_->setInterval(refresh_interval_ms);
-  connect(later_, &QTimer::timeout, this, &CompareView::ask);
+  request_timer_ = new QTimer(this);
+  request_timer_->setSingleShot(true);
+  request_timer_->setInterval(refresh_interval_ms);
+  connect(request_timer_, &QTimer::timeout, this, &CompareView::send_request);
   connect(&focus_, &Focus::moved, this, [this] {
-    if (isVisible() && !later_->isActive()) {
-      later_->start();
+    if (isVisible() && !request_timer_->isActive()) {
+      request_timer_->start();
     }
   });
   connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
   connect(&selection_, &Selection::changed, this, [this] {
     if (first_.is_hemicube() || other_.is_hemicube()) {
-      later_->start();
+      request_timer_->start();
     }
   });
   connect(&focus_, &Focus::probed, this, &CompareView::show_maps);
@@ -127,9 +127,9 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
   choice.figures->setWordWrap(true);
   choice.figures->setContentsMargins(10, 4, 10, 4);
   choice.figures->setToolTip(
-      tr("Its processor time for this direction; the pairs of patches that exchange light; the "
-         "area, seen along the direction, over which they do; the share of what receivers show to "
-         "it that was found to see another patch"));
+      tr("Processor time for this direction; number of pairs of patches that exchange light; "
+         "projected area over which they do; share of the receivers' projected area that sees "
+         "another patch"));
   choice.picture->addWidget(choice.map);
   choice.picture->addWidget(choice.hemicube);
   choice.map->set_height_hint(map_height);
@@ -153,10 +153,10 @@ CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
     const Engine chosen = engine_of(*choice.engine);
     choice.engine->setToolTip(engine_sentence(chosen));
     choice.resolution->setVisible(takes_resolution(chosen));
-    ask();
+    send_request();
   });
   connect(choice.resolution, QOverload<int>::of(&QSpinBox::valueChanged), this,
-          [this] { later_->start(); });
+          [this] { request_timer_->start(); });
   return choice;
 }
 
@@ -194,7 +194,7 @@ bool CompareView::Choice::up_to_date() const {
   return is_hemicube() ? hemicube->up_to_date() : map->up_to_date();
 }
 
-int CompareView::Choice::resolution_asked() const {
+int CompareView::Choice::requested_resolution() const {
   if (is_hemicube()) {
     return resolution->value() / 2 * 2;
   }
@@ -203,14 +203,14 @@ int CompareView::Choice::resolution_asked() const {
 
 void CompareView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
-  if (isVisible() && !up_to_date() && !later_->isActive()) {
-    later_->start();
+  if (isVisible() && !up_to_date() && !request_timer_->isActive()) {
+    request_timer_->start();
   }
 }
 
 void CompareView::clear() {
   snapshot_ = nullptr;
-  asked_ = {};
+  sent_ = {};
   comparer_.clear();
   for (const Choice* choice : {&first_, &other_}) {
     choice->map->clear();
@@ -220,26 +220,26 @@ void CompareView::clear() {
 }
 
 bool CompareView::up_to_date() const {
-  return comparison_ && !comparing_ && focus_.map() && snapshot_ && wanted() == asked_ &&
-         first_.up_to_date() && other_.up_to_date() && picture_->canvas()->up_to_date();
+  return comparison_ && !comparing_ && focus_.map() && snapshot_ && current_request() == sent_ &&
+         first_.up_to_date() && other_.up_to_date() && difference_->canvas()->up_to_date();
 }
 
 void CompareView::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  ask();
+  send_request();
 }
 
-EngineComparer::Request CompareView::wanted() const {
+EngineComparer::Request CompareView::current_request() const {
   EngineComparer::Request request;
   request.loaded = focus_.map()->loaded;
   request.direction = focus_.map()->record().frame.omega;
   request.options = snapshot_->options.engine_options;
   request.first = engine_of(*first_.engine);
-  request.first_resolution = first_.resolution_asked();
+  request.first_resolution = first_.requested_resolution();
   request.other = engine_of(*other_.engine);
-  request.other_resolution = other_.resolution_asked();
+  request.other_resolution = other_.requested_resolution();
   if (request.compares_rows()) {
-    request.direction = {};  // it does not matter
+    request.direction = {};  // unused: requests for other directions are equal
     request.eye = selection_.patch();
     request.directions = snapshot_->directions;
     request.two_way = snapshot_->options.two_way;
@@ -247,18 +247,18 @@ EngineComparer::Request CompareView::wanted() const {
   return request;
 }
 
-void CompareView::ask() {
+void CompareView::send_request() {
   show_maps();
   if (!isVisible() || !snapshot_ || !focus_.map()) {
     return;
   }
-  EngineComparer::Request request = wanted();
-  if (request == asked_) {
+  EngineComparer::Request request = current_request();
+  if (request == sent_) {
     return;
   }
-  asked_ = request;
+  sent_ = request;
   comparing_ = true;
-  words_->setText(tr("Comparing…"));
+  text_->setText(tr("Comparing…"));
   comparer_.request(std::move(request));
 }
 
@@ -277,7 +277,7 @@ void CompareView::show_maps() {
     choice->picture->setCurrentIndex(choice->is_hemicube() ? 1 : 0);
     if (choice->is_hemicube()) {
       choice->hemicube->show_scene(
-          {map->loaded, choice->resolution_asked(), false, content.patch_colors});
+          {map->loaded, choice->requested_resolution(), false, content.patch_colors});
       continue;
     }
     choice->hemicube->clear();
@@ -294,12 +294,12 @@ void CompareView::show_maps() {
 void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {
   comparison_ = std::move(comparison);
   comparing_ = false;
-  picture_->show(focus_.map(), comparison_);
+  difference_->show(focus_.map(), comparison_);
   for (const Choice* choice : {&first_, &other_}) {
     choice->figures->clear();
   }
   if (!comparison_) {
-    words_->setText(tr("Solve a scene to compare two engines on one of its directions."));
+    text_->setText(tr("Solve a scene to compare two engines on one of its directions."));
     return;
   }
   const EngineComparison& c = *comparison_;
@@ -307,14 +307,13 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
     if (side->failure.empty()) {
       continue;
     }
-    words_->setText(QStringLiteral("%1: %2").arg(engine_label(side->engine),
-                                                 QString::fromStdString(side->failure)));
+    text_->setText(QStringLiteral("%1: %2").arg(engine_label(side->engine),
+                                                QString::fromStdString(side->failure)));
     return;
   }
-  first_.figures->setText(words_of_figures(c.first, c.transfers.exchanged));
-  other_.figures->setText(words_of_figures(c.other, c.transfers.other_exchanged));
-  words_->setText(c.eye == no_patch ? words_of_direction(c)
-                                    : words_of_row(c, asked_.directions->size()));
+  first_.figures->setText(figures_text(c.first, c.transfers.exchanged));
+  other_.figures->setText(figures_text(c.other, c.transfers.other_exchanged));
+  text_->setText(c.eye == no_patch ? direction_text(c) : row_text(c, sent_.directions->size()));
 }
 
 }  // namespace transillum::viewer

@@ -22,8 +22,8 @@ class DifferencePicture;
 class HemicubeView;
 class MapCanvas;
 
-/// Two engines on the direction in focus, side by side: what each shows of the plane, takes and
-/// finds, and where they differ. The maps move and grow together.
+/// Two engines on the direction in focus, side by side: map, processor time and transfers of each,
+/// and a map of where they differ. The maps share one view.
 class CompareView : public QWidget {
   Q_OBJECT
 
@@ -33,7 +33,7 @@ class CompareView : public QWidget {
 
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
-  /// Whether the direction in focus is compared, as chosen.
+  /// Whether the comparison shown is of the direction in focus and the chosen engines.
   bool up_to_date() const;
 
  protected:
@@ -45,19 +45,20 @@ class CompareView : public QWidget {
     QSpinBox* resolution;
     MapCanvas* map;
     HemicubeView* hemicube;
-    QStackedWidget* picture;  ///< one of both
+    QStackedWidget* picture;  ///< holds map and hemicube
     QLabel* figures;
 
     bool is_hemicube() const;
     bool up_to_date() const;
-    /// As EngineComparer::Request has it.
-    int resolution_asked() const;
+    /// As in EngineComparer::Request: 0 for an engine without one; even for a hemicube.
+    int requested_resolution() const;
   };
   Choice make_choice(const char* name, Engine engine);
   QBoxLayout* column_of(const Choice& choice) const;
+  /// Moving one of these maps moves the others.
   void link(const std::vector<MapCanvas*>& maps);
-  EngineComparer::Request wanted() const;
-  void ask();
+  EngineComparer::Request current_request() const;
+  void send_request();
   void show_maps();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
 
@@ -65,14 +66,14 @@ class CompareView : public QWidget {
   Selection& selection_;
   const ColorChoice& colors_;
   EngineComparer comparer_;
-  EngineComparer::Request asked_;
+  EngineComparer::Request sent_;  ///< the newest that comparer_ got
   bool comparing_ = false;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::shared_ptr<const EngineComparison> comparison_;
   Choice first_, other_;
-  QLabel* words_;
-  DifferencePicture* picture_;
-  QTimer* later_;
+  QLabel* text_;
+  DifferencePicture* difference_;
+  QTimer* request_timer_;
 };
 
 }  // namespace transillum::viewer

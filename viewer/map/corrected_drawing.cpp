@@ -13,7 +13,7 @@ namespace transillum::viewer {
 namespace {
 
 constexpr double full_color_at = 0.25;
-/// What counts as hidden is left out, with its outline.
+/// Fragments with a smaller open share get no outline and no label.
 constexpr double hidden = 1e-6;
 
 QColor between(const QColor& from, const QColor& to, double share) {

@@ -11,18 +11,18 @@
 
 namespace transillum::viewer {
 
-/// How much more (or less) of something an engine takes as open than there is, -1 to 1, as a
-/// color: blue for less, light gray for right, orange for more; full from a quarter on.
+/// The color of a relative error, -1 to 1: blue if negative, light gray at zero, orange if
+/// positive; saturated from a quarter on.
 QColor color_of_surplus(double surplus);
 
-/// Draws whole fragments over one another, the farthest first, and all their outlines. Lit sides:
-/// with `differences` by color_of_surplus() of the share taken as open, else in their patch's
-/// color, the darker the less of them counts as open; back sides by `back_side`.
+/// Draws whole fragments over one another, the farthest first, then the outlines of those that are
+/// partly open. Front sides: with `differences`, color_of_surplus() of the error of the open share;
+/// otherwise the patch's color, darker where less is open. Back sides: `back_side`.
 /// @throws Canceled
 void draw_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                     const std::vector<Color8>& patch_colors, const QBrush& back_side,
                     bool differences, const Cancellation& cancellation);
-/// Writes the share that counts as open on what has room for it.
+/// Writes patch number and open share, percent, on fragments with room for it.
 void label_corrected(QPainter& painter, const CorrectedMap& map, const MapTransform& transform,
                      double pixel_ratio);
 

@@ -18,7 +18,7 @@ QColor color_of_share(double share) {
   return {channel(0xff, 0xc0), channel(0xff, 0x1a), channel(0xff, 0x1a)};
 }
 
-/// A bar of the colors, and what its ends are.
+/// A color bar with its range.
 class Legend : public QWidget {
  public:
   Legend() { setFixedHeight(fontMetrics().height() + 12); }
@@ -36,7 +36,7 @@ class Legend : public QWidget {
     painter.drawRect(bar);
     painter.setPen(theme::on_dark);
     painter.drawText(rect().adjusted(bar.right() + 8, 0, -4, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("0 … %1 % otherwise").arg(100 * DifferencePicture::full_color_at));
+                     tr("0 to %1 % differ").arg(100 * DifferencePicture::full_color_at));
   }
 };
 
@@ -80,7 +80,7 @@ double DifferencePicture::share(PatchId patch) const {
   }
   const auto i = static_cast<std::size_t>(patch);
   const double projected = comparison_->projected[i];
-  // What one patch loses another gets: of either half of the difference is its own.
+  // What one patch loses another gains, so half of the difference belongs to this patch.
   return projected > 0 ? comparison_->transfers.differences[i] / (2 * projected) : 0;
 }
 

@@ -9,18 +9,18 @@
 
 namespace transillum::viewer {
 
-/// Where two engines differ: the map V of a direction, each patch by the share of its projection
-/// that goes to other patches. White: none; red: a tenth or more.
+/// The map V of a direction, with each patch colored by the share of its projected area that two
+/// engines assign to different patches. White: none; red: a tenth or more.
 class DifferencePicture : public QWidget {
  public:
   static constexpr double full_color_at = 0.1;
 
   explicit DifferencePicture(Selection& selection, QWidget* parent = nullptr);
 
-  /// Nothing is shown unless both are there, of one direction.
+  /// Shows nothing unless both are set and of the same scene.
   void show(const std::shared_ptr<const RecordedMap>& map,
             std::shared_ptr<const EngineComparison> comparison);
-  /// Of a patch, or below 0 where nothing is known.
+  /// The share of a patch, 0 to 1; -1 without a comparison.
   double share(PatchId patch) const;
   MapCanvas* canvas() const { return canvas_; }
 

@@ -17,66 +17,68 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int legend_room = 34;
-const QColor nothing_lit{0x43, 0x4a, 0x55};
+constexpr int legend_height = 34;
+const QColor no_front_color{0x43, 0x4a, 0x55};
 
 }  // namespace
 
 HemicubeView::HemicubeView(const Selection& selection, QWidget* parent)
     : QWidget(parent),
       selection_(selection),
-      worker_([this](const Order& order,
-                     const Cancellation& cancellation) { work(order, cancellation); },
-              [this](const Order& order, const QString& message) {
-                post_failure(message, order.number);
-              }) {
+      worker_(
+          [this](const Task& task, const Cancellation& cancellation) { work(task, cancellation); },
+          [this](const Task& task, const QString& message) {
+            post_failure(message, task.number);
+          }) {
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  connect(&selection_, &Selection::changed, this, &HemicubeView::ask);
+  connect(&selection_, &Selection::changed, this, &HemicubeView::send_request);
 }
 
 void HemicubeView::show_scene(Content content) {
   content_ = std::move(content);
-  ask();
-  draw_cross();
+  send_request();
+  render_cross();
 }
 
 void HemicubeView::clear() {
   content_ = {};
-  ask();
+  send_request();
 }
 
-void HemicubeView::ask() {
+void HemicubeView::send_request() {
   const HemicubeComparison::Request request{content_.loaded, selection_.patch(),
                                             content_.resolution, content_.differences};
-  if (request == asked_.request) {
+  if (request == sent_.request) {
     return;
   }
-  asked_ = {request, asked_.number + 1};
+  sent_ = {request, sent_.number + 1};
   failure_.clear();
   progress_ = 0;
   if (!request.loaded || request.eye == no_patch) {
     worker_.clear();
-    take(nullptr, asked_.number, true);
+    show_comparison(nullptr, sent_.number, true);
   } else {
-    worker_.request(asked_);
+    worker_.request(sent_);
   }
 }
 
-void HemicubeView::work(const Order& order, const Cancellation& cancellation) {
+void HemicubeView::work(const Task& task, const Cancellation& cancellation) {
   const auto post = [this](auto message) {
     QMetaObject::invokeMethod(this, std::move(message), Qt::QueuedConnection);
   };
-  const auto comparison = render_hemicube(order.request, cancellation);
-  const bool last = !order.request.differences;
-  post([this, comparison, number = order.number, last] { take(comparison, number, last); });
+  const auto comparison = render_hemicube(task.request, cancellation);
+  const bool last = !task.request.differences;
+  post([this, comparison, number = task.number, last] {
+    show_comparison(comparison, number, last);
+  });
   if (last) {
     return;
   }
   const auto progress = [&](double share) {
-    post([this, share, number = order.number] {
-      if (number != asked_.number) {
+    post([this, share, number = task.number] {
+      if (number != sent_.number) {
         return;
       }
       progress_ = share;
@@ -84,31 +86,31 @@ void HemicubeView::work(const Order& order, const Cancellation& cancellation) {
     });
   };
   const auto compared = with_exact(*comparison, cancellation, progress);
-  post([this, compared, number = order.number] { take(compared, number, true); });
+  post([this, compared, number = task.number] { show_comparison(compared, number, true); });
 }
 
 // On the worker's thread; what it posts runs on the window's.
 void HemicubeView::post_failure(const QString& message, quint64 number) {
   const auto show = [this, message, number] {
-    if (number != asked_.number) {
+    if (number != sent_.number) {
       return;
     }
     failure_ = message;
-    take(nullptr, number, true);
+    show_comparison(nullptr, number, true);
   };
   QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
 }
 
-void HemicubeView::take(std::shared_ptr<const HemicubeComparison> comparison, quint64 number,
-                        bool last) {
-  if (number != asked_.number) {
-    return;  // something else is wanted by now
+void HemicubeView::show_comparison(std::shared_ptr<const HemicubeComparison> comparison,
+                                   quint64 number, bool last) {
+  if (number != sent_.number) {
+    return;  // of an outdated request
   }
   comparison_ = std::move(comparison);
   if (last) {
     done_ = number;
   }
-  draw_cross();
+  render_cross();
   emit shown();
 }
 
@@ -116,8 +118,8 @@ bool HemicubeView::by_difference() const {
   return comparison_ && content_.differences && !comparison_->exact.empty();
 }
 
-/// x to the left, as one sees it from inside; y up.
-void HemicubeView::draw_cross() {
+// x to the left, as seen from inside; y up.
+void HemicubeView::render_cross() {
   update();
   if (!comparison_ || !content_.patch_colors) {
     return;
@@ -134,11 +136,11 @@ void HemicubeView::draw_cross() {
         continue;
       }
       const PatchId patch = image.items[*pixel];
-      QRgb color = nothing_lit.rgb();
+      QRgb color = no_front_color.rgb();
       if (patch != no_patch && by_difference()) {
         color = color_of_surplus(comparison_->surplus(patch)).rgb();
       } else if (patch != no_patch) {
-        const Color8& c = at((*content_.patch_colors), patch);
+        const Color8& c = at(*content_.patch_colors, patch);
         color = qRgb(c[0], c[1], c[2]);
       }
       line[size - 1 - column] = color;
@@ -146,41 +148,41 @@ void HemicubeView::draw_cross() {
   }
 }
 
-QRectF HemicubeView::place() const {
-  const double side = std::max(std::min(width(), height() - legend_room) - 16.0, 10.0);
-  return {(width() - side) / 2, (height() - legend_room - side) / 2, side, side};
+QRectF HemicubeView::cross_rect() const {
+  const double side = std::max(std::min(width(), height() - legend_height) - 16.0, 10.0);
+  return {(width() - side) / 2, (height() - legend_height - side) / 2, side, side};
 }
 
 std::optional<std::size_t> HemicubeView::pixel_at(const QPointF& position) const {
-  if (!comparison_ || !place().contains(position)) {
+  if (!comparison_ || !cross_rect().contains(position)) {
     return std::nullopt;
   }
   const int size = comparison_->image.cross();
   const auto cell = [size](double share) {
     return std::clamp(static_cast<int>(share * size), 0, size - 1);
   };
-  const QPointF at = (position - place().topLeft()) / place().width();
+  const QPointF at = (position - cross_rect().topLeft()) / cross_rect().width();
   return comparison_->image.pixel_at(size - 1 - cell(at.x()), size - 1 - cell(at.y()));
 }
 
-QString HemicubeView::words() const {
+QString HemicubeView::status_text() const {
   if (!failure_.isEmpty()) {
     return failure_;
   }
   if (!content_.loaded || selection_.patch() == no_patch) {
-    return tr("Select a patch, on which a hemicube is to stand");
+    return tr("Select a patch to place the hemicube on");
   }
   if (!comparison_) {
-    return tr("Drawing what patch %1 sees…").arg(selection_.patch());
+    return tr("Rendering the hemicube of patch %1…").arg(selection_.patch());
   }
   const QString eye = tr("On patch %1").arg(comparison_->request.eye);
   if (!content_.differences) {
     return tr("%1: %2 pixels").arg(eye).arg(comparison_->image.items.size());
   }
   if (comparison_->exact.empty()) {
-    return tr("%1: finding exact form factors… %2 %").arg(eye).arg(100 * progress_, 0, 'f', 0);
+    return tr("%1: computing exact form factors… %2 %").arg(eye).arg(100 * progress_, 0, 'f', 0);
   }
-  const QString wrong = tr("%1: %2 % of what is seen is wrong")
+  const QString wrong = tr("%1: %2 % of the form factors wrong")
                             .arg(eye)
                             .arg(100 * comparison_->wrong_share(), 0, 'g', 2);
   return comparison_->missed() == 0
@@ -204,7 +206,7 @@ bool HemicubeView::event(QEvent* event) {
                      .arg(patch)
                      .arg(number_text(comparison_->image.form_factors[k]));
   if (!comparison_->exact.empty()) {
-    text += tr(", exactly %1").arg(number_text(comparison_->exact[k]));
+    text += tr(", exact %1").arg(number_text(comparison_->exact[k]));
   }
   QToolTip::showText(help->globalPos(), text, this);
   return true;
@@ -216,19 +218,23 @@ void HemicubeView::paintEvent(QPaintEvent*) {
   if (!comparison_) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-                     words());
+                     status_text());
     return;
   }
-  const QRectF cross = place();
-  painter.drawImage(cross, cross_);  // pixels stay pixels
-  // The folds.
+  const QRectF cross = cross_rect();
+  painter.drawImage(cross, cross_);  // without smoothing
+  // The edges of the cube's top.
   const double half = cross.width() / 4;
   painter.setPen(QPen(theme::on_dark, theme::scale()));
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(cross.adjusted(half, half, -half, -half));
+  draw_legend(painter);
+}
+
+void HemicubeView::draw_legend(QPainter& painter) const {
   double x = 14;
-  const auto entry = [&](const QColor& color, const QString& words) {
-    const double advance = painter.fontMetrics().horizontalAdvance(words);
+  const auto draw_entry = [&](const QColor& color, const QString& text) {
+    const double advance = painter.fontMetrics().horizontalAdvance(text);
     if (x + 24 + advance > width()) {
       return;
     }
@@ -237,14 +243,14 @@ void HemicubeView::paintEvent(QPaintEvent*) {
     painter.setPen(theme::on_dark_dim);
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
-    painter.drawText(box.bottomRight() + QPointF(8, -1), words);
+    painter.drawText(box.bottomRight() + QPointF(8, -1), text);
     x += 16 + 16 + advance;
   };
   if (by_difference()) {
-    entry(color_of_surplus(1), tr("too much"));
-    entry(color_of_surplus(-1), tr("too little"));
+    draw_entry(color_of_surplus(1), tr("too much"));
+    draw_entry(color_of_surplus(-1), tr("too little"));
   }
-  entry(nothing_lit, tr("nothing lit"));
+  draw_entry(no_front_color, tr("no front side"));
 }
 
 }  // namespace transillum::viewer

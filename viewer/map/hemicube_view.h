@@ -13,9 +13,9 @@
 
 namespace transillum::viewer {
 
-/// What the selected patch sees through the pixels of a hemicube on its middle, unfolded as a cross
-/// and seen from inside: in the patches' colors, or by how much more (or less) of a patch is seen
-/// than there is. A thread of its own makes it.
+/// The view from the center of the selected patch through the pixels of a hemicube, unfolded as a
+/// cross and seen from inside: in the patches' colors, or colored by the relative error of each
+/// patch's form factor. A worker thread renders it.
 class HemicubeView : public QWidget {
   Q_OBJECT
 
@@ -30,45 +30,48 @@ class HemicubeView : public QWidget {
   };
   void show_scene(Content content);
   void clear();
-  bool up_to_date() const { return done_ == asked_.number; }
-  /// What is shown; null where nothing is.
+  bool up_to_date() const { return done_ == sent_.number; }
+  /// What is shown; null if nothing is.
   std::shared_ptr<const HemicubeComparison> comparison() const { return comparison_; }
-  /// What there is to say of it.
-  QString words() const;
+  /// Patch and error, progress, or the reason why nothing is shown.
+  QString status_text() const;
 
   QSize sizeHint() const override { return {200, 110}; }
 
  signals:
-  void shown();  ///< or words() have changed
+  void shown();  ///< a new picture or a new status_text()
 
  protected:
   bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  struct Order {
+  struct Task {
     HemicubeComparison::Request request;
     quint64 number = 0;
   };
-  void ask();
-  void work(const Order& order, const Cancellation& cancellation);
+  void send_request();
+  void work(const Task& task, const Cancellation& cancellation);
   void post_failure(const QString& message, quint64 number);
-  void take(std::shared_ptr<const HemicubeComparison> comparison, quint64 number, bool last);
-  void draw_cross();
+  /// `last`: the final result of request `number`.
+  void show_comparison(std::shared_ptr<const HemicubeComparison> comparison, quint64 number,
+                       bool last);
+  void render_cross();
+  void draw_legend(QPainter& painter) const;
   bool by_difference() const;
-  /// Where the cross is drawn, logical pixels.
-  QRectF place() const;
+  /// The square in which the cross is drawn, logical pixels.
+  QRectF cross_rect() const;
   std::optional<std::size_t> pixel_at(const QPointF& position) const;
 
   const Selection& selection_;
   Content content_;
   std::shared_ptr<const HemicubeComparison> comparison_;
   QString failure_;
-  double progress_ = 0;  ///< of the exact form factors
-  QImage cross_;         ///< a pixel a cell
-  Order asked_;
-  quint64 done_ = 0;
-  RequestWorker<Order> worker_;
+  double progress_ = 0;  ///< of the exact form factors, 0 to 1
+  QImage cross_;         ///< one image pixel per hemicube pixel
+  Task sent_;            ///< the newest
+  quint64 done_ = 0;     ///< number of the request whose final result is shown
+  RequestWorker<Task> worker_;
 };
 
 }  // namespace transillum::viewer

@@ -19,8 +19,8 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double smallest_zoom = 0.5, largest_zoom = 500;
-constexpr std::chrono::milliseconds longest_wait{20};
+constexpr double min_zoom = 0.5, max_zoom = 500;
+constexpr std::chrono::milliseconds max_wait{20};
 
 }  // namespace
 
@@ -28,19 +28,19 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
     : QWidget(parent),
       selection_(selection),
       painter_(
-          [this](const Order& order, const Cancellation& cancellation) {
+          [this](const Task& task, const Cancellation& cancellation) {
             auto picture =
-                std::make_shared<const MapPicture>(paint_map(order.picture, cancellation));
+                std::make_shared<const MapPicture>(paint_map(task.picture, cancellation));
             {
-              const std::lock_guard lock(arrived_.mutex);
-              arrived_.picture = std::move(picture);
-              arrived_.number = order.number;
+              const std::lock_guard lock(newest_.mutex);
+              newest_.picture = std::move(picture);
+              newest_.number = task.number;
             }
-            arrived_.changed.notify_one();
-            QMetaObject::invokeMethod(this, &MapCanvas::take_arrived, Qt::QueuedConnection);
+            newest_.changed.notify_one();
+            QMetaObject::invokeMethod(this, &MapCanvas::show_newest, Qt::QueuedConnection);
           },
-          [this](const Order& order, const QString& message) {
-            const auto show = [this, message, number = order.number] {
+          [this](const Task& task, const QString& message) {
+            const auto show = [this, message, number = task.number] {
               show_failure(message, number);
             };
             QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
@@ -48,14 +48,14 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
   setMinimumSize(200, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  setToolTip(tr("Drag to move, wheel to enlarge, double click to see all, click to select"));
+  setToolTip(tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
   connect(&selection_, &Selection::changed, this, qOverload<>(&QWidget::update));
 }
 
 void MapCanvas::show_map(Content content) {
   content_ = std::move(content);
   repaint_map();
-  // Queued: before the window is next brought to the screen, after all others know the step.
+  // Queued: runs after all other views have the new step, before the window is next painted.
   if (content_.step_shown) {
     QMetaObject::invokeMethod(this, &MapCanvas::wait_for_picture, Qt::QueuedConnection);
   }
@@ -67,7 +67,7 @@ void MapCanvas::clear() {
   picture_ = nullptr;
   failure_.clear();
   painter_.clear();
-  painted_ = ++asked_.number;  // what is still on its way is late
+  painted_ = ++sent_.number;  // drops pictures that are still being painted
   zoom_ = 1;
   pan_ = {};
   update();
@@ -110,7 +110,7 @@ void MapCanvas::fit_step() {
   const MapTransform fitted = fit_map(*content_.map, size());
   const double room = 0.6 * std::min(width(), height());
   const double extent = std::max({bounds.width(), bounds.height(), 1e-12});
-  zoom_ = std::clamp(room / extent / fitted.scale, smallest_zoom, largest_zoom);
+  zoom_ = std::clamp(room / extent / fitted.scale, min_zoom, max_zoom);
   MapTransform near = fitted;
   near.scale *= zoom_;
   const QPointF middle = near.to_pixels({bounds.center().x(), bounds.center().y()});
@@ -131,25 +131,25 @@ void MapCanvas::repaint_map() {
   if (!content_.map) {
     return;
   }
-  // While the view moves, or newer directions come by themselves, pictures under way are finished:
-  // better an old one now and then than none. What the user asked for does not wait for them.
-  const bool wanted = content_.pixels != asked_.picture.pixels ||
-                      (content_.step_shown && content_.map != asked_.picture.map);
-  asked_ = {
+  // While the view moves or new directions arrive, pictures being painted are finished: an old one
+  // now and then is better than none. A change that the user made cancels them.
+  const bool cancels = content_.pixels != sent_.picture.pixels ||
+                       (content_.step_shown && content_.map != sent_.picture.map);
+  sent_ = {
       {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
        content_.pixels, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
-      asked_.number + 1};
-  painter_.request(asked_, wanted ? CurrentJob::cancel : CurrentJob::finish);
+      sent_.number + 1};
+  painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
 
-void MapCanvas::take_arrived() {
+void MapCanvas::show_newest() {
   {
-    const std::lock_guard lock(arrived_.mutex);
-    if (!content_.map || arrived_.number <= painted_) {
+    const std::lock_guard lock(newest_.mutex);
+    if (!content_.map || newest_.number <= painted_) {
       return;
     }
-    painted_ = arrived_.number;
-    picture_ = arrived_.picture;
+    painted_ = newest_.number;
+    picture_ = newest_.picture;
   }
   failure_.clear();
   update();
@@ -166,18 +166,17 @@ void MapCanvas::show_failure(const QString& message, quint64 number) {
   emit painted();
 }
 
-/// A step's map comes to the screen with all else that the step changes: bringing a window to the
-/// screen twice takes longer than painting a map, where there is no graphics card.
+/// Waits so that the step's map is painted together with everything else that the step changes:
+/// without a GPU, painting the window twice takes longer than painting a map.
 void MapCanvas::wait_for_picture() {
   if (up_to_date()) {
     return;
   }
   {
-    std::unique_lock lock(arrived_.mutex);
-    arrived_.changed.wait_for(lock, longest_wait,
-                              [this] { return arrived_.number >= asked_.number; });
+    std::unique_lock lock(newest_.mutex);
+    newest_.changed.wait_for(lock, max_wait, [this] { return newest_.number >= sent_.number; });
   }
-  take_arrived();
+  show_newest();
 }
 
 PatchId MapCanvas::patch_at(const QPointF& position) const {
@@ -207,10 +206,10 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   if (!picture_ || !content_.map) {
     painter.setPen(theme::on_dark_dim);
     painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-                     tr("The visibility map appears with the first direction"));
+                     tr("The visibility map appears after the first direction"));
     return;
   }
-  // The picture may be of an older view: put its middle and scale where they are now.
+  // The picture may be of an older view: move and scale it to the current one.
   const MapTransform& painted = picture_->request.transform;
   const MapTransform now = picture_->request.map == content_.map ? transform() : painted;
   const double share = now.scale / painted.scale;
@@ -237,7 +236,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
 void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
   painter.setPen(theme::on_dark);
   painter.drawText(rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
-                   tr("Nothing is drawn, for the engine gave up:\n\n%1").arg(failure));
+                   tr("The engine failed, so nothing is drawn:\n\n%1").arg(failure));
 }
 
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
@@ -263,7 +262,7 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
   }
 }
 
-// Its parts share edges: no seams without antialiasing.
+// The parts share edges: without antialiasing there are no seams between them.
 void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
   if (!region_) {
     return;
@@ -292,30 +291,30 @@ void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
   for (const QPen& pen : {QPen(Qt::black, 3.5), QPen(theme::on_dark, 1.5)}) {
     painter.setPen(pen);
     painter.drawEllipse(at, 5, 5);
-    for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
-      painter.drawLine(at + 5 * way, at + 10 * way);
+    for (const QPointF& axis : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
+      painter.drawLine(at + 5 * axis, at + 10 * axis);
     }
   }
 }
 
 namespace {
 
-// Where the picture is low they lie on it.
-void draw_words(QPainter& painter, const QPointF& baseline, const QString& words) {
+// With a plate behind it: in a low picture the text covers the map.
+void draw_text(QPainter& painter, const QPointF& baseline, const QString& text) {
   QColor plate = theme::scene_background;
   plate.setAlphaF(0.7);
-  const QRectF box = painter.fontMetrics().boundingRect(words).adjusted(-3, -1, 3, 1);
+  const QRectF box = painter.fontMetrics().boundingRect(text).adjusted(-3, -1, 3, 1);
   painter.fillRect(box.translated(baseline), plate);
-  painter.drawText(baseline, words);
+  painter.drawText(baseline, text);
 }
 
 }  // namespace
 
 void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
-  // The largest 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
-  const double most = width() / 4.0 / scale;
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  const double lead = most / power;
+  // The largest length of 1, 2 or 5 times a power of ten within a quarter of the width.
+  const double max_meters = width() / 4.0 / scale;
+  const double power = std::pow(10.0, std::floor(std::log10(max_meters)));
+  const double lead = max_meters / power;
   const double meters = power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
   const double length = meters * scale;
   const QPointF left(14, height() - 14);
@@ -323,19 +322,19 @@ void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
   painter.drawLine(left, left + QPointF(length, 0));
   painter.drawLine(left - QPointF(0, 4), left + QPointF(0, 4));
   painter.drawLine(left + QPointF(length, -4), left + QPointF(length, 4));
-  draw_words(painter, left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
+  draw_text(painter, left + QPointF(length + 8, 4), number_text(meters) + tr(" m"));
 }
 
 void MapCanvas::draw_axes(QPainter& painter) const {
   const QPointF origin(width() - 18, height() - 16);
   constexpr double length = 22;
   painter.setPen(QPen(theme::on_dark, 1.5));
-  const auto arrow = [&](const QPointF& way, const QString& name, const QPointF& name_offset) {
-    const QPointF tip = origin + length * way;
-    const QPointF across(-way.y(), way.x());
+  const auto arrow = [&](const QPointF& axis, const QString& name, const QPointF& name_offset) {
+    const QPointF tip = origin + length * axis;
+    const QPointF across(-axis.y(), axis.x());
     painter.drawLine(origin, tip);
-    painter.drawLine(tip, tip - 6 * way + 3.5 * across);
-    painter.drawLine(tip, tip - 6 * way - 3.5 * across);
+    painter.drawLine(tip, tip - 6 * axis + 3.5 * across);
+    painter.drawLine(tip, tip - 6 * axis - 3.5 * across);
     painter.drawText(tip + name_offset, name);
   };
   arrow({-1, 0}, QStringLiteral("u"), {-13, 4});
@@ -349,34 +348,34 @@ void MapCanvas::draw_legend(QPainter& painter) const {
   std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
   const PixelChoice& choice = picture_->request.pixels;
   if (choice.engine == Engine::corrected && choice.differences) {
-    entries.emplace_back(theme::inside, tr("too open"));
-    entries.emplace_back(theme::outside, tr("too hidden"));
+    entries.emplace_back(theme::inside, tr("too much"));
+    entries.emplace_back(theme::outside, tr("too little"));
   } else if (choice.engine && choice.differences) {
     entries.emplace_back(theme::difference, tr("differs"));
   }
   constexpr double box_width = 16, gap = 8, axes = 64;
-  const auto width_of = [&](const QString& words) {
-    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(words);
+  const auto width_of = [&](const QString& text) {
+    return box_width + 2 * gap + painter.fontMetrics().horizontalAdvance(text);
   };
   double total = 0;
-  for (const auto& [brush, words] : entries) {
-    total += width_of(words);
+  for (const auto& [brush, text] : entries) {
+    total += width_of(text);
   }
-  // Right of the scale bar, with its words, and left of the axes; back sides explain themselves.
+  // Between the scale bar with its text and the axes; without room the entry for back sides goes.
   const double left = width() / 4.0 + 80, right = width() - axes;
   if (entries.size() > 1 && left + total > right) {
     total -= width_of(entries.front().second);
     entries.erase(entries.begin());
   }
   double x = std::min(std::max(width() / 2.0 - 8, left), right - total);
-  for (const auto& [brush, words] : entries) {
+  for (const auto& [brush, text] : entries) {
     const QRectF box(x, height() - 23, box_width, 12);
     painter.setPen(QPen(theme::on_dark_dim, 1));
     painter.setBrush(brush);
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
-    draw_words(painter, box.bottomRight() + QPointF(gap, -1), words);
-    x += width_of(words);
+    draw_text(painter, box.bottomRight() + QPointF(gap, -1), text);
+    x += width_of(text);
   }
 }
 
@@ -390,11 +389,11 @@ void MapCanvas::wheelEvent(QWheelEvent* event) {
     return;
   }
   const double factor = std::pow(1.0015, event->angleDelta().y());
-  const double zoom = std::clamp(zoom_ * factor, smallest_zoom, largest_zoom);
+  const double zoom = std::clamp(zoom_ * factor, min_zoom, max_zoom);
   // The point under the pointer stays where it is.
   const QPointF fitted_middle = fit_map(*content_.map, size()).middle;
-  const QPointF arm = event->position() - fitted_middle - pan_;
-  pan_ += arm * (1 - zoom / zoom_);
+  const QPointF from_center = event->position() - fitted_middle - pan_;
+  pan_ += from_center * (1 - zoom / zoom_);
   zoom_ = zoom;
   repaint_map();
   emit view_changed();
@@ -414,8 +413,8 @@ void MapCanvas::mouseMoveEvent(QMouseEvent* event) {
     return;
   }
   const QPointF position = event->pos();
-  const double way = (position - press_position_).manhattanLength();
-  if (!dragging_ && way < QApplication::startDragDistance()) {
+  const double moved = (position - press_position_).manhattanLength();
+  if (!dragging_ && moved < QApplication::startDragDistance()) {
     return;
   }
   dragging_ = true;
@@ -439,7 +438,7 @@ void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void MapCanvas::mouseDoubleClickEvent(QMouseEvent*) {
-  dragging_ = true;  // the release that follows selects nothing
+  dragging_ = true;  // so that the release that follows selects nothing
   fit();
 }
 

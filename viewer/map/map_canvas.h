@@ -15,17 +15,17 @@
 
 namespace transillum::viewer {
 
-/// The picture of a visibility map: drag moves it, the wheel enlarges it, a click selects a patch,
-/// a double click shows all of it.
+/// The picture of a visibility map: drag moves it, the wheel zooms, a click selects a patch, a
+/// double-click shows the whole map.
 ///
-/// A thread of its own paints; until the new picture is there the old one is moved and scaled.
+/// A worker thread paints; until the new picture arrives, the old one is moved and scaled.
 class MapCanvas : public QWidget {
   Q_OBJECT
 
  public:
   explicit MapCanvas(Selection& selection, QWidget* parent = nullptr);
 
-  /// What of a map is to be drawn; the canvas knows where.
+  /// What to draw; the view (where) belongs to the canvas.
   struct Content {
     std::shared_ptr<const RecordedMap> map;
     std::int32_t step = 0;
@@ -38,28 +38,28 @@ class MapCanvas : public QWidget {
   };
   void show_map(Content content);
   void clear();
-  /// Marks a region of the map that is shown; nothing takes the mark away.
+  /// Highlights a region of the map shown; nullopt removes the highlight.
   void mark_region(const std::optional<MapRegion>& region);
   void fit();
-  /// How the map is moved and enlarged, whatever the canvas' size; canvases can share it.
+  /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
   struct View {
-    double zoom = 1;  ///< times the scale at which all of it fits
-    QPointF shift;    ///< of the middle, meters on the plane times `zoom`
+    double zoom = 1;  ///< relative to the scale at which the whole map fits
+    QPointF shift;    ///< of the center, meters on the plane times `zoom`
 
     friend bool operator==(const View&, const View&) = default;
   };
   View view() const;
-  /// Without view_changed().
+  /// Does not emit view_changed().
   void set_view(const View& view);
-  /// Brings the step's polygon and what it cuts near.
+  /// Zooms to the step's fragment and the polygons of V that it cuts.
   void fit_step();
-  /// Whether the picture on the screen is the one that was asked for.
-  bool up_to_date() const { return painted_ == asked_.number; }
-  /// The patch drawn at a point, in logical pixels; no_patch for none.
+  /// Whether the picture shown is the one requested last.
+  bool up_to_date() const { return painted_ == sent_.number; }
+  /// The patch drawn at a point in logical pixels; no_patch if none.
   PatchId patch_at(const QPointF& position) const;
-  /// Meters on the plane of a point in logical pixels; nothing without a picture.
+  /// The point on the plane, meters, at a point in logical pixels; nullopt without a picture.
   std::optional<Vec2> point_at(const QPointF& position) const;
-  /// What is drawn in pixels; null where V is drawn exactly.
+  /// The other engine's map that is drawn; null if V is drawn exactly.
   std::shared_ptr<const PixelView> pixels() const { return picture_ ? picture_->pixels : nullptr; }
   std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
 
@@ -83,7 +83,7 @@ class MapCanvas : public QWidget {
  private:
   MapTransform transform() const;
   void repaint_map();
-  void take_arrived();
+  void show_newest();
   void wait_for_picture();
   void show_failure(const QString& message, quint64 number);
   void draw_failure(QPainter& painter, const QString& failure) const;
@@ -97,29 +97,29 @@ class MapCanvas : public QWidget {
   Selection& selection_;
   Content content_;
   std::optional<MapRegion> region_;
-  double zoom_ = 1;  // times the scale that fits
+  double zoom_ = 1;  // relative to the scale that fits
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;
   bool dragging_ = false;
   int height_hint_ = 380;
 
   std::shared_ptr<const MapPicture> picture_;
-  struct Order {
+  struct Task {
     MapPictureRequest picture;
     quint64 number = 0;
   };
-  Order asked_;          // the newest
-  quint64 painted_ = 0;  // number of the order that picture_ or failure_ answers
-  QString failure_;      // why there is no picture; else empty
+  Task sent_;            // the newest
+  quint64 painted_ = 0;  // number of the task whose result is picture_ or failure_
+  QString failure_;      // why there is no picture; empty on success
   /// The painter's newest picture.
-  struct Arrived {
+  struct Result {
     std::mutex mutex;
     std::condition_variable changed;
     std::shared_ptr<const MapPicture> picture;
     quint64 number = 0;
   };
-  Arrived arrived_;
-  RequestWorker<Order> painter_;
+  Result newest_;
+  RequestWorker<Task> painter_;
 };
 
 }  // namespace transillum::viewer

@@ -18,7 +18,7 @@ namespace {
 const QColor back_side{0x43, 0x4a, 0x55};
 const QColor back_hatch{0x6b, 0x74, 0x80};
 
-bool outside(const QPolygonF& polygon, const QRectF& view) {
+bool is_outside(const QPolygonF& polygon, const QRectF& view) {
   return !polygon.boundingRect().intersects(view);
 }
 
@@ -41,7 +41,8 @@ double area(const QPolygonF& polygon) {
 
 }  // namespace
 
-// Diagonal lines in a tile: a pattern brush would be too coarse on a 2x screen.
+// Diagonal lines in a tile: a pattern brush would be too coarse on a screen with two device pixels
+// per logical pixel.
 QBrush back_side_brush(double pixel_ratio) {
   const int size = static_cast<int>(std::lround(6 * pixel_ratio));
   QImage tile(size, size, QImage::Format_RGB32);
@@ -65,7 +66,7 @@ MapTransform fit_map(const RecordedMap& map, const QSizeF& size) {
     bottom = std::min(bottom, q.y);
     top = std::max(top, q.y);
   }
-  // Logical pixels; a low picture lies beside the scale bar, not above it.
+  // Logical pixels. In a low picture the map is beside the scale bar, not above it.
   const double margin = std::min(14.0, 0.06 * size.height());
   const double scale_bar_room = size.height() > 160 ? 34 : 0;
   const double width = std::max(size.width() - 2 * margin, 10.0);
@@ -118,7 +119,7 @@ class MapPainting {
         hatch_(back_side_brush(ratio_)) {
     transform_.scale *= ratio_;
     transform_.middle *= ratio_;
-    // Pixels show V alone, not what a step does to it.
+    // Other engines show V alone, not the changes of a step.
     const bool marked = request.step_shown && !request.pixels.engine;
     if (marked && request.step >= 0) {
       step_row_ = history_.step(request.step).row;
@@ -194,8 +195,8 @@ class MapPainting {
     return rows;
   }
 
-  // Polygons that share an edge are filled without antialiasing: no seams. Thin lines over the
-  // edges, drawn afterwards where polygons are large enough to bear them, smooth the steps.
+  // Polygons are filled without antialiasing, so that shared edges have no seams. Thin antialiased
+  // lines over the edges of polygons that are not tiny then smooth them.
   void fill(const std::vector<std::int32_t>& rows) {
     std::vector<QPolygonF> outlines;
     const bool dim = step_row_ != MapRecord::no_row && request_.phase == Phase::split;
@@ -206,10 +207,10 @@ class MapPainting {
         cancellation_.throw_if_canceled();
       }
       const QPolygonF polygon = polygon_of(r);
-      if (outside(polygon, view_)) {
+      if (is_outside(polygon, view_)) {
         continue;
       }
-      const Color8& c = at((*request_.patch_colors), row(r).patch);
+      const Color8& c = at(*request_.patch_colors, row(r).patch);
       QColor color(c[0], c[1], c[2]);
       if (dim && row(r).made < request_.step) {
         color = mixed(color, theme::scene_background, 0.45);
@@ -239,7 +240,7 @@ class MapPainting {
         for (const std::int32_t r : history_.inside_at(step)) {
           veil({polygon_of(r)}, theme::inside, history_.exchanges(r) ? 255 : 120);
         }
-        // The cutting edges: where the parts meet.
+        // The cutting edges, where the parts meet.
         outline(outside, theme::on_dark, 1.2);
         outline(inside, theme::on_dark, 1.2);
         break;
@@ -269,7 +270,7 @@ class MapPainting {
     PolygonLabels labels(painter_, ratio_);
     for (const std::int32_t r : rows) {
       const QPolygonF polygon = polygon_of(r);
-      if (!outside(polygon, view_)) {
+      if (!is_outside(polygon, view_)) {
         labels.write(polygon, QString::number(row(r).patch));
       }
     }
@@ -313,10 +314,10 @@ class MapPainting {
   double ratio_;
   MapTransform transform_;
   QBrush hatch_;
-  std::int32_t step_row_ = MapRecord::no_row;  ///< the step's polygon, where it is to be marked
+  std::int32_t step_row_ = MapRecord::no_row;  ///< the step's fragment, if it is to be marked
   QRectF view_;
   MapPicture picture_;
-  QPainter painter_;  // on its image
+  QPainter painter_;  // paints on picture_.image
 };
 
 }  // namespace

@@ -16,17 +16,17 @@
 
 namespace transillum::viewer {
 
-/// The whole scene in a picture of `size` (logical pixels).
+/// The transform that fits the whole scene into a picture of `size` (logical pixels).
 MapTransform fit_map(const RecordedMap& map, const QSizeF& size);
 
-/// How a back side is filled.
+/// Fill of back sides: gray with hatching.
 QBrush back_side_brush(double pixel_ratio);
 
-/// Lit sides in their patch's color, back sides gray and hatched. Any thread.
+/// Paints front sides in their patch's color, back sides with back_side_brush(). Any thread.
 /// @throws Canceled
 MapPicture paint_map(const MapPictureRequest& request, const Cancellation& cancellation = {});
 
-/// What a step is about: its polygon and all that it cuts, meters; null rectangle for none.
+/// Bounds of the step's fragment and of the polygons of V that it cuts, meters; null without any.
 QRectF step_bounds(const RecordedMap& map, std::int32_t step);
 
 QPolygonF row_polygon(const MapRecord& record, const MapRecord::Row& row,

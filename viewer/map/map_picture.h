@@ -16,12 +16,12 @@
 
 namespace transillum::viewer {
 
-/// From meters on the transillumination plane to pixels. The map is seen along omega, so u points
-/// to the left and v up.
+/// From meters on the transillumination plane to pixels. The view is along omega, so u points to
+/// the left and v up.
 struct MapTransform {
-  Vec2 center;       ///< meters; lies at `middle`
+  Vec2 center;       ///< meters; drawn at `middle`
   QPointF middle;    ///< pixels
-  double scale = 1;  ///< pixels a meter
+  double scale = 1;  ///< pixels per meter
 
   QPointF to_pixels(const Vec2& p) const {
     return {middle.x() - scale * (p.x - center.x), middle.y() - scale * (p.y - center.y)};
@@ -35,27 +35,28 @@ struct MapTransform {
   }
 };
 
-/// How V is drawn: exactly, in the pixels of an engine that has some (has_pixels()), or as engine
-/// corrected takes it. (A hemicube has another picture: HemicubeView.)
+/// Which engine's V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the
+/// open shares of engine corrected. (A hemicube has a picture of its own: HemicubeView.)
 struct PixelChoice {
-  std::optional<Engine> engine;              ///< none: exactly
-  PaintersOrder order = PaintersOrder::bsp;  ///< painter's
+  std::optional<Engine> engine;              ///< nullopt: exact
+  PaintersOrder order = PaintersOrder::bsp;  ///< of engine painter
   int resolution = 64;                       ///< pixels along the longer side
-  bool differences = true;                   ///< mark where pixels are wrong
+  bool differences = true;                   ///< mark errors
 
   friend bool operator==(const PixelChoice&, const PixelChoice&) = default;
 };
 struct PixelView;
 
-/// What one picture of a map shows.
+/// Everything that determines one picture of a map.
 struct MapPictureRequest {
   std::shared_ptr<const RecordedMap> map;
   std::int32_t step = 0;
   Phase phase = Phase::after;
-  bool step_shown = false;  ///< mark what the step did; else V is drawn alone
-  bool labels = false;      ///< number of the patch where a fragment has room for it
+  bool step_shown = false;  ///< mark the changes of the step
+  bool labels = false;      ///< patch numbers on polygons with room for them
   PixelChoice pixels;
-  std::shared_ptr<const PixelView> known_pixels;  ///< of an earlier picture; may be another's
+  std::shared_ptr<const PixelView>
+      known_pixels;  ///< of an earlier picture, for reuse; may be of another map
   std::shared_ptr<const std::vector<Color8>> patch_colors;
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
@@ -65,8 +66,9 @@ struct MapPictureRequest {
 struct MapPicture {
   MapPictureRequest request;
   QImage image;
-  std::shared_ptr<const PixelView> pixels;  ///< drawn, where pixels were asked for
-  std::vector<std::int32_t> rows;  ///< drawn: of V, or the parts that a step is splitting it into
+  std::shared_ptr<const PixelView> pixels;  ///< what was drawn; null for exact pictures
+  std::vector<std::int32_t>
+      rows;  ///< drawn: polygons of V, or the parts into which a step splits them
 };
 
 }  // namespace transillum::viewer

@@ -32,11 +32,11 @@ QToolButton* text_button(const QString& text, const QString& tip, bool checkable
   return button;
 }
 
-/// Of what is wrong by rounding only nothing is said.
+/// Errors of rounding only count as 0.
 QString percent_of(double share) { return QString::number(share < 1e-9 ? 0 : 100 * share, 'g', 2); }
 
-QString color_name(const QColor& color, const QString& words) {
-  return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), words);
+QString legend_entry(const QColor& color, const QString& name) {
+  return QStringLiteral("<span style='color:%1'>■</span> %2").arg(color.name(), name);
 }
 
 }  // namespace
@@ -47,21 +47,21 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   step_text_ = new QLabel;
   step_text_->setObjectName("map_text");
   step_text_->setForegroundRole(QPalette::PlaceholderText);
-  // Long words must not widen the window: they are cut off before that.
+  // Long text is cut off rather than widening the window.
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   canvas_ = new MapCanvas(selection);
   canvas_->setObjectName("map_canvas");
 
-  auto* words = new QVBoxLayout;
-  words->setContentsMargins(10, 6, 10, 6);
-  words->setSpacing(1);
-  words->addWidget(title_);
-  words->addWidget(step_text_);
+  auto* text = new QVBoxLayout;
+  text->setContentsMargins(10, 6, 10, 6);
+  text->setSpacing(1);
+  text->addWidget(title_);
+  text->addWidget(step_text_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  layout->addLayout(words);
+  layout->addLayout(text);
   hemicube_ = new HemicubeView(selection);
   hemicube_->setObjectName("hemicube_view");
   pictures_ = new QStackedWidget;
@@ -79,14 +79,14 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
   connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
   canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
-  connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::offer_runs);
+  connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::show_context_menu);
   connect(canvas_, &MapCanvas::clicked, this,
           [this](const QPointF& position) { focus_.set_probe(canvas_->point_at(position)); });
   connect(&colors_, &ColorChoice::changed, this, &MapView::show_position);
   show_title();
 }
 
-void MapView::offer_runs(const QPoint& position) {
+void MapView::show_context_menu(const QPoint& position) {
   const auto point = canvas_->point_at(position);
   if (!point || !focus_.map()) {
     return;
@@ -94,16 +94,16 @@ void MapView::offer_runs(const QPoint& position) {
   auto* menu = new QMenu(this);
   menu->setObjectName("map_menu");
   menu->setAttribute(Qt::WA_DeleteOnClose);
-  // Along another direction the point of the plane is another.
-  const auto offer = [&](const QString& text, StepOrder order) {
+  // Searches this direction only: along others the point is elsewhere on the plane.
+  const auto add_run = [&](const QString& text, StepOrder order) {
     RunPosition target = focus_.position();
     target.step = find_changes_at(*point)(focus_.map()->history, target.step, order);
     menu->addAction(text, this, [this, target] { focus_.go_to(target); })
         ->setEnabled(target.step != MapHistory::none);
   };
-  offer(tr("Run to the next polygon over this point"), StepOrder::forward);
-  offer(tr("Run back to the last polygon over this point"), StepOrder::backward);
-  menu->addAction(tr("List the patches along this line"), this,
+  add_run(tr("Run to the next fragment that covers this point"), StepOrder::forward);
+  add_run(tr("Run back to the previous fragment that covers this point"), StepOrder::backward);
+  menu->addAction(tr("List the patches along the line through this point"), this,
                   [this, point] { focus_.set_probe(point); });
   menu->popup(canvas_->mapToGlobal(position));
 }
@@ -122,30 +122,31 @@ QWidget* MapView::make_controls() {
   row->setContentsMargins(10, 6, 8, 6);
   row->setSpacing(4);
   row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
-                           tr("V as the steps before left it, and the polygon to be put in")));
+                           tr("V before the step, and the fragment to insert")));
   row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),
-                           tr("What the polygon cuts out of V, and what it leaves")));
-  row->addWidget(
-      add_phase(Phase::after, "phase_after", tr("After"), tr("V with the polygon put in")));
+                           tr("The parts of V inside and outside the fragment")));
+  row->addWidget(add_phase(Phase::after, "phase_after", tr("After"),
+                           tr("V after the step, with the fragment inserted")));
   row->addStretch(1);
   pixels_ = new PixelMenu;
   row->addWidget(pixels_);
   connect(pixels_, &PixelMenu::changed, this, &MapView::show_position);
-  labels_ = text_button(tr("Labels"), tr("Name the patch of each fragment that has room"), true);
+  labels_ =
+      text_button(tr("Labels"), tr("Write patch numbers on the polygons that have room"), true);
   labels_->setObjectName("map_labels");
-  near_ = text_button(tr("Near"), tr("Bring the step's polygon near"), false);
-  near_->setObjectName("map_near");
+  zoom_ = text_button(tr("Zoom"), tr("Zoom to the fragment of the step"), false);
+  zoom_->setObjectName("map_near");
   auto* fit = new QToolButton;
   fit->setIcon(theme::icon(theme::Icon::frame));
-  fit->setToolTip(tr("Show all of the map"));
-  for (QToolButton* button : {labels_, near_, fit}) {
+  fit->setToolTip(tr("Show the whole map"));
+  for (QToolButton* button : {labels_, zoom_, fit}) {
     row->addWidget(button);
   }
 
   connect(phases_, &QButtonGroup::idClicked, this,
           [this](int phase) { focus_.set_phase(static_cast<Phase>(phase)); });
   connect(labels_, &QToolButton::toggled, this, &MapView::show_position);
-  connect(near_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
+  connect(zoom_, &QToolButton::clicked, canvas_, &MapCanvas::fit_step);
   connect(fit, &QToolButton::clicked, canvas_, &MapCanvas::fit);
   return controls;
 }
@@ -209,25 +210,25 @@ void MapView::show_title() {
   for (QAbstractButton* button : phases_->buttons()) {
     button->setEnabled(map && !pixels_->choice().engine);
   }
-  near_->setEnabled(map && !shows_hemicube());
+  zoom_->setEnabled(map && !shows_hemicube());
   labels_->setEnabled(!shows_hemicube());
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
   if (!map) {
     title_->setText(tr("No direction yet"));
-    step_text_->setText(tr("Seen along ω, toward the light that crosses the plane"));
+    step_text_->setText(tr("View along ω, toward the source"));
     return;
   }
-  title_->setText(tr("Direction %1 of %2, seen along ω")
+  title_->setText(tr("Direction %1 of %2, view along ω")
                       .arg(count_text(map->direction + 1),
                            count_text(focus_.passes_of(focus_.position().iteration))));
-  title_->setToolTip(tr("ω = %1 points to where the light comes from")
-                         .arg(vector_text(map->record().frame.omega)));
+  title_->setToolTip(
+      tr("ω = %1 points toward the source").arg(vector_text(map->record().frame.omega)));
   if (shows_hemicube()) {
-    title_->setText(tr("Through a hemicube, seen from inside"));
+    title_->setText(tr("Hemicube, seen from inside"));
     title_->setToolTip(
-        tr("Half a cube on the middle of the selected patch, unfolded:\nits top in "
-           "the middle, its four sides about it"));
-    step_text_->setText(hemicube_->words());
+        tr("Half a cube on the center of the selected patch, unfolded:\n"
+           "the top in the middle, the four sides around it"));
+    step_text_->setText(hemicube_->status_text());
     return;
   }
   if (canvas_->pixels()) {
@@ -237,13 +238,13 @@ void MapView::show_title() {
   const bool split = focus_.phase() == Phase::split && focus_.position().step >= 0;
   if (split && !focus_.following()) {
     step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
-                            .arg(color_name(theme::processed.darker(120), tr("polygon")),
-                                 color_name(theme::inside, tr("inside list")),
-                                 color_name(theme::outside, tr("outside list"))));
+                            .arg(legend_entry(theme::processed.darker(120), tr("fragment")),
+                                 legend_entry(theme::inside, tr("inside list")),
+                                 legend_entry(theme::outside, tr("outside list"))));
     return;
   }
   const std::int32_t after = focus_.position().step + (focus_.phase() == Phase::before ? 0 : 1);
-  step_text_->setText(tr("V after %1 of %2 polygons: %3 fragments")
+  step_text_->setText(tr("V after %1 of %2 steps: %3 polygons")
                           .arg(count_text(after), count_text(map->history.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
 }
@@ -251,18 +252,18 @@ void MapView::show_title() {
 QString MapView::pixel_text() const {
   const PixelView& view = *canvas_->pixels();
   if (!view.failure.empty()) {
-    return tr("The engine gave up");
+    return tr("The engine failed");
   }
   const QString after =
-      tr("V after %1 of %2 polygons")
+      tr("V after %1 of %2 steps")
           .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
   if (view.corrected) {
-    return after + tr(", none cut: %1 % of it taken wrongly").arg(percent_of(view.wrong));
+    return after + tr(", fragments uncut: %1 % of the area wrong").arg(percent_of(view.wrong));
   }
   if (!view.choice.differences) {
-    return after + tr(", pixels of %1 m").arg(number_text(view.drawn.pixels.side));
+    return after + tr(", pixel size %1 m").arg(number_text(view.drawn.pixels.side));
   }
-  return after + tr(": %1 % of it differ").arg(100 * view.wrong, 0, 'g', 2);
+  return after + tr(": %1 % of the area differs").arg(100 * view.wrong, 0, 'g', 2);
 }
 
 }  // namespace transillum::viewer

@@ -21,18 +21,18 @@ class HemicubeView;
 class MapCanvas;
 class PixelMenu;
 
-/// The visibility map V of the direction in focus, and what its step does to it.
+/// The visibility map V of the direction in focus, and how the current step changes it.
 class MapView : public QWidget {
   Q_OBJECT
 
  public:
   MapView(Focus& focus, Selection& selection, const ColorChoice& colors, QWidget* parent = nullptr);
 
-  /// The colors to come: shown with the next map, or soon.
+  /// New colors; shown with the next map or after a short delay.
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
   void clear();
 
-  /// Whether the patches of fragments are named.
+  /// Patch numbers on the polygons.
   void set_labels_shown(bool shown);
   bool labels_shown() const;
 
@@ -41,7 +41,7 @@ class MapView : public QWidget {
 
  private:
   QWidget* make_controls();
-  void offer_runs(const QPoint& position);
+  void show_context_menu(const QPoint& position);
   void show_position();
   void show_title();
   QString pixel_text() const;
@@ -57,7 +57,7 @@ class MapView : public QWidget {
   QStackedWidget* pictures_;
   QButtonGroup* phases_;
   QToolButton* labels_;
-  QToolButton* near_;
+  QToolButton* zoom_;
   PixelMenu* pixels_;
   QTimer* recolor_timer_;
 };

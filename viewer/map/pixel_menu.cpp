@@ -15,7 +15,7 @@ QString label_of(const PixelChoice& choice) {
     return PixelMenu::tr("Exact");
   }
   const QString name = engine_label(*choice.engine);
-  return choice.order == PaintersOrder::newell ? PixelMenu::tr("%1 by Newell's tests").arg(name)
+  return choice.order == PaintersOrder::newell ? PixelMenu::tr("%1, Newell's order").arg(name)
                                                : name;
 }
 
@@ -23,52 +23,14 @@ QString label_of(const PixelChoice& choice) {
 
 PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   setObjectName("map_engine");
-  setToolTip(tr("Draw V exactly, or as another engine sees it"));
+  setToolTip(tr("Choose the engine whose V is drawn"));
   setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(this);
-  menu->addSection(tr("Engine"));
-  auto* engines = new QActionGroup(this);
-  const auto add_engine = [&](std::optional<Engine> engine, const char* name,
-                              PaintersOrder order = PaintersOrder::bsp) {
-    PixelChoice shown;
-    shown.engine = engine;
-    shown.order = order;
-    QAction* action = engines->addAction(label_of(shown));
-    action->setObjectName(QString::fromLatin1(name));
-    action->setToolTip(engine ? engine_sentence(*engine) : tr("V itself"));
-    action->setCheckable(true);
-    action->setChecked(!engine);
-    connect(action, &QAction::triggered, this, [this, engine, order] {
-      PixelChoice next = choice_;
-      next.engine = engine;
-      next.order = order;
-      change(next);
-    });
-  };
   menu->setToolTipsVisible(true);
-  add_engine(std::nullopt, "map_exact");
-  add_engine(Engine::zbuffer, "map_zbuffer");
-  add_engine(Engine::painter, "map_painter");
-  add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
-  add_engine(Engine::rays, "map_rays");
-  add_engine(Engine::corrected, "map_corrected");
-  add_engine(Engine::hemicube, "map_hemicube");
-  menu->addActions(engines->actions());
-  menu->addSection(tr("Pixels along the longer side"));
-  resolutions_ = new QActionGroup(this);
-  for (const int resolution : {16, 32, 64, 128, 256, 512}) {
-    QAction* action = resolutions_->addAction(QString::number(resolution));
-    action->setCheckable(true);
-    action->setChecked(resolution == choice_.resolution);
-    connect(action, &QAction::triggered, this, [this, resolution] {
-      PixelChoice next = choice_;
-      next.resolution = resolution;
-      change(next);
-    });
-  }
-  menu->addActions(resolutions_->actions());
+  add_engines(*menu);
+  add_resolutions(*menu);
   menu->addSeparator();
-  differences_ = menu->addAction(tr("Mark what is not exact"));
+  differences_ = menu->addAction(tr("Mark errors"));
   differences_->setObjectName("map_difference");
   differences_->setCheckable(true);
   differences_->setChecked(choice_.differences);
@@ -81,13 +43,59 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   change(choice_);
 }
 
+void PixelMenu::add_engines(QMenu& menu) {
+  menu.addSection(tr("Engine"));
+  auto* engines = new QActionGroup(this);
+  const auto add_engine = [&](std::optional<Engine> engine, const char* name,
+                              PaintersOrder order = PaintersOrder::bsp) {
+    PixelChoice shown;
+    shown.engine = engine;
+    shown.order = order;
+    QAction* action = engines->addAction(label_of(shown));
+    action->setObjectName(QString::fromLatin1(name));
+    action->setToolTip(engine ? engine_sentence(*engine) : tr("The exact visibility map V"));
+    action->setCheckable(true);
+    action->setChecked(!engine);
+    connect(action, &QAction::triggered, this, [this, engine, order] {
+      PixelChoice next = choice_;
+      next.engine = engine;
+      next.order = order;
+      change(next);
+    });
+  };
+  add_engine(std::nullopt, "map_exact");
+  add_engine(Engine::zbuffer, "map_zbuffer");
+  add_engine(Engine::painter, "map_painter");
+  add_engine(Engine::painter, "map_newell", PaintersOrder::newell);
+  add_engine(Engine::rays, "map_rays");
+  add_engine(Engine::corrected, "map_corrected");
+  add_engine(Engine::hemicube, "map_hemicube");
+  menu.addActions(engines->actions());
+}
+
+void PixelMenu::add_resolutions(QMenu& menu) {
+  menu.addSection(tr("Pixels along the longer side"));
+  resolutions_ = new QActionGroup(this);
+  for (const int resolution : {16, 32, 64, 128, 256, 512}) {
+    QAction* action = resolutions_->addAction(QString::number(resolution));
+    action->setCheckable(true);
+    action->setChecked(resolution == choice_.resolution);
+    connect(action, &QAction::triggered, this, [this, resolution] {
+      PixelChoice next = choice_;
+      next.resolution = resolution;
+      change(next);
+    });
+  }
+  menu.addActions(resolutions_->actions());
+}
+
 void PixelMenu::change(const PixelChoice& choice) {
   choice_ = choice;
   const bool pixels = choice_.engine && takes_resolution(*choice_.engine);
   resolutions_->setEnabled(pixels);
   differences_->setEnabled(choice_.engine.has_value());
   QString label = label_of(choice_);
-  if (choice_.engine == Engine::painter) {  // short, as there is little room
+  if (choice_.engine == Engine::painter) {  // short: there is little room
     label = choice_.order == PaintersOrder::newell ? tr("Painter (Newell)") : tr("Painter (BSP)");
   }
   setText(pixels ? tr("%1, %2 px ").arg(label).arg(choice_.resolution) : label + QLatin1Char(' '));

@@ -9,8 +9,7 @@ class QActionGroup;
 
 namespace transillum::viewer {
 
-/// A button that tells how the map is drawn, exactly or in a discrete engine's pixels, and lets
-/// choose.
+/// A button with the menu of what the map shows: the exact V, or that of another engine.
 class PixelMenu : public QToolButton {
   Q_OBJECT
 
@@ -23,6 +22,8 @@ class PixelMenu : public QToolButton {
   void changed();
 
  private:
+  void add_engines(QMenu& menu);
+  void add_resolutions(QMenu& menu);
   void change(const PixelChoice& choice);
 
   PixelChoice choice_;

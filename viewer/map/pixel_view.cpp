@@ -71,33 +71,33 @@ void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& t
                  const Cancellation& cancellation) {
   const VisibilityMap& map = view.drawn;
   painter.save();
-  // Rectangles that meet are filled without antialiasing: no seams.
+  // Without antialiasing there are no seams between adjacent rectangles.
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);
   std::size_t done = 0;
-  const auto look_out = [&] {
+  const auto check_canceled = [&] {
     if (done++ % 256 == 0) {
       cancellation.throw_if_canceled();
     }
   };
   for (const VisibilityMap::Polygon& polygon : map.polygons) {
-    look_out();
+    check_canceled();
     const Color8& c = at(patch_colors, polygon.patch);
     painter.setBrush(polygon.front_facing ? back_side : QBrush(QColor(c[0], c[1], c[2])));
     painter.drawPolygon(polygon_of(map, polygon, transform));
   }
   painter.setBrush(theme::difference);
   for (const VisibilityMap::Polygon& polygon : map.pixels.differences) {
-    look_out();
+    check_canceled();
     painter.drawPolygon(polygon_of(map, polygon, transform));
   }
-  // Thinner where the picture's pixels are as small as lines.
+  // Lines are thinner if the engine's pixels are about as small as a line.
   const double side = transform.scale * map.pixels.side;
   painter.setPen(QPen(QColor(0, 0, 0, 130), std::clamp(0.15 * side, 0.3, 1.5)));
   painter.setRenderHint(QPainter::Antialiasing);
   const std::vector<Vec2>& ends = map.pixels.borders;
   for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
-    look_out();
+    check_canceled();
     painter.drawLine(transform.to_pixels(ends[k]), transform.to_pixels(ends[k + 1]));
   }
   painter.restore();

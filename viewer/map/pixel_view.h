@@ -15,28 +15,29 @@
 
 namespace transillum::viewer {
 
-/// V after a step as another engine shows it, and where that is wrong; or why it shows nothing.
+/// V after a step by another engine, with its errors; or the reason why the engine failed.
 /// Immutable.
 struct PixelView {
   std::shared_ptr<const RecordedMap> of;
   std::int32_t step = 0;
   PixelChoice choice;
-  VisibilityMap drawn;                    ///< in pixels; empty for engine corrected
-  std::optional<CorrectedMap> corrected;  ///< for that one
-  std::string failure;                    ///< the engine's own words; else empty
-  double wrong = 0;  ///< share of what V or the pixels show; 0 where it was not asked for
+  VisibilityMap drawn;                    ///< polygons of pixels; empty for engine corrected
+  std::optional<CorrectedMap> corrected;  ///< of engine corrected
+  std::string failure;                    ///< the engine's message; empty on success
+  double wrong = 0;  ///< wrong share of the area of V or of the pixels, 0 to 1; 0 if not requested
 
   bool shows(const RecordedMap& map, std::int32_t after, const PixelChoice& by) const {
     return of.get() == &map && step == after && choice == by;
   }
 };
-/// @param choice names an engine. Any thread.
+/// Any thread.
+/// @param choice with an engine
 /// @throws Canceled
 std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const RecordedMap>& map,
                                                  std::int32_t step, const PixelChoice& choice,
                                                  const Cancellation& cancellation);
 
-/// Fills pixels in their patch's color, backs with `back_side`; coordinates by `transform`.
+/// Fills pixels in their patch's color, back sides with `back_side`.
 /// @throws Canceled
 void draw_pixels(QPainter& painter, const PixelView& view, const MapTransform& transform,
                  const std::vector<Color8>& patch_colors, const QBrush& back_side,

@@ -25,7 +25,7 @@ PolygonLabels::PolygonLabels(QPainter& painter, double pixel_ratio)
 void PolygonLabels::write(const QPolygonF& polygon, const QString& text) {
   const QRectF box = polygon.boundingRect();
   const QSizeF size(metrics_.horizontalAdvance(text) + 4 * ratio_, metrics_.height());
-  // A triangle's middle is half as wide as its box.
+  // At half its height, a triangle is half as wide as its bounding box.
   if (box.width() < 1.6 * size.width() || box.height() < 1.6 * size.height()) {
     return;
   }

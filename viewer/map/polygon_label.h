@@ -7,10 +7,10 @@
 
 namespace transillum::viewer {
 
-/// Writes words on the polygons that have room for them.
+/// Writes labels on the polygons that have room for them.
 class PolygonLabels {
  public:
-  /// Keeps a reference, and changes its font. `pixel_ratio`: device pixels a logical one.
+  /// Keeps a reference to `painter` and changes its font. `pixel_ratio`: device per logical pixels.
   PolygonLabels(QPainter& painter, double pixel_ratio);
 
   void write(const QPolygonF& polygon, const QString& text);
