@@ -1,11 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <transillum/radiosity.h>
-#include <transillum/scene.h>
+#include <transillum/transillum.h>
 
 #include <cmath>
 #include <cstdio>
 
-/// Oracle 3: in a furnace, E = 1 and rho = 0.5 everywhere give B = 2.
+/// In a furnace, E = 1 and rho = 0.5 everywhere give B = 2 (ALGORITHM.md, oracle 3).
 int main() {
   transillum::SolveOptions options;
   options.directions = 32;

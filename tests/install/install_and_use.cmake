@@ -1,5 +1,5 @@
-# Installs the build BUILD_DIR into a folder of its own, then configures, builds and runs the
-# consumer in SOURCE_DIR against what is there. Run by ctest with cmake -P.
+# Installs the build BUILD_DIR to a prefix in WORK_DIR, then configures, builds and runs the consumer
+# in SOURCE_DIR against the installed package. Run by ctest with cmake -P.
 function(run_step)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output
                   ERROR_VARIABLE output)

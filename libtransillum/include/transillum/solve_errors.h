@@ -19,7 +19,10 @@ enum class Remedy {
 /// A valid solve that fails. `what()` is one sentence for the user, without a hint.
 class SolveError : public std::runtime_error {
  public:
+  /// @param what one sentence for the user.
+  /// @param remedy what would avoid the failure.
   SolveError(const std::string& what, Remedy remedy) : std::runtime_error(what), remedy_(remedy) {}
+  /// What would avoid the failure.
   Remedy remedy() const noexcept { return remedy_; }
 
  private:
@@ -36,6 +39,7 @@ class NotConvergent : public SolveError {
 /// HemicubeOptions::memory).
 class MemoryLimitExceeded : public SolveError {
  public:
+  /// @param what one sentence for the user.
   explicit MemoryLimitExceeded(const std::string& what) : SolveError(what, Remedy::memory) {}
 };
 

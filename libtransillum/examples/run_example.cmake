@@ -1,0 +1,20 @@
+# Runs PROGRAM with the list ARGUMENTS and fails unless it exits with STATUS (default 0), its output
+# matches the regular expression OUTPUT, and it writes FILE (if given). Run by ctest with cmake -P.
+if(STATUS STREQUAL "")
+  set(STATUS 0)
+endif()
+if(FILE)
+  file(REMOVE ${FILE})
+endif()
+execute_process(COMMAND ${PROGRAM} ${ARGUMENTS} RESULT_VARIABLE status OUTPUT_VARIABLE output
+                ERROR_VARIABLE output)
+message("${output}")
+if(NOT status EQUAL STATUS)
+  message(FATAL_ERROR "exit status ${status}, not ${STATUS}")
+endif()
+if(NOT output MATCHES "${OUTPUT}")
+  message(FATAL_ERROR "the output does not match \"${OUTPUT}\"")
+endif()
+if(FILE AND NOT EXISTS ${FILE})
+  message(FATAL_ERROR "${FILE} was not written")
+endif()

@@ -1,0 +1,66 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "transillum/transillum.h"
+
+namespace transillum {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path folder = fs::path(TRANSILLUM_DATA_DIR) / "../libtransillum/include/transillum";
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// All first groups of a regular expression in a text.
+std::set<std::string> matches(const std::string& text, const char* expression) {
+  const std::regex regex(expression);
+  std::set<std::string> found;
+  for (std::sregex_iterator m(text.begin(), text.end(), regex), end; m != end; ++m) {
+    found.insert((*m)[1]);
+  }
+  return found;
+}
+
+TEST(PublicHeaders, AreAllIncludedByTransillumH) {
+  std::set<std::string> expected;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != "transillum.h") {
+      expected.insert(entry.path().filename());
+    }
+  }
+  EXPECT_GT(expected.size(), 30U);
+  EXPECT_EQ(matches(content_of(folder / "transillum.h"), R"re(#include "transillum/(.*)")re"),
+            expected);
+}
+
+TEST(PublicHeaders, IncludeOnlyEachOtherAndTheStandardLibrary) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string text = content_of(entry.path());
+    for (const std::string& header : matches(text, "#include +([^\n]*)")) {
+      EXPECT_TRUE(
+          std::regex_match(header, std::regex(R"re(<[a-z]+>|"transillum/[a-z0-9_]+\.h")re")))
+          << entry.path() << ": " << header;
+    }
+  }
+}
+
+TEST(PublicHeaders, NameNoCommandLineOption) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    EXPECT_EQ(matches(content_of(entry.path()), "[^-\\w](--[a-z][-a-z]+)"), std::set<std::string>())
+        << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace transillum
