@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The inner loop of the fast engine, one segment at a time.
+// The inner loop of engine fast without SIMD instructions, one segment at a time. Each segment is
+// clipped by all lines of the cutter (Cyrus and Beck's line clipping); what is left of it is its
+// inside part, the rest goes into the outside segments. Crossings with each line are recorded, so
+// that winding numbers at the cutter's corners follow (find_windings()).
 #include <algorithm>
 #include <cmath>
 
@@ -35,112 +38,142 @@ void set_scalar(Cutter& cutter, const GridPoint* corners, std::size_t count,
   }
 }
 
-bool cut_scalar(const BoundarySegments& outline, const Cutter& cutter, BoundaryCut& cut,
-                BoundarySegments& outside) {
-  LineCrossings lines{};
-  std::array<double, 8> twice_area{};
-  std::uint64_t inside = 0, starts = 0, ends = 0;
-  for (std::size_t m = 0; m < cutter.count; ++m) {
-    cut.enters[m] = cut.leaves[m] = 0;
+/// A segment, clipped by the lines of the cutter one after another. The part inside the lines so
+/// far runs from a + first u to a + last u, where u = b - a.
+struct ClippedSegment {
+  double ax, ay, bx, by;
+  double first = 0, last = 1;
+  /// The lines on which that part starts and ends, if any.
+  std::size_t first_line = Cutter::max_edges, last_line = Cutter::max_edges;
+  bool outer = false;  ///< wholly outside one of the lines
+};
+
+/// Clips a segment by line m and records how it meets the line, under the segment's `bit`.
+void clip_by_line(const Cutter& cutter, std::size_t m, std::uint64_t bit, ClippedSegment& segment,
+                  Crossings& crossings) {
+  const double ax = segment.ax, ay = segment.ay, bx = segment.bx, by = segment.by;
+  const double ux = bx - ax, uy = by - ay;
+  const double dx = cutter.dx[m], dy = cutter.dy[m];
+  const double tolerance = cutter.tolerance * cutter.length[m];
+  const double a = (dx * ay - dy * ax) + cutter.c[m], b = (dx * by - dy * bx) + cutter.c[m];
+  const bool a_in = a >= -tolerance, b_in = b >= -tolerance;
+  segment.outer = segment.outer || (!a_in && !b_in);
+  if (a_in || b_in) {
+    crossings.inner |= bit;
   }
-  for (std::size_t k = 0; k < outline.count; ++k) {
-    const std::uint64_t bit = std::uint64_t{1} << k;
-    const double ax = outline.ax[k], ay = outline.ay[k], bx = outline.bx[k], by = outline.by[k];
-    const double ux = bx - ax, uy = by - ay;
-    double first = 0, last = 1;
-    std::size_t first_line = Cutter::max_edges, last_line = Cutter::max_edges;
-    bool outer = false;
-    for (std::size_t m = 0; m < cutter.count; ++m) {
-      Crossings& crossings = lines[m];
-      const double dx = cutter.dx[m], dy = cutter.dy[m];
-      const double tolerance = cutter.tolerance * cutter.length[m];
-      const double a = (dx * ay - dy * ax) + cutter.c[m], b = (dx * by - dy * bx) + cutter.c[m];
-      const bool a_in = a >= -tolerance, b_in = b >= -tolerance;
-      outer = outer || (!a_in && !b_in);
-      if (a_in || b_in) {
-        crossings.inner |= bit;
-      }
-      if (a_in == b_in) {
-        continue;
-      }
-      double t = a / (a - b);
-      if (a_in) {
-        if (a <= tolerance) {
-          t = 0;
-        }
-        crossings.out |= bit;
-        if (t < last) {
-          last = t;
-          last_line = m;
-        }
-      } else {
-        if (b <= tolerance) {
-          t = 1;
-        }
-        crossings.in |= bit;
-        if (t > first) {
-          first = t;
-          first_line = m;
-        }
-      }
-      const double along = (dx * ax + dy * ay) + t * (dx * ux + dy * uy);
-      if (along < cutter.middle[m]) {
-        crossings.low |= bit;
+  if (a_in == b_in) {
+    return;
+  }
+  double t = a / (a - b);
+  if (a_in) {
+    if (a <= tolerance) {
+      t = 0;
+    }
+    crossings.out |= bit;
+    if (t < segment.last) {
+      segment.last = t;
+      segment.last_line = m;
+    }
+  } else {
+    if (b <= tolerance) {
+      t = 1;
+    }
+    crossings.in |= bit;
+    if (t > segment.first) {
+      segment.first = t;
+      segment.first_line = m;
+    }
+  }
+  const double along = (dx * ax + dy * ay) + t * (dx * ux + dy * uy);
+  if (along < cutter.middle[m]) {
+    crossings.low |= bit;
+  }
+}
+
+/// Stores the inside part of segment k, and returns its contribution to twice the area.
+double store_inside(const ClippedSegment& segment, std::size_t k, const Cutter& cutter,
+                    BoundaryCut& cut) {
+  const double ax = segment.ax, ay = segment.ay, bx = segment.bx, by = segment.by;
+  const double ux = bx - ax, uy = by - ay;
+  const double first = segment.first, last = segment.last;
+  const double in_x = first < 1 ? ax + first * ux : bx, in_y = first < 1 ? ay + first * uy : by;
+  const double out_x = last < 1 ? ax + last * ux : bx, out_y = last < 1 ? ay + last * uy : by;
+  cut.in_x[k] = in_x;
+  cut.in_y[k] = in_y;
+  cut.out_x[k] = out_x;
+  cut.out_y[k] = out_y;
+  return (in_x - cutter.pivot_x) * (out_y - cutter.pivot_y) -
+         (in_y - cutter.pivot_y) * (out_x - cutter.pivot_x);
+}
+
+/// Which segments have a part inside the cutter, and where that starts or ends on one of its lines;
+/// one bit per segment.
+struct Parts {
+  std::uint64_t inside = 0, starts = 0, ends = 0;
+};
+
+/// Appends the parts outside the cutter, in the order of the SIMD backends: of each eight segments,
+/// first the parts before their inside parts, or the whole segments, then the parts after them.
+void append_outside(const BoundarySegments& region, const Parts& parts, const BoundaryCut& cut,
+                    BoundarySegments& outside) {
+  for (std::size_t g = 0; g < region.count; g += 8) {
+    const std::size_t end = std::min(g + 8, region.count);
+    for (std::size_t k = g; k < end; ++k) {
+      if ((parts.inside >> k & 1) == 0) {
+        outside.add(region.ax[k], region.ay[k], region.bx[k], region.by[k]);
+      } else if ((parts.starts >> k & 1) != 0) {
+        outside.add(region.ax[k], region.ay[k], cut.in_x[k], cut.in_y[k]);
       }
     }
-    if (outer || first > last) {
+    for (std::size_t k = g; k < end; ++k) {
+      if ((parts.ends >> k & 1) != 0) {
+        outside.add(cut.out_x[k], cut.out_y[k], region.bx[k], region.by[k]);
+      }
+    }
+  }
+}
+
+bool cut_scalar(const BoundarySegments& region, const Cutter& cutter, BoundaryCut& cut,
+                BoundarySegments& outside) {
+  LineCrossings lines;
+  reset(lines, cut, cutter.count);
+  std::array<double, 8> twice_area{};
+  Parts parts;
+  for (std::size_t k = 0; k < region.count; ++k) {
+    const std::uint64_t bit = std::uint64_t{1} << k;
+    ClippedSegment segment{region.ax[k], region.ay[k], region.bx[k], region.by[k]};
+    for (std::size_t m = 0; m < cutter.count; ++m) {
+      clip_by_line(cutter, m, bit, segment, lines[m]);
+    }
+    if (segment.outer || segment.first > segment.last) {
       continue;
     }
-    inside |= bit;
-    if (first_line < Cutter::max_edges) {
-      cut.enters[first_line] |= bit;
-      starts |= bit;
+    parts.inside |= bit;
+    if (segment.first_line < Cutter::max_edges) {
+      cut.enters[segment.first_line] |= bit;
+      parts.starts |= bit;
     }
-    if (last_line < Cutter::max_edges) {
-      cut.leaves[last_line] |= bit;
-      ends |= bit;
+    if (segment.last_line < Cutter::max_edges) {
+      cut.leaves[segment.last_line] |= bit;
+      parts.ends |= bit;
     }
-    const double in_x = first < 1 ? ax + first * ux : bx, in_y = first < 1 ? ay + first * uy : by;
-    const double out_x = last < 1 ? ax + last * ux : bx, out_y = last < 1 ? ay + last * uy : by;
-    twice_area[k % 8] += (in_x - cutter.pivot_x) * (out_y - cutter.pivot_y) -
-                         (in_y - cutter.pivot_y) * (out_x - cutter.pivot_x);
-    cut.in_x[k] = in_x;
-    cut.in_y[k] = in_y;
-    cut.out_x[k] = out_x;
-    cut.out_y[k] = out_y;
+    twice_area[k % 8] += store_inside(segment, k, cutter, cut);
   }
-  for (std::size_t m = 0; m < cutter.count; ++m) {
-    if (lines[m].inner == 0) {
-      return false;
-    }
+  if (is_outside(lines, cutter.count)) {
+    return false;
   }
-  // Of eight segments first what comes before their parts inside, or all, then what comes behind.
   outside.count = 0;
-  for (std::size_t g = 0; g < outline.count; g += 8) {
-    const std::size_t end = std::min(g + 8, outline.count);
-    for (std::size_t k = g; k < end; ++k) {
-      if ((inside >> k & 1) == 0) {
-        outside.add(outline.ax[k], outline.ay[k], outline.bx[k], outline.by[k]);
-      } else if ((starts >> k & 1) != 0) {
-        outside.add(outline.ax[k], outline.ay[k], cut.in_x[k], cut.in_y[k]);
-      }
-    }
-    for (std::size_t k = g; k < end; ++k) {
-      if ((ends >> k & 1) != 0) {
-        outside.add(cut.out_x[k], cut.out_y[k], outline.bx[k], outline.by[k]);
-      }
-    }
-  }
+  append_outside(region, parts, cut, outside);
   cut.twice_area = sum_of_eight(twice_area);
   find_windings(lines, cutter.count, cut);
   return true;
 }
 
-Extent extent_scalar(const BoundarySegments& outline) {
+Extent extent_scalar(const BoundarySegments& region) {
   Extent most;
   most.fill(-HUGE_VAL);
-  for (std::size_t k = 0; k < outline.count; ++k) {
-    const double x = outline.ax[k], y = outline.ay[k];
+  for (std::size_t k = 0; k < region.count; ++k) {
+    const double x = region.ax[k], y = region.ay[k];
     const std::array<double, 4> along{x, y, x + y, x - y};
     for (std::size_t d = 0; d < 4; ++d) {
       most[d] = std::max(most[d], along[d]);

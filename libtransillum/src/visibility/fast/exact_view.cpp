@@ -12,10 +12,10 @@
 namespace transillum {
 namespace {
 
-/// Bounds the error of a determinant of differences of numbers of this size, over the size.
+/// Bound on the relative error of a determinant of differences.
 constexpr long double rounding = 8 * std::numeric_limits<long double>::epsilon();
 
-/// Corners of cut fragments lie up to so many steps off the lines that they are on.
+/// Bound on the distance of a fragment's corners from their lines, in grid units.
 constexpr long double corner_offset = 2;
 
 /// Largest |x| + |y| of some corners.
@@ -90,7 +90,7 @@ void ExactView::start_query(std::int32_t fragment, const GridPoint& origin) {
 }
 
 void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin) {
-  // What is seen in the bin may be small beside the fragment.
+  // Relative to the bin: areas seen in it may be small compared with the fragment.
   start_query(fragment, {bin.x + bin.size / 2, bin.y + bin.size / 2});
   bin_ = bin;
   Polygon& polygon = polygons_[remaining_[0]];
@@ -105,8 +105,8 @@ void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin)
     if (sides.right == 0) {
       continue;
     }
-    split(polygon, ref, sides, rest_[0], rest_[1]);
-    polygon = rest_[0];
+    split(polygon, ref, sides, inside_[0], inside_[1]);
+    polygon = inside_[0];
   }
   kept_edges_ = edge_count_;
   reach_ = reach_of(polygon);
@@ -115,24 +115,24 @@ void ExactView::begin_query(std::int32_t fragment, const FragmentBins::Bin& bin)
   window_ = polygon.window;
 }
 
-/// A place for one more polygon.
+/// The index of an unused polygon.
 std::uint32_t ExactView::new_polygon() {
   if (free_.empty()) {
     polygons_.emplace_back();
     return static_cast<std::uint32_t>(polygons_.size() - 1);
   }
-  const std::uint32_t place = free_.back();
+  const std::uint32_t index = free_.back();
   free_.pop_back();
-  return place;
+  return index;
 }
 
 void ExactView::load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const {
   polygon.count = 0;
   polygon.error = 0;
   for (std::uint32_t k = 0; k < fragment.end - fragment.begin; ++k) {
-    const ProjectedFragments::Position at = projected_.position_of(outlines_, fragment, k, origin_);
+    const auto [x, y] = projected_.position_of(outlines_, fragment, k, origin_);
     const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
-    polygon.add(at.x, at.y, 0, corner.exact ? corner.point : made_by_cut);
+    polygon.add(x, y, 0, corner.exact ? corner.point : made_by_cut);
   }
 }
 
@@ -141,7 +141,7 @@ void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon
   for (std::uint32_t k = 0; k < polygon.count; ++k) {
     const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
     if (plain) {
-      // From whole numbers: differences of far corners have lost digits.
+      // From the integer coordinates: differences of far rounded corners have lost digits.
       const std::uint32_t next = k + 1 < polygon.count ? k + 1 : 0;
       const GridPoint &from = projected_.corners[fragment.begin + k],
                       &to = projected_.corners[fragment.begin + next];
@@ -161,7 +161,7 @@ ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId 
                                        PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
   const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + corner_offset;
-  // Not shrunk between fragments, so that nothing is made anew.
+  // Never shrinks, so that memory is reused.
   if (edges_.size() <= edge_count_) {
     edges_.resize(2 * edge_count_ + 16);
   }
@@ -199,14 +199,14 @@ GridLine ExactView::grid_line(const Edge& edge) const {
   return {at(projected_.grid.points, edge.from), at(projected_.grid.points, edge.to)};
 }
 
-/// Sides of the corners of `polygon` with what is not sure settle_uncertain; what is on the line is
-/// on neither.
+/// The sides of all corners of `polygon`, given the certain ones; corners on the line are on
+/// neither side.
 ExactView::Sides ExactView::settle_uncertain(const Polygon& polygon, EdgeRef ref,
                                              Sides sides) const {
   const std::uint64_t all = (std::uint64_t{1} << polygon.count) - 1;
-  for (std::uint64_t unsure = all & ~(sides.left | sides.right); unsure != 0;
-       unsure &= unsure - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(unsure));
+  for (std::uint64_t uncertain = all & ~(sides.left | sides.right); uncertain != 0;
+       uncertain &= uncertain - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(uncertain));
     const Real side = exact_side_of(polygon, k, ref);
     sides.left |= static_cast<std::uint64_t>(side > 0) << k;
     sides.right |= static_cast<std::uint64_t>(side < 0) << k;
@@ -214,7 +214,7 @@ ExactView::Sides ExactView::settle_uncertain(const Polygon& polygon, EdgeRef ref
   return sides;
 }
 
-/// The sides of the corners of `polygon` as far as they are sure.
+/// The sides of those corners of `polygon` for which long double is certain.
 ExactView::Sides ExactView::certain_sides(const Polygon& polygon, EdgeRef ref, Real error) const {
   const Edge& edge = edge_of(ref);
   const Real limit = edge.length * (edge.slack + error);
@@ -231,7 +231,7 @@ ExactView::Sides ExactView::certain_sides(const Polygon& polygon, EdgeRef ref, R
 }
 
 /// Finds the edges of `by` that have corners of `polygon` on their right, as bits of `cuts`.
-/// Returns false where one has none on its left: they share no area.
+/// Returns false if one of them has no corner on its left: the two have no common area.
 bool ExactView::find_cuts(const Polygon& polygon, const Polygon& by, Real error,
                           std::uint64_t& cuts) {
   const std::uint64_t all = (std::uint64_t{1} << polygon.count) - 1;
@@ -245,7 +245,7 @@ bool ExactView::find_cuts(const Polygon& polygon, const Polygon& by, Real error,
   cuts = 0;
   for (std::size_t k = 0; k < by.count; ++k) {
     Sides sides = sides_of_edges_[k];
-    // What is not sure matters only where it may be all that lies on a side.
+    // Uncertain corners matter only if they may be the only ones on a side.
     if ((sides.left == 0 || sides.right == 0) && (sides.left | sides.right) != all) {
       sides = settle_uncertain(polygon, by.edge[k], sides);
     }
@@ -257,7 +257,7 @@ bool ExactView::find_cuts(const Polygon& polygon, const Polygon& by, Real error,
   return true;
 }
 
-/// The sides of the corners of `polygon`; leaves the determinants in sides_, their signs right.
+/// The sides of the corners of `polygon`. Leaves the determinants, with exact signs, in sides_.
 ExactView::Sides ExactView::measure_sides(const Polygon& polygon, EdgeRef ref) {
   Sides sides;
   const Edge& edge = edge_of(ref);
@@ -276,14 +276,14 @@ ExactView::Sides ExactView::measure_sides(const Polygon& polygon, EdgeRef ref) {
   return sides;
 }
 
-/// The determinant of corner k of `polygon` and an edge's line where it is too small for Real: its
-/// sign right, and its value too, which says where a cut goes.
+/// The determinant of corner k of `polygon` and an edge's line if it is too small for Real. Its
+/// sign is exact, its value correct to rounding: the position of a cut depends on it.
 ExactView::Real ExactView::exact_side_of(const Polygon& polygon, std::size_t k, EdgeRef ref) const {
   const Edge& edge = edge_of(ref);
   const Edge& leaving = edge_of(polygon.edge[k]);
   const Edge& arriving = edge_of(polygon.edge[k > 0 ? k - 1 : polygon.count - 1]);
   const PointId point = polygon.point[k];
-  // A corner of an edge on that very line is on it, whatever rounding has done to it.
+  // A corner of an edge on the same line is on it by definition, whatever its rounding.
   if (leaving.line == edge.line || arriving.line == edge.line) {
     return 0;
   }
@@ -309,8 +309,8 @@ double ExactView::subtract(std::int32_t fragment) {
   Real area = 0;
   new_parts_.clear();
   for (std::size_t p = 0; p < remaining_.size();) {
-    const std::uint32_t place = remaining_[p];
-    if (!polygons_[place].window.overlaps(box)) {
+    const std::uint32_t index = remaining_[p];
+    if (!polygons_[index].window.overlaps(box)) {
       ++p;
       continue;
     }
@@ -322,11 +322,11 @@ double ExactView::subtract(std::int32_t fragment) {
       loaded = true;
     }
     ++counts_.pairs;
-    if (!subtract_from_polygon(place, area)) {
+    if (!subtract_from_polygon(index, area)) {
       ++p;
       continue;
     }
-    free_.push_back(place);
+    free_.push_back(index);
     remaining_[p] = remaining_.back();
     remaining_.pop_back();
   }
@@ -335,7 +335,7 @@ double ExactView::subtract(std::int32_t fragment) {
     remaining_area_ -= area;
     update_window();
   }
-  // A needle's lines may meet anywhere, and what is cut by them reach there.
+  // The lines of a needle may meet far away, which enlarges the parts that they cut.
   area = std::min(area, max_area_);
   max_area_ -= area;
   return static_cast<double>(area);
@@ -352,28 +352,28 @@ void ExactView::update_window() {
   window_ = whole;
 }
 
-/// Takes candidate_ out of a polygon: adds the area inside to `area`, and puts what lies outside
-/// into new_parts_. Returns false where they share nothing.
-bool ExactView::subtract_from_polygon(std::uint32_t place, Real& area) {
+/// Subtracts candidate_ from a polygon: adds the area inside to `area`, and the parts outside to
+/// new_parts_. Returns false if the two have no common area.
+bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
   std::uint64_t cuts = 0, cuts_of_candidate = 0;
-  if (!find_cuts(polygons_[place], candidate_, polygons_[place].error, cuts)) {
+  if (!find_cuts(polygons_[index], candidate_, polygons_[index].error, cuts)) {
     return false;
   }
   if (cuts == 0) {
-    area += area_of(polygons_[place]);
+    area += area_of(polygons_[index]);
     return true;
   }
-  if (!find_cuts(candidate_, polygons_[place], rounding * candidate_reach_, cuts_of_candidate)) {
+  if (!find_cuts(candidate_, polygons_[index], rounding * candidate_reach_, cuts_of_candidate)) {
     return false;
   }
   const std::size_t parts = new_parts_.size();
   std::size_t used = 0;
-  const Polygon* rest = &polygons_[place];
+  const Polygon* rest = &polygons_[index];
   for (; cuts != 0; cuts &= cuts - 1) {
     const EdgeRef ref = at(candidate_.edge, std::countr_zero(cuts));
     const Sides sides = measure_sides(*rest, ref);
     if (sides.left == 0) {
-      // They share nothing: take the cuts back.
+      // No common area: discard the parts made so far.
       free_.insert(free_.end(), new_parts_.begin() + static_cast<std::ptrdiff_t>(parts),
                    new_parts_.end());
       new_parts_.resize(parts);
@@ -382,18 +382,18 @@ bool ExactView::subtract_from_polygon(std::uint32_t place, Real& area) {
     if (sides.right == 0) {
       continue;
     }
-    const bool from_place = rest == &polygons_[place];
+    const bool from_pool = rest == &polygons_[index];
     const std::uint32_t part = new_polygon();
-    if (from_place) {
-      rest = &polygons_[place];
+    if (from_pool) {
+      rest = &polygons_[index];
     }
-    split(*rest, ref, sides, rest_[used], polygons_[part]);
+    split(*rest, ref, sides, inside_[used], polygons_[part]);
     new_parts_.push_back(part);
     if (polygons_[part].count > halving_corners) {
       split_in_half(part);
     }
     find_window(polygons_[part]);
-    rest = &rest_[used];
+    rest = &inside_[used];
     used = 1 - used;
   }
   kept_edges_ = edge_count_;
@@ -401,11 +401,11 @@ bool ExactView::subtract_from_polygon(std::uint32_t place, Real& area) {
   return true;
 }
 
-/// Cuts a polygon with many corners from one to another, and adds the other half to new_parts_.
-void ExactView::split_in_half(std::uint32_t place) {
+/// Splits a polygon with many corners along a chord; adds the second half to new_parts_.
+void ExactView::split_in_half(std::uint32_t index) {
   const std::uint32_t other = new_polygon();
-  const Polygon whole = polygons_[place];
-  Polygon &first = polygons_[place], &second = polygons_[other];
+  const Polygon whole = polygons_[index];
+  Polygon &first = polygons_[index], &second = polygons_[other];
   const std::size_t middle = whole.count / 2;
   const EdgeRef chord =
       add_edge(whole.x[middle], whole.y[middle], whole.x[0] - whole.x[middle],
@@ -414,19 +414,20 @@ void ExactView::split_in_half(std::uint32_t place) {
   first.edge[middle] = chord;
   second.count = 0;
   second.error = whole.error;
-  second.add(whole.x[0], whole.y[0], chord ^ 1, whole.point[0]);
+  second.add_corner(whole, 0, chord ^ 1);
   for (std::size_t k = middle; k < whole.count; ++k) {
-    second.add(whole.x[k], whole.y[k], whole.edge[k], whole.point[k]);
+    second.add_corner(whole, k, whole.edge[k]);
   }
   find_window(second);
   new_parts_.push_back(other);
 }
 
-/// Splits a polygon along a line that has corners on both sides, as measure_sides() has just found.
+/// Splits a polygon along a line with corners on both sides. `sides` and sides_ are from
+/// measure_sides().
 ///
 ///            F ── … ── L        F … L: corners on the left, which is inside
 ///           /           \\.
-///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; of both parts
+///      ────Y─────────────X───►  X, Y: corners on the line, or made by the cut; in both parts
 ///           \\           /
 ///            … ─── … ──        outside
 void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside,
@@ -436,7 +437,7 @@ void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& 
   const auto after = [count](std::size_t k) { return k + 1 < count ? k + 1 : 0; };
   const auto before = [count](std::size_t k) { return k > 0 ? k - 1 : count - 1; };
   const auto is_left = [&](std::size_t k) { return (sides.left >> k & 1) != 0; };
-  // Find a run of corners on the left; in a convex polygon there is but one.
+  // Find the run of corners on the left; in a convex polygon there is only one.
   auto first = static_cast<std::size_t>(std::countr_zero(sides.left));
   if (first == 0) {
     while (is_left(before(first))) {
@@ -447,14 +448,14 @@ void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& 
   inside.error = outside.error = polygon.error;
   std::size_t last = first;
   for (std::size_t k = first; is_left(k); k = after(k)) {
-    inside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
+    inside.add_corner(polygon, k, polygon.edge[k]);
     last = k;
   }
   // X, where the outline leaves the left side.
   std::size_t k = after(last);
   if (sides_[k] == 0) {
-    inside.add(polygon.x[k], polygon.y[k], by, polygon.point[k]);
-    outside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
+    inside.add_corner(polygon, k, by);
+    outside.add_corner(polygon, k, polygon.edge[k]);
     k = after(k);
   } else {
     add_crossing(polygon, last, k, by, inside, outside);
@@ -463,17 +464,17 @@ void ExactView::split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& 
   const std::size_t back = before(first);
   const std::size_t end = sides_[back] == 0 ? back : first;
   for (; k != end; k = after(k)) {
-    outside.add(polygon.x[k], polygon.y[k], polygon.edge[k], polygon.point[k]);
+    outside.add_corner(polygon, k, polygon.edge[k]);
   }
   if (end == back) {
-    inside.add(polygon.x[back], polygon.y[back], polygon.edge[back], polygon.point[back]);
-    outside.add(polygon.x[back], polygon.y[back], by ^ 1, polygon.point[back]);
+    inside.add_corner(polygon, back, polygon.edge[back]);
+    outside.add_corner(polygon, back, by ^ 1);
   } else {
     add_crossing(polygon, back, first, by, inside, outside);
   }
 }
 
-/// The point of the grid through which two lines both run by their making, if any.
+/// The grid point that defines both lines, if any; otherwise made_by_cut.
 PointId ExactView::common_point(const Edge& p, const Edge& q) {
   if (p.from == q.from || p.from == q.to) {
     return p.from;
@@ -492,8 +493,8 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
   Real x = polygon.x[from] + t * dx, y = polygon.y[from] + t * dy;
   const Edge& edge = edge_of(polygon.edge[from]);
   const Edge& cutting = edge_of(by);
-  // It lies near both lines, whatever the corners' errors along theirs; the flatter the angle, the
-  // farther from where they meet.
+  // The crossing lies near both lines, whatever the errors of the corners along them; the smaller
+  // the angle, the farther it may be from the point where the lines meet.
   const Real nearness = edge.slack + cutting.slack + rounding * (std::abs(x) + std::abs(y));
   const Real flatness =
       edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
@@ -505,11 +506,11 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
     y = static_cast<Real>(p.y - origin_.y);
     error = 0;
   } else if (!(flatness < 0x1p6) && edge.line != halving_line && cutting.line != halving_line) {
-    // The lines meet at a flat angle.
+    // The lines meet at a small angle.
     ++counts_.exact_decisions;
     const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);
     if (!meeting.parallel) {
-      // Corners of cut fragments lie a little off their lines: no farther than the edge goes.
+      // Corners lie slightly off their lines: stay within the edge.
       const auto [x0, x1] = std::minmax(polygon.x[from], polygon.x[to]);
       const auto [y0, y1] = std::minmax(polygon.y[from], polygon.y[to]);
       x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
@@ -517,7 +518,7 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
       error = nearness;
     }
   }
-  // The outline goes on along the line where it leaves a part's own side.
+  // Where the outline leaves a part's side of the line, the part's next edge is on the line.
   const bool leaves_inside = here > 0;
   inside.add(x, y, leaves_inside ? by : polygon.edge[from], common);
   outside.add(x, y, leaves_inside ? polygon.edge[from] : by ^ 1, common);

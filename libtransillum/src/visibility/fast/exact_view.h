@@ -1,4 +1,37 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The visibility query with exact signs, for the few fragments where doubles do not suffice. Input:
+// the projected fragments of a direction; FastPass selects the fragment and its candidates.
+//
+// The projection of the querying fragment, or of its part in one bin, is kept as a set of disjoint
+// convex polygons. Each candidate removes from each polygon what it covers: the polygon is split
+// along the candidate's edges into one part inside, whose area is counted, and parts outside, which
+// remain. Whether a corner lies left of a line is the sign of a determinant: computed in long
+// double where that is certain, otherwise in integers from the grid points that define corner and
+// line.
+//
+// States. All polygons are stored in the pool polygons_; each index into it is in exactly one of
+//   remaining_  not covered by any candidate so far,
+//   new_parts_  split off by the candidate being subtracted; empty between calls of subtract(),
+//   free_       unused, to be reused by new_polygon().
+//
+//   begin_query()              remaining_ = { the fragment, clipped to the bin }; all others free
+//   subtract(candidate)        for each polygon in remaining_ whose window overlaps its box:
+//     subtract_from_polygon()    no common area:  the polygon stays in remaining_, new_parts_ as
+//     before
+//                                covered:         the polygon -> free_
+//                                cut:             the polygon -> free_, its parts outside ->
+//                                new_parts_
+//                              then new_parts_ -> remaining_
+//   done()                     remaining_ is empty, or its area is rounding only
+//
+// edges_ holds the lines of all edges: [0, kept_edges_) are those of the polygons above, and
+// [kept_edges_, edge_count_) those of the current candidate. They are discarded when the next
+// candidate is loaded, unless the candidate has cut a polygon: its parts refer to them.
+//
+// Notation: an index is a position in polygons_; a ref is an EdgeRef; k is a corner, and edge k
+// runs from corner k to corner k + 1. Coordinates are in grid units relative to origin_, a corner
+// of the fragment or the center of the bin, so that small differences keep their digits.
 #pragma once
 
 #include <algorithm>
@@ -15,56 +48,52 @@
 
 namespace transillum {
 
-/// What one fragment, or a part of it, sees, where an BoundaryView fails or a needle is involved:
-/// its polygon is eaten up by the fragments it is candidate, the nearest first. Coordinates are
-/// relative to the fragment or the bin, where small differences keep their digits.
-///
-/// Whether a corner lies left of a line is the sign of a determinant: in long double where that is
-/// certain, and else in whole numbers from the grid points that corner and line come from.
+/// The visibility query of one projected fragment, or of its part in one bin, with exact signs.
+/// Same use as BoundaryView; used where that fails. One query at a time.
 class ExactView {
  public:
   ExactView(const FragmentOutlines& outlines, const ProjectedFragments& projected,
             PassCounts& counts)
       : outlines_(outlines), projected_(projected), counts_(counts) {}
 
-  /// Looks from all of a fragment.
+  /// Begins the query of a whole fragment.
   void begin_query(std::int32_t fragment);
-  /// Looks from the part of a fragment that lies in a bin, if any.
+  /// Begins the query of the part of a fragment that lies in a bin, which may be empty.
   void begin_query(std::int32_t fragment, const FragmentBins::Bin& bin);
 
-  /// Eats up what `fragment` covers of what is left, and returns its area, steps
-  /// squared.
-  double subtract(std::int32_t fragment);
-  /// What is left lies in here.
+  /// Subtracts a candidate from what remains, and returns the area that it covered, in square grid
+  /// units.
+  double subtract(std::int32_t candidate);
+  /// Bounds of what remains.
   const FragmentWindow& window() const { return window_; }
 
-  /// Never; as BoundaryView has it.
+  /// Never; for the same use as BoundaryView.
   static constexpr bool failed() { return false; }
 
-  /// Whether nothing is left but for rounding.
+  /// Whether nothing remains but rounding.
   bool done() const {
     return remaining_.empty() || remaining_area_ <= std::min(0x1p-40L * area_, 64 * reach_);
   }
 
  private:
   static constexpr std::size_t max_corners = 48;      ///< of a polygon
-  static constexpr std::size_t halving_corners = 24;  ///< a polygon of more is cut in half
+  static constexpr std::size_t halving_corners = 24;  ///< a polygon with more is split in half
   static constexpr PointId made_by_cut = FragmentOutlines::no_point;
-  // Lines of a bin's square and of a polygon cut in half, in place of LineIds.
+  // In place of LineIds: the sides of a bin's square, and the chord of a polygon split in half.
   static constexpr LineId low_x = -2, low_y = -3, high_x = -4, high_y = -5, halving_line = -6;
 
   using Real = long double;
-  /// A directed line of the plane. What an edge bounds lies on its left: dx y - dy x + c > 0.
+  /// A directed line. The polygon of an edge lies on its left: dx y - dy x + c > 0.
   struct Edge {
     Real dx, dy, c;
     Real length;  ///< |dx| + |dy|
-    Real slack;   ///< how far from the line a point of the looking polygon may seem by rounding
+    Real slack;   ///< bound on the apparent distance from the line, by rounding, of a point on it
     LineId line;
-    PointId from, to;  ///< points of the grid that it was made to run through, in its direction
+    PointId from, to;  ///< grid points that define the line, in its direction, or made_by_cut
   };
-  /// Index in edges_, doubled, and 1 more where the edge is meant the other way round.
+  /// Twice an index in edges_, plus 1 if the edge runs against its line.
   using EdgeRef = std::int32_t;
-  /// On which sides of a line some corners lie, one bit a corner.
+  /// The corners of a polygon that lie left and right of a line, one bit per corner.
   struct Sides {
     std::uint64_t left = 0, right = 0;
   };
@@ -72,11 +101,11 @@ class ExactView {
   /// A convex polygon, counter-clockwise.
   struct Polygon {
     std::size_t count = 0;
-    Real error = 0;  ///< of corners made by cuts: along x or y at most
+    Real error = 0;  ///< bound on the error of x and y of corners made by cuts
     FragmentWindow window;
     std::array<Real, max_corners> x, y;
     std::array<EdgeRef, max_corners> edge;   ///< to the next corner
-    std::array<PointId, max_corners> point;  ///< on the grid, or made_by_cut: where its edges meet
+    std::array<PointId, max_corners> point;  ///< grid point, or made_by_cut: where its edges meet
 
     Polygon() = default;
     Polygon(const Polygon& other) { *this = other; }
@@ -88,8 +117,12 @@ class ExactView {
       edge[count] = leaving;
       point[count++] = on_grid;
     }
+    /// Adds corner k of another polygon, with another edge leaving it.
+    void add_corner(const Polygon& other, std::size_t k, EdgeRef leaving) {
+      add(other.x[k], other.y[k], leaving, other.point[k]);
+    }
   };
-  void find_window(Polygon& polygon) const;
+  // Loading fragments.
   void start_query(std::int32_t fragment, const GridPoint& origin);
   void load_corners(const ProjectedFragments::Fragment& fragment, Polygon& polygon) const;
   void load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon);
@@ -99,19 +132,23 @@ class ExactView {
   GridLine grid_line(const Edge& edge) const;
   const Edge& edge_of(EdgeRef ref) const { return at(edges_, ref >> 1); }
 
+  // Sides of lines.
   Sides certain_sides(const Polygon& polygon, EdgeRef ref, Real error) const;
   Sides settle_uncertain(const Polygon& polygon, EdgeRef ref, Sides sides) const;
   bool find_cuts(const Polygon& polygon, const Polygon& by, Real error, std::uint64_t& cuts);
   Sides measure_sides(const Polygon& polygon, EdgeRef ref);
   Real exact_side_of(const Polygon& polygon, std::size_t k, EdgeRef ref) const;
-  bool subtract_from_polygon(std::uint32_t place, Real& area);
+
+  // Subtracting and splitting.
+  bool subtract_from_polygon(std::uint32_t index, Real& area);
   std::uint32_t new_polygon();
-  void split_in_half(std::uint32_t place);
-  void update_window();
+  void split_in_half(std::uint32_t index);
   void split(const Polygon& polygon, EdgeRef by, Sides sides, Polygon& inside, Polygon& outside);
   static PointId common_point(const Edge& p, const Edge& q);
   void add_crossing(const Polygon& polygon, std::size_t from, std::size_t to, EdgeRef by,
                     Polygon& inside, Polygon& outside);
+  void find_window(Polygon& polygon) const;
+  void update_window();
   static Real area_of(const Polygon& polygon);
 
   const FragmentOutlines& outlines_;
@@ -119,24 +156,24 @@ class ExactView {
   PassCounts& counts_;
 
   GridPoint origin_;
-  FragmentBins::Bin bin_{};
-  std::vector<Edge> edges_;  ///< edge_count_ of them, then places to be used again
+  FragmentBins::Bin bin_{};  ///< of the query; only if the polygons have edges on its sides
+  std::vector<Edge> edges_;  ///< the first edge_count_ are in use
   std::size_t edge_count_ = 0;
-  std::size_t kept_edges_ = 0;  ///< of them, those that pieces refer to
-  Real reach_ = 0,
-       candidate_reach_ = 0;  ///< largest |x| + |y| of what queries and what is candidate
-  Real area_ = 0, remaining_area_ = 0;
-  Real max_area_ = 0;  ///< that may still be seen: a needle's area, which cuts may exceed
-  FragmentWindow window_;
-  std::vector<Polygon> polygons_;         ///< places for them
-  std::vector<std::uint32_t> remaining_;  ///< the places of what is left
-  std::vector<std::uint32_t>
-      new_parts_;  ///< … of what subtract_from_polygon() has just put beside it
-  std::vector<std::uint32_t> free_;
+  std::size_t kept_edges_ = 0;  ///< the first ones, to which polygons of the pool refer
+  Real reach_ = 0;              ///< largest |x| + |y| of the querying fragment
+  Real candidate_reach_ = 0;    ///< the same of the candidate
+  Real area_ = 0;               ///< of the querying fragment, or of its part in the bin
+  Real remaining_area_ = 0;
+  Real max_area_ = 0;  ///< bound on the area still to be found: that of a needle, which cuts may
+                       ///< exceed; infinite otherwise
+  FragmentWindow window_;          ///< of all remaining polygons
+  std::vector<Polygon> polygons_;  ///< the pool; see the states above
+  std::vector<std::uint32_t> remaining_, new_parts_, free_;
   Polygon candidate_;
-  std::array<Polygon, 2> rest_;
+  // Used by subtract_from_polygon() only.
+  std::array<Polygon, 2> inside_;  ///< in turn: what is inside all edges so far
   std::array<Sides, max_corners> sides_of_edges_;
-  std::array<Real, max_corners> sides_;  ///< of the corners measure_sides() was given
+  std::array<Real, max_corners> sides_;  ///< determinants of the corners given to measure_sides()
 };
 
 }  // namespace transillum

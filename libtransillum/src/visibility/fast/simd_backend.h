@@ -25,6 +25,14 @@ inline double sum_of_eight(const std::array<double, 8>& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
+/// Clears what is recorded per line.
+inline void reset(LineCrossings& lines, BoundaryCut& cut, std::size_t count) {
+  for (std::size_t m = 0; m < count; ++m) {
+    lines[m] = {};
+    cut.enters[m] = cut.leaves[m] = 0;
+  }
+}
+
 /// Whether the whole region is on the outer side of one of the first `count` lines.
 inline bool is_outside(const LineCrossings& lines, std::size_t count) {
   for (std::size_t m = 0; m < count; ++m) {
