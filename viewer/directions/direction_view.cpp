@@ -99,10 +99,8 @@ void DirectionView::request_visibility() {
   if (!needs_visibility()) {
     return;
   }
-  const SolveOptions& options = snapshot_->options;
-  visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                       snapshot_->directions_of(iteration()), directions_done(),
-                       selection_.patch()});
+  visibility_.request(
+      visibility_request(*snapshot_, iteration(), directions_done(), selection_.patch()));
 }
 
 std::vector<DirectionView::Point> DirectionView::points() const {

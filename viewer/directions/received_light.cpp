@@ -5,6 +5,18 @@
 
 namespace transillum::viewer {
 
+PerDirectionVisibility::Request visibility_request(const SolverSnapshot& snapshot, int iteration,
+                                                   int count, PatchId patch) {
+  const SolveOptions& options = snapshot.options;
+  return {snapshot.loaded,
+          options.engine,
+          options.engine_options,
+          options.two_way,
+          snapshot.directions_of(iteration),
+          count,
+          patch};
+}
+
 std::vector<ReceivedLight> received_light(
     const PerDirectionVisibility::Request& request,
     std::span<const PerDirectionVisibility::VisibleAreas> visible_areas,

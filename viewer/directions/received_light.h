@@ -21,6 +21,10 @@ struct ReceivedLight {
   friend bool operator==(const ReceivedLight&, const ReceivedLight&) = default;
 };
 
+/// The request for what a patch sees along the first `count` directions of an iteration.
+PerDirectionVisibility::Request visibility_request(const SolverSnapshot& snapshot, int iteration,
+                                                   int count, PatchId patch);
+
 /// One entry per direction of `visible_areas`, in their order; in a two-way run omega and then
 /// -omega of each pass.
 /// @param radiosity B(n), W/m², one per patch

@@ -107,10 +107,8 @@ int ReceivedView::directions_done() const {
 
 void ReceivedView::request_visibility() {
   if (isVisible() && snapshot_ && selection_.patch() != no_patch && directions_done() > 0) {
-    const SolveOptions& options = snapshot_->options;
-    visibility_.request({snapshot_->loaded, options.engine, options.engine_options, options.two_way,
-                         snapshot_->directions_of(focus_.position().iteration), directions_done(),
-                         selection_.patch()});
+    visibility_.request(visibility_request(*snapshot_, focus_.position().iteration,
+                                           directions_done(), selection_.patch()));
   }
   show_lights();
 }
