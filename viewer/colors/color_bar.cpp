@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Paints the color map as a bar with ticks, and beside it a histogram of area over values.
 #include "colors/color_bar.h"
 
 #include <QPainter>
@@ -16,10 +18,10 @@ namespace {
 constexpr int margin = 12;
 constexpr int histogram_width = 34;
 constexpr int bar_width = 18;
-constexpr int tip = 12;
+constexpr int arrow_height = 12;
 
-// Whose form factors are shown, or what of red, green and blue, where they differ.
-QString name_of_shown(const ColorChoice& colors) {
+// The second line of the title: the patch whose form factors are shown, or the shown channel.
+QString subtitle_of(const ColorChoice& colors) {
   const QuantityTraits& traits = traits_of(colors.quantity());
   if (traits.of_selection) {
     return ColorBar::tr("i = %1").arg(colors.selection().patch());
@@ -55,7 +57,7 @@ QString tick_text(double value, bool logarithmic) {
 
 ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent), colors_(colors) {
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
-  setToolTip(tr("To the left: how much area has which value (its root)"));
+  setToolTip(tr("Left: area per value, square-root scale"));
   const auto show = [this] {
     setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
     update();
@@ -69,8 +71,9 @@ void ColorBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
   paint_title(painter);
-  const int top = margin + 2 * fontMetrics().height() + 10 + tip;
-  const QRectF bar(margin + histogram_width, top, bar_width, height() - top - margin - tip);
+  const int top = margin + 2 * fontMetrics().height() + 10 + arrow_height;
+  const QRectF bar(margin + histogram_width, top, bar_width,
+                   height() - top - margin - arrow_height);
   if (bar.height() < 20) {
     return;
   }
@@ -92,8 +95,7 @@ void ColorBar::paint_title(QPainter& painter) const {
                        (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit)));
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
-  painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter,
-                   name_of_shown(colors_));
+  painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter, subtitle_of(colors_));
 }
 
 void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
@@ -109,30 +111,30 @@ void ColorBar::paint_bar(QPainter& painter, const QRectF& bar) const {
         QRectF(bar.left(), bar.top() + row * row_height, bar.width(), 1.01 * row_height),
         color_at(1 - (row + 0.5) / rows));
   }
-  // A tip on the bar: there is more beyond its end.
-  const auto paint_tip = [&](double y, double way, const QColor& color) {
+  // An arrow at an end of the bar: there are values beyond it. `sign` -1: upward.
+  const auto paint_arrow = [&](double y, double sign, const QColor& color) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
     painter.setBrush(color);
     painter.drawPolygon(
-        QPolygonF({QPointF(bar.left(), y + 2 * way), QPointF(bar.right(), y + 2 * way),
-                   QPointF(bar.center().x(), y + tip * way)}));
+        QPolygonF({QPointF(bar.left(), y + 2 * sign), QPointF(bar.right(), y + 2 * sign),
+                   QPointF(bar.center().x(), y + arrow_height * sign)}));
     painter.setBrush(Qt::NoBrush);
     painter.setRenderHint(QPainter::Antialiasing, false);
   };
   if (scale.above) {
-    paint_tip(bar.top(), -1, color_at(1));
+    paint_arrow(bar.top(), -1, color_at(1));
   }
   if (scale.below) {
-    paint_tip(bar.bottom(), 1, color_at(0).lighter(160));
+    paint_arrow(bar.bottom(), 1, color_at(0).lighter(160));
   }
   painter.setPen(QPen(theme::on_dark_dim, 1));
   painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));
 }
 
 void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
-  constexpr double pixels_a_bin = 4;
-  const int bins = std::max(1, static_cast<int>(box.height() / pixels_a_bin));
+  constexpr double pixels_per_bin = 4;
+  const int bins = std::max(1, static_cast<int>(box.height() / pixels_per_bin));
   const double bin_height = box.height() / bins;
   const std::vector<double> shares =
       histogram(colors_.scale(), *colors_.snapshot()->loaded->scene, colors_.values(), bins);
@@ -141,7 +143,7 @@ void ColorBar::paint_histogram(QPainter& painter, const QRectF& box) const {
     if (share <= 0) {
       continue;
     }
-    // The root of the share: what is rare shall be seen beside what is common.
+    // The square root makes rare values visible beside common ones.
     const double length = std::max(1.0, std::sqrt(share) * box.width());
     painter.fillRect(QRectF(box.right() - length, box.bottom() - (k + 1) * bin_height, length,
                             std::max(1.0, bin_height - 1)),

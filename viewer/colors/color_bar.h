@@ -10,8 +10,8 @@ class QPainter;
 
 namespace transillum::viewer {
 
-/// The labeled bar of the color map, with how much area has which value; not there in true
-/// color, nor while there are no values.
+/// The labeled color map with a histogram of area over values. Hidden in true color, and while
+/// there are no values.
 class ColorBar : public QWidget {
   Q_OBJECT
 

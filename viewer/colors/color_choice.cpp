@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Keeps the choice of quantity, scale and range, and computes the colors of the patches from the
+// newest snapshot of the solver.
 #include "colors/color_choice.h"
 
 #include <algorithm>
@@ -8,9 +11,8 @@ namespace transillum::viewer {
 
 namespace {
 
-// Where there is nothing to show, the scene can still be made out: B, dim and without hue.
-void shade_without_hue(const Scene& scene, std::span<const Rgb> radiosity,
-                       std::vector<Color8>& colors) {
+// Without values to show: B in dark grays, so that the scene remains recognizable.
+void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<Color8>& colors) {
   ColorScale scale;
   scale.fit_exposure(scene, radiosity);
   scale.color(radiosity, colors);
@@ -138,9 +140,9 @@ void ColorChoice::show_kept_run(bool shown) {
 }
 
 void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
-  const bool other_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
+  const bool new_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
-  if (other_scene && range_rule_ != RangeRule::fixed) {
+  if (new_scene && range_rule_ != RangeRule::fixed) {
     reset_range();
   }
   refit();
@@ -154,7 +156,7 @@ void ColorChoice::change() {
 
 void ColorChoice::reset_range() {
   range_is_known_ = false;
-  // What was typed in for another quantity means nothing.
+  // A range entered for another quantity does not apply.
   if (range_rule_ == RangeRule::fixed) {
     range_rule_ = RangeRule::automatic;
   }
@@ -172,10 +174,11 @@ void ColorChoice::refit() {
   if (!snapshot_) {
     return;
   }
-  const bool other = shows_kept_run_ && kept_run_->radiosity.size() == snapshot_->radiosity.size();
-  values_ =
-      values_of(quantity_, other ? *kept_run_ : *snapshot_, selection_.patch(), kept_run_.get());
-  if (!other) {
+  const bool show_kept =
+      shows_kept_run_ && kept_run_->radiosity.size() == snapshot_->radiosity.size();
+  values_ = values_of(quantity_, show_kept ? *kept_run_ : *snapshot_, selection_.patch(),
+                      kept_run_.get());
+  if (!show_kept) {
     fit_range();
   }
   color();
@@ -191,7 +194,7 @@ void ColorChoice::fit_range() {
     if (!automatic_) {
       return;
     }
-    // Reflectances are shares: white is 1.
+    // Reflectances are between 0 and 1: white is 1.
     if (quantity_ == Quantity::reflectance) {
       scale_.exposure = 0;
     } else {
@@ -218,7 +221,7 @@ void ColorChoice::fit_range() {
 
 void ColorChoice::color() {
   if (values_.values.empty()) {
-    shade_without_hue(*snapshot_->loaded->scene, snapshot_->radiosity, patch_colors_);
+    shade_gray(*snapshot_->loaded->scene, snapshot_->radiosity, patch_colors_);
   } else {
     scale_.color(values_.values, patch_colors_);
   }

@@ -13,15 +13,17 @@
 
 namespace transillum::viewer {
 
-/// Where the ends of the color map come from.
+/// How the range of the color map is set.
 enum class RangeRule {
-  automatic,  ///< from every snapshot anew
-  widening,   ///< so that all snapshots fit since it was chosen: pictures can be compared over time
-  fixed       ///< the user's
+  automatic,  ///< fitted to each snapshot
+  widening,   ///< only widened, so that pictures can be compared over time
+  fixed       ///< set by the user
 };
 
-/// The quantity that all views color the patches by, its scale, and what of it follows the light
-/// by itself.
+/// The quantity by which all views color the patches, its color scale, and the automatic range and
+/// exposure.
+///
+/// Threads: the main thread only.
 class ColorChoice : public QObject {
   Q_OBJECT
 
@@ -31,9 +33,9 @@ class ColorChoice : public QObject {
   const ColorScale& scale() const { return scale_; }
   Quantity quantity() const { return quantity_; }
   const Selection& selection() const { return selection_; }
-  /// The user's, which not every quantity can be shown by.
+  /// The user's choice; scale().mode differs for quantities that it does not apply to.
   ColorMode mode() const { return mode_; }
-  /// The user's, for what grows from nothing.
+  /// The user's choice; signed quantities use ColorMap::diverging.
   ColorMap map() const { return map_; }
   RangeRule range_rule() const { return range_rule_; }
   bool exposure_is_automatic() const { return automatic_; }
@@ -43,37 +45,37 @@ class ColorChoice : public QObject {
   void set_map(ColorMap map);
   void set_logarithmic(bool logarithmic);
   void set_range_rule(RangeRule rule);
-  /// A range that widens from here on.
+  /// Sets a range with RangeRule::widening.
   void widen_from(double low, double high);
-  /// Fixes the range. What cannot be (low >= high, or 0 where logarithmic) is mended.
+  /// Sets a fixed range. An invalid one (low >= high, or 0 if logarithmic) is repaired.
   void set_range(double low, double high);
   void set_gamma(double gamma);
-  /// Ends the automatic exposure.
+  /// Sets the exposure in EV and ends the automatic one.
   void set_exposure(double exposure);
   void set_automatic_exposure(bool automatic);
 
-  /// Keeps the newest snapshot, for later ones to be compared with.
+  /// Keeps the newest snapshot as A, to compare later ones with it.
   void keep_run();
-  /// The run that is compared with, or null.
+  /// The kept run A, or null.
   std::shared_ptr<const SolverSnapshot> kept_run() const { return kept_run_; }
-  /// Shows the kept run in place of the newest, with the same scale.
+  /// Shows the kept run instead of the newest snapshot, with the same scale.
   void show_kept_run(bool shown);
   bool shows_kept_run() const { return shows_kept_run_; }
 
-  /// Fits range and exposure to a new snapshot; tells nobody but by fitted(), for the views are
-  /// about to show that snapshot anyway.
+  /// Fits range and exposure to a new snapshot. Emits fitted(), not changed(): the caller shows the
+  /// snapshot in the views afterward.
   void fit(std::shared_ptr<const SolverSnapshot> snapshot);
 
-  /// One color a patch of the newest snapshot; grays where there is nothing to show.
+  /// One color per patch of the newest snapshot; grays if there are no values.
   const std::vector<Color8>& patch_colors() const { return patch_colors_; }
-  /// The shown quantity of all patches, or empty.
+  /// The shown quantity, one value per patch; or empty.
   const std::vector<Rgb>& values() const { return values_.values; }
-  /// What the user can do where there are none.
+  /// If values() is empty, the reason for the user.
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
 
  signals:
-  void changed();  ///< every picture must be colored anew
+  void changed();  ///< all pictures must be recolored
   void fitted();
   void form_factors_requested();
   void kept_run_changed();
@@ -91,7 +93,7 @@ class ColorChoice : public QObject {
   ColorScale scale_;
   ColorMap map_ = ColorMap::viridis;
   RangeRule range_rule_ = RangeRule::automatic;
-  bool range_is_known_ = false;  ///< something was fitted since the range was forgotten
+  bool range_is_known_ = false;  ///< the range was fitted since reset_range()
   bool automatic_ = true;
   std::shared_ptr<const SolverSnapshot> snapshot_, kept_run_;
   bool shows_kept_run_ = false;

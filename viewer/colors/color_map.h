@@ -8,14 +8,15 @@
 
 namespace transillum::viewer {
 
+/// sRGB.
 using Color8 = std::array<std::uint8_t, 3>;
 
-/// A perceptually uniform color map: its lightness grows evenly from dark to bright; that of
-/// `diverging` grows from blue to white in the middle, and falls to orange.
+/// Perceptually uniform color maps: lightness increases evenly; in `diverging`, from blue to white
+/// in the middle, and decreases to orange.
 enum class ColorMap { viridis, cividis, inferno, diverging };
-/// Of those that grow lighter all the way.
+/// Display names of the maps except `diverging`, in the order of the enumeration.
 const std::vector<std::string>& color_map_names();
-/// @param t clamped to [0,1].
+/// @param t  clamped to [0,1]; 0 if not finite
 Color8 color_of(ColorMap map, double t);
 
 }  // namespace transillum::viewer

@@ -10,8 +10,8 @@ class QPushButton;
 
 namespace transillum::viewer {
 
-/// A line above the scene: why there are no colors, what brings them, and whose figures they are
-/// where they are not the run's. Hidden where there is nothing to tell.
+/// A line above the scene: why there are no values, how to get them, or that they are from a result
+/// file. Hidden without a message.
 class ColorNote : public QFrame {
   Q_OBJECT
 
@@ -23,11 +23,11 @@ class ColorNote : public QFrame {
 
  private:
   void show_note();
-  QString words() const;
+  QString text() const;
 
   const ColorChoice& colors_;
-  QLabel* words_;
-  QPushButton* replicas_;  ///< what the error estimate wants
+  QLabel* text_;
+  QPushButton* replicas_;  ///< shown if the error estimate needs replicas
 };
 
 }  // namespace transillum::viewer

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Colors, ranges, ticks and histograms of a quantity of the patches.
 #include "colors/color_scale.h"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace transillum::viewer {
 
 namespace {
 
-// A table in place of pow(): the window recolors every patch many times a second.
+// A table instead of pow(): all patches are recolored many times per second.
 class GammaTable {
  public:
   explicit GammaTable(double gamma) {
@@ -28,18 +30,18 @@ class GammaTable {
 };
 
 Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
-  // Too bright a patch is dimmed as a whole, which keeps its hue.
+  // A patch that is too bright is scaled down, which keeps its hue.
   const Rgb exposed = factor * radiosity;
   const double largest = max_abs(exposed);
   if (!std::isfinite(largest)) {
     return {255, 255, 255};
   }
-  const double dim = largest > 1 ? 1 / largest : 1;
-  const auto channel = [&](double x) { return gamma(std::clamp(dim * x, 0.0, 1.0)); };
+  const double scale = largest > 1 ? 1 / largest : 1;
+  const auto channel = [&](double x) { return gamma(std::clamp(scale * x, 0.0, 1.0)); };
   return {channel(exposed.r), channel(exposed.g), channel(exposed.b)};
 }
 
-// Steps of 1, 2 or 5 times a power of ten: about `count` of them over `width`.
+// A tick distance of 1, 2 or 5 times a power of ten, for about `count` ticks over `width`.
 double round_step(double width, int count) {
   const double rough = width / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -150,7 +152,7 @@ void ColorScale::fit_range_where(std::span<const Rgb> values, const Counts& coun
   if (!logarithmic || positive.empty()) {
     return;
   }
-  // The darkest hundredth would stretch the scale over many decades with nothing in them.
+  // The darkest 1 % would stretch the scale over many nearly empty decades.
   const auto dark = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
   std::nth_element(positive.begin(), dark, positive.end());
   low = std::max(*dark, 1e-6 * high);

@@ -10,49 +10,50 @@
 
 namespace transillum::viewer {
 
-/// What of red, green and blue is shown.
+/// How red, green and blue are shown.
 enum class ColorMode { true_color, luminance, red, green, blue };
 
-/// Rec. 709.
+/// Luminance of linear RGB by Rec. 709.
 double luminance(const Rgb& value);
 
-/// The way from a quantity of patches (radiosity, W/m², if nothing else is said) to the screen, the
-/// same in every view.
+/// Maps a quantity of patches (W/m² for radiosity, else the unit of the quantity) to colors, the
+/// same in all views.
 class ColorScale {
  public:
   ColorMode mode = ColorMode::true_color;
   ColorMap map = ColorMap::viridis;
   bool logarithmic = false;
-  double exposure = 0;       ///< EV: 2^exposure times B is shown as white where it reaches 1
+  double exposure = 0;       ///< EV: B is white if 2^exposure B reaches 1
   double gamma = 2.2;        ///< true color: shown = (2^exposure B)^(1/gamma)
-  bool above = false;        ///< some patches are brighter than `high`
-  bool below = false;        ///< some are darker than `low`, and not 0
-  double low = 0, high = 1;  ///< W/m², ends of the color map; 0 < low < high where logarithmic
+  bool above = false;        ///< some values are above `high`
+  bool below = false;        ///< some values are below `low`, and not 0
+  double low = 0, high = 1;  ///< ends of the color map; low < high; 0 < low if logarithmic
 
   Color8 color(const Rgb& radiosity) const;
   /// The colors of many patches at once.
   void color(std::span<const Rgb> radiosity, std::vector<Color8>& colors) const;
 
-  /// The shown value: luminance or one channel; luminance in true color.
+  /// The shown value: one channel, or the luminance.
   double value(const Rgb& radiosity) const;
-  /// Where `value` lies between low and high, not clamped.
+  /// Position of `value` in the range: 0 at low, 1 at high, not clamped.
   double position(double value) const;
   /// Inverse of position().
   double value_at(double position) const;
-  /// Values worth a label on the bar, ascending, within [low, high].
+  /// Values of the ticks on the bar, ascending, within [low, high].
   std::vector<double> ticks() const;
 
-  /// Sets the ends of the color map. Linear: from 0 to the brightest patch that does not emit,
-  /// for beside its sources a room is dark. Logarithmic: to the brightest of all.
+  /// Sets the range. Linear: from 0 to the brightest patch that does not emit, because a room is
+  /// much darker than its light sources. Logarithmic: to the brightest patch.
   void fit_range(const Scene& scene, std::span<const Rgb> radiosity);
-  /// The same, to the largest of all; where they are `balanced` the map's middle is 0.
+  /// Sets the range by all values.
+  /// @param balanced  symmetric around 0
   void fit_range(std::span<const Rgb> values, bool balanced = false);
-  /// Widens or narrows the range as far as must be: low < high, and 0 < low where logarithmic.
+  /// Changes the range as little as needed for low < high, and 0 < low if logarithmic.
   void repair_range();
-  /// Finds whether some values lie beyond the range.
+  /// Sets `above` and `below`.
   void find_out_of_range(std::span<const Rgb> values);
-  /// Sets the exposure such that what does not emit is well lit: the 95th percentile by area
-  /// comes out nearly white. A scene where all patches emit counts them all.
+  /// Sets the exposure so that the 95th percentile (by area) of the patches that do not emit is
+  /// nearly white. If all patches emit, all are counted.
   void fit_exposure(const Scene& scene, std::span<const Rgb> radiosity);
 
  private:
@@ -60,8 +61,8 @@ class ColorScale {
   void fit_range_where(std::span<const Rgb> values, const Counts& counts);
 };
 
-/// Area of the patches by where their value lies in the range, from low to high in `bins` parts,
-/// as shares of the largest part. Values beyond the ends count in none.
+/// Area of the patches per bin of the range from low to high, relative to the largest bin. Values
+/// outside the range are not counted.
 std::vector<double> histogram(const ColorScale& scale, const Scene& scene,
                               std::span<const Rgb> values, int bins);
 

@@ -8,7 +8,7 @@
 namespace transillum::viewer {
 
 KeptRunLabel::KeptRunLabel(const ColorChoice& colors, QWidget* canvas)
-    : QLabel(tr("A, the kept run, while the key is down"), canvas) {
+    : QLabel(tr("Kept run A, while the key is held"), canvas) {
   setObjectName("kept_run_label");
   setAttribute(Qt::WA_TransparentForMouseEvents);
   QPalette surroundings = palette();

@@ -7,8 +7,8 @@
 
 namespace transillum::viewer {
 
-/// Says over the picture that it is the kept run's, while it is. It takes no room: the two runs are
-/// to be compared in one place.
+/// A label over the picture while it shows the kept run. It is an overlay, so that both runs are
+/// shown at the same place.
 class KeptRunLabel : public QLabel {
   Q_OBJECT
 

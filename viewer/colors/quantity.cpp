@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Quantities of the patches: names and units, and values from a snapshot of the solver.
 #include "colors/quantity.h"
 
 #include <QCoreApplication>
@@ -48,10 +50,10 @@ PatchValues form_factors_of(const SolverSnapshot& snapshot, PatchId selected, bo
 
 PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* other) {
   if (!other) {
-    return {{}, tr("Keep a run first, to compare others with it (Compare).")};
+    return {{}, tr("Keep a run as A first (menu Compare).")};
   }
   if (other->radiosity.size() != snapshot.radiosity.size()) {
-    return {{}, tr("The kept run has other patches: there is no difference to show.")};
+    return {{}, tr("The kept run A has a different number of patches.")};
   }
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
@@ -65,45 +67,45 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
 const std::vector<QuantityTraits>& quantity_traits() {
   static const std::vector<QuantityTraits> traits{
       {Quantity::radiosity, QT_TRANSLATE_NOOP("Quantity", "Radiosity B"), "B", "W/m²",
-       QT_TRANSLATE_NOOP("Quantity", "What leaves each patch, as estimated so far"), true, true,
-       false, false},
+       QT_TRANSLATE_NOOP("Quantity", "Power per area leaving each patch, current estimate"), true,
+       true, false, false},
       {Quantity::exitance, QT_TRANSLATE_NOOP("Quantity", "Emitted exitance E"), "E", "W/m²",
-       QT_TRANSLATE_NOOP("Quantity", "What each patch emits by itself"), true, true, false, false},
-      {Quantity::reflectance, QT_TRANSLATE_NOOP("Quantity", "Reflectance ρ"), "ρ", "",
-       QT_TRANSLATE_NOOP("Quantity", "The share of light that each patch sends back"), true, true,
+       QT_TRANSLATE_NOOP("Quantity", "Power per area emitted by each patch itself"), true, true,
        false, false},
-      {Quantity::irradiance, QT_TRANSLATE_NOOP("Quantity", "Irradiance H"), "H", "W/m²",
-       QT_TRANSLATE_NOOP("Quantity", "What reaches each patch, in the last finished iteration"),
+      {Quantity::reflectance, QT_TRANSLATE_NOOP("Quantity", "Reflectance ρ"), "ρ", "",
+       QT_TRANSLATE_NOOP("Quantity", "Fraction of the received light that each patch reflects"),
        true, true, false, false},
-      {Quantity::form_factor_from, QT_TRANSLATE_NOOP("Quantity", "Seen by the selected patch"),
+      {Quantity::irradiance, QT_TRANSLATE_NOOP("Quantity", "Irradiance H"), "H", "W/m²",
+       QT_TRANSLATE_NOOP("Quantity",
+                         "Power per area received by each patch in the last finished iteration"),
+       true, true, false, false},
+      {Quantity::form_factor_from, QT_TRANSLATE_NOOP("Quantity", "Form factors from selection"),
        "F i→j", "",
        QT_TRANSLATE_NOOP("Quantity",
-                         "F_ij from the selected patch i to each patch j: how much of what i can "
-                         "see is j"),
+                         "F_ij from the selected patch i to each patch j: fraction of the light "
+                         "leaving i that reaches j"),
        false, false, false, true},
-      {Quantity::form_factor_to, QT_TRANSLATE_NOOP("Quantity", "Seeing the selected patch"),
+      {Quantity::form_factor_to, QT_TRANSLATE_NOOP("Quantity", "Form factors to selection"),
        "F j→i", "",
        QT_TRANSLATE_NOOP("Quantity",
-                         "F_ji from each patch j to the selected patch i: how much of what j can "
-                         "see is i"),
+                         "F_ji from each patch j to the selected patch i: fraction of the light "
+                         "leaving j that reaches i"),
        false, false, false, true},
       {Quantity::form_factor_sum, QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"), "Σ F", "",
-       QT_TRANSLATE_NOOP("Quantity",
-                         "How much of what each patch can see is patches; near 1 where enclosed"),
+       QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
        false, false, false, false},
       {Quantity::fragments, QT_TRANSLATE_NOOP("Quantity", "Number of fragments"), "fragments", "",
-       QT_TRANSLATE_NOOP("Quantity", "How many parts the BSP tree has cut each patch into"), false,
+       QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree"), false,
        false, false, false},
       {Quantity::error, QT_TRANSLATE_NOOP("Quantity", "Error estimate of B"), "± B", "W/m²",
        QT_TRANSLATE_NOOP("Quantity", "Standard error of B, from the spread of the replicas"), false,
        true, false, false},
       {Quantity::last_change, QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
        "|Δ B|", "W/m²",
-       QT_TRANSLATE_NOOP("Quantity", "How much B differs from the iteration before"), false, true,
+       QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"), false, true,
        false, false},
-      {Quantity::difference, QT_TRANSLATE_NOOP("Quantity", "Difference to the kept run"), "B − A",
-       "W/m²", QT_TRANSLATE_NOOP("Quantity", "B less that of the kept run"), false, true, true,
-       false},
+      {Quantity::difference, QT_TRANSLATE_NOOP("Quantity", "Difference from A"), "B − A", "W/m²",
+       QT_TRANSLATE_NOOP("Quantity", "B minus the B of the kept run A"), false, true, true, false},
   };
   return traits;
 }
@@ -112,7 +114,7 @@ const QuantityTraits& traits_of(Quantity quantity) { return at(quantity_traits()
 
 std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   const SolveProgress& progress = snapshot.progress;
-  // Between two iterations, the change is that of the one just finished.
+  // Between two iterations: the change of the one just finished.
   const int before = progress.direction > 0 ? progress.iteration : progress.iteration - 1;
   const auto& kept = snapshot.kept_radiosity;
   if (before < 0 || static_cast<std::size_t>(before) >= kept.size()) {
@@ -148,7 +150,7 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       return {of_materials(snapshot, &Material::reflectance), {}};
     case Quantity::irradiance:
       if (snapshot.progress.iteration == 0 && !snapshot.of_file) {
-        return {{}, tr("There is an irradiance when the first iteration is done.")};
+        return {{}, tr("Irradiance is available after the first iteration.")};
       }
       return {snapshot.irradiance, {}};
     case Quantity::form_factor_from:
@@ -164,15 +166,15 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       if (snapshot.error.replicas == 0) {
         return {{},
                 snapshot.options.replicas > 1
-                    ? tr("The error estimate is there when every replica has had a direction.")
-                    : tr("The error of B is estimated from the spread of replicas, and this solve "
-                         "has none.")};
+                    ? tr("The error estimate is available when every replica has a direction.")
+                    : tr("The error estimate needs replicas (solve settings); this solve run has "
+                         "none.")};
       }
       return {snapshot.error.standard_error, {}};
     case Quantity::last_change: {
       PatchValues result{last_change(snapshot), {}};
       if (result.values.empty()) {
-        result.missing = tr("Nothing has changed yet.");
+        result.missing = tr("There is no previous iteration yet.");
       }
       return result;
     }

@@ -8,7 +8,7 @@
 
 namespace transillum::viewer {
 
-/// What of its patches a picture shows.
+/// A quantity of the patches that pictures and tables show.
 enum class Quantity {
   radiosity,
   exitance,
@@ -23,17 +23,17 @@ enum class Quantity {
   difference
 };
 
-/// How a quantity is told and shown.
+/// How a quantity is named and shown.
 struct QuantityTraits {
   Quantity quantity;
-  const char* name;     ///< in a list of choices
-  const char* symbol;   ///< at the color bar
+  const char* name;     ///< in lists of choices
+  const char* symbol;   ///< above the color bar
   const char* unit;     ///< or ""
   const char* meaning;  ///< one sentence
-  bool is_light;        ///< red, green and blue make a color that can be shown as it is
-  bool has_channels;    ///< red, green and blue differ; else all three are the value
-  bool is_signed;
-  bool of_selection;  ///< changes with the selected patch
+  bool is_light;        ///< RGB can be shown in true color
+  bool has_channels;    ///< RGB differ; else all three are equal
+  bool is_signed;       ///< values can be negative
+  bool of_selection;    ///< depends on the selected patch
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
@@ -41,19 +41,20 @@ const QuantityTraits& traits_of(Quantity quantity);
 
 /// A quantity of all patches of a snapshot.
 struct PatchValues {
-  std::vector<Rgb> values;  ///< one a patch, or empty
-  QString missing;          ///< what is to be done where they are empty
+  std::vector<Rgb> values;  ///< one per patch, or empty
+  QString missing;          ///< the reason for the user if they are empty
 };
 
-/// @param selected whose form factors are meant; no_patch for none
-/// @param other what a difference is to, may be null
+/// @param selected  patch of the form factors; may be no_patch
+/// @param other  snapshot to subtract for Quantity::difference; may be null
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
                       const SolverSnapshot* other);
 
-/// |B - B a step before|, W/m², one a patch; empty where that is not kept.
+/// |B - B(n)| with the B(n) before the newest iteration, W/m², one per patch; empty if B(n) was not
+/// stored.
 std::vector<Rgb> last_change(const SolverSnapshot& snapshot);
 
-/// How many fragments the order has cut each patch into.
+/// The number of fragments of each patch in the BSP tree.
 std::vector<int> fragment_counts(const LoadedScene& loaded);
 
 }  // namespace transillum::viewer

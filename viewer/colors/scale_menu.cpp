@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The menu of the color map and its range.
 #include "colors/scale_menu.h"
 
 #include <QButtonGroup>
@@ -23,7 +25,7 @@ QString end_text(double value) { return QString::number(value, 'g', 5); }
 ScaleMenu::ScaleMenu(ColorChoice& colors, QWidget* parent) : QToolButton(parent), colors_(colors) {
   setObjectName("scale");
   setPopupMode(QToolButton::InstantPopup);
-  setToolTip(tr("The color map, and where its ends come from"));
+  setToolTip(tr("Color map and its range"));
   auto* menu = new QMenu(this);
   auto* panel = new QWidgetAction(menu);
   panel->setDefaultWidget(make_panel());
@@ -53,11 +55,11 @@ QWidget* ScaleMenu::make_panel() {
     rules_->addButton(button, static_cast<int>(rule));
     grid->addWidget(button, grid->rowCount(), 0, 1, 2);
   };
-  add_rule(RangeRule::automatic, tr("Automatic: fits each picture"),
-           tr("The same color may mean another value a moment later"));
-  add_rule(RangeRule::widening, tr("Locked over time: only widens"),
-           tr("So that pictures of one run can be compared"));
-  add_rule(RangeRule::fixed, tr("Fixed:"), tr("From and to what is given below"));
+  add_rule(RangeRule::automatic, tr("Automatic: fit each picture"),
+           tr("The meaning of a color changes from picture to picture"));
+  add_rule(RangeRule::widening, tr("Widening: never narrower"),
+           tr("Pictures of one solve run can be compared"));
+  add_rule(RangeRule::fixed, tr("Fixed:"), tr("From and to the values below"));
   const auto add_end = [&](const char* name, const QString& text) {
     auto* edit = new QLineEdit;
     edit->setObjectName(QString::fromLatin1(name));
@@ -67,7 +69,7 @@ QWidget* ScaleMenu::make_panel() {
     const int row = grid->rowCount();
     grid->addWidget(label, row, 0);
     grid->addWidget(edit, row, 1);
-    connect(edit, &QLineEdit::editingFinished, this, &ScaleMenu::take_ends);
+    connect(edit, &QLineEdit::editingFinished, this, &ScaleMenu::apply_range);
     return edit;
   };
   low_ = add_end("range_low", tr("from"));
@@ -79,9 +81,9 @@ QWidget* ScaleMenu::make_panel() {
   return panel;
 }
 
-void ScaleMenu::take_ends() {
+void ScaleMenu::apply_range() {
   const ColorScale& scale = colors_.scale();
-  // Leaving the line without a change is no wish.
+  // editingFinished is also emitted without a change.
   if (low_->text() == end_text(scale.low) && high_->text() == end_text(scale.high)) {
     return;
   }
@@ -95,7 +97,7 @@ void ScaleMenu::show_choice() {
       setText(tr("Range: automatic "));
       break;
     case RangeRule::widening:
-      setText(tr("Range: locked "));
+      setText(tr("Range: widening "));
       break;
     case RangeRule::fixed:
       setText(tr("Range: fixed "));

@@ -11,8 +11,7 @@ class QLineEdit;
 
 namespace transillum::viewer {
 
-/// The button that tells where the color map's ends come from, and opens what sets them and the
-/// map.
+/// A button that shows how the range of the color map is set; its menu sets range and map.
 class ScaleMenu : public QToolButton {
   Q_OBJECT
 
@@ -22,7 +21,7 @@ class ScaleMenu : public QToolButton {
  private:
   QWidget* make_panel();
   void show_choice();
-  void take_ends();
+  void apply_range();
 
   ColorChoice& colors_;
   QComboBox* map_;
