@@ -301,7 +301,7 @@ class InspectTest : public QObject {
     QVERIFY(distance_of(shown.scene_view->view_point(), first) > 0.1);
     const auto& kept = shown.window->page()->bookmarks().all();
     QCOMPARE(kept.size(), std::size_t{1});
-    shown.scene_view->look_from(kept[0].view);
+    shown.scene_view->set_view_point(kept[0].view);
     QVERIFY(distance_of(shown.scene_view->view_point(), first) < 1e-9);
     shown.window->selection().select(5);
     shown.trigger("view_patch");

@@ -178,7 +178,7 @@ class LessonsTest : public QObject {
     // The lesson's scene and another one, each after the exposure was fixed.
     for (const std::string& scene : {window.spec(), std::string("furnace")}) {
       window.colors().set_exposure(-3);
-      window.findChild<SceneView*>()->look_from_side(Side::top);
+      window.findChild<SceneView*>()->view_from_side(Side::top);
       const auto before = window.snapshot()->loaded;
       window.open_afresh(QString::fromStdString(scene));
       QVERIFY(wait_for([&] { return window.snapshot() && window.snapshot()->loaded != before; }));

@@ -96,7 +96,7 @@ class SessionFileTest : public QObject {
       camera = solved.scene_view->view_point();
       window.page()->bookmarks().add(camera, "the \"first\" one");
       camera.eye.x += 1;
-      solved.scene_view->look_from(camera);
+      solved.scene_view->set_view_point(camera);
       window.files().save_session(path);
     }
     const auto window = make_window(16);

@@ -158,7 +158,7 @@ class WindowTest : public QObject {
     // Its front, nearly from the side, and through its culled back.
     for (const double below : {2.0, 0.2, -0.2, -2.0}) {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
-      solved.scene_view->look_from(view);
+      solved.scene_view->set_view_point(view);
       QTest::qWait(50);
       save_picture(*solved.window, QString("outline-%1").arg(below));
       const double pink = share_of(picture_of(solved.scene_view->canvas()), theme::selection);

@@ -18,23 +18,23 @@ constexpr int bookmark_keys = 9;
 CameraMenu::CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidget* parent)
     : QToolButton(parent), scene_view_(scene_view), bookmarks_(bookmarks) {
   setObjectName("camera");
-  setText(tr("Look "));
-  setToolTip(tr("Where the scene is looked from"));
+  setText(tr("Camera "));
+  setToolTip(tr("Choose or save a viewpoint"));
   setPopupMode(QToolButton::InstantPopup);
-  auto* menu = new QMenu(tr("Look"), this);
+  auto* menu = new QMenu(tr("Camera"), this);
   const auto add = [&](const char* name, const QString& text, const QKeySequence& key,
-                       const auto& look) {
-    QAction* action = menu->addAction(text, this, look, key);
+                       const auto& move) {
+    QAction* action = menu->addAction(text, this, move, key);
     action->setObjectName(QString::fromLatin1(name));
   };
-  add("view_first", tr("As at first"), Qt::Key_Home, [this] { scene_view_.reset_view(); });
-  add("view_fit", tr("At all of it, from here"), QKeySequence(QStringLiteral("Shift+Home")),
-      [this] { scene_view_.look_at_all(); });
-  add("view_patch", tr("At the selected patch"), Qt::Key_Z,
-      [this] { scene_view_.look_at_selected(); });
+  add("view_first", tr("Initial view"), Qt::Key_Home, [this] { scene_view_.reset_view(); });
+  add("view_fit", tr("Fit the whole scene"), QKeySequence(QStringLiteral("Shift+Home")),
+      [this] { scene_view_.fit_all(); });
+  add("view_patch", tr("Fit the selected patch"), Qt::Key_Z,
+      [this] { scene_view_.fit_selected(); });
   menu->addSeparator();
   const auto add_side = [&](const char* name, const QString& text, Side side) {
-    add(name, text, {}, [this, side] { scene_view_.look_from_side(side); });
+    add(name, text, {}, [this, side] { scene_view_.view_from_side(side); });
   };
   add_side("view_front", tr("From the front"), Side::front);
   add_side("view_back", tr("From the back"), Side::back);
@@ -43,31 +43,31 @@ CameraMenu::CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidge
   add_side("view_top", tr("From above"), Side::top);
   add_side("view_bottom", tr("From below"), Side::bottom);
   menu->addSeparator();
-  add("keep_view", tr("Keep this view"), QKeySequence(QStringLiteral("Ctrl+B")),
+  add("keep_view", tr("Save this view"), QKeySequence(QStringLiteral("Ctrl+B")),
       [this] { bookmarks_.add(scene_view_.view_point()); });
-  kept_ = menu->addMenu(tr("Kept views"));
-  kept_->setObjectName("kept_views");
+  saved_ = menu->addMenu(tr("Saved views"));
+  saved_->setObjectName("kept_views");
   setMenu(menu);
   connect(&bookmarks_, &CameraBookmarks::changed, this, &CameraMenu::fill_bookmarks,
-          Qt::QueuedConnection);  // one of the menu's own actions may be the cause
+          Qt::QueuedConnection);  // an action of this menu may have changed them
   fill_bookmarks();
 }
 
 void CameraMenu::fill_bookmarks() {
-  kept_->clear();
-  kept_->setEnabled(!bookmarks_.all().empty());
+  saved_->clear();
+  saved_->setEnabled(!bookmarks_.all().empty());
   int number = 0;
   for (const CameraBookmarks::Bookmark& bookmark : bookmarks_.all()) {
-    QAction* action = kept_->addAction(
-        bookmark.name, this, [this, view = bookmark.view] { scene_view_.look_from(view); });
+    QAction* action = saved_->addAction(
+        bookmark.name, this, [this, view = bookmark.view] { scene_view_.set_view_point(view); });
     if (++number <= bookmark_keys) {
       action->setShortcut(QKeySequence(QStringLiteral("Alt+%1").arg(number)));
     }
   }
-  kept_->addSeparator();
-  QMenu* rename = kept_->addMenu(tr("Rename"));
+  saved_->addSeparator();
+  QMenu* rename = saved_->addMenu(tr("Rename"));
   rename->setObjectName("rename_view");
-  QMenu* remove = kept_->addMenu(tr("Remove"));
+  QMenu* remove = saved_->addMenu(tr("Remove"));
   remove->setObjectName("remove_view");
   for (std::size_t k = 0; k < bookmarks_.all().size(); ++k) {
     const QString& name = bookmarks_.all()[k].name;
@@ -75,11 +75,11 @@ void CameraMenu::fill_bookmarks() {
     remove->addAction(name, this, [this, k] { bookmarks_.remove(k); });
   }
   remove->addSeparator();
-  remove->addAction(tr("All of them"), &bookmarks_, &CameraBookmarks::clear);
+  remove->addAction(tr("All"), &bookmarks_, &CameraBookmarks::clear);
 }
 
 void CameraMenu::ask_for_name(std::size_t k) {
-  const QString name = QInputDialog::getText(this, tr("Rename a kept view"), tr("Name:"),
+  const QString name = QInputDialog::getText(this, tr("Rename a saved view"), tr("Name:"),
                                              QLineEdit::Normal, bookmarks_.all()[k].name);
   if (k < bookmarks_.all().size()) {
     bookmarks_.rename(k, name.trimmed());

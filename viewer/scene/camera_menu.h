@@ -11,7 +11,7 @@ namespace transillum::viewer {
 
 class SceneView;
 
-/// Where the scene is looked from: sides, what fits, and kept views.
+/// Menu of viewpoints: standard sides, fitted views and saved views.
 class CameraMenu : public QToolButton {
   Q_OBJECT
 
@@ -24,7 +24,7 @@ class CameraMenu : public QToolButton {
 
   SceneView& scene_view_;
   CameraBookmarks& bookmarks_;
-  QMenu* kept_;
+  QMenu* saved_;
 };
 
 }  // namespace transillum::viewer

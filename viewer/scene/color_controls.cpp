@@ -30,8 +30,8 @@ namespace {
 constexpr double lowest_exposure = -12, highest_exposure = 12;  // EV
 constexpr int slider_steps_per_ev = 10;
 constexpr int spacing = 8;
-constexpr int letters_of_quantity = 7;  // wide ones: "Radiosity B"
-constexpr int widest_quantity = 260;
+constexpr int min_quantity_letters = 7;  // wide letters: fits "Radiosity B"
+constexpr int max_quantity_width = 260;
 
 QHBoxLayout* row_in(QWidget* part) {
   auto* row = new QHBoxLayout(part);
@@ -40,10 +40,10 @@ QHBoxLayout* row_in(QWidget* part) {
   return row;
 }
 
-/// Whether an item of the list can be chosen.
-void offer(QComboBox& list, int item, bool offered) {
+/// Enables or disables an item of the list.
+void set_item_enabled(QComboBox& list, int item, bool enabled) {
   auto* model = qobject_cast<QStandardItemModel*>(list.model());
-  model->item(item)->setEnabled(offered);
+  model->item(item)->setEnabled(enabled);
 }
 
 QString tr_quantity(const char* text) { return QCoreApplication::translate("Quantity", text); }
@@ -52,26 +52,7 @@ QString tr_quantity(const char* text) { return QCoreApplication::translate("Quan
 
 ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
     : QWidget(parent), colors_(colors) {
-  quantity_ = new ElidedComboBox;
-  quantity_->setObjectName("quantity");
-  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  quantity_->setMinimumContentsLength(letters_of_quantity);
-  quantity_->setMaximumWidth(widest_quantity);
-  quantity_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  fill_quantities();
-  mode_ = new QComboBox;
-  mode_->setObjectName("color_mode");
-  mode_->addItems({tr("True color"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
-                   tr("Blue channel")});
-  QSizePolicy kept(QSizePolicy::Fixed, QSizePolicy::Fixed);
-  kept.setRetainSizeWhenHidden(true);  // nothing moves from one quantity to another
-  mode_->setSizePolicy(kept);
-  what_ = new QWidget;
-  what_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  auto* what = row_in(what_);
-  what->setSizeConstraint(QLayout::SetMinAndMaxSize);
-  what->addWidget(quantity_, 1);
-  what->addWidget(mode_);
+  make_quantity_row();
   pages_ = new QStackedWidget;
   pages_->addWidget(make_true_color_page());
   pages_->addWidget(make_map_page());
@@ -85,7 +66,7 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   grid_->setContentsMargins(10, 5, 10, 5);
   grid_->setHorizontalSpacing(spacing);
   grid_->setVerticalSpacing(4);
-  grid_->addWidget(what_, 0, 0);
+  grid_->addWidget(quantity_row_, 0, 0);
   grid_->addWidget(tools_, 0, 2);
   arrange();
 
@@ -104,6 +85,29 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   show_choice();
 }
 
+void ColorControls::make_quantity_row() {
+  quantity_ = new ElidedComboBox;
+  quantity_->setObjectName("quantity");
+  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  quantity_->setMinimumContentsLength(min_quantity_letters);
+  quantity_->setMaximumWidth(max_quantity_width);
+  quantity_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  fill_quantities();
+  mode_ = new QComboBox;
+  mode_->setObjectName("color_mode");
+  mode_->addItems({tr("True color"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
+                   tr("Blue channel")});
+  QSizePolicy fixed(QSizePolicy::Fixed, QSizePolicy::Fixed);
+  fixed.setRetainSizeWhenHidden(true);  // so that the layout is the same for all quantities
+  mode_->setSizePolicy(fixed);
+  quantity_row_ = new QWidget;
+  quantity_row_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  auto* row = row_in(quantity_row_);
+  row->setSizeConstraint(QLayout::SetMinAndMaxSize);
+  row->addWidget(quantity_, 1);
+  row->addWidget(mode_);
+}
+
 bool ColorControls::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::Hide) {
     emit list_closed();
@@ -114,7 +118,7 @@ bool ColorControls::eventFilter(QObject* watched, QEvent* event) {
 void ColorControls::add_tool(QWidget* tool) { tools_->layout()->addWidget(tool); }
 
 void ColorControls::fill_quantities() {
-  // What belongs together is set apart from the rest.
+  // Separators between groups.
   for (const QuantityTraits& traits : quantity_traits()) {
     const bool begins_group = traits.quantity == Quantity::form_factor_from ||
                               traits.quantity == Quantity::fragments ||
@@ -138,14 +142,14 @@ void ColorControls::arrange() {
   const QMargins margins = grid_->contentsMargins();
   const int room = width() - margins.left() - margins.right();
   const int tools = tools_->sizeHint().width();
-  // The slider tells no more than the box beside it.
+  // Without room the slider is hidden: the box beside it shows the same value.
   const int spare =
       exposure_label_->sizeHint().width() + exposure_slider_->sizeHint().width() + 2 * spacing;
   const int page = pages_->sizeHint().width() - (exposure_slider_->isHidden() ? 0 : spare);
-  setMinimumWidth(std::max(what_->minimumSizeHint().width() + spacing + tools, page) +
+  setMinimumWidth(std::max(quantity_row_->minimumSizeHint().width() + spacing + tools, page) +
                   margins.left() + margins.right());
 
-  const int others = what_->sizeHint().width() + tools + 2 * spacing;
+  const int others = quantity_row_->sizeHint().width() + tools + 2 * spacing;
   const bool one_row = others + page <= room;
   const bool whole = page + spare + (one_row ? others : 0) <= room;
   exposure_label_->setVisible(whole);
@@ -174,15 +178,15 @@ QWidget* ColorControls::make_true_color_page() {
   exposure_->setSingleStep(0.25);
   exposure_->setDecimals(2);
   exposure_->setSuffix(tr(" EV"));
-  exposure_->setToolTip(tr("Shown is 2 to the power of the exposure, times B"));
+  exposure_->setToolTip(tr("Exposure: B is multiplied by 2 to this power"));
   automatic_ = new QCheckBox(tr("Auto"));
-  automatic_->setToolTip(tr("Expose for what is lit, anew for every picture"));
+  automatic_->setToolTip(tr("Adjust exposure automatically"));
   gamma_ = new QDoubleSpinBox;
   gamma_->setRange(1.0, 3.0);
   gamma_->setSingleStep(0.1);
   gamma_->setDecimals(1);
   gamma_->setPrefix(tr("γ "));
-  gamma_->setToolTip(tr("Gamma of the screen"));
+  gamma_->setToolTip(tr("Gamma of the display"));
 
   exposure_label_ = new QLabel(tr("Exposure"));
   exposure_label_->setBuddy(exposure_);
@@ -243,7 +247,7 @@ void ColorControls::show_choice() {
   quantity_->setToolTip(tr_quantity(traits.meaning));
   mode_->setCurrentIndex(static_cast<int>(scale.mode));
   mode_->setVisible(traits.has_channels);
-  offer(*mode_, 0, traits.is_light);
+  set_item_enabled(*mode_, 0, traits.is_light);
   const int page = scale.mode == ColorMode::true_color ? 0 : 1;
   pages_->setCurrentIndex(page);
   exposure_slider_->setValue(static_cast<int>(std::lround(scale.exposure * slider_steps_per_ev)));

@@ -17,8 +17,8 @@ namespace transillum::viewer {
 
 class ShowMenu;
 
-/// The strip above the 3-D view: what of the patches becomes color, and how, and what else is
-/// drawn. Where one row has no room, as on a projector, it is two.
+/// The strip above the 3-D view: the quantity shown as color, its color scale, and the Show menu.
+/// One row, or two if the window is narrow.
 class ColorControls : public QWidget {
   Q_OBJECT
 
@@ -31,13 +31,13 @@ class ColorControls : public QWidget {
   void set_outlines(bool shown);
   bool outlines() const;
   ShowMenu* show_menu() const { return show_; }
-  /// Puts a tool at the right end.
+  /// Adds a tool at the right end.
   void add_tool(QWidget* tool);
 
  signals:
   void direction_toggled(bool shown);
   void outlines_toggled(bool shown);
-  /// Something was chosen from a list: what is typed next is not meant for it.
+  /// The pop-up of a combo box was closed; the keyboard focus should leave it.
   void list_closed();
 
  protected:
@@ -45,10 +45,11 @@ class ColorControls : public QWidget {
   bool event(QEvent* event) override;
 
  private:
+  void make_quantity_row();
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
-  /// Lays all out in the room there is.
+  /// Chooses one or two rows by the width.
   void arrange();
   void show_choice();
 
@@ -57,7 +58,7 @@ class ColorControls : public QWidget {
   QComboBox* mode_;
   QGridLayout* grid_;
   int rows_ = 0;
-  QWidget* what_;
+  QWidget* quantity_row_;
   QStackedWidget* pages_;
   QWidget* tools_;
   QLabel* exposure_label_;

@@ -44,8 +44,8 @@ vtkSmartPointer<vtkActor> arrow_actor(vtkRenderer& renderer) {
   return actor;
 }
 
-// Carries the arrow source's x axis to `axis`, scaled.
-vtkSmartPointer<vtkMatrix4x4> placed(const Vec3& tail, const Vec3& axis, double length) {
+// Maps the arrow source's x axis to `axis`, scaled by `length`, with its tail at `tail`.
+vtkSmartPointer<vtkMatrix4x4> arrow_matrix(const Vec3& tail, const Vec3& axis, double length) {
   const Vec3 other = std::abs(axis.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 v = normalized(cross(axis, other));
   const Vec3 w = cross(axis, v);
@@ -83,8 +83,8 @@ DirectionGlyph::DirectionGlyph(vtkRenderer& renderer) {
 
   forward_ = arrow_actor(renderer);
   backward_ = arrow_actor(renderer);
-  // Blended with what is drawn by then. As translucent actors they would cost another pass over all
-  // pixels, a fifth of a frame where there is no graphics card.
+  // Blended with what has been drawn before. Translucent actors would need another pass over all
+  // pixels, a fifth of a frame without a GPU.
   fill_ = flat_actor(quad_, renderer);
   fill_->GetProperty()->SetOpacity(0.20);
   fill_->ForceOpaqueOn();
@@ -114,8 +114,8 @@ void DirectionGlyph::show_at(const Vec3& omega, bool two_way, const Vec3& middle
   frame_->Modified();
 
   const double length = 0.26 * radius;
-  forward_->SetUserMatrix(placed(middle, -omega, length));
-  backward_->SetUserMatrix(placed(middle, omega, length));
+  forward_->SetUserMatrix(arrow_matrix(middle, -omega, length));
+  backward_->SetUserMatrix(arrow_matrix(middle, omega, length));
   for (vtkActor* actor : {fill_.Get(), border_.Get(), forward_.Get()}) {
     actor->VisibilityOn();
   }

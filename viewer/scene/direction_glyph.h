@@ -10,17 +10,17 @@
 
 namespace transillum::viewer {
 
-/// A transillumination direction: arrows the way the light travels, and the plane it crosses.
+/// A transillumination direction: arrows along which light travels, and the plane across them.
 class DirectionGlyph {
  public:
   explicit DirectionGlyph(vtkRenderer& renderer);
 
-  /// `omega` points toward the source: light travels along -omega, and both ways where `two_way`.
-  /// The plane stands `distance` from `center`, on the side that is nearer to `eye`; its size goes
-  /// with `radius`.
+  /// `omega` points toward the source: light travels along -omega, with `two_way` also along omega.
+  /// The plane is `distance` from `center`, on the side nearer to `eye`; its size is proportional
+  /// to `radius`. Lengths in meters.
   void show(const Vec3& omega, bool two_way, const Vec3& center, double radius, double distance,
             const Vec3& eye);
-  /// The plane through `middle`.
+  /// The same with the plane through `middle`.
   void show_at(const Vec3& omega, bool two_way, const Vec3& middle, double radius);
   void hide();
   void set_line_width(double pixels);

@@ -14,13 +14,13 @@
 
 namespace transillum::viewer {
 
-/// A scene as VTK draws it: one cell a convex piece, colored by its patch.
+/// A scene as VTK polygons: one cell per piece, in the color of its patch.
 class SceneMesh {
  public:
   explicit SceneMesh(std::shared_ptr<const Scene> scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// One color a patch. Only the cells' colors change, never their shape.
+  /// One color per patch. Changes the cells' colors, never their shape.
   void color(std::span<const Color8> colors);
 
  private:

@@ -51,7 +51,7 @@ vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& t
   }
   Lines lines;
   for (const BspTree::Fragment& f : tree.fragments()) {
-    // A patch that is not convex has pieces of its own, which no plane has cut.
+    // A non-convex patch has several pieces without being cut.
     const auto patch = static_cast<std::size_t>(f.patch);
     if (fragments[patch] == pieces[patch]) {
       continue;
@@ -80,20 +80,20 @@ SceneOverlays::SceneOverlays(vtkRenderer& renderer) {
   for (Overlay& overlay : overlays_) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->ScalarVisibilityOff();
-    vtkNew<vtkPolyData> nothing;
-    mapper->SetInputData(nothing);
+    vtkNew<vtkPolyData> empty;
+    mapper->SetInputData(empty);
     overlay.actor = vtkSmartPointer<vtkActor>::New();
     overlay.actor->SetMapper(mapper);
     overlay.actor->GetProperty()->LightingOff();
     overlay.actor->VisibilityOff();
     renderer.AddActor(overlay.actor);
   }
-  const auto paint = [this](Kind kind, const QColor& color) {
+  const auto set_color = [this](Kind kind, const QColor& color) {
     overlay(kind).actor->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
   };
-  paint(Kind::fragments, theme::outside);
-  paint(Kind::normals, theme::processed);
-  paint(Kind::back_faces, back_face);
+  set_color(Kind::fragments, theme::outside);
+  set_color(Kind::normals, theme::processed);
+  set_color(Kind::back_faces, back_face);
   overlay(Kind::back_faces).actor->GetProperty()->FrontfaceCullingOn();
 }
 

@@ -14,19 +14,20 @@
 
 namespace transillum::viewer {
 
-/// The edges of the fragments of all patches that `tree` has cut, `lift` meters in front of them.
+/// The edges of the fragments of all patches that `tree` cuts, `lift` meters in front of them.
 vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift);
 /// A line from the center of each patch along its normal, half as long as the patch is wide.
 vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene);
 
-/// What can be drawn over a scene beside its colors. Made only when it is first shown.
+/// Geometry drawn in addition to the colored patches; computed when it is first shown.
 class SceneOverlays {
  public:
   enum class Kind { fragments, normals, back_faces };
 
   explicit SceneOverlays(vtkRenderer& renderer);
 
-  /// `surface` is the scene's, for its back faces.
+  /// @param surface the scene's polygons, to draw their back sides
+  /// @param lift meters by which lines are drawn in front of their patches
   void show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface, double lift);
   void set_shown(Kind kind, bool shown);
   void set_line_width(double pixels);

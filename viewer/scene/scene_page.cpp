@@ -42,33 +42,10 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   camera_ = new CameraMenu(*scene_view_, bookmarks_);
   color_controls_->add_tool(camera_);
 
-  auto* note = new ColorNote(colors);
-  connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
-
-  auto* scene = new QWidget;
-  auto* with_bar = new QHBoxLayout;
-  with_bar->setSpacing(0);
-  with_bar->addWidget(scene_view_, 1);
-  with_bar->addWidget(new ColorBar(colors));
-  auto* scene_layout = new QVBoxLayout(scene);
-  scene_layout->setContentsMargins(0, 0, 0, 0);
-  scene_layout->setSpacing(0);
-  scene_layout->addWidget(color_controls_);
-  scene_layout->addWidget(note);
-  scene_layout->addLayout(with_bar, 1);
   pages_ = new QStackedWidget;
   pages_->addWidget(welcome_);
-  pages_->addWidget(scene);
-  scenes_ = new QAction(theme::icon(theme::Icon::scene), tr("Scenes"), this);
-  scenes_->setObjectName("scenes");
-  scenes_->setCheckable(true);
-  scenes_->setChecked(true);
-  scenes_->setEnabled(false);  // there is no other page yet
-  scenes_->setShortcut(QKeySequence(Qt::Key_W));
-  scenes_->setToolTip(tr("The scenes that come along, as pictures, and the lessons (W)"));
-  connect(scenes_, &QAction::toggled, this,
-          [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
-  connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
+  pages_->addWidget(make_scene(colors));
+  make_scenes_action();
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -77,9 +54,39 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   layout->addWidget(pages_, 1);
 }
 
+QWidget* ScenePage::make_scene(ColorChoice& colors) {
+  auto* note = new ColorNote(colors);
+  connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
+  auto* scene = new QWidget;
+  auto* view_and_bar = new QHBoxLayout;
+  view_and_bar->setSpacing(0);
+  view_and_bar->addWidget(scene_view_, 1);
+  view_and_bar->addWidget(new ColorBar(colors));
+  auto* scene_layout = new QVBoxLayout(scene);
+  scene_layout->setContentsMargins(0, 0, 0, 0);
+  scene_layout->setSpacing(0);
+  scene_layout->addWidget(color_controls_);
+  scene_layout->addWidget(note);
+  scene_layout->addLayout(view_and_bar, 1);
+  return scene;
+}
+
+void ScenePage::make_scenes_action() {
+  scenes_ = new QAction(theme::icon(theme::Icon::scene), tr("Scenes"), this);
+  scenes_->setObjectName("scenes");
+  scenes_->setCheckable(true);
+  scenes_->setChecked(true);
+  scenes_->setEnabled(false);  // until a scene is open
+  scenes_->setShortcut(QKeySequence(Qt::Key_W));
+  scenes_->setToolTip(tr("Show the built-in scenes and the lessons (W)"));
+  connect(scenes_, &QAction::toggled, this,
+          [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
+  connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
+}
+
 void ScenePage::show_scene() {
   scenes_->setEnabled(true);
-  welcome_->offer_way_back();
+  welcome_->show_back_button();
   scenes_->setChecked(false);
 }
 

@@ -18,7 +18,7 @@ class ColorControls;
 class SceneView;
 class WelcomePage;
 
-/// The middle of the window: what there is to open, then the scene with its colors.
+/// The center of the window: first the scenes to choose from, then the open scene with its colors.
 class ScenePage : public QWidget {
   Q_OBJECT
 
@@ -31,9 +31,9 @@ class ScenePage : public QWidget {
   SceneView* scene_view() const { return scene_view_; }
   QMenu* camera_menu() const { return camera_->menu(); }
   CameraBookmarks& bookmarks() { return bookmarks_; }
-  /// Puts the scene where there were scenes to choose from.
+  /// Shows the open scene in place of the scenes to choose from.
   void show_scene();
-  /// Shows the scenes to choose from, or the open one again.
+  /// Switches between the scenes to choose from and the open scene.
   QAction* scenes_action() const { return scenes_; }
 
  signals:
@@ -43,6 +43,9 @@ class ScenePage : public QWidget {
   void replicas_requested();
 
  private:
+  QWidget* make_scene(ColorChoice& colors);
+  void make_scenes_action();
+
   CameraBookmarks bookmarks_;
   CameraMenu* camera_;
   Banner* banner_;

@@ -31,10 +31,10 @@ namespace transillum::viewer {
 
 namespace {
 
-// Smooth edges take long without a GPU: they come when steps no longer follow one another.
+// Antialiasing is slow without a GPU: it is off until no step has come for this long.
 constexpr int rest_ms = 150;
 
-// VTK's own keys would end the program ("e", "q") or spoil the picture ("w", "3"): ours are menus.
+// Turns off VTK's keys, which end the program ("e", "q") or change the picture ("w", "3").
 class CameraStyle : public vtkInteractorStyleTrackballCamera {
  public:
   static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
@@ -43,8 +43,8 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
 
 vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
   vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkPolyData> nothing;
-  mapper->SetInputData(nothing);
+  vtkNew<vtkPolyData> empty;
+  mapper->SetInputData(empty);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
@@ -71,25 +71,17 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
   window_->AddRenderer(renderer_);
-  const QColor& ground = theme::scene_background;
-  renderer_->SetBackground(ground.redF(), ground.greenF(), ground.blueF());
+  const QColor& background = theme::scene_background;
+  renderer_->SetBackground(background.redF(), background.greenF(), background.blueF());
   vtkNew<CameraStyle> style;
   canvas_->interactor()->SetInteractorStyle(style);
 
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetColorModeToDirectScalars();
-  surface_ = vtkSmartPointer<vtkActor>::New();
-  surface_->SetMapper(mapper);
-  surface_->GetProperty()->LightingOff();  // B is the light: nothing is to be added
-  surface_->GetProperty()->BackfaceCullingOn();
-  surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
-  surface_->VisibilityOff();
-  renderer_->AddActor(surface_);
+  make_surface();
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
-  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::draw_outline_nearer);
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::move_outline_toward_camera);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
-  // Drawn in this order: what can be seen through comes last.
+  // Drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
 
@@ -107,6 +99,18 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
     recolor();
     render();
   });
+}
+
+void SceneView::make_surface() {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetColorModeToDirectScalars();
+  surface_ = vtkSmartPointer<vtkActor>::New();
+  surface_->SetMapper(mapper);
+  surface_->GetProperty()->LightingOff();  // the colors are B: no shading
+  surface_->GetProperty()->BackfaceCullingOn();
+  surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
+  surface_->VisibilityOff();
+  renderer_->AddActor(surface_);
 }
 
 SceneView::~SceneView() = default;
@@ -201,27 +205,27 @@ void SceneView::reset_view() {
   focus_point_ = view.target;
   radius_ = view.radius;
   place_camera(view);
-  first_look_ = view_point();
+  initial_view_point_ = view_point();
 }
 
 double SceneView::aspect() const {
   return static_cast<double>(canvas_->width()) / std::max(canvas_->height(), 1);
 }
 
-void SceneView::look_at_all() {
+void SceneView::fit_all() {
   if (loaded_) {
     place_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
   }
 }
 
-void SceneView::look_at_selected() {
+void SceneView::fit_selected() {
   const PatchId patch = selection_.patch();
   if (loaded_ && patch >= 0 && patch < loaded_->scene->patch_count()) {
     place_camera(patch_view(*loaded_->scene, patch, view_point()));
   }
 }
 
-void SceneView::look_from_side(Side side) {
+void SceneView::view_from_side(Side side) {
   if (loaded_) {
     place_camera(standard_view(*loaded_->scene, side, aspect()));
   }
@@ -233,7 +237,7 @@ ViewPoint SceneView::view_point() const {
           camera->GetViewAngle(), radius_};
 }
 
-void SceneView::look_from(const ViewPoint& view) {
+void SceneView::set_view_point(const ViewPoint& view) {
   if (loaded_) {
     place_camera(view);
   }
@@ -255,7 +259,7 @@ void SceneView::recolor() {
   }
   patch_colors_ = colors_.patch_colors();
   if (stepping()) {
-    dim_what_is_to_come(*focus_.map(), focus_.position().step, patch_colors_);
+    dim_later_patches(*focus_.map(), focus_.position().step, patch_colors_);
   }
   if (smooth_shading_) {
     smooth_mesh_->color(patch_colors_);
@@ -269,11 +273,11 @@ bool SceneView::stepping() const {
 }
 
 void SceneView::show_step() {
-  const bool now = stepping();
-  if (!now && !stepped_) {
-    return;  // a newer direction changes nothing but by its snapshot
+  const bool steps = stepping();
+  if (!steps && !stepped_) {
+    return;  // a newer direction arrives with its snapshot
   }
-  stepped_ = now;
+  stepped_ = steps;
   rest_->start();
   recolor();
   show_direction();
@@ -325,8 +329,8 @@ void SceneView::show_selection() {
   }
 }
 
-// In the same place of the picture, but before its halo from whichever side it is seen.
-void SceneView::draw_outline_nearer() {
+// Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
+void SceneView::move_outline_toward_camera() {
   outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   outline_->SetScale(1 - 5e-4);
 }
@@ -354,7 +358,7 @@ QImage SceneView::picture(int scale) const {
   filter->SetInputBufferTypeToRGB();
   filter->Update();
   if (scale > 1) {
-    window_->Render();  // on the screen is the last tile
+    window_->Render();  // the filter leaves its last tile on the screen
   }
   vtkImageData* pixels = filter->GetOutput();
   const int* size = pixels->GetDimensions();
@@ -362,7 +366,7 @@ QImage SceneView::picture(int scale) const {
   if (!bytes) {
     return {};
   }
-  // VTK counts rows from below.
+  // VTK stores the bottom row first.
   return QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
 }
 
@@ -392,17 +396,17 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       pressed_ = mouse->button() == Qt::LeftButton;
       press_position_ = mouse->pos();
-      renderer_->UseFXAAOff();  // while it is turned
+      renderer_->UseFXAAOff();  // while the scene turns
     } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
       pressed_ = false;
       const QPoint position = static_cast<QMouseEvent*>(event)->pos();
-      const int way = (position - press_position_).manhattanLength();
-      if (way < QApplication::startDragDistance()) {
+      const int moved = (position - press_position_).manhattanLength();
+      if (moved < QApplication::startDragDistance()) {
         selection_.select(patch_at(position));
       }
       render();
-    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == first_look_) {
-      reset_view();  // nobody has chosen another: it is to fit the new shape
+    } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {
+      reset_view();  // the user has not changed it: fit it to the new size
     }
   }
   return QWidget::eventFilter(watched, event);

@@ -30,8 +30,9 @@ class QVTKOpenGLNativeWidget;
 
 namespace transillum::viewer {
 
-/// The scene in space, colored by radiosity. A click selects a patch, a drag turns the scene.
-/// Stepped through, what is still to come is dimmed, and the polygon in focus lit up.
+/// The 3-D view of the scene, colored by a quantity of its patches. A click selects a patch, a drag
+/// turns the scene. While stepping, the patches of later steps are dimmed and the current fragment
+/// is highlighted.
 class SceneView : public QWidget {
   Q_OBJECT
 
@@ -46,21 +47,21 @@ class SceneView : public QWidget {
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
-  /// Colors run over the patches; in place of one color a patch.
+  /// Interpolates colors across patches, instead of one color per patch.
   void set_smooth_shading(bool smooth);
-  /// Smooths edges: for a scene at rest, since it doubles what a picture costs without a GPU.
+  /// Antialiases edges while the scene is at rest; doubles the time per picture without a GPU.
   void set_smooth(bool smooth);
   void reset_view();
-  void look_at_all();
-  void look_at_selected();
-  void look_from_side(Side side);
-  /// Where it is looked from; look_from() keeps the radius of what is worth looking at.
+  void fit_all();
+  void fit_selected();
+  void view_from_side(Side side);
+  /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
-  void look_from(const ViewPoint& view);
+  void set_view_point(const ViewPoint& view);
 
-  /// What is drawn, in `scale` times as many pixels a side.
+  /// The picture shown, with `scale` times as many pixels per side.
   QImage picture(int scale) const;
-  /// The patch drawn at a point of canvas(), in Qt's own (logical) pixels; no_patch for none.
+  /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
   QWidget* canvas() const;
 
@@ -68,6 +69,7 @@ class SceneView : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void make_surface();
   void place_camera(const ViewPoint& view);
   double aspect() const;
   void show_surface();
@@ -76,7 +78,7 @@ class SceneView : public QWidget {
   bool stepping() const;
   void show_step();
   void show_selection();
-  void draw_outline_nearer();
+  void move_outline_toward_camera();
   void render();
 
   const Focus& focus_;
@@ -85,16 +87,16 @@ class SceneView : public QWidget {
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::unique_ptr<SceneMesh> mesh_;
-  std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when it is first shown
+  std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when first shown
   bool smooth_shading_ = false;
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;
   double radius_ = 1;
-  ViewPoint first_look_;  ///< of reset_view()
+  ViewPoint initial_view_point_;  ///< set by reset_view()
   bool direction_shown_ = true;
   bool smooth_ = true;
   bool stepped_ = false;  ///< a step is drawn
-  QTimer* rest_;          ///< runs while steps follow one another
+  QTimer* rest_;          ///< runs while steps follow each other quickly
   QPoint press_position_;
   bool pressed_ = false;
 

@@ -11,7 +11,7 @@ namespace transillum::viewer {
 ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   setObjectName("show");
   setText(tr("Show "));
-  setToolTip(tr("What is drawn beside the colored patches"));
+  setToolTip(tr("Choose what is drawn in addition to the colored patches"));
   setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(this);
   menu->setToolTipsVisible(true);
@@ -22,9 +22,9 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
     action->setCheckable(true);
     return action;
   };
-  outlines_ = add("show_outlines", tr("Outlines"), tr("The edges of the patches"));
+  outlines_ = add("show_outlines", tr("Outlines"), tr("Draw the edges of the patches"));
   direction_ = add("show_direction", tr("Direction"),
-                   tr("The latest direction as an arrow with its plane (D)"));
+                   tr("Draw the newest direction as an arrow with its plane (D)"));
   direction_->setChecked(true);
   const auto add_overlay = [&](Overlay overlay, const char* name, const QString& text,
                                const QString& tip) {
@@ -36,19 +36,18 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
             [this, kind](bool shown) { emit overlay_toggled(kind, shown); });
   };
   add_lines(Overlay::normals, SceneOverlays::Kind::normals, "show_normals", tr("Normals"),
-            tr("A line from each patch to its lit side"));
+            tr("Draw a line from each patch along its normal"));
   add_lines(Overlay::back_sides, SceneOverlays::Kind::back_faces, "show_back_faces",
-            tr("Back sides"),
-            tr("The sides that neither emit nor receive, which are not drawn else"));
+            tr("Back sides"), tr("Draw the sides that neither emit nor receive"));
   add_lines(Overlay::cuts, SceneOverlays::Kind::fragments, "show_fragments",
             tr("Cuts of the BSP tree"),
-            tr("The fragments of those patches that the order has cut"));
+            tr("Draw the fragments of the patches that the BSP tree cuts"));
   menu->addSeparator();
   connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
-                      tr("Edges in place of surfaces")),
+                      tr("Draw edges instead of surfaces")),
           &QAction::toggled, this, &ShowMenu::wireframe_toggled);
   connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
-                      tr("Colors run over the patches; the solution is constant on each")),
+                      tr("Interpolate colors across patches; the solution is constant on each")),
           &QAction::toggled, this, &ShowMenu::smooth_toggled);
   setMenu(menu);
 }

@@ -12,7 +12,7 @@ class QAction;
 
 namespace transillum::viewer {
 
-/// What is drawn of the scene beside its colored patches, to be switched on and off.
+/// Menu of what is drawn in addition to the colored patches.
 class ShowMenu : public QToolButton {
   Q_OBJECT
 

@@ -13,9 +13,9 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double blunt = 0.7;  // cosine between normals, about 45 degrees
+constexpr double min_cosine = 0.7;  // between normals that are averaged: about 45 degrees
 
-// The patches that have a point, by points.
+// The patches at each point.
 std::vector<std::vector<PatchId>> patches_at_points(const Scene& scene) {
   std::vector<std::vector<PatchId>> patches(scene.points().size());
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -41,7 +41,7 @@ SmoothMesh::SmoothMesh(const Scene& scene) {
       const Vec3& p = scene.point(corner);
       polygons->InsertCellPoint(points->InsertNextPoint(p.x, p.y, p.z));
       for (const PatchId other : at(patches_at, corner)) {
-        if (dot(scene.patch(other).normal, scene.patch(piece.patch).normal) > blunt) {
+        if (dot(scene.patch(other).normal, scene.patch(piece.patch).normal) > min_cosine) {
           neighbors_.push_back(other);
         }
       }

@@ -14,21 +14,21 @@
 
 namespace transillum::viewer {
 
-/// A scene whose colors run smoothly over its patches: at each corner of a patch the mean of the
-/// patches that meet there at a blunt edge, in between straight. To be looked at only: the solution
+/// A scene with colors interpolated across patches: at each corner the mean color of the patches
+/// that meet there at less than about 45 degrees, linear in between. For display only: the solution
 /// is constant on each patch.
 class SmoothMesh {
  public:
   explicit SmoothMesh(const Scene& scene);
 
   vtkPolyData* surface() const { return surface_; }
-  /// One color a patch.
+  /// One color per patch.
   void color(std::span<const Color8> colors);
 
  private:
   vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkUnsignedCharArray> colors_;
-  /// Corner k has the mean of neighbors_[begin_[k] … begin_[k + 1]).
+  /// Corner k gets the mean color of neighbors_[begin_[k] … begin_[k + 1]).
   std::vector<std::size_t> begin_;
   std::vector<PatchId> neighbors_;
 };

@@ -34,7 +34,7 @@ vtkSmartPointer<vtkActor> actor_on_top(vtkPolyData* data, const QColor& color, d
 
 StepGlyph::StepGlyph(vtkRenderer& renderer)
     : polygon_(vtkSmartPointer<vtkPolyData>::New()), loop_(vtkSmartPointer<vtkPolyData>::New()) {
-  // Offsets of the depth that bring all of it before all of the scene.
+  // Depth offsets that put it in front of the whole scene.
   fill_ = actor_on_top(polygon_, theme::processed, -1e5, renderer);
   fill_->GetProperty()->SetOpacity(0.55);
   fill_->ForceOpaqueOn();  // as in DirectionGlyph
@@ -85,23 +85,23 @@ Vec3 center_of_step(const RecordedMap& map, std::int32_t step) {
   return (1.0 / static_cast<double>(corners.size())) * sum;
 }
 
-void dim_what_is_to_come(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors) {
+void dim_later_patches(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors) {
   const auto& patches = map.record().step_patch;
-  std::vector<bool> to_come(colors.size(), false);
+  std::vector<bool> is_later(colors.size(), false);
   for (auto k = static_cast<std::size_t>(step + 1); k < patches.size(); ++k) {
-    at(to_come, patches[k]) = true;
+    at(is_later, patches[k]) = true;
   }
-  const int ground[3] = {theme::scene_background.red(), theme::scene_background.green(),
-                         theme::scene_background.blue()};
+  const int background[3] = {theme::scene_background.red(), theme::scene_background.green(),
+                             theme::scene_background.blue()};
   for (std::size_t p = 0; p < colors.size(); ++p) {
-    if (!to_come[p]) {
+    if (!is_later[p]) {
       continue;
     }
     Color8& color = colors[p];
-    // Gray and dark, yet its edges still to be seen before the ground.
+    // Gray and dark, but still visible against the background.
     const int gray = (2 * color[0] + 5 * color[1] + color[2]) / 8;
     for (std::size_t c = 0; c < 3; ++c) {
-      color[c] = static_cast<unsigned char>(ground[c] + 14 + (gray - ground[c]) / 5);
+      color[c] = static_cast<unsigned char>(background[c] + 14 + (gray - background[c]) / 5);
     }
   }
 }

@@ -13,7 +13,7 @@
 
 namespace transillum::viewer {
 
-/// The polygon that a step processes, lit up in the scene, even through what hides it.
+/// Highlights a step's fragment in the scene, drawn in front of everything that hides it.
 class StepGlyph {
  public:
   explicit StepGlyph(vtkRenderer& renderer);
@@ -27,10 +27,10 @@ class StepGlyph {
   vtkSmartPointer<vtkActor> fill_, halo_, border_;
 };
 
-/// The middle of the polygon that a step processes.
+/// The mean of the corners of a step's fragment.
 Vec3 center_of_step(const RecordedMap& map, std::int32_t step);
 
-/// Dims the colors of the patches that steps after `step` still have to process.
-void dim_what_is_to_come(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors);
+/// Dims the colors of the patches with fragments in steps after `step`.
+void dim_later_patches(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors);
 
 }  // namespace transillum::viewer

@@ -15,19 +15,19 @@
 #include "transillum/scene.h"
 #include "widgets/theme.h"
 
-// Resources of a static library are found only once it is asked for them.
-static void find_resources() { Q_INIT_RESOURCE(pictures); }
+// The resources of a static library must be initialized explicitly.
+static void init_resources() { Q_INIT_RESOURCE(pictures); }
 
 namespace transillum::viewer {
 
 namespace {
 
 constexpr QSize picture_size{240, 150};
-constexpr int margin = 28, gap = 14, padding = 8, most_columns = 3, least_lines = 4;
+constexpr int margin = 28, gap = 14, padding = 8, max_columns = 3, min_lines = 4;
 
 }  // namespace
 
-/// A scene's picture, name and sentence; the whole of it is the button.
+/// A button with a scene's picture, name and summary.
 class WelcomePage::Card : public QPushButton {
  public:
   explicit Card(const BuiltInScene& scene) {
@@ -53,14 +53,14 @@ class WelcomePage::Card : public QPushButton {
     layout->setStretch(2, 1);
   }
 
-  /// Takes the size that its type wants, with room for so many lines of words at least.
+  /// Sizes the card by its font, with room for at least `lines` lines of summary.
   void measure(int lines) {
     const QSize size(theme::scaled(picture_size.width()), theme::scaled(picture_size.height()));
     picture_->setFixedSize(size);
-    const int words = std::max(summary_->heightForWidth(size.width()),
-                               lines * summary_->fontMetrics().lineSpacing());
+    const int summary_height = std::max(summary_->heightForWidth(size.width()),
+                                        lines * summary_->fontMetrics().lineSpacing());
     setFixedSize(size.width() + 2 * padding,
-                 size.height() + 3 * padding + title_->sizeHint().height() + words);
+                 size.height() + 3 * padding + title_->sizeHint().height() + summary_height);
   }
 
  private:
@@ -70,14 +70,14 @@ class WelcomePage::Card : public QPushButton {
 };
 
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
-  find_resources();
+  init_resources();
   title_ = new QLabel;
-  auto* words = new QLabel(
-      tr("Choose a scene: it is solved at once, direction by direction. Or open one of your own, "
-         "or drop its file here."));
-  words->setWordWrap(true);
+  auto* hint = new QLabel(tr(
+      "The scene is solved at once, direction by direction. You can also open a file of your own, "
+      "or drop it here."));
+  hint->setWordWrap(true);
   auto* open = new QPushButton(theme::icon(theme::Icon::open), tr("Open a file…"));
-  auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Begin with a lesson"));
+  auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Start with a lesson"));
   lesson->setObjectName("begin_lesson");
   auto* buttons = new QHBoxLayout;
   back_ = new QPushButton(tr("Back to the open scene"));
@@ -101,7 +101,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   column->setContentsMargins(margin, margin, margin, margin);
   column->setSpacing(gap);
   column->addWidget(title_);
-  column->addWidget(words);
+  column->addWidget(hint);
   column->addLayout(buttons);
   column->addLayout(grid_);
   column->addStretch(1);
@@ -114,23 +114,23 @@ WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   connect(lesson, &QPushButton::clicked, this, &WelcomePage::lesson_clicked);
 }
 
-void WelcomePage::offer_way_back() { back_->show(); }
+void WelcomePage::show_back_button() { back_->show(); }
 
 void WelcomePage::changeEvent(QEvent* event) {
   QScrollArea::changeEvent(event);
-  // Once the cards have heard of the font.
+  // Later, when the cards have the new font.
   if (event->type() == QEvent::FontChange) {
     QTimer::singleShot(0, this, &WelcomePage::measure);
   }
 }
 
 void WelcomePage::measure() {
-  // A font of its own would not outlive a change of the style sheet.
+  // As HTML: a font set on the label would be lost when the style sheet changes.
   title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
                       .arg(theme::scaled(24))
-                      .arg(tr("See light settle")));
+                      .arg(tr("Choose a scene")));
   for (Card* card : cards_) {
-    card->measure(least_lines);
+    card->measure(min_lines);
   }
   setMinimumWidth(2 * margin + cards_.front()->width() + verticalScrollBar()->sizeHint().width());
   place_cards();
@@ -143,7 +143,7 @@ void WelcomePage::resizeEvent(QResizeEvent* event) {
 
 void WelcomePage::place_cards() {
   const int room = viewport()->width() - 2 * margin + gap;
-  const int columns = std::clamp(room / (cards_.front()->width() + gap), 1, most_columns);
+  const int columns = std::clamp(room / (cards_.front()->width() + gap), 1, max_columns);
   if (columns == columns_) {
     return;
   }
@@ -151,7 +151,7 @@ void WelcomePage::place_cards() {
   for (int k = 0; k < cards_.size(); ++k) {
     grid_->addWidget(cards_[k], k / columns, k % columns, Qt::AlignLeft | Qt::AlignTop);
   }
-  grid_->setColumnStretch(most_columns, 1);
+  grid_->setColumnStretch(max_columns, 1);
 }
 
 }  // namespace transillum::viewer

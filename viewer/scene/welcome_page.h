@@ -11,15 +11,15 @@ class QPushButton;
 
 namespace transillum::viewer {
 
-/// The scenes that come along, as pictures.
+/// The built-in scenes as pictures to choose from.
 class WelcomePage : public QScrollArea {
   Q_OBJECT
 
  public:
   explicit WelcomePage(QWidget* parent = nullptr);
 
-  /// From now on there is an open scene to go back to.
-  void offer_way_back();
+  /// Shows the button that goes back to the open scene.
+  void show_back_button();
 
  signals:
   void back_clicked();
@@ -33,7 +33,7 @@ class WelcomePage : public QScrollArea {
 
  private:
   class Card;
-  /// Gives all the size that the type wants.
+  /// Sizes title and cards by the font.
   void measure();
   void place_cards();
 

@@ -9,11 +9,11 @@
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "scene/show_menu.h"
+#include "solve/settings_panel.h"
 #include "state/step_finder.h"
 #include "stepping/algorithm_view.h"
-#include "widgets/banner.h"
-#include "window/inspection_panels.h"
-#include "window/main_window.h"
+#include "window/dock_layouts.h"
+#include "window/notifier.h"
 
 namespace transillum::viewer {
 
@@ -43,51 +43,53 @@ StepFinder find_named(StepName name, PatchId selection) {
 
 }  // namespace
 
-ViewStateApplier::ViewStateApplier(MainWindow& window) : QObject(&window), window_(window) {
-  connect(&window_, &MainWindow::scene_shown, this, &ViewStateApplier::on_scene);
-  connect(&window_, &MainWindow::snapshot_shown, this, &ViewStateApplier::on_snapshot);
-  connect(&window_, &MainWindow::failed, this, [this] { act_ = Act::idle; });
-  connect(&window_.focus(), &Focus::moved, this, &ViewStateApplier::on_direction);
+ViewStateApplier::ViewStateApplier(const WindowParts& parts)
+    : QObject(&parts.window), parts_(parts) {
+  connect(&parts_.scene, &OpenScene::scene_shown, this, &ViewStateApplier::on_scene);
+  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &ViewStateApplier::on_snapshot);
+  connect(&parts_.runner, &SolveRunner::failed, this, [this] { awaits_ = Awaits::nothing; });
+  connect(&parts_.focus, &Focus::moved, this, &ViewStateApplier::on_direction);
 }
 
 void ViewStateApplier::show(const ViewState& state) {
-  before_.reset();
-  bring(state);
+  before_lesson_.reset();
+  apply(state);
 }
 
 void ViewStateApplier::show_page(const ViewState& page) {
-  if (!before_) {
-    before_ = look();
-    before_->options = window_.options();
+  if (!before_lesson_) {
+    before_lesson_ = appearance();
+    before_lesson_->options = parts_.settings.options();
   }
-  bring(page);
+  apply(page);
 }
 
-void ViewStateApplier::leave() {
-  act_ = Act::idle;
-  opens_ = false;
-  left_ = true;
-  if (before_ && window_.options() == brought_options_) {
-    window_.set_options(before_->options.solve, before_->options.scene);
+void ViewStateApplier::leave_lesson() {
+  awaits_ = Awaits::nothing;
+  opened_here_ = false;
+  leaving_ = true;
+  if (before_lesson_ && parts_.settings.options() == applied_options_) {
+    const RunOptions& options = before_lesson_->options;
+    parts_.settings.set_options(options.solve, options.scene);
   }
 }
 
-void ViewStateApplier::bring(const ViewState& state) {
-  wish_ = state;
-  left_ = false;
-  window_.page()->banner()->dismiss();
-  if (wish_.layout && *wish_.layout != window_.docks().current()) {
-    window_.docks().arrange(*wish_.layout);
+void ViewStateApplier::apply(const ViewState& state) {
+  requested_ = state;
+  leaving_ = false;
+  parts_.notifier.dismiss();
+  if (requested_.layout && *requested_.layout != parts_.docks.current()) {
+    parts_.docks.arrange(*requested_.layout);
   }
-  for (const std::string& panel : wish_.panels) {
-    window_.docks().bring_to_front(panel);
+  for (const std::string& panel : requested_.panels) {
+    parts_.docks.bring_to_front(panel);
   }
-  put_on(wish_);
-  begin_run();
+  apply_appearance(requested_);
+  start_run();
 }
 
-void ViewStateApplier::put_on(const ViewState& state) {
-  ColorChoice& colors = window_.colors();
+void ViewStateApplier::apply_appearance(const ViewState& state) {
+  ColorChoice& colors = parts_.colors;
   colors.set_quantity(state.quantity);
   colors.set_range_rule(RangeRule::automatic);
   colors.set_mode(state.color_mode);
@@ -101,203 +103,210 @@ void ViewStateApplier::put_on(const ViewState& state) {
   if (state.exposure) {
     colors.set_exposure(*state.exposure);
   }
-  const ShowMenu& show = *window_.page()->color_controls()->show_menu();
+  const ShowMenu& show = *parts_.page.color_controls()->show_menu();
   for (const Overlay overlay : all_overlays) {
     show.overlay(overlay)->setChecked(
         std::count(state.overlays.begin(), state.overlays.end(), overlay) > 0);
   }
-  window_.algorithm()->set_kind(state.algorithm);
-  window_.map_view()->set_labels_shown(state.labels);
+  parts_.algorithm.set_kind(state.algorithm);
+  parts_.map.set_labels_shown(state.labels);
 }
 
 void ViewStateApplier::reload() {
-  if (window_.spec().empty()) {
+  if (parts_.scene.spec().empty()) {
     return;
   }
-  wish_ = state();
-  act_ = Act::awaits_scene;
-  opens_ = true;
-  window_.set_options(wish_.options.solve, wish_.options.scene);
-  window_.open(QString::fromStdString(wish_.scene), wish_.solve);
+  requested_ = state();
+  awaits_ = Awaits::scene;
+  opened_here_ = true;
+  parts_.settings.set_options(requested_.options.solve, requested_.options.scene);
+  parts_.scene.open(requested_.scene, parts_.settings.options(), requested_.solve);
 }
 
-void ViewStateApplier::begin_run() {
-  // Without a scene of its own, a page is about whichever is open.
-  if (wish_.scene.empty()) {
-    act_ = Act::awaits_run;
+void ViewStateApplier::start_run() {
+  // A state without a scene applies to whichever scene is open.
+  if (requested_.scene.empty()) {
+    awaits_ = Awaits::run;
     on_snapshot();
     return;
   }
-  const RunOptions now = window_.options();
-  wish_.options.solve.threads = now.solve.threads;
-  wish_.options.solve.memory = now.solve.memory;
-  window_.set_options(wish_.options.solve, wish_.options.scene);
-  brought_options_ = window_.options();
+  SolveOptions& solve = requested_.options.solve;
+  const RunOptions now = parts_.settings.options();
+  solve.threads = now.solve.threads;
+  solve.memory = now.solve.memory;
+  parts_.settings.set_options(solve, requested_.options.scene);
+  applied_options_ = parts_.settings.options();
 
-  const auto snapshot = window_.snapshot();
-  if (!snapshot || !window_.shows(wish_.scene, wish_.options.scene)) {
-    act_ = Act::awaits_scene;
-    opens_ = true;
-    window_.open(QString::fromStdString(wish_.scene), wish_.solve);
+  const auto snapshot = parts_.scene.snapshot();
+  if (!snapshot || !parts_.scene.is_open(requested_.scene, requested_.options.scene)) {
+    awaits_ = Awaits::scene;
+    opened_here_ = true;
+    parts_.scene.open(requested_.scene, applied_options_, requested_.solve);
     return;
   }
-  act_ = Act::awaits_run;
-  const bool beyond = wish_.solve.kind != Goal::Kind::finished &&
-                      passes_done(snapshot->progress, snapshot->kept_passes) > wish_.solve.passes;
-  if (beyond || !(snapshot->options == wish_.options.solve)) {
-    window_.runner().restart(wish_.options.solve, wish_.solve);
+  awaits_ = Awaits::run;
+  const bool beyond =
+      requested_.solve.kind != Goal::Kind::finished &&
+      passes_done(snapshot->progress, snapshot->kept_passes) > requested_.solve.passes;
+  if (beyond || !(snapshot->options == solve)) {
+    parts_.runner.restart(solve, requested_.solve);
   } else {
-    window_.runner().pursue(wish_.solve);
+    parts_.runner.pursue(requested_.solve);
   }
   on_snapshot();
 }
 
-// Of wishes that follow one another quickly each asks for the scene, and more than one may get it;
-// every time it begins anew.
+// When requests follow one another quickly, each opens the scene, so it may be loaded more than
+// once; each time its run starts again.
 void ViewStateApplier::on_scene() {
-  if (left_) {
-    begin_with_first_look();
+  if (leaving_) {
+    restore_appearance();
   }
-  opens_ = opens_ && window_.shows(wish_.scene, wish_.options.scene);
-  act_ = opens_ ? Act::awaits_run : Act::idle;  // idle: the user has opened another
+  opened_here_ = opened_here_ && parts_.scene.is_open(requested_.scene, requested_.options.scene);
+  // Otherwise the user has opened another scene meanwhile.
+  awaits_ = opened_here_ ? Awaits::run : Awaits::nothing;
 }
 
-void ViewStateApplier::begin_with_first_look() {
-  left_ = false;
-  if (before_) {
-    put_on(*before_);
-    window_.page()->color_controls()->set_direction(before_->direction_shown);
-    before_.reset();
+void ViewStateApplier::restore_appearance() {
+  leaving_ = false;
+  if (before_lesson_) {
+    apply_appearance(*before_lesson_);
+    parts_.page.color_controls()->set_direction(before_lesson_->direction_shown);
+    before_lesson_.reset();
   }
-  window_.colors().set_automatic_exposure(true);
-  window_.focus().set_following(true);
+  parts_.colors.set_automatic_exposure(true);
+  parts_.focus.set_following(true);
 }
 
-// Snapshots of the run before may still be on their way.
-bool ViewStateApplier::run_has_begun() const {
-  const auto snapshot = window_.snapshot();
+// Snapshots of the previous run may still arrive.
+bool ViewStateApplier::run_has_started() const {
+  const auto snapshot = parts_.scene.snapshot();
   if (!snapshot) {
     return false;
   }
-  if (wish_.scene.empty()) {
+  if (requested_.scene.empty()) {
     return true;
   }
-  return snapshot->options == wish_.options.solve &&
-         (wish_.solve.kind == Goal::Kind::finished ||
-          passes_done(snapshot->progress, snapshot->kept_passes) <= wish_.solve.passes);
+  return snapshot->options == requested_.options.solve &&
+         (requested_.solve.kind == Goal::Kind::finished ||
+          passes_done(snapshot->progress, snapshot->kept_passes) <= requested_.solve.passes);
 }
 
-bool ViewStateApplier::moment_is_there() const {
-  return !wish_.focus || wish_.focus->iteration < window_.focus().iterations() ||
-         window_.runner().state() == RunState::finished;
+bool ViewStateApplier::requested_iteration_exists() const {
+  return !requested_.focus || requested_.focus->iteration < parts_.focus.iterations() ||
+         parts_.runner.state() == RunState::finished;
 }
 
 void ViewStateApplier::on_snapshot() {
-  if (act_ != Act::awaits_run || !run_has_begun()) {
+  if (awaits_ != Awaits::run || !run_has_started()) {
     return;
   }
-  arrange();
-  if (!moment_is_there()) {
-    return;
+  apply_view();
+  if (requested_iteration_exists()) {
+    apply_focus();
   }
-  focus();
 }
 
-void ViewStateApplier::arrange() {
-  window_.page()->show_scene();
-  SceneView* scene = window_.page()->scene_view();
-  if (wish_.camera) {
-    scene->look_from(*wish_.camera);
+void ViewStateApplier::apply_view() {
+  parts_.page.show_scene();
+  SceneView* view = parts_.page.scene_view();
+  if (requested_.camera) {
+    view->set_view_point(*requested_.camera);
   } else {
-    scene->reset_view();
+    view->reset_view();
   }
-  const PatchId patches = window_.snapshot()->loaded->scene->patch_count();
-  window_.selection().select(wish_.selection < patches ? wish_.selection : no_patch);
-  if (wish_.selection >= patches) {
-    window_.show_failure(tr("select: there is no patch %1; the scene has 0 to %2")
-                             .arg(wish_.selection)
-                             .arg(patches - 1));
-  }
-  window_.page()->color_controls()->set_direction(wish_.direction_shown);
-  window_.page()->color_controls()->set_outlines(
-      wish_.outlines.value_or(window_.outlined_at_first()));
-  for (const std::string& name : window_.inspection().edits().start_over(wish_.materials)) {
-    window_.show_failure(
+  apply_selection();
+  parts_.page.color_controls()->set_direction(requested_.direction_shown);
+  parts_.page.color_controls()->set_outlines(
+      requested_.outlines.value_or(parts_.scene.outlined_by_default()));
+  for (const std::string& name : parts_.relighting.edits().start_over(requested_.materials)) {
+    parts_.notifier.show_failure(
         tr("materials: the scene has no material %1").arg(QString::fromStdString(name)));
   }
-  // The scene before would widen it.
-  if (wish_.range_rule != RangeRule::widening) {
+  // Set only now: the previous scene would have widened the range.
+  if (requested_.range_rule != RangeRule::widening) {
     return;
   }
-  if (wish_.range) {
-    window_.colors().widen_from(wish_.range->first, wish_.range->second);
+  if (requested_.range) {
+    parts_.colors.widen_from(requested_.range->first, requested_.range->second);
   } else {
-    window_.colors().set_range_rule(RangeRule::widening);
+    parts_.colors.set_range_rule(RangeRule::widening);
   }
 }
 
-void ViewStateApplier::focus() {
-  Focus& focus = window_.focus();
-  if (!wish_.focus) {
-    act_ = Act::idle;
+void ViewStateApplier::apply_selection() {
+  const PatchId patches = parts_.scene.snapshot()->loaded->scene->patch_count();
+  parts_.selection.select(requested_.selection < patches ? requested_.selection : no_patch);
+  if (requested_.selection >= patches) {
+    parts_.notifier.show_failure(tr("select: there is no patch %1; the scene has 0 to %2")
+                                     .arg(requested_.selection)
+                                     .arg(patches - 1));
+  }
+}
+
+void ViewStateApplier::apply_focus() {
+  Focus& focus = parts_.focus;
+  if (!requested_.focus) {
+    awaits_ = Awaits::nothing;
     focus.set_following(true);
     return;
   }
-  act_ = Act::awaits_direction;
-  const int passes = focus.passes_of(wish_.focus->iteration);
-  if (wish_.focus->direction >= passes) {
-    window_.show_failure(tr("focus: there is no direction %1; the run has 1 to %2")
-                             .arg(wish_.focus->direction + 1)
-                             .arg(passes));
+  awaits_ = Awaits::direction;
+  const int passes = focus.passes_of(requested_.focus->iteration);
+  if (requested_.focus->direction >= passes) {
+    parts_.notifier.show_failure(tr("focus: there is no direction %1; the run has 1 to %2")
+                                     .arg(requested_.focus->direction + 1)
+                                     .arg(passes));
   }
-  const auto* step = std::get_if<std::int32_t>(&wish_.focus->step);
-  focus.go_to({wish_.focus->iteration, wish_.focus->direction, step ? *step : -1});
+  const auto* step = std::get_if<std::int32_t>(&requested_.focus->step);
+  focus.go_to({requested_.focus->iteration, requested_.focus->direction, step ? *step : -1});
 }
 
 void ViewStateApplier::on_direction() {
-  if (act_ != Act::awaits_direction || !window_.focus().arrived()) {
+  if (awaits_ != Awaits::direction || !parts_.focus.arrived()) {
     return;
   }
-  act_ = Act::idle;
-  Focus& focus = window_.focus();
-  if (const auto* name = std::get_if<StepName>(&wish_.focus->step)) {
-    focus.seek(find_named(*name, window_.selection().patch()), StepOrder::forward);
+  awaits_ = Awaits::nothing;
+  Focus& focus = parts_.focus;
+  if (const auto* name = std::get_if<StepName>(&requested_.focus->step)) {
+    focus.seek(find_named(*name, parts_.selection.patch()), StepOrder::forward);
   }
-  focus.set_phase(wish_.focus->phase);
+  focus.set_phase(requested_.focus->phase);
 }
 
-bool ViewStateApplier::arrived() const { return act_ == Act::idle && window_.focus().arrived(); }
+bool ViewStateApplier::arrived() const {
+  return awaits_ == Awaits::nothing && parts_.focus.arrived();
+}
 
 ViewState ViewStateApplier::state() const {
-  const auto snapshot = window_.snapshot();
+  const auto snapshot = parts_.scene.snapshot();
   if (!snapshot) {
     return {};
   }
-  ViewState state = look();
-  state.scene = window_.spec();
-  state.options = {snapshot->options, window_.scene_options_in_effect()};
-  const bool finished = window_.runner().state() == RunState::finished ||
-                        window_.runner().state() == RunState::running;
-  if (!finished) {
+  ViewState state = appearance();
+  state.scene = parts_.scene.spec();
+  state.options = {snapshot->options, parts_.scene.options()};
+  const RunState run = parts_.runner.state();
+  if (run != RunState::finished && run != RunState::running) {
     const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }
-  const Focus& focus = window_.focus();
+  const Focus& focus = parts_.focus;
   if (!focus.following() && focus.map()) {
     const RunPosition& position = focus.position();
     state.focus = FocusChoice{position.iteration, position.direction, position.step, focus.phase()};
   }
-  state.materials = window_.inspection().edits().changes();
-  state.selection = window_.selection().patch();
-  state.camera = window_.page()->scene_view()->view_point();
-  state.outlines = window_.page()->color_controls()->outlines();
-  state.layout = window_.docks().current();
+  state.materials = parts_.relighting.edits().changes();
+  state.selection = parts_.selection.patch();
+  state.camera = parts_.page.scene_view()->view_point();
+  state.outlines = parts_.page.color_controls()->outlines();
+  state.layout = parts_.docks.current();
   return state;
 }
 
-ViewState ViewStateApplier::look() const {
+ViewState ViewStateApplier::appearance() const {
   ViewState state;
-  const ColorChoice& colors = window_.colors();
+  const ColorChoice& colors = parts_.colors;
   if (colors.quantity() != Quantity::difference) {
     state.quantity = colors.quantity();
   }
@@ -312,15 +321,15 @@ ViewState ViewStateApplier::look() const {
     state.exposure = colors.scale().exposure;
   }
   state.gamma = colors.scale().gamma;
-  const ShowMenu& show = *window_.page()->color_controls()->show_menu();
+  const ShowMenu& show = *parts_.page.color_controls()->show_menu();
   for (const Overlay overlay : all_overlays) {
     if (show.overlay(overlay)->isChecked()) {
       state.overlays.push_back(overlay);
     }
   }
-  state.algorithm = window_.algorithm()->kind();
-  state.direction_shown = window_.page()->color_controls()->direction();
-  state.labels = window_.map_view()->labels_shown();
+  state.algorithm = parts_.algorithm.kind();
+  state.direction_shown = parts_.page.color_controls()->direction();
+  state.labels = parts_.map.labels_shown();
   return state;
 }
 
