@@ -6,13 +6,13 @@
 
 namespace transillum::cli {
 
-/// Exit statuses (cli.md).
+/// Exit statuses of the program.
 enum ExitStatus { success = 0, failure = 1, wrong_call = 2, interrupted = 130 };
 
-/// A command, once its options are parsed; returns the exit status.
+/// Runs a command whose options have been parsed; returns the exit status.
 using Run = std::function<int()>;
 
-// Each adds a command with its options and help to the program.
+// Each adds a command with its options and help to the program and returns what runs it.
 Run add_scene_command(CLI::App& program);
 Run add_solve_command(CLI::App& program);
 Run add_transfers_command(CLI::App& program);

@@ -9,6 +9,7 @@
 #include <ostream>
 #include <utility>
 
+#include "report_text.h"
 #include "transillum/bounds.h"
 #include "transillum/files.h"
 
@@ -17,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Normals that stand for all where there is no scene.
-constexpr int spread = 2048;
+/// Number of normals that represent all directions if there is no scene.
+constexpr int spread_normal_count = 2048;
 
 std::vector<Vec3> normals_of(const Scene& scene) {
   std::vector<Vec3> normals;
@@ -28,17 +29,13 @@ std::vector<Vec3> normals_of(const Scene& scene) {
   return normals;
 }
 
-std::string row(const std::string& name, const std::string& value) {
-  return fmt::format("{:<18} {}\n", name, value);
-}
-
 std::string errors_text(const DirectionStatistics& s, const std::vector<double>& errors) {
   const QuadratureErrors summary = summary_of(errors);
   std::string text = fmt::format("{:.2e} RMS, {:.2e} largest", summary.rms, summary.max);
   if (s.scene) {
     const auto worst = std::max_element(
         errors.begin(), errors.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    text += fmt::format(", at patch {}", worst - errors.begin());
+    text += fmt::format(", patch {}", worst - errors.begin());
   }
   return text;
 }
@@ -62,7 +59,8 @@ DirectionStatistics measure_directions(const SequenceOptions& set,
   s.set = set;
   s.star = star_discrepancy(samples, cancellation);
   s.cap = cap_discrepancy(samples, cancellation);
-  const std::vector<Vec3> normals = scene ? normals_of(*scene) : spread_normals(spread);
+  const std::vector<Vec3> normals =
+      scene ? normals_of(*scene) : spread_normals(spread_normal_count);
   s.one_way = quadrature_errors(normals, samples, false, cancellation);
   s.two_way = quadrature_errors(normals, samples, true, cancellation);
   s.scene = std::move(scene);
@@ -71,20 +69,23 @@ DirectionStatistics measure_directions(const SequenceOptions& set,
 
 std::string text_of(const DirectionStatistics& s) {
   const int m = s.set.directions;
-  std::string text = row("directions", fmt::format("{}, {}{}", m, name_of(s.set.sampling),
-                                                   s.set.rotation ? ", rotated" : ""));
-  text += row("star discrepancy", fmt::format("{:.3e} on the unit square, exact (eq. 3)", s.star));
-  text += row("", fmt::format("{:.3e} at most for hammersley (eq. 20)", star_discrepancy_bound(m)));
-  text += row("cap discrepancy", fmt::format("{:.3e} on the sphere, {}", s.cap.value,
-                                             s.cap.exact ? "exact" : "a lower bound"));
+  std::string text = report_row("directions", fmt::format("{}, {}{}", m, name_of(s.set.sampling),
+                                                          s.set.rotation ? ", rotated" : ""));
+  text += report_row("star discrepancy",
+                     fmt::format("{:.3e} on the unit square, exact (eq. 3)", s.star));
+  text += report_row(
+      "", fmt::format("at most {:.3e} for hammersley (eq. 20)", star_discrepancy_bound(m)));
+  text += report_row("cap discrepancy", fmt::format("{:.3e} on the sphere, {}", s.cap.value,
+                                                    s.cap.exact ? "exact" : "a lower bound"));
   text += fmt::format(
-      "\nError eps(M) of the quadrature of the cosine, which should be pi (eq. 17), over {} {}:\n",
+      "\nQuadrature error eps(M) of the integral of the cosine, exact value pi (eq. 17), over {} "
+      "{}:\n",
       s.one_way.size(),
-      s.scene ? "patches of " + s.scene->name() : std::string("normals spread over the sphere"));
-  text += row("  one-way", errors_text(s, s.one_way));
-  text += row("  two-way", errors_text(s, s.two_way));
-  text += row("  bound",
-              fmt::format("{:.2e} for hammersley, one-way (eq. 21)", quadrature_error_bound(m)));
+      s.scene ? "patches of " + s.scene->name() : std::string("normals over the sphere"));
+  text += report_row("  one-way", errors_text(s, s.one_way));
+  text += report_row("  two-way", errors_text(s, s.two_way));
+  text += report_row(
+      "  bound", fmt::format("{:.2e} for hammersley, one-way (eq. 21)", quadrature_error_bound(m)));
   return text;
 }
 

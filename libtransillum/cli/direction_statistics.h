@@ -10,13 +10,13 @@
 
 namespace transillum::cli {
 
-/// How good a set of directions is, beside what is proven for Hammersley's.
+/// Quality measures of a set of directions, to compare with the bounds for Hammersley points.
 struct DirectionStatistics {
   SequenceOptions set;
   double star = 0;
   CapDiscrepancy cap;
-  std::shared_ptr<const Scene> scene;    ///< whose patches' normals were taken; null: all over
-  std::vector<double> one_way, two_way;  ///< eps_i(M) of eq. 17, one a normal
+  std::shared_ptr<const Scene> scene;    ///< scene whose normals were used; null: all normals
+  std::vector<double> one_way, two_way;  ///< eps_i(M) of eq. 17, one per normal
 };
 
 DirectionStatistics measure_directions(const SequenceOptions& set,
@@ -24,9 +24,9 @@ DirectionStatistics measure_directions(const SequenceOptions& set,
                                        std::shared_ptr<const Scene> scene,
                                        const Cancellation& cancellation);
 
-/// For a reader.
+/// The measures as text.
 std::string text_of(const DirectionStatistics& statistics);
-/// JSON, with eps of every patch where there is a scene.
+/// Writes them as JSON, with eps of every patch if there is a scene.
 void write_direction_statistics(const std::string& path, const DirectionStatistics& statistics);
 
 }  // namespace transillum::cli

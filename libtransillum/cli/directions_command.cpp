@@ -17,8 +17,8 @@
 namespace transillum::cli {
 namespace {
 
-/// More take minutes to measure.
-constexpr int most_measured = 1 << 20;
+/// Limit of --stats; more directions take minutes.
+constexpr int max_measured = 1 << 20;
 
 struct DirectionsCall {
   SequenceOptions sequence;
@@ -28,7 +28,7 @@ struct DirectionsCall {
   std::string scene;
 };
 
-void check(const DirectionsCall& call) {
+void check_call(const DirectionsCall& call) {
   std::vector<std::string> files;
   if (!call.out.empty()) {
     files.push_back(call.out);
@@ -40,11 +40,11 @@ void check(const DirectionsCall& call) {
   check_output_files(files, call.scene);
   const bool measured = call.stats->count() > 0;
   if (!call.scene.empty() && !measured) {
-    throw InputError("--scene: only --stats has a use for it");
+    throw InputError("--scene requires --stats");
   }
-  if (measured && call.sequence.directions > most_measured) {
-    throw InputError(fmt::format("--stats: {} directions are more than {}",
-                                 call.sequence.directions, most_measured));
+  if (measured && call.sequence.directions > max_measured) {
+    throw InputError(fmt::format("--stats: {} directions exceed the limit of {}",
+                                 call.sequence.directions, max_measured));
   }
 }
 
@@ -64,7 +64,7 @@ void measure(const DirectionsCall& call, const std::vector<DirectionSample>& sam
 }
 
 int run(const DirectionsCall& call) {
-  check(call);
+  check_call(call);
   const SequenceOptions& sequence = call.sequence;
   auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
   if (sequence.rotation) {
@@ -86,22 +86,22 @@ int run(const DirectionsCall& call) {
 Run add_directions_command(CLI::App& program) {
   auto call = std::make_shared<DirectionsCall>();
   CLI::App& command = *program.add_subcommand(
-      "directions",
-      "Writes the points of a sequence and their directions, or tells how good they are");
+      "directions", "Writes the points and directions of a sequence, or measures their quality");
   add_sequence_options(command, call->sequence);
-  command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: to standard output)")
+  command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: standard output)")
       ->type_name("FILE.csv");
   call->stats =
       command
           .add_option("--stats", call->stats_file,
-                      "instead of the points: their discrepancies and the error eps(M) of the "
-                      "quadrature of the cosine, beside the paper's bounds; to standard output, or "
-                      "as JSON to a file")
+                      "instead of the points, their discrepancies and quadrature errors eps(M) of "
+                      "the cosine, with the paper's bounds; as text on standard output, or as JSON "
+                      "in a file")
           ->type_name("[FILE.json]")
           ->expected(0, 1);
   command
-      .add_option("--scene", call->scene,
-                  "with --stats: eps(M) for the patches of this scene instead of all normals")
+      .add_option(
+          "--scene", call->scene,
+          "with --stats: eps(M) for the normals of this scene's patches instead of all normals")
       ->type_name("SCENE");
   command.footer(
       "Example: transillum directions --sampling hammersley -m 64 --out points.csv\n"

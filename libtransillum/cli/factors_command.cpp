@@ -27,22 +27,22 @@ struct FactorsCall {
   std::string out;
 };
 
-FormFactors gather(const FactorsCall& call, const Scene& scene, const Cancellation& cancellation,
-                   ProgressDisplay& display) {
+FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
+                           const Cancellation& cancellation, ProgressDisplay& display) {
   GatherOptions options = call.rays;
   options.seed = call.sequence.seed;
   options.threads = call.passes.threads;
   return gather_form_factors(scene, options, cancellation,
-                             [&](double share) { display.show("gathering", share); });
+                             [&](double share) { display.show("tracing rays", share); });
 }
 
-FormFactors draw(const FactorsCall& call, const Scene& scene, const Cancellation& cancellation,
-                 ProgressDisplay& display) {
+FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
+                           const Cancellation& cancellation, ProgressDisplay& display) {
   HemicubeOptions options = call.hemicubes;
   options.memory = call.passes.memory;
   options.threads = call.passes.threads;
   return hemicube_form_factors(scene, options, cancellation,
-                               [&](double share) { display.show("hemicubes", share); });
+                               [&](double share) { display.show("drawing hemicubes", share); });
 }
 
 FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
@@ -53,29 +53,22 @@ FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scen
   options.seed = call.sequence.seed;
   options.rotation = call.sequence.rotation;
   options.iterations = 1;
-  const auto tree = std::make_shared<const BspTree>(
-      *scene, cancellation, [&](double share) { display.show("sorting", share); });
+  const auto tree = build_tree(*scene, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-    const SolveProgress progress = watched.progress();
-    if (progress.direction > 0) {
-      display.show(fmt::format("pass {}/{}", progress.direction, progress.passes),
-                   static_cast<double>(progress.direction) / progress.passes,
-                   fmt::format("{:.1f} passes/s, {} left", progress.passes_per_second,
-                               time_text(progress.seconds_left)));
-    }
+    display.show_passes("", watched.progress());
     return true;
   });
   return solver.form_factors();
 }
 
-FormFactors find_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
-                              const Cancellation& cancellation, ProgressDisplay& display) {
+FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                                 const Cancellation& cancellation, ProgressDisplay& display) {
   switch (call.passes.engine) {
     case Engine::rays:
-      return gather(call, *scene, cancellation, display);
+      return gather_by_rays(call, *scene, cancellation, display);
     case Engine::hemicube:
-      return draw(call, *scene, cancellation, display);
+      return draw_hemicubes(call, *scene, cancellation, display);
     default:
       return sum_passes(call, scene, cancellation, display);
   }
@@ -89,7 +82,7 @@ int run(const FactorsCall& call) {
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   print_warnings(*scene);
   ProgressDisplay display;
-  const FormFactors form_factors = find_form_factors(call, scene, cancellation, display);
+  const FormFactors form_factors = compute_form_factors(call, scene, cancellation, display);
   display.clear();
   if (call.out.empty()) {
     write_form_factors_csv(std::cout, form_factors);
@@ -103,25 +96,26 @@ int run(const FactorsCall& call) {
 
 Run add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
-  CLI::App& command = *program.add_subcommand("factors", "Writes the form factors of all pairs");
+  CLI::App& command =
+      *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
   add_scene_argument(command, call->scene);
   add_sequence_options(command, call->sequence);
   add_parsed_option(
       command, "--engine", "NAME",
-      fmt::format("{} (default {}); rays: no directions, but cosine-distributed rays from every "
-                  "patch; hemicube: none either, but pictures of what each patch sees",
+      fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
+                  "directions; hemicube: a hemicube on every patch instead of directions",
                   fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
       [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
   add_parsed_option(
       command, "--rays", "N",
-      fmt::format("for the engine rays: rays a patch (default {})", call->rays.rays_per_patch),
+      fmt::format("engine rays: rays per patch (default {})", call->rays.rays_per_patch),
       [call](const std::string& text) {
         call->rays.rays_per_patch =
             static_cast<int>(parse_whole_number("--rays", text, 1, 1 << 24));
       });
   add_parsed_option(
       command, "--resolution", "R",
-      fmt::format("for the engine hemicube: pixels along a side of the cube, even (default {})",
+      fmt::format("engine hemicube: pixels along a side of the cube, even (default {})",
                   call->hemicubes.resolution),
       [call](const std::string& text) {
         call->hemicubes.resolution =
@@ -132,10 +126,10 @@ Run add_factors_command(CLI::App& program) {
   add_machine_limits(command, call->passes.memory, call->passes.threads);
   command
       .add_option("-o,--out", call->out,
-                  "CSV: i,j,F for every F > 0, by i, then j (default: to standard output)")
+                  "CSV: i,j,F for every F > 0, sorted by i, then j (default: standard output)")
       ->type_name("FILE.csv");
   command.footer(
-      "F_ij is the share of what leaves patch i that reaches patch j.\n"
+      "F_ij is the fraction of the power leaving patch i that reaches patch j.\n"
       "Example: transillum factors cornell-box -m 256 --out factors.csv");
   return [call] { return run(*call); };
 }

@@ -13,7 +13,7 @@ constexpr std::size_t name_width = 26;
 
 HelpFormat::HelpFormat() { column_width(name_width); }
 
-/// Which options exclude each other is said in words, and in the error message.
+/// Without the lists of excluded options: descriptions and error messages contain them.
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
   return option->get_type_name().empty() ? std::string() : " " + option->get_type_name();
 }

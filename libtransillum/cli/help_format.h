@@ -5,7 +5,7 @@
 
 namespace transillum::cli {
 
-/// CLI11's help, wrapped to the width of a page.
+/// Formats CLI11's help, wrapped to the page width.
 class HelpFormat : public CLI::Formatter {
  public:
   HelpFormat();
@@ -13,7 +13,7 @@ class HelpFormat : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-/// The words of `text` in lines of at most `width`.
+/// `text` broken into lines of at most `width` characters.
 std::string wrapped(const std::string& text, std::size_t width);
 
 }  // namespace transillum::cli

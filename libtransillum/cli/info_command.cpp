@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// `transillum info`: counts and sizes of a scene, what was repaired, and, measured along some
+// directions, whether it is closed and which faces are seen from behind.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "progress_display.h"
+#include "report_text.h"
 #include "transillum/at.h"
 #include "transillum/coplanar_overlap.h"
 #include "transillum/radiosity.h"
@@ -17,13 +20,14 @@
 namespace transillum::cli {
 namespace {
 
-/// Enough to meet any hole or turned face that matters, and still a matter of seconds.
+/// Enough to find any relevant hole or reversed face within seconds.
 constexpr int probing_directions = 64;
-/// Shares of area below this are rounding (method, oracle 1).
+/// Fractions of area below this are rounding (ALGORITHM.md, oracle 1).
 constexpr double open_share = 1e-9;
-constexpr std::size_t listed_faces = 20;
-/// Faces copied over each other without end are told as this many.
-constexpr std::size_t most_overlaps = 10000;
+/// Longest list of faces in the report.
+constexpr std::size_t max_listed_faces = 20;
+/// Largest number of overlaps to search for; coincident faces can have very many.
+constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
   std::string scene;
@@ -31,13 +35,12 @@ struct InfoCall {
 };
 
 void print_row(const std::string& name, const std::string& value) {
-  fmt::print("{:<18} {}\n", name, value);
+  fmt::print("{}", report_row(name, value));
 }
 
 std::string point_text(const Vec3& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
-std::string color_text(const Rgb& c) { return fmt::format("{:.6g} {:.6g} {:.6g}", c.r, c.g, c.b); }
 
 void print_counts(const Scene& scene) {
   const SceneReport& report = scene.report();
@@ -62,16 +65,16 @@ void print_size_and_light(const Scene& scene) {
   }
   print_row("bounding box",
             point_text(scene.bounds().low) + " to " + point_text(scene.bounds().high) + " m");
-  print_row("area", fmt::format("{:.6g} m2; a patch {:.3g} to {:.3g} m2", area, smallest, largest));
+  print_row("area", fmt::format("{:.6g} m2; patches {:.3g} to {:.3g} m2", area, smallest, largest));
   print_row("rho max", fmt::format("{:.6g}", rho_max));
-  print_row("emitted power", color_text(power) + " W");
+  print_row("emitted power", rgb_text(power, 6) + " W (red, green, blue)");
 }
 
-void print_mended(const SceneReport& report) {
+void print_repairs(const SceneReport& report) {
   const std::pair<const char*, std::int64_t> counts[] = {
-      {"dropped, no area", report.removed_degenerate},
-      {"cut, not planar", report.cut_non_planar},
-      {"cut, too large", report.refined},
+      {"removed, no area", report.removed_degenerate},
+      {"split, not planar", report.cut_non_planar},
+      {"divided, too large", report.refined},
       {"unused points", report.unused_points},
       {"coincident faces", report.coincident_faces}};
   for (const auto& [name, count] : counts) {
@@ -84,21 +87,22 @@ void print_mended(const SceneReport& report) {
   }
 }
 
-struct SeenFace {
+/// A face whose back side is visible from other patches.
+struct FaceSeenFromBehind {
   std::int32_t face;
-  double share;  ///< of what is seen of the face's plane from behind, unoccluded: 1
+  double share;  ///< visible fraction of its back; 1 if nothing occludes it
 };
 
-/// Faces whose back receivers look at, by number.
-std::vector<SeenFace> faces_seen_from_behind(const Scene& scene,
-                                             const std::vector<double>& shares) {
-  std::map<std::int32_t, std::pair<double, double>> by_face;  // seen and whole area
+/// The faces seen from behind, by number, from the shares of their patches.
+std::vector<FaceSeenFromBehind> faces_seen_from_behind(const Scene& scene,
+                                                       const std::vector<double>& shares) {
+  std::map<std::int32_t, std::pair<double, double>> by_face;  // visible and total area
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     auto& [seen, whole] = by_face[scene.patch(i).face];
     seen += scene.patch(i).area * at(shares, i);
     whole += scene.patch(i).area;
   }
-  std::vector<SeenFace> faces;
+  std::vector<FaceSeenFromBehind> faces;
   for (const auto& [face, areas] : by_face) {
     const double share = areas.first / areas.second;
     if (share > open_share) {
@@ -108,7 +112,7 @@ std::vector<SeenFace> faces_seen_from_behind(const Scene& scene,
   return faces;
 }
 
-void print_faces_seen(const std::vector<SeenFace>& faces) {
+void print_faces_seen(const std::vector<FaceSeenFromBehind>& faces) {
   if (faces.empty()) {
     print_row("seen from behind", "no face");
     return;
@@ -116,10 +120,10 @@ void print_faces_seen(const std::vector<SeenFace>& faces) {
   print_row(
       "seen from behind",
       fmt::format("{} face{}{}", faces.size(), faces.size() == 1 ? "" : "s",
-                  faces.size() > listed_faces ? fmt::format(", of them the first {}:", listed_faces)
-                                              : ":"));
-  for (std::size_t k = 0; k < std::min(faces.size(), listed_faces); ++k) {
-    fmt::print("  face {:<11} {:.3g} % of its back\n", faces[k].face, 100 * faces[k].share);
+                  faces.size() > max_listed_faces ? fmt::format("; the first {}:", max_listed_faces)
+                                                  : ":"));
+  for (std::size_t k = 0; k < std::min(faces.size(), max_listed_faces); ++k) {
+    fmt::print("  face {:<11} {:.3g} % of its back visible\n", faces[k].face, 100 * faces[k].share);
   }
 }
 
@@ -127,45 +131,45 @@ void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& over
   if (overlaps.empty()) {
     return;
   }
-  print_row(
-      "coplanar overlap",
-      fmt::format("{}{} pair{} of patches{}", overlaps.size() < most_overlaps ? "" : "at least ",
-                  overlaps.size(), overlaps.size() == 1 ? "" : "s",
-                  overlaps.size() > listed_faces
-                      ? fmt::format(", of them the first {}:", listed_faces)
-                      : ":"));
-  for (std::size_t k = 0; k < std::min(overlaps.size(), listed_faces); ++k) {
+  print_row("coplanar overlap", fmt::format("{}{} pair{} of patches{}",
+                                            overlaps.size() < max_overlaps ? "" : "at least ",
+                                            overlaps.size(), overlaps.size() == 1 ? "" : "s",
+                                            overlaps.size() > max_listed_faces
+                                                ? fmt::format("; the first {}:", max_listed_faces)
+                                                : ":"));
+  for (std::size_t k = 0; k < std::min(overlaps.size(), max_listed_faces); ++k) {
     const auto& [upper, lower, area] = overlaps[k];
-    fmt::print("  face {:<11} lies over face {}, {:.3g} m2\n", scene.patch(upper).face,
+    fmt::print("  face {:<11} overlaps face {}, {:.3g} m2\n", scene.patch(upper).face,
                scene.patch(lower).face, area);
   }
 }
 
-/// Sends light through the scene from all sides and tells where it gets lost.
+/// Transilluminates the scene along some directions; prints whether it is closed, which faces are
+/// seen from behind and which overlap.
 void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancellation) {
   SolveOptions options;
   options.directions = probing_directions;
   options.iterations = 1;
   ProgressDisplay display;
-  const auto tree = std::make_shared<const BspTree>(
-      *scene, cancellation, [&](double share) { display.show("sorting", share); });
+  const auto tree = build_tree(*scene, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     const SolveProgress progress = watched.progress();
     if (progress.direction > 0) {
-      display.show("looking around", static_cast<double>(progress.direction) / progress.passes);
+      display.show("checking visibility",
+                   static_cast<double>(progress.direction) / progress.passes);
     }
     return true;
   });
   display.clear();
   const SolveStatistics statistics = solver.statistics();
   print_row("BSP fragments", fmt::format("{}", statistics.fragments));
-  print_row("closed",
-            statistics.escaped < open_share
-                ? std::string("yes")
-                : fmt::format("no, {:.3g} % of what is seen is open", 100 * statistics.escaped));
+  print_row("closed", statistics.escaped < open_share
+                          ? std::string("yes")
+                          : fmt::format("no, {:.3g} % of the projected area sees no patch",
+                                        100 * statistics.escaped));
   print_faces_seen(faces_seen_from_behind(*scene, solver.back_seen_shares()));
-  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, most_overlaps, cancellation));
+  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, max_overlaps, cancellation));
 }
 
 int run(const InfoCall& call) {
@@ -174,7 +178,7 @@ int run(const InfoCall& call) {
   print_counts(*scene);
   print_size_and_light(*scene);
   probe(scene, cancellation);
-  print_mended(scene->report());
+  print_repairs(scene->report());
   return success;
 }
 
@@ -183,15 +187,14 @@ int run(const InfoCall& call) {
 Run add_info_command(CLI::App& program) {
   auto call = std::make_shared<InfoCall>();
   CLI::App& command = *program.add_subcommand(
-      "info", "Tells a scene's counts, size, light, closedness and problems");
+      "info", "Prints counts, size, emitted power, closedness and problems of a scene");
   add_scene_argument(command, call->scene);
   add_scene_options(command, call->scene_options);
   command.footer(fmt::format(
       "Whether the scene is closed and which faces are seen from behind is measured along {}\n"
-      "directions, both ways. Faces are numbered from 0 in the order of the file. Seen from "
-      "behind\n"
-      "are faces turned the wrong way, but also those of a box that stands on a floor without a\n"
-      "bottom of its own: the floor inside it looks at their backs.\n"
+      "directions and their opposites. Faces are numbered from 0 in the order of the file.\n"
+      "Faces seen from behind may be reversed, but they may also belong to a box without a bottom\n"
+      "that stands on a floor: the floor inside the box sees their backs.\n"
       "Example: transillum info rooms",
       probing_directions));
   return [call] { return run(*call); };

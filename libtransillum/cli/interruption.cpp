@@ -11,7 +11,7 @@
 namespace transillum::cli {
 namespace {
 
-// Cancellation::cancel() is a store to a flag of this kind: allowed in a signal handler.
+// Cancellation::cancel() stores to such a flag, which is allowed in a signal handler.
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 const Cancellation* canceled_by_signals = nullptr;

@@ -9,7 +9,7 @@
 
 namespace transillum::cli {
 
-/// Canceled where what is done would be of no use to anybody; what() tells why.
+/// Canceled, and the partial results are useless; what() gives the reason.
 class NothingToSave : public Canceled {
  public:
   explicit NothingToSave(std::string why) : why_(std::move(why)) {}
@@ -19,8 +19,8 @@ class NothingToSave : public Canceled {
   std::string why_;
 };
 
-/// From now on the first SIGINT or SIGTERM sets what this returns, and the second ends the
-/// program at once. Call it once, before threads start.
+/// From now on the first SIGINT or SIGTERM cancels the returned Cancellation, and the second ends
+/// the program immediately. Call it once, before threads start.
 const Cancellation& cancel_on_signals();
 
 }  // namespace transillum::cli

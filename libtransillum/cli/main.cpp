@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The program `transillum`: finds the command, reports errors as one line and sets the exit status.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -20,8 +21,9 @@
 namespace transillum::cli {
 namespace {
 
-/// Without this a file opened later could get the number of a closed standard stream, and
-/// messages would end up in it. Opened the wrong way round, so that using one still fails.
+/// Opens /dev/null in place of closed standard streams. Otherwise a file opened later could get the
+/// number of one, and messages would be written to it. The access mode is the wrong one, so using
+/// such a stream still fails.
 void occupy_closed_streams() {
   for (int stream = 0; stream < 3; ++stream) {
     if (::fcntl(stream, F_GETFD) < 0) {
@@ -50,14 +52,14 @@ std::string program_footer() {
     text += built_in_text(scene);
   }
   text +=
-      "\nExit status: 0; 2 for a wrong call or bad input; 1 for any other failure; 130 when\n"
+      "\nExit status: 0 success; 2 invalid arguments or input; 1 any other failure; 130 "
       "interrupted.\n"
       "Example: transillum solve sphere-flake:levels=1 -m 64";
   return text;
 }
 
 struct Program {
-  CLI::App app{"Diffuse light in scenes of polygons by the transillumination method"};
+  CLI::App app{"Radiosity of polygonal scenes by the transillumination method"};
   std::vector<std::pair<CLI::App*, Run>> commands;
 
   Program() {
@@ -91,7 +93,8 @@ struct Program {
   }
 };
 
-/// A value may start with a minus sign and look like an option: `--direction -.5,0,1`.
+/// Joins `--direction` and its value by =, since a value such as -.5,0,1 would be taken for an
+/// option.
 std::vector<std::string> joined_directions(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int k = 1; k < argc; ++k) {
@@ -104,8 +107,8 @@ std::vector<std::string> joined_directions(int argc, char** argv) {
   return arguments;
 }
 
-/// `help` and `help solve` are what people try first.
-void turn_help_into_option(std::vector<std::string>& arguments) {
+/// Replaces `help` and `help solve` by `--help` and `solve --help`.
+void replace_help_command(std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0] != "help") {
     return;
   }
@@ -114,7 +117,7 @@ void turn_help_into_option(std::vector<std::string>& arguments) {
   arguments.emplace_back("--help");
 }
 
-/// CLI11 knows that a word was not expected; this says which was meant.
+/// Suggests the nearest command or option for an unknown first word; CLI11 does not.
 void check_first_word(const Program& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     return;
@@ -129,7 +132,7 @@ void check_first_word(const Program& program, const std::vector<std::string>& ar
   const std::string hint = did_you_mean(word, names);
   throw InputError(
       fmt::format("unknown {} \"{}\"{}", option ? "option" : "command", word,
-                  hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
+                  hint.empty() ? fmt::format("; choose one of {}", fmt::join(names, ", ")) : hint));
 }
 
 std::string unexpected_argument_text(const CLI::App& command) {
@@ -137,7 +140,7 @@ std::string unexpected_argument_text(const CLI::App& command) {
   if (rest.empty()) {
     return "unexpected argument";
   }
-  // Its value may be among the rest too; the option is what is wrong.
+  // The value of an unknown option may be among the rest, too; report the option.
   const auto option = std::find_if(rest.begin(), rest.end(),
                                    [](const auto& word) { return word.rfind("--", 0) == 0; });
   if (option == rest.end()) {
@@ -153,7 +156,7 @@ std::string unexpected_argument_text(const CLI::App& command) {
   return fmt::format("unknown option \"{}\"{}", word, did_you_mean(word, names));
 }
 
-/// CLI11's errors as one line, with what to type for more.
+/// Prints an error of CLI11 as one line, with a reference to the help.
 int report(const Program& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     return program.app.exit(error);  // --help and --version
@@ -162,9 +165,9 @@ int report(const Program& program, const CLI::ParseError& error) {
   const CLI::App& command = chosen ? *chosen->first : program.app;
   const bool unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string text = unexpected ? unexpected_argument_text(command)
-                           : !chosen  ? std::string("which command?")
+                           : !chosen  ? std::string("no command given")
                                       : std::string(error.what());
-  print_message(fmt::format("{} (transillum {}--help tells more)", text,
+  print_message(fmt::format("{} (see transillum {}--help)", text,
                             chosen ? command.get_name() + " " : std::string()));
   return wrong_call;
 }
@@ -172,9 +175,9 @@ int report(const Program& program, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   Program program;
   std::vector<std::string> arguments = joined_directions(argc, argv);
-  turn_help_into_option(arguments);
+  replace_help_command(arguments);
   check_first_word(program, arguments);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
   try {
     program.app.parse(arguments);
   } catch (const CLI::ParseError& error) {
@@ -193,7 +196,7 @@ int run_reporting_errors(int argc, char** argv) {
     print_message(std::string("interrupted; ") + interruption.what());
     return interrupted;
   } catch (const Canceled&) {
-    print_message("interrupted; there was nothing to save yet");
+    print_message("interrupted; nothing to save yet");
     return interrupted;
   } catch (const std::exception& error) {
     print_message(error_text(error));
@@ -201,7 +204,7 @@ int run_reporting_errors(int argc, char** argv) {
   }
 }
 
-/// Results on standard output count as written only now.
+/// Flushes standard output; results are written only if that succeeds.
 int after_flush(int status) {
   errno = 0;
   std::cout.flush();
@@ -209,7 +212,7 @@ int after_flush(int status) {
   if (written || status != success) {
     return status;
   }
-  // A reader that has seen enough, such as `head`, needs no message.
+  // No message if a reader such as `head` has closed the pipe.
   if (errno != EPIPE) {
     print_message("standard output: cannot be written" +
                   (errno ? ": " + std::generic_category().message(errno) : std::string()));
@@ -223,7 +226,7 @@ int after_flush(int status) {
 int main(int argc, char** argv) {
   using namespace transillum::cli;
   occupy_closed_streams();
-  // A closed pipe is an error of writing, not a reason to lose results on their way to files.
+  // A closed pipe is a write error; it must not end the program before results are saved to files.
   ::signal(SIGPIPE, SIG_IGN);
   return after_flush(run_reporting_errors(argc, argv));
 }

@@ -35,8 +35,8 @@ void check_receiver(const MapCall& call, const Scene& scene) {
   if (call.receiver < scene.patch_count()) {
     return;
   }
-  throw InputError(fmt::format("--receiver: there is no patch {} of {}: they are 0 to {}",
-                               call.receiver, scene.patch_count(), scene.patch_count() - 1));
+  throw InputError(fmt::format("--receiver: no patch {}; patches are numbered 0 to {}",
+                               call.receiver, scene.patch_count() - 1));
 }
 
 VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& tree,
@@ -49,8 +49,7 @@ VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& 
 VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& scene,
                        const Cancellation& cancellation) {
   ProgressDisplay progress;
-  const auto tree = std::make_shared<const BspTree>(
-      *scene, cancellation, [&](double share) { progress.show("sorting", share); });
+  const auto tree = build_tree(*scene, cancellation, progress);
   if (call.engine == Engine::local) {
     return exact_map(call, *scene, *tree, cancellation);
   }
@@ -63,23 +62,23 @@ VisibilityMap make_map(const MapCall& call, const std::shared_ptr<const Scene>& 
   return map;
 }
 
-/// Of engines that keep no shapes of the plane's.
-std::string shown_by_viewer(Engine engine) {
-  const bool shown = engine == Engine::corrected || engine == Engine::hemicube;
-  return shown ? " (the viewer shows what it sees)" : "";
+/// A hint for engines whose results only the viewer can show.
+std::string viewer_hint(Engine engine) {
+  const bool has_view = engine == Engine::corrected || engine == Engine::hemicube;
+  return has_view ? " (the viewer can show it)" : "";
 }
 
 void add_pixel_options(CLI::App& command, MapCall& call) {
   add_parsed_option(
       command, "--engine", "NAME",
-      "local (default): the exact map; zbuffer | painter | rays: what this engine's pixels show",
+      "local (default): exact map; zbuffer | painter | rays: map from the pixels of this engine",
       [&call](const std::string& text) {
         call.engine = engine_from_name(text);
         if (call.engine != Engine::local && !has_pixels(call.engine)) {
           throw InputError(
               fmt::format("--engine: {} has no map that can be written; choose local, zbuffer, "
                           "painter or rays{}",
-                          text, shown_by_viewer(call.engine)));
+                          text, viewer_hint(call.engine)));
         }
       });
   add_parsed_option(command, "--resolution", "R",
@@ -90,8 +89,7 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
                           "--resolution", text, 1, PixelMap::largest_resolution));
                     });
   add_order_option(command, call.engine_options);
-  command.add_flag("--difference", call.difference,
-                   "mark where pixels show not what the exact map does");
+  command.add_flag("--difference", call.difference, "mark pixels that differ from the exact map");
 }
 
 int run(const MapCall& call) {
@@ -106,7 +104,7 @@ int run(const MapCall& call) {
   const VisibilityMap map = make_map(call, scene, cancellation);
   const std::string reason = empty_map_reason(*scene, map);
   if (!reason.empty()) {
-    print_message("note: the map is empty, since " + reason);
+    print_message("note: the map is empty: " + reason);
   }
   for (const std::string& file : call.out) {
     cancellation.throw_if_canceled();
@@ -120,11 +118,11 @@ int run(const MapCall& call) {
 Run add_map_command(CLI::App& program) {
   auto call = std::make_shared<MapCall>();
   CLI::App& command =
-      *program.add_subcommand("map", "Writes or draws one direction's visibility map");
+      *program.add_subcommand("map", "Writes or draws the visibility map of one direction");
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
   add_parsed_option(command, "--receiver", "I",
-                    "what patch I sees (default: what is seen from below the whole scene)",
+                    "only what patch I sees (default: the map seen from below the whole scene)",
                     [call](const std::string& text) {
                       call->receiver = static_cast<PatchId>(parse_whole_number(
                           "--receiver", text, 0, std::numeric_limits<PatchId>::max()));
@@ -132,7 +130,7 @@ Run add_map_command(CLI::App& program) {
   add_pixel_options(command, *call);
   add_parsed_option(
       command, "--size", "PIXELS",
-      fmt::format("longer side of .svg and .png (default {})", call->picture.size),
+      fmt::format("length of the longer side of .svg and .png (default {})", call->picture.size),
       [call](const std::string& text) {
         call->picture.size = static_cast<int>(parse_whole_number(
             "--size", text, MapPictureOptions::smallest_size, MapPictureOptions::largest_size));
@@ -141,8 +139,8 @@ Run add_map_command(CLI::App& program) {
   command
       .add_option(
           "-o,--out", call->out,
-          "a picture (.svg, .png) or the polygons in the plane's coordinates (.vtp, .json); "
-          "may be given several times")
+          "picture (.svg, .png) or polygons in coordinates of the plane (.vtp, .json); may be "
+          "given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -17,10 +17,10 @@ void check_output_files(const std::vector<std::string>& files, const std::string
     check_writable(file);
     std::error_code ignored;
     if (std::filesystem::equivalent(file, scene, ignored)) {
-      throw InputError(fmt::format("{}: the scene itself would be overwritten", file));
+      throw InputError(fmt::format("{}: would overwrite the scene file", file));
     }
     if (!seen.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second) {
-      throw InputError(fmt::format("{}: named twice as an output file", file));
+      throw InputError(fmt::format("{}: given twice as an output file", file));
     }
   }
 }

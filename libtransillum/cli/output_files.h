@@ -6,7 +6,7 @@
 
 namespace transillum::cli {
 
-/// Before long work: each file can be written, none is named twice, none is the scene itself.
+/// Checks before a long computation that each file is writable, given once and not the scene file.
 /// @throws InputError
 void check_output_files(const std::vector<std::string>& files, const std::string& scene);
 

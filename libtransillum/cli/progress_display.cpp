@@ -11,10 +11,12 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "report_text.h"
+
 namespace transillum::cli {
 namespace {
 
-bool stderr_redraws() {
+bool can_redraw_stderr() {
   const char* terminal = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
          std::string_view(terminal) != "dumb";
@@ -36,7 +38,8 @@ std::string bar(double share, int cells) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay() : terminal_(stderr_redraws()), last_(Clock::now()) {}
+ProgressDisplay::ProgressDisplay(bool quiet)
+    : quiet_(quiet), terminal_(can_redraw_stderr()), last_(Clock::now()) {}
 
 bool ProgressDisplay::due() {
   using namespace std::chrono_literals;
@@ -49,7 +52,7 @@ bool ProgressDisplay::due() {
 }
 
 void ProgressDisplay::show(const std::string& what, double share, const std::string& detail) {
-  if (!due()) {
+  if (quiet_ || !due()) {
     return;
   }
   if (terminal_) {
@@ -66,6 +69,15 @@ void ProgressDisplay::show(const std::string& what, double share, const std::str
   fmt::print(stderr, "{}\n", line);
 }
 
+void ProgressDisplay::show_passes(const std::string& label, const SolveProgress& progress) {
+  if (progress.direction == 0) {
+    return;
+  }
+  show(fmt::format("{}pass {}/{}", label, progress.direction, progress.passes),
+       static_cast<double>(progress.direction) / progress.passes,
+       rate_text(progress.passes_per_second, progress.seconds_left));
+}
+
 void ProgressDisplay::redraw(const std::string& what, double share, const std::string& detail) {
   std::string line = what;
   if (share >= 0) {
@@ -75,7 +87,7 @@ void ProgressDisplay::redraw(const std::string& what, double share, const std::s
   if (!detail.empty()) {
     line += "  " + detail;
   }
-  // A line that wraps could not be redrawn in place.
+  // A line that wraps cannot be redrawn in place.
   line.resize(std::min(line.size(), terminal_width() - 1));
   fmt::print(stderr, "\r{}\033[K", line);
   std::fflush(stderr);
@@ -91,21 +103,14 @@ void ProgressDisplay::clear() {
   drawn_ = false;
 }
 
-std::string time_text(double seconds) {
-  if (!std::isfinite(seconds)) {
-    return "?";
-  }
-  if (seconds < 1) {
-    return fmt::format("{:.0f} ms", 1000 * seconds);
-  }
-  if (seconds < 59.95) {
-    return fmt::format("{:.1f} s", seconds);
-  }
-  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
-  if (whole < 3600) {
-    return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-  }
-  return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+std::string rate_text(double passes_per_second, double seconds_left) {
+  return fmt::format("{:.1f} passes/s, {} left", passes_per_second, time_text(seconds_left));
+}
+
+std::shared_ptr<const BspTree> build_tree(const Scene& scene, const Cancellation& cancellation,
+                                          ProgressDisplay& display) {
+  return std::make_shared<const BspTree>(
+      scene, cancellation, [&](double share) { display.show("building BSP tree", share); });
 }
 
 }  // namespace transillum::cli

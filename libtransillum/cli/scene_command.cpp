@@ -23,7 +23,7 @@ int run(const SceneCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   const std::filesystem::path out = call.out;
   if (out.extension() != ".obj") {
-    throw InputError(fmt::format("{}: a scene is written to a file that ends in .obj", call.out));
+    throw InputError(fmt::format("{}: the name of a scene file must end in .obj", call.out));
   }
   check_writable(out);
   const SceneDescription description = describe_scene(call.scene, cancellation);
@@ -38,10 +38,9 @@ int run(const SceneCall& call) {
 
 Run add_scene_command(CLI::App& program) {
   auto call = std::make_shared<SceneCall>();
-  CLI::App& command =
-      *program.add_subcommand("scene", "Writes a scene as .obj and .mtl for others to load");
+  CLI::App& command = *program.add_subcommand("scene", "Writes a scene as .obj and .mtl files");
   add_scene_argument(command, call->scene);
-  command.add_option("-o,--out", call->out, "the .obj file; its .mtl goes beside it")
+  command.add_option("-o,--out", call->out, "the .obj file; the .mtl file is written next to it")
       ->type_name("FILE.obj")
       ->required();
   command.footer("Example: transillum scene sphere-flake:levels=1 --out flake.obj");

@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// `transillum solve`: options, the solve with progress and interruption, and its output files.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -59,7 +60,7 @@ SolveOptions solve_options(const SolveCall& call) {
   options.seed = options.engine_options.seed = call.sequence.seed;
   options.rotation = call.sequence.rotation;
   options.two_way = !call.one_way;
-  // Its changes fall as 1 / steps: the usual tolerance would be met after days.
+  // Its changes decrease as 1 / iterations: the default tolerance would take days.
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
     options.iterations = options.burn_in + default_averaged_iterations;
   }
@@ -70,25 +71,21 @@ SolveOptions solve_options(const SolveCall& call) {
 void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
   const SolveProgress progress = solver.progress();
   if (progress.direction > 0) {
-    display.show(fmt::format("step {}, pass {}/{}", progress.iteration + 1, progress.direction,
-                             progress.passes),
-                 static_cast<double>(progress.direction) / progress.passes,
-                 fmt::format("{:.1f} passes/s, {} left", progress.passes_per_second,
-                             time_text(progress.seconds_left)));
+    display.show_passes(fmt::format("iteration {}, ", progress.iteration + 1), progress);
   } else if (progress.iteration > 0) {
-    const auto steps = solver.statistics().iteration_records;
-    display.show(fmt::format("step {}", progress.iteration), -1,
-                 fmt::format("change {:.1e}", steps.back().change));
+    const double change = solver.statistics().iteration_records.back().change;
+    display.show(fmt::format("iteration {}", progress.iteration), -1,
+                 fmt::format("change {:.1e}", change));
   }
 }
 
 struct FirstShot {
-  std::shared_ptr<const DirectLight> light;  ///< null where there is none
+  std::shared_ptr<const DirectLight> light;  ///< null if there is none
   double seconds = 0;
 };
 
 FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                      const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+                      const Cancellation& cancellation, ProgressDisplay& display) {
   FirstShot shot;
   if (!options.first_shot) {
     return shot;
@@ -96,38 +93,28 @@ FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOpti
   const auto start = Clock::now();
   shot.light = std::make_shared<const DirectLight>(
       shoot(*scene, find_small_sources(*scene, *options.first_shot), options.threads, cancellation,
-            [&](double share) {
-              if (!quiet) {
-                display.show("shooting", share);
-              }
-            }));
+            [&](double share) { display.show("first shot", share); }));
   shot.seconds = seconds_since(start);
   return shot;
 }
 
-/// Runs the solver to its end, or to the signal.
-Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                       const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+/// Runs the solver until it has finished or is interrupted.
+Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                         const Cancellation& cancellation, ProgressDisplay& display) {
   const auto start = Clock::now();
-  const auto tree = std::make_shared<const BspTree>(*scene, cancellation, [&](double share) {
-    if (!quiet) {
-      display.show("sorting", share);
-    }
-  });
+  const auto tree = build_tree(*scene, cancellation, display);
   const double seconds_bsp = seconds_since(start);
-  const auto shot = shoot_first(scene, options, cancellation, display, quiet);
+  const auto shot = shoot_first(scene, options, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation, shot.light);
   try {
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-      if (!quiet) {
-        show_progress(display, watched);
-      }
+      show_progress(display, watched);
       return true;
     });
   } catch (const Canceled&) {
     const SolveProgress progress = solver.progress();
     if (progress.direction == 0 && progress.iteration == 0) {
-      throw;  // there is nothing to save
+      throw;  // nothing to save
     }
   }
   Solution solution = solver.solution();
@@ -136,25 +123,24 @@ Solution solve_watched(const std::shared_ptr<const Scene>& scene, const SolveOpt
   return solution;
 }
 
-Solution solve_by_drawing(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                          const Cancellation& cancellation, ProgressDisplay& display, bool quiet) {
+Solution solve_with_hemicubes(const std::shared_ptr<const Scene>& scene,
+                              const SolveOptions& options, const Cancellation& cancellation,
+                              ProgressDisplay& display) {
   double drawn = 0;
   try {
     return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
       drawn = share;
-      if (!quiet) {
-        display.show("hemicubes", share);
-      }
+      display.show("drawing hemicubes", share);
     });
   } catch (const Canceled&) {
-    // Where rows are missing there is no B that would be an estimate of anything.
+    // Without all rows of F there is no useful estimate of B.
     throw NothingToSave(fmt::format(
-        "{:.0f} % of the hemicubes were drawn, and B takes all of them: nothing is saved",
+        "{:.0f} % of the hemicubes were drawn, but B requires all of them: nothing is saved",
         std::floor(100 * drawn)));
   }
 }
 
-/// One file that cannot be written does not cost the others.
+/// Writes all files, even if one of them cannot be written, then rethrows the first error.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
   std::exception_ptr first_failure;
   const auto attempt = [&](const auto& write) {
@@ -182,13 +168,14 @@ int run(const SolveCall& call) {
   check_outputs(call);
   const SolveOptions options = solve_options(call);
   const Cancellation& cancellation = cancel_on_signals();
-  ProgressDisplay display;
+  ProgressDisplay display(call.quiet);
   const auto scene = load_scene(call.scene, call.scene_options, cancellation);
   const double seconds_load = seconds_since(start);
   print_warnings(*scene);
 
-  const auto solve_scene = takes_directions(options.engine) ? solve_watched : solve_by_drawing;
-  Solution solution = solve_scene(scene, options, cancellation, display, call.quiet);
+  const auto solve_scene =
+      takes_directions(options.engine) ? solve_by_passes : solve_with_hemicubes;
+  Solution solution = solve_scene(scene, options, cancellation, display);
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
@@ -204,7 +191,7 @@ int run(const SolveCall& call) {
     return success;
   }
   print_message(call.out.empty() && call.stats.empty()
-                    ? "interrupted; this is the estimate so far"
+                    ? "interrupted; the summary is of the estimate so far"
                     : "interrupted; the results so far are saved");
   return interrupted;
 }
@@ -231,19 +218,18 @@ void add_stopping_rules(CLI::App& command, SolveCall& call) {
 void add_estimator(CLI::App& command, SolveCall& call) {
   SolveOptions& options = call.options;
   add_engine_options(command, options.engine, options.engine_options);
-  auto* one_way =
-      command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
+  auto* one_way = command.add_flag("--one-way", call.one_way,
+                                   "use each pass for one direction, as in the paper");
   auto* two_way = command.add_flag("--two-way", call.two_way, help_of("two-way", "yes"));
   one_way->excludes(two_way);
   add_parsed_option(
-      command, "--normalize", "NAME",
-      choice_help("normalize", normalization_names(), name_of(options.normalize)),
+      command, "--normalize", "NAME", help_of("normalize", name_of(options.normalize)),
       [&options](const std::string& text) { options.normalize = normalization_from_name(text); });
 }
 
 void add_scheme(CLI::App& command, SolveOptions& options) {
   add_parsed_option(
-      command, "--scheme", "NAME", choice_help("scheme", scheme_names(), name_of(options.scheme)),
+      command, "--scheme", "NAME", help_of("scheme", name_of(options.scheme)),
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
   add_parsed_option(
       command, "--first-shot", "RATIO",
@@ -255,7 +241,7 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
                       options.burn_in =
                           static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
                     });
-  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: none"),
+  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: no error bars"),
                     [&options](const std::string& text) {
                       options.replicas =
                           static_cast<int>(parse_whole_number("--replicas", text, 1, 64));
@@ -264,15 +250,16 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
 
 void add_outputs(CLI::App& command, SolveCall& call) {
   command
-      .add_option("-o,--out", call.out,
-                  ".csv, .vtp, .ply or .obj by its ending; may be given several times (default: a "
-                  "summary on standard output)")
+      .add_option(
+          "-o,--out", call.out,
+          "result file: .csv, .vtp, .ply or .obj, by its ending; may be given several times "
+          "(default: a summary on standard output)")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--stats", call.stats,
-                  "counts, seconds a phase, convergence a step, closure and energy defects")
+                  "statistics: counts, times, change per iteration, closure and energy defects")
       ->type_name("FILE.json");
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
 }
@@ -291,10 +278,11 @@ Run add_solve_command(CLI::App& program) {
   add_machine_limits(command, call->options.memory, call->options.threads);
   add_outputs(command, *call);
   command.footer(
-      "Results: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; areas in m2, exitance "
+      "Columns: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; areas in m2, exitance "
       "E\n"
-      "and radiosity B in W/m2. Ctrl-C saves what there is and exits with 130; twice quits at "
-      "once.\n"
+      "and radiosity B in W/m2. Ctrl-C saves the results so far and exits with status 130; "
+      "pressed\n"
+      "twice, it exits immediately.\n"
       "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
   return [call] { return run(*call); };
 }

@@ -6,13 +6,13 @@
 
 #include <limits>
 
-#include "progress_display.h"
+#include "report_text.h"
 #include "transillum/at.h"
 
 namespace transillum::cli {
 namespace {
 
-/// Smallest, area-weighted mean and largest B, over patches, a channel.
+/// Smallest, area-weighted mean and largest B over patches, per channel.
 struct RadiosityRange {
   Rgb low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
   Rgb mean;
@@ -37,13 +37,9 @@ RadiosityRange radiosity_range(const Solution& solution) {
   return range;
 }
 
-std::string row(const std::string& name, const std::string& value) {
-  return fmt::format("{:<16} {}\n", name, value);
-}
+std::string radiosity_text(const Rgb& b) { return rgb_text(b, 5); }
 
-std::string color_text(const Rgb& b) { return fmt::format("{:.5g} {:.5g} {:.5g}", b.r, b.g, b.b); }
-
-double peak_memory_megabytes() {
+double peak_memory_mebibytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
@@ -60,19 +56,19 @@ std::string convergence_text(const SolveStatistics& statistics) {
 
 std::string passes_text(const SolveStatistics& s) {
   if (s.hemicubes > 0) {
-    return row("hemicubes",
-               fmt::format("{} of {} pixels, {} threads", s.hemicubes, s.directions, s.threads));
+    return report_row("hemicubes", fmt::format("{} of {} pixels each, {} threads", s.hemicubes,
+                                               s.directions, s.threads));
   }
-  return row("passes", fmt::format("{} a step, {} directions, {} threads", s.passes, s.directions,
-                                   s.threads));
+  return report_row("passes", fmt::format("{} per iteration, {} directions, {} threads", s.passes,
+                                          s.directions, s.threads));
 }
 
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
-  return row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas", 100 * error.rms,
-                                       error.replicas)) +
-         row("B mean is within",
-             fmt::format("+- {} of that above, in 95 of 100 runs", color_text(half)));
+  return report_row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas",
+                                              100 * error.rms, error.replicas)) +
+         report_row("B mean, error",
+                    fmt::format("+- {} W/m2 (95 % confidence)", radiosity_text(half)));
 }
 
 }  // namespace
@@ -80,37 +76,38 @@ std::string error_text(const ErrorEstimate& error) {
 std::string solve_summary(const Solution& solution) {
   const SolveStatistics& s = solution.statistics;
   const RadiosityRange b = radiosity_range(solution);
-  std::string text = row("scene", solution.scene->name());
-  text += row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
+  std::string text = report_row("scene", solution.scene->name());
+  text += report_row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
   text += passes_text(s);
   if (s.passes_made > 0) {
-    text += row(s.hemicubes > 0 ? "time a cube" : "time a pass",
-                fmt::format("{:.3g} ms, {} made",
-                            1000 * s.seconds_transfers / static_cast<double>(s.passes_made),
-                            s.passes_made));
+    text += report_row(s.hemicubes > 0 ? "time per hemicube" : "time per pass",
+                       fmt::format("{:.3g} ms, {} in total",
+                                   1000 * s.seconds_transfers / static_cast<double>(s.passes_made),
+                                   s.passes_made));
   }
   if (s.shot_sources > 0) {
-    text += row("first shot",
-                fmt::format("{} patches, {:.3g} % of the power emitted, in {}", s.shot_sources,
-                            100 * s.shot_power_share, time_text(s.seconds_first_shot)));
+    text += report_row("first shot",
+                       fmt::format("{} patches, {:.3g} % of the emitted power, {}", s.shot_sources,
+                                   100 * s.shot_power_share, time_text(s.seconds_first_shot)));
   }
-  text += row("iterations", convergence_text(s));
-  text += row("closure defect", fmt::format("{:.1e}, {:.2g} % of what is seen is open",
-                                            s.closure_defect_max, 100 * s.escaped));
+  text += report_row("iterations", convergence_text(s));
+  text += report_row("closure defect",
+                     fmt::format("{:.1e}; {:.2g} % of the projected area sees no patch",
+                                 s.closure_defect_max, 100 * s.escaped));
   if (!s.iteration_records.empty()) {
-    text += row("energy defect", fmt::format("{:.1e}", s.energy_defect));
+    text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }
-  text += row("B min, W/m2", color_text(b.low));
-  text += row("B mean, W/m2", color_text(b.mean));
-  text += row("B max, W/m2", color_text(b.high));
+  text += report_row("B min, W/m2", radiosity_text(b.low));
+  text += report_row("B mean, W/m2", radiosity_text(b.mean));
+  text += report_row("B max, W/m2", radiosity_text(b.high));
   if (solution.error.replicas > 0) {
     text += error_text(solution.error);
   }
-  text += row("time", fmt::format("{} (load {}, sorting {}, passes {}, iteration {})",
-                                  time_text(s.seconds_total), time_text(s.seconds_load),
-                                  time_text(s.seconds_bsp), time_text(s.seconds_transfers),
-                                  time_text(s.seconds_iterate)));
-  text += row("peak memory", fmt::format("{:.0f} MiB", peak_memory_megabytes()));
+  text += report_row("time", fmt::format("{} (loading {}, BSP tree {}, passes {}, iteration {})",
+                                         time_text(s.seconds_total), time_text(s.seconds_load),
+                                         time_text(s.seconds_bsp), time_text(s.seconds_transfers),
+                                         time_text(s.seconds_iterate)));
+  text += report_row("peak memory", fmt::format("{:.0f} MiB", peak_memory_mebibytes()));
   return text;
 }
 

@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// `transillum study`: options, the series to study, and the study with progress and interruption.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,15 +39,15 @@ struct StudyCall {
   bool one_way = false, two_way = false;
   StudyOptions study;
   StudyAxis against = StudyAxis::passes;
-  ErrorMeasure error = ErrorMeasure::rms;  ///< that table and plots tell
-  int reference = 0;                       ///< passes; 0: four times the most that are studied
+  ErrorMeasure error = ErrorMeasure::rms;  ///< in the table and the plots
+  int reference = 0;                       ///< passes; 0: four times the largest number studied
   std::string cache = ReferenceCache::default_folder().string();
   std::string out;
   std::vector<std::string> plots;
   bool quiet = false;
 };
 
-/// All combinations, whether they go together or not.
+/// All combinations of the options, valid or not.
 std::vector<StudySeries> all_combinations(const StudyCall& call) {
   std::vector<StudySeries> all;
   const int resolution = call.study.solve.engine_options.resolution;
@@ -58,9 +59,9 @@ std::vector<StudySeries> all_combinations(const StudyCall& call) {
       for (const Normalization normalize : call.normalizations) {
         for (const Scheme scheme : call.schemes) {
           for (const std::optional<double>& first_shot : call.first_shots) {
-            for (const StudiedEngine& of : call.engines) {
-              all.push_back({sampling, two_way, normalize, scheme, first_shot, of.engine,
-                             of.resolution > 0 ? of.resolution : resolution});
+            for (const StudiedEngine& studied : call.engines) {
+              all.push_back({sampling, two_way, normalize, scheme, first_shot, studied.engine,
+                             studied.resolution > 0 ? studied.resolution : resolution});
             }
           }
         }
@@ -70,13 +71,14 @@ std::vector<StudySeries> all_combinations(const StudyCall& call) {
   return all;
 }
 
-/// All combinations that go together; what does not is named, unless nothing is left.
+/// All valid combinations. Prints why others are skipped.
+/// @throws InputError if none is valid
 std::vector<StudySeries> all_series(const StudyCall& call) {
   std::vector<StudySeries> all;
   std::string refusal;
   for (StudySeries& series : all_combinations(call)) {
     if (!takes_directions(series.engine)) {
-      // Whatever directions others take, it is the same.
+      // Sampling and two-way passes do not apply to it.
       series.sampling = call.samplings.front();
       series.two_way = call.two_way || !call.one_way;
       if (std::find(all.begin(), all.end(), series) != all.end()) {
@@ -97,7 +99,7 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
     throw InputError(refusal);
   }
   if (!refusal.empty()) {
-    print_message("left out: " + refusal);
+    print_message("skipped: " + refusal);
   }
   return all;
 }
@@ -116,15 +118,6 @@ struct StudyContext {
   std::shared_ptr<const BspTree> tree;
   Cancellation cancellation;
   ProgressDisplay display;
-  bool quiet = false;
-
-  void show(const std::string& what, double share, double rate, double seconds_left) {
-    if (quiet) {
-      return;
-    }
-    display.show(what, share,
-                 fmt::format("{:.1f} passes/s, {} left", rate, time_text(seconds_left)));
-  }
 };
 
 /// The reference solution, from the cache or solved.
@@ -132,13 +125,7 @@ std::vector<Rgb> reference_radiosity(const StudyCall& call, const SolveOptions& 
                                      StudyContext& context) {
   ReferenceSolution reference = find_or_solve_reference(
       ReferenceCache(call.cache), context.scene, context.tree, options,
-      [&context](const SolveProgress& now) {
-        if (now.direction > 0) {
-          context.show(fmt::format("reference, pass {}/{}", now.direction, now.passes),
-                       static_cast<double>(now.direction) / now.passes, now.passes_per_second,
-                       now.seconds_left);
-        }
-      },
+      [&context](const SolveProgress& now) { context.display.show_passes("reference, ", now); },
       context.cancellation);
   if (!reference.store_error.empty()) {
     print_message("warning: the reference is not cached: " + reference.store_error);
@@ -151,7 +138,7 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
     if (point.failure.empty()) {
       continue;
     }
-    print_message(fmt::format("left out: {} with {} passes: {}", names[point.series], point.passes,
+    print_message(fmt::format("skipped: {} with {} passes: {}", names[point.series], point.passes,
                               point.failure + remedy_hint(point.remedy)));
   }
 }
@@ -167,29 +154,23 @@ int run(const StudyCall& call) {
   }
   check_output_files(files, call.scene);
 
-  StudyContext work;
-  work.cancellation = cancel_on_signals();
-  work.quiet = call.quiet;
-  work.scene = load_scene(call.scene, call.scene_options, work.cancellation);
-  print_warnings(*work.scene);
-  work.tree = std::make_shared<const BspTree>(*work.scene, work.cancellation, [&](double share) {
-    if (!call.quiet) {
-      work.display.show("sorting", share);
-    }
-  });
+  StudyContext context{{}, {}, cancel_on_signals(), ProgressDisplay(call.quiet)};
+  context.scene = load_scene(call.scene, call.scene_options, context.cancellation);
+  print_warnings(*context.scene);
+  context.tree = build_tree(*context.scene, context.cancellation, context.display);
   const std::vector<Rgb> reference =
-      reference_radiosity(call, options.reference(call.reference), work);
+      reference_radiosity(call, options.reference(call.reference), context);
   const std::vector<std::string> names = names_of(options.series);
   const Study study = run_study(
-      work.scene, work.tree, options, reference,
+      context.scene, context.tree, options, reference,
       [&](const StudyProgress& now) {
-        work.show(fmt::format("{}, {} passes", names[now.series], now.directions), now.share,
-                  now.passes_per_second, now.seconds_left);
+        context.display.show(fmt::format("{}, {} passes", names[now.series], now.directions),
+                             now.share, rate_text(now.passes_per_second, now.seconds_left));
       },
-      work.cancellation);
-  work.display.clear();
+      context.cancellation);
+  context.display.clear();
   if (study.points.empty()) {
-    throw Canceled();  // there is nothing to save
+    throw Canceled();  // nothing to save
   }
 
   report_failures(study, names);
@@ -199,7 +180,7 @@ int run(const StudyCall& call) {
   for (const std::string& file : call.plots) {
     write_charts(file, {study_chart(call.scene, options.series, study, call.error, call.against)});
   }
-  const std::string summary = study_summary(*work.scene, options, study, call.error);
+  const std::string summary = study_summary(*context.scene, options, study, call.error);
   if (call.out.empty()) {
     fmt::print("{}", summary);
   } else if (!call.quiet) {
@@ -213,7 +194,7 @@ int run(const StudyCall& call) {
   return interrupted;
 }
 
-/// An option that takes values with commas between, each once.
+/// An option with a list of distinct values, separated by commas.
 template <typename Value, typename Parse>
 void add_list_option(CLI::App& command, const std::string& name, const std::string& type,
                      const std::string& help, std::vector<Value>& values, Parse parse) {
@@ -224,7 +205,7 @@ void add_list_option(CLI::App& command, const std::string& name, const std::stri
       for (const Value& value : parse(text.substr(begin, end - begin))) {
         if (std::find(values.begin(), values.end(), value) != values.end()) {
           throw InputError(
-              fmt::format("{}: \"{}\" is there twice", name, text.substr(begin, end - begin)));
+              fmt::format("{}: \"{}\" is given twice", name, text.substr(begin, end - begin)));
         }
         values.push_back(value);
       }
@@ -244,13 +225,13 @@ std::vector<int> parse_directions(const std::string& text) {
   }
   const int first = number(text.substr(0, dots)), last = number(text.substr(dots + 2));
   if (last < first) {
-    throw InputError(fmt::format("--directions: \"{}\" ends before it begins", text));
+    throw InputError(fmt::format("--directions: \"{}\" is not an increasing range", text));
   }
-  std::vector<int> doubled;
+  std::vector<int> powers;
   for (int m = first; m <= last; m *= 2) {
-    doubled.push_back(m);
+    powers.push_back(m);
   }
-  return doubled;
+  return powers;
 }
 
 /// `fast`, or `zbuffer:256`.
@@ -265,7 +246,7 @@ StudiedEngine parse_engine(const std::string& text) {
 
 void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(command, "-m,--directions", "M,M,...",
-                  "passes of each solve; 16..1024 stands for 16,32,64,...,1024 (default "
+                  "numbers of passes; 16..1024 means 16,32,64,...,1024 (default "
                   "16,64,256,1024)",
                   call.directions, parse_directions);
   add_list_option(
@@ -273,10 +254,11 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       fmt::format("{} (default random,hammersley,fibonacci)", fmt::join(sampling_names(), " | ")),
       call.samplings,
       [](const std::string& text) { return std::vector{sampling_from_name(text)}; });
-  command.add_flag("--one-way", call.one_way, "use each direction alone, as the paper does");
-  command.add_flag("--two-way", call.two_way,
-                   "use each direction and its opposite in one pass (default); with --one-way: "
-                   "study both");
+  command.add_flag("--one-way", call.one_way, "use each pass for one direction, as in the paper");
+  command.add_flag(
+      "--two-way", call.two_way,
+      "use each pass for a direction and its opposite (default); with --one-way: study "
+      "both");
   add_list_option(command, "--normalize", "NAME,...",
                   fmt::format("{} (default none)", fmt::join(normalization_names(), " | ")),
                   call.normalizations, [](const std::string& text) {
@@ -286,24 +268,23 @@ void add_series_options(CLI::App& command, StudyCall& call) {
                   fmt::format("{} (default fixed)", fmt::join(scheme_names(), " | ")), call.schemes,
                   [](const std::string& text) { return std::vector{scheme_from_name(text)}; });
   add_list_option(command, "--first-shot", "RATIO,...",
-                  "none | auto | a number: small bright sources shot first, as solve does; the "
-                  "reference shoots where any series does (default none)",
+                  "none | auto | a number: treat small bright sources separately, as in solve; the "
+                  "reference does so if any series does (default none)",
                   call.first_shots,
                   [](const std::string& text) { return std::vector{first_shot_from_name(text)}; });
   add_parsed_option(command, "--rotations", "R",
-                    "solve each with R rotated sets: the RMS of their errors, the largest maximum "
-                    "(default 1: the set as it is)",
+                    "solve with R rotated sets each; gives the RMS of their errors and the largest "
+                    "maximum (default 1: one set, not rotated)",
                     [&call](const std::string& text) {
                       call.study.rotations =
                           static_cast<int>(parse_whole_number("--rotations", text, 1, 1000));
                     });
   add_parsed_option(
       command, "--seed", "S",
-      fmt::format("for samplings that are seeded, and rotations (default {})",
-                  call.study.solve.seed),
+      fmt::format("random seed of samplings and rotations (default {})", call.study.solve.seed),
       [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
   add_list_option(command, "--engines,--engine", "NAME[:R],...",
-                  fmt::format("{}; with R: of that --resolution (default {})",
+                  fmt::format("{}; R: its resolution, instead of --resolution (default {})",
                               fmt::join(engine_names(), " | "), name_of(Engine::fast)),
                   call.engines,
                   [](const std::string& text) { return std::vector{parse_engine(text)}; });
@@ -312,30 +293,32 @@ void add_series_options(CLI::App& command, StudyCall& call) {
 
 void add_error_options(CLI::App& command, StudyCall& call) {
   command.add_flag("--without-sources", call.study.without_sources,
-                   "leave patches that emit out of the errors");
+                   "exclude emitting patches from the errors");
   add_parsed_option(
       command, "--error", "NAME",
-      fmt::format("{}: the error that table and plots tell (default rms); the CSV has both",
+      fmt::format("{}: error in the table and the plots (default rms); the CSV has both",
                   fmt::join(error_measure_names(), " | ")),
       [&call](const std::string& text) { call.error = error_measure_from_name(text); });
 }
 
 void add_reference_options(CLI::App& command, StudyCall& call) {
   add_parsed_option(command, "--reference", "M",
-                    "compare with M passes of fibonacci, under a rotation of their own (default: "
-                    "four times the most that are studied)",
+                    "passes of the reference solution, with fibonacci directions under a separate "
+                    "rotation (default: four times the largest number studied)",
                     [&call](const std::string& text) {
                       call.reference = static_cast<int>(
                           parse_whole_number("--reference", text, 1, max_directions));
                     });
   auto* cache = command
                     .add_option("--cache", call.cache,
-                                "keep references there (default: $XDG_CACHE_HOME/transillum or "
-                                "~/.cache/transillum); files in it may be deleted at any time")
+                                "folder that stores reference solutions (default: "
+                                "$XDG_CACHE_HOME/transillum or ~/.cache/transillum); its files "
+                                "may be deleted at any time")
                     ->type_name("FOLDER");
   command
       .add_flag_callback(
-          "--no-cache", [&call] { call.cache.clear(); }, "neither look for references nor keep any")
+          "--no-cache", [&call] { call.cache.clear(); },
+          "neither read nor store reference solutions")
       ->excludes(cache);
 }
 
@@ -353,28 +336,30 @@ Run add_study_command(CLI::App& program) {
   add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
   command
       .add_option("-o,--out", call->out,
-                  "CSV: sampling,directions,passes,rms_error,max_error,bound, seconds,engine,"
+                  "CSV: sampling,directions,passes,rms_error,max_error,bound,seconds, engine,"
                   "resolution (default: a table on standard output)")
       ->type_name("FILE.csv");
   command
       .add_option("--plot", call->plots,
-                  "errors against passes, with slopes and the bound; .svg or .png by its ending; "
-                  "may be given several times")
+                  "plot of errors over passes, with slopes and the bound: .svg or .png, by its "
+                  "ending; may be given several times")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_parsed_option(
       command, "--against", "AXIS",
-      fmt::format("{}: what the plots show errors against (default passes); "
-                  "hemicubes are in those against seconds only",
+      fmt::format("{}: horizontal axis of the plots (default passes); hemicubes appear in plots "
+                  "over seconds only",
                   fmt::join(study_axis_names(), " | ")),
       [call](const std::string& text) { call->against = study_axis_from_name(text); });
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   command.footer(
-      "rms_error is the RMS of the error of B over the RMS of B, over patches; max_error the\n"
-      "largest over the largest B; bound eq. 37 with eq. 21; seconds processor time, of all\n"
-      "threads. Where more than the sampling differs, its name goes on: hammersley/one-way.\n"
-      "Ctrl-C saves the points so far and exits with 130.\n"
+      "rms_error: RMS over patches of the error of B, relative to the RMS of B; max_error: "
+      "largest\n"
+      "error, relative to the largest B; bound: eq. 37 with eq. 21; seconds: processor time of "
+      "all\n"
+      "threads. If series differ in more than the sampling, their names are extended, as in\n"
+      "hammersley/one-way. Ctrl-C saves the points so far and exits with status 130.\n"
       "Example: transillum study cornell-box --directions 16..1024 --sampling random,fibonacci \\\n"
       "  --out study.csv --plot study.svg");
   return [call] { return run(*call); };

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "progress_display.h"
+#include "report_text.h"
 #include "transillum/bounds.h"
 
 namespace transillum::cli {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t column = 8;
 
-std::string percent(double share) {
+std::string percent_text(double share) {
   if (!std::isfinite(share)) {
     return "-";
   }
@@ -31,7 +31,7 @@ std::string cost_text(const std::optional<StudyCost>& cost) {
                      time_text(cost->seconds));
 }
 
-/// No passes, but one solve.
+/// The row of a hemicube series: one solve, without passes.
 std::string hemicubes_text(const std::string& name, std::size_t width,
                            const std::vector<StudyPoint>& points, ErrorMeasure error) {
   if (points.empty()) {
@@ -39,7 +39,7 @@ std::string hemicubes_text(const std::string& name, std::size_t width,
   }
   const StudyPoint& point = points.front();
   return fmt::format("{:<{}}  {} % by {} hemicubes of {} pixels, {}\n", name, width,
-                     percent(point.error(error)), point.passes, point.directions,
+                     percent_text(point.error(error)), point.passes, point.directions,
                      time_text(point.seconds));
 }
 
@@ -59,7 +59,7 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
   for (const std::string& name : names) {
     width = std::max(width, name.size());
   }
-  std::string text = fmt::format("{} error of B in %{}, by passes\n{:<{}}",
+  std::string text = fmt::format("{} error of B in %{}, by number of passes\n{:<{}}",
                                  error == ErrorMeasure::rms ? "RMS" : "Largest",
                                  options.without_sources ? ", without sources" : "", "", width);
   for (const auto& [passes, bound] : bounds) {
@@ -77,7 +77,8 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
     for (const auto& [passes, bound] : bounds) {
       const auto at = std::find_if(points.begin(), points.end(),
                                    [m = passes](auto& point) { return point.passes == m; });
-      text += fmt::format("{:>{}}", at == points.end() ? "" : percent(at->error(error)), column);
+      text +=
+          fmt::format("{:>{}}", at == points.end() ? "" : percent_text(at->error(error)), column);
     }
     const auto law = fitted_power_law(points, error);
     text += fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-",
@@ -86,7 +87,7 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
   }
   text += fmt::format("{:<{}}", "bound (eq. 37)", width);
   for (const auto& [passes, bound] : bounds) {
-    text += fmt::format("{:>{}}", percent(bound), column);
+    text += fmt::format("{:>{}}", percent_text(bound), column);
   }
 
   const SceneMeasures measures = measure(scene);
@@ -95,8 +96,9 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
   }
   const auto most = static_cast<double>(bounds.rbegin()->first);
   text += fmt::format(
-      "\nIn any environment (eq. 43; rho {:.3g}, R2/A {:.3g}) {:.0f} directions are proven to be "
-      "within {:.2g} %.\n",
+      "\nGuaranteed error of {2:.0f} directions in any environment (eq. 43; rho {0:.3g}, R2/A "
+      "{1:.3g}): "
+      "{3:.2g} %\n",
       measures.rho_max, measures.size_ratio, most,
       100 * heterogeneous_error_bound(measures.rho_max, measures.size_ratio,
                                       star_discrepancy_bound(most)));

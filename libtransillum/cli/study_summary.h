@@ -7,7 +7,7 @@
 
 namespace transillum::cli {
 
-/// A table for people: RMS errors, slopes, and what 1 % and 0.1 % cost.
+/// The study as a text table: errors, slopes, and the passes and time to reach 1 % and 0.1 %.
 std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
                           ErrorMeasure error);
 

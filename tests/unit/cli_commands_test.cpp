@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Every command of the program `transillum`, run as a process: help, output files and reports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ std::vector<std::vector<double>> numbers(const std::string& csv) {
   return rows;
 }
 
-TEST(CliHelp, EveryCommandExplainsItself) {
+TEST(CliHelp, EveryCommandHasHelpWithAnExample) {
   const ProgramResult all = run_program({"--help"});
   EXPECT_EQ(all.status, 0);
   EXPECT_EQ(all.err, "");
@@ -48,7 +49,7 @@ TEST(CliHelp, EveryCommandExplainsItself) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
   for (const char* command :
-       {"scene", "solve", "transfers", "map", "factors", "directions", "study", "info"}) {
+       {"scene", "solve", "transfers", "map", "factors", "directions", "bounds", "study", "info"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
@@ -66,7 +67,7 @@ TEST(CliHelp, VersionIsOneLine) {
   EXPECT_THAT(result.out, ::testing::MatchesRegex("transillum [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
-TEST(CliSolve, WritesEveryFormatAndNothingElse) {
+TEST(CliSolve, WritesEveryFormatAndNoOtherFiles) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"solve", "furnace", "-m", "16", "--out", folder / "a.csv", "--out", folder / "a.vtp",
@@ -79,7 +80,7 @@ TEST(CliSolve, WritesEveryFormatAndNothingElse) {
             "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b");
 }
 
-TEST(CliSolve, TheFurnaceIsAtTwo) {
+TEST(CliSolve, FurnaceHasRadiosityTwo) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"solve", "furnace", "-m", "16", "--normalize", "rows", "--tolerance",
                          "1e-12", "--quiet", "--out", folder / "a.csv"})
@@ -91,14 +92,14 @@ TEST(CliSolve, TheFurnaceIsAtTwo) {
   }
 }
 
-TEST(CliSolve, WithoutOutTheSummaryIsTheResult) {
+TEST(CliSolve, PrintsTheSummaryWithoutAnOutputFile) {
   const ProgramResult result = run_program({"solve", "furnace", "-m", "8"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, HasSubstr("energy defect"));
   EXPECT_EQ(result.err, "");
 }
 
-TEST(CliSolve, ThreadsAndMemoryDoNotChangeABit) {
+TEST(CliSolve, ResultsDoNotDependOnThreadsAndMemory) {
   const TemporaryFolder folder;
   const auto solve = [&](const std::string& name, std::vector<std::string> more) {
     std::vector<std::string> arguments{"solve", "boards", "-m",         "32", "--max-patch-area",
@@ -111,33 +112,34 @@ TEST(CliSolve, ThreadsAndMemoryDoNotChangeABit) {
   EXPECT_GT(line_count(one), 10U);
   EXPECT_EQ(solve("2.csv", {"--threads", "2"}), one);
   EXPECT_EQ(solve("7.csv", {"--threads", "7"}), one);
-  // Without kept form factors the sums come in another order: the same to rounding.
-  const auto kept = numbers(one), anew = numbers(solve("0.csv", {"--memory", "0"}));
-  ASSERT_EQ(kept.size(), anew.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
+  // Without stored form factors the order of summation differs: equal to rounding.
+  const auto stored = numbers(one), recomputed = numbers(solve("0.csv", {"--memory", "0"}));
+  ASSERT_EQ(stored.size(), recomputed.size());
+  for (std::size_t i = 0; i < stored.size(); ++i) {
     for (std::size_t k = 9; k < 12; ++k) {
-      EXPECT_NEAR(kept[i][k], anew[i][k], 1e-5 * kept[i][k]);
+      EXPECT_NEAR(stored[i][k], recomputed[i][k], 1e-5 * stored[i][k]);
     }
   }
 }
 
-TEST(CliSolve, TellsOfTheFirstShot) {
+TEST(CliSolve, ReportsTheFirstShot) {
   const TemporaryFolder folder;
-  for (const auto& [how, sources] : {std::pair{"none", 0}, {"auto", 16}, {"1e9", 0}, {"0", 16}}) {
+  for (const auto& [ratio, sources] : {std::pair{"none", 0}, {"auto", 16}, {"1e9", 0}, {"0", 16}}) {
     const ProgramResult result = run_program(
-        {"solve", "stars:n=2", "-m", "8", "--first-shot", how, "--stats", folder / "s.json"});
+        {"solve", "stars:n=2", "-m", "8", "--first-shot", ratio, "--stats", folder / "s.json"});
     ASSERT_EQ(result.status, 0) << result.err;
-    const bool told = result.out.find("first shot       16 patches, 100 %") != std::string::npos;
-    EXPECT_EQ(told, sources > 0) << result.out;
+    const bool reported =
+        result.out.find("first shot         16 patches, 100 %") != std::string::npos;
+    EXPECT_EQ(reported, sources > 0) << result.out;
     const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
     EXPECT_EQ(json.at("first_shot").at("sources"), sources);
     EXPECT_EQ(json.at("first_shot").at("power_share"), sources > 0 ? 1.0 : 0.0);
-    EXPECT_EQ(json.at("options").at("first_shot").is_null(), std::string(how) == "none");
+    EXPECT_EQ(json.at("options").at("first_shot").is_null(), std::string(ratio) == "none");
     EXPECT_TRUE(json.at("seconds").at("first_shot").is_number());
   }
 }
 
-TEST(CliSolve, StatisticsHaveTheNamesOfTheContract) {
+TEST(CliSolve, StatisticsHaveTheDocumentedKeys) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "16", "--iterations", "4", "--threads", "1",
                          "--stats", folder / "s.json"})
@@ -173,7 +175,7 @@ TEST(CliSolve, OneWayUsesHalfTheDirections) {
   EXPECT_EQ(json.at("options").at("sampling"), "hammersley");
 }
 
-TEST(CliSolve, RotationChangesTheErrorOnly) {
+TEST(CliSolve, RotationChangesOnlyTheError) {
   const TemporaryFolder folder;
   for (const char* seed : {"1", "2"}) {
     ASSERT_EQ(run_program({"solve", "cornell-box", "-m", "300", "--rotate", seed, "--out",
@@ -204,7 +206,7 @@ TEST(CliSolve, TwoSidedFacesGiveTwoPatchesEach) {
   }
 }
 
-TEST(CliScene, WhatIsWrittenSolvesToTheSame) {
+TEST(CliScene, WrittenSceneHasTheSameSolution) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"scene", "cornell-box", "--out", folder / "box.obj"}).status, 0);
   EXPECT_THAT(folder.names(), ElementsAre("box.mtl", "box.obj"));
@@ -227,8 +229,8 @@ TEST(CliTransfers, RowsOfAReceiverSumToItsProjectedArea) {
     EXPECT_GT(row[2], 0);
     sums[static_cast<int>(row[0])] += row[2];
   }
-  // The floor and the tops of the blocks look straight along the direction, and see as much as
-  // they measure: together a whole floor.
+  // The normals of the floor and of the tops of the blocks are the direction, so their projected
+  // areas are their areas: together a whole floor.
   double upward = 0;
   for (const auto& [receiver, sum] : sums) {
     const double area = patches.at(static_cast<std::size_t>(receiver))[2];
@@ -240,7 +242,7 @@ TEST(CliTransfers, RowsOfAReceiverSumToItsProjectedArea) {
   EXPECT_NEAR(upward, 0.556 * 0.5592, 1e-12);
 }
 
-TEST(CliTransfers, LengthAndFormOfTheDirectionDoNotMatter) {
+TEST(CliTransfers, DoNotDependOnLengthAndFormOfTheDirection) {
   const auto transfers = [](const std::string& direction) {
     const ProgramResult result = run_program({"transfers", "furnace", "--direction", direction});
     EXPECT_EQ(result.status, 0) << result.err;
@@ -252,7 +254,7 @@ TEST(CliTransfers, LengthAndFormOfTheDirectionDoNotMatter) {
   EXPECT_EQ(transfers("+1e-310,0,0"), transfers("1,0,0"));
 }
 
-TEST(CliMap, WritesEveryFormatAndNothingElse) {
+TEST(CliMap, WritesEveryFormatAndNoOtherFiles) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"map", "cornell-box", "--direction", "-1,2,3", "--out", folder / "a.svg", "--out",
@@ -264,8 +266,8 @@ TEST(CliMap, WritesEveryFormatAndNothingElse) {
   EXPECT_THAT(read_file(folder / "a.svg"), HasSubstr("Visibility map of cornell-box"));
 }
 
-/// What the picture of a receiver holds is what `transfers` tells of it.
-TEST(CliMap, OfAReceiverIsItsRowOfTransfers) {
+/// The areas in the map of a receiver are its transfers.
+TEST(CliMap, OfAReceiverHasTheAreasOfItsTransfers) {
   const TemporaryFolder folder;
   const std::vector<std::string> where{"rooms", "--direction", "0.4,-0.2,-1"};
   const auto run = [&](const char* command, std::vector<std::string> more) {
@@ -299,7 +301,7 @@ TEST(CliMap, OfAReceiverIsItsRowOfTransfers) {
   }
 }
 
-TEST(CliMap, SaysWhyAMapIsEmpty) {
+TEST(CliMap, ReportsWhyAMapIsEmpty) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"map", "furnace", "--direction", "1,0,0", "--receiver", "0", "--out", folder / "m.svg"});
@@ -359,7 +361,7 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
             rays);
   const auto hemicubes = factors({"--engine", "hemicube", "--resolution", "128"});
   EXPECT_TRUE(std::is_sorted(hemicubes.begin(), hemicubes.end()));
-  // From the middles of such large patches much is seen otherwise, but as much.
+  // From the centers of such large patches the visible areas differ, but rows still sum to 1.
   sums.clear();
   for (const auto& row : hemicubes) {
     sums[row[0]] += row[2];
@@ -369,18 +371,18 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
   }
 }
 
-TEST(CliSolve, HemicubesTakeThePlaceOfPasses) {
+TEST(CliSolve, HemicubesReplacePasses) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"solve", "cornell-box", "--engine", "hemicube", "--resolution", "32", "--out",
                    folder / "b.csv", "--stats", folder / "s.json"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("27 of 3072 pixels"));
+  EXPECT_THAT(result.err, HasSubstr("27 of 3072 pixels each"));
   EXPECT_THAT(folder.names(), ElementsAre("b.csv", "s.json"));
   EXPECT_THAT(read_file(folder / "s.json"), HasSubstr("\"resolution\": 32"));
 }
 
-TEST(CliFactors, MemoryTooSmallIsAFailureWithoutAFile) {
+TEST(CliFactors, FailWithoutAFileIfTheMemoryIsTooSmall) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"factors", "furnace", "-m", "8", "--memory", "10", "--out", folder / "f.csv"});
@@ -389,7 +391,7 @@ TEST(CliFactors, MemoryTooSmallIsAFailureWithoutAFile) {
   EXPECT_EQ(folder.names().size(), 0U);
 }
 
-TEST(CliDirections, ArePointsOfTheUnitSphere) {
+TEST(CliDirections, ArePointsOnTheUnitSphere) {
   const TemporaryFolder folder;
   for (const std::string& sampling : sampling_names()) {
     ASSERT_EQ(
@@ -408,23 +410,23 @@ TEST(CliDirections, ArePointsOfTheUnitSphere) {
   }
 }
 
-TEST(CliDirections, RotateTurnsTheWholeSet) {
+TEST(CliDirections, RotateAppliesOneRotationToTheSet) {
   const auto rows = [](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"directions", "-m", "9"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return numbers(run_program(arguments).out);
   };
-  const auto straight = rows({}), turned = rows({"--rotate", "3"});
-  ASSERT_EQ(turned.size(), 9U);
-  EXPECT_NE(turned[1], straight[1]);
-  EXPECT_NE(turned[1], rows({"--rotate", "4"})[1]);
-  const auto angle = [](const auto& a, const auto& b) {
+  const auto original = rows({}), rotated = rows({"--rotate", "3"});
+  ASSERT_EQ(rotated.size(), 9U);
+  EXPECT_NE(rotated[1], original[1]);
+  EXPECT_NE(rotated[1], rows({"--rotate", "4"})[1]);
+  const auto cosine = [](const auto& a, const auto& b) {
     return a[2] * b[2] + a[3] * b[3] + a[4] * b[4];
   };
-  EXPECT_NEAR(angle(turned[1], turned[7]), angle(straight[1], straight[7]), 1e-15);
+  EXPECT_NEAR(cosine(rotated[1], rotated[7]), cosine(original[1], original[7]), 1e-15);
 }
 
-TEST(CliDirections, StatsTellDiscrepanciesAndErrors) {
+TEST(CliDirections, StatsReportDiscrepanciesAndErrors) {
   const ProgramResult text = run_program({"directions", "-m", "64", "--stats"});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, ::testing::ContainsRegex("star discrepancy +3.617e-02 "));
@@ -460,16 +462,16 @@ TEST(CliBounds, PrintsTheThreeTables) {
   EXPECT_THAT(result.out, row("0.6 +5700 +5855 +88\n"));
   EXPECT_THAT(result.out, row("0.6 +1.80e\\+07 +1.76e\\+07 +8.08e\\+06\n"));
 
-  // The paper's figures only where the question is the paper's.
+  // The paper's values are printed only for the paper's accuracy and size ratio.
   const ProgramResult other = run_program(
       {"bounds", "--reflectance", "0.6", "--accuracy", "0.02", "--size-ratio", "9", "-m", "256"});
   EXPECT_THAT(other.out, row("0.6 +37 +37 "));
   EXPECT_THAT(other.out, row("0.6 +- +[0-9]+ +[0-9]+\n"));
-  EXPECT_THAT(other.out, row("contraction a step .* 0.670312 +0.60"));
-  EXPECT_THAT(other.out, HasSubstr("To reach 2 % you need at most"));
+  EXPECT_THAT(other.out, row("contraction per iteration .* 0.670312 +0.60"));
+  EXPECT_THAT(other.out, HasSubstr("Directions for 2 %"));
 }
 
-TEST(CliBounds, TakesReflectanceAndSizeFromAScene) {
+TEST(CliBounds, UsesReflectanceAndSizeOfAScene) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"bounds", "furnace", "--out", folder / "b.json"}).out, "");
   const auto json = nlohmann::json::parse(read_file(folder / "b.json"));
@@ -482,7 +484,7 @@ TEST(CliBounds, TakesReflectanceAndSizeFromAScene) {
               1e-12);
 }
 
-TEST(CliBounds, EstimatesFromARunWhatIsStillToDo) {
+TEST(CliBounds, EstimatesDirectionsFromASolveRun) {
   const TemporaryFolder folder;
   write_text(folder / "run.json",
              R"({"scene": "rooms", "passes": 400, "options": {"sampling": "random"},
@@ -518,7 +520,7 @@ TEST(CliBounds, EstimatesFromARunWhatIsStillToDo) {
   }
 }
 
-TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
+TEST(CliInfo, ReportsCountsClosednessAndReversedFaces) {
   const ProgramResult closed = run_program({"info", "furnace"});
   EXPECT_EQ(closed.status, 0) << closed.err;
   EXPECT_THAT(closed.out, ::testing::ContainsRegex("faces +12\n"));
@@ -530,14 +532,14 @@ TEST(CliInfo, TellsCountsClosednessAndTurnedFaces) {
   write_text(folder / "one.obj",
              "mtllib one.mtl\nusemtl gray\n"
              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-             "f 1 2 3 4\nf 5 6 7 8\n");  // both look up
+             "f 1 2 3 4\nf 5 6 7 8\n");  // both face up
   const ProgramResult open = run_program({"info", folder / "one.obj"});
   EXPECT_EQ(open.status, 0) << open.err;
   EXPECT_THAT(open.out, ::testing::ContainsRegex("closed +no"));
   EXPECT_THAT(open.out, ::testing::ContainsRegex("seen from behind +1 face:\n +face 1 "));
 }
 
-TEST(CliInfo, NamesFacesThatLieOverOthers) {
+TEST(CliInfo, ReportsOverlappingCoplanarFaces) {
   EXPECT_THAT(run_program({"info", "boards"}).out, ::testing::Not(HasSubstr("coplanar overlap")));
   const TemporaryFolder folder;
   write_text(folder / "two.obj",
@@ -546,7 +548,7 @@ TEST(CliInfo, NamesFacesThatLieOverOthers) {
   const ProgramResult two = run_program({"info", folder / "two.obj"});
   EXPECT_EQ(two.status, 0) << two.err;
   EXPECT_THAT(two.out, ::testing::ContainsRegex(
-                           "coplanar overlap +1 pair of patches:\n +face [01] +lies over face "
+                           "coplanar overlap +1 pair of patches:\n +face [01] +overlaps face "
                            "[01], 1 m2"));
 }
 

@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Invalid arguments and scenes: exit status 2, one line on stderr, and no output.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,25 +12,25 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-struct WrongCall {
+struct InvalidCall {
   std::vector<std::string> arguments;
-  std::string complaint;  ///< part of the message
+  std::string expected;  ///< part of the message
 };
 
 /// Exit status 2, one line on stderr, nothing on stdout.
-void expect_refused(const std::vector<std::string>& arguments, const std::string& complaint) {
+void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
   SCOPED_TRACE(::testing::PrintToString(arguments));
   const ProgramResult result = run_program(arguments);
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(line_count(result.err), 1U) << result.err;
   EXPECT_THAT(result.err, StartsWith("transillum: "));
-  EXPECT_THAT(result.err, HasSubstr(complaint));
+  EXPECT_THAT(result.err, HasSubstr(expected));
 }
 
-TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
-  const WrongCall calls[] = {
-      {{}, "which command?"},
+TEST(CliErrors, InvalidArgumentsGiveOneLineAndStatus2) {
+  const InvalidCall calls[] = {
+      {{}, "no command given"},
       {{"solv"}, "did you mean \"solve\"?"},
       {{"factor"}, "did you mean \"factors\"?"},
       {{"factors"}, "SCENE is required"},
@@ -87,7 +88,7 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"solve", "furnace", "--threads", "100000"}, "--threads"},
       {{"solve", "furnace", "--out", "a.txt"}, ".csv, .vtp, .ply or .obj"},
       {{"solve", "furnace", "--out", "/no/such/folder/a.csv"}, "/no/such/folder"},
-      {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "named twice"},
+      {{"solve", "furnace", "--out", "a.csv", "--out", "./a.csv"}, "given twice"},
       {{"solve", "furnace", "--stats", "/no/such/folder/a.json"}, "/no/such/folder"},
       {{"solve", "furnace", "--stats", "a.csv"}, "a.csv: statistics are JSON"},
       {{"solve", "no-such-scene.obj"}, "no-such-scene.obj"},
@@ -111,7 +112,7 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"map", "furnace", "--direction", "0,0,1", "--out", "m.pdf"}, ".svg, .vtp, .png or .json"},
       {{"map", "furnace", "--direction", "0,0,0", "--out", "m.svg"}, "not all 0"},
       {{"map", "furnace", "--direction", "0,0,1", "--receiver", "77", "--out", "m.svg"},
-       "no patch 77 of 12"},
+       "no patch 77; patches are numbered 0 to 11"},
       {{"map", "furnace", "--direction", "0,0,1", "--receiver", "-1", "--out", "m.svg"},
        "--receiver"},
       {{"map", "furnace", "--direction", "0,0,1", "--size", "10", "--out", "m.svg"}, "--size"},
@@ -128,12 +129,12 @@ TEST(CliErrors, WrongCallsGetOneLineAndStatus2) {
       {{"bounds", "--size-ratio", "nan"}, "--size-ratio"},
       {{"bounds", "--out", "b.txt"}, ".json"},
   };
-  for (const WrongCall& call : calls) {
-    expect_refused(call.arguments, call.complaint);
+  for (const InvalidCall& call : calls) {
+    expect_refused(call.arguments, call.expected);
   }
 }
 
-TEST(CliErrors, BadScenesAreRefusedAndLeaveOutputsAlone) {
+TEST(CliErrors, InvalidScenesAreRefusedAndOutputFilesKept) {
   const TemporaryFolder folder;
   const std::string result = folder / "result.csv";
   const std::string scenes[] = {
@@ -151,12 +152,12 @@ TEST(CliErrors, BadScenesAreRefusedAndLeaveOutputsAlone) {
   }
 }
 
-TEST(CliErrors, TheSceneItselfIsNotOverwritten) {
+TEST(CliErrors, SceneFileIsNotOverwritten) {
   const TemporaryFolder folder;
   const std::string scene = folder / "furnace.obj";
   ASSERT_EQ(run_program({"scene", "furnace", "--out", scene}).status, 0);
   const std::string before = read_file(scene);
-  expect_refused({"solve", scene, "--out", scene}, "the scene itself");
+  expect_refused({"solve", scene, "--out", scene}, "would overwrite the scene file");
   EXPECT_EQ(read_file(scene), before);
 }
 
@@ -164,7 +165,7 @@ TEST(CliErrors, ControlCharactersDoNotBreakTheLine) {
   expect_refused({"solve", "two\nlines\x1b[31m.obj"}, "two");
 }
 
-TEST(CliErrors, StandardOutputThatTakesNothingIsAFailure) {
+TEST(CliErrors, UnwritableStandardOutputIsAFailure) {
   const ProgramResult result = run_program({"directions", "-m", "4"}, "/dev/full");
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("standard output"));

@@ -15,21 +15,21 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// Many minutes of work on a scene that loads at once, and whose directions are soon made under any
-/// sanitizer.
+/// A solve of many minutes on a scene that loads quickly, with directions that are computed quickly
+/// even under sanitizers.
 std::vector<std::string> long_solve(const TemporaryFolder& folder) {
   return {"solve", "rooms",          "-m",      "1000000",        "--max-patch-area", "0.2",
           "--out", folder / "a.csv", "--stats", folder / "a.json"};
 }
 
-/// Until the first progress line, which is written once passes run.
+/// Waits for the first progress line, which is written during the passes.
 void wait_for_passes(const RunningProgram& program) {
   for (int k = 0; k < 600 && program.err_so_far().find("passes/s") == std::string::npos; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 }
 
-TEST(CliInterruption, SavesWhatThereIsAndExitsWith130) {
+TEST(CliInterruption, SavesResultsSoFarAndExitsWith130) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     RunningProgram program(long_solve(folder));
@@ -47,7 +47,7 @@ TEST(CliInterruption, SavesWhatThereIsAndExitsWith130) {
   }
 }
 
-TEST(CliInterruption, BeforeTheFirstPassNothingIsWritten) {
+TEST(CliInterruption, WritesNothingBeforeTheFirstPass) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=3", "--out", folder / "a.csv"});
   for (int k = 0; k < 6000 && !program.catches(SIGINT); ++k) {
@@ -60,8 +60,8 @@ TEST(CliInterruption, BeforeTheFirstPassNothingIsWritten) {
   EXPECT_THAT(folder.names(), ::testing::IsEmpty());
 }
 
-/// An incomplete matrix has no B.
-TEST(CliInterruption, HemicubesSaveNothingAndSayWhy) {
+/// B requires the complete matrix.
+TEST(CliInterruption, HemicubesSaveNothingAndReportWhy) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=1", "--engine", "hemicube", "--resolution",
                           "1024", "--out", folder / "a.csv"});
@@ -71,7 +71,7 @@ TEST(CliInterruption, HemicubesSaveNothingAndSayWhy) {
   program.send(SIGINT);
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.status, 130) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("% of the hemicubes were drawn, and B takes all of them"));
+  EXPECT_THAT(result.err, HasSubstr("% of the hemicubes were drawn, but B requires all of them"));
   EXPECT_THAT(folder.names(), ::testing::IsEmpty());
 }
 

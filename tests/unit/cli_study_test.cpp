@@ -1,4 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// `transillum study`, run as a process: CSV, plots, cached references, errors and interruption.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -30,7 +31,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(CliStudy, WritesTheTableOfTheContract) {
+TEST(CliStudy, WritesTheDocumentedTable) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"study", "furnace", "--directions", "8..32", "--sampling", "random,hammersley",
@@ -49,7 +50,7 @@ TEST(CliStudy, WritesTheTableOfTheContract) {
   EXPECT_THAT(lines[12], StartsWith("hammersley/two-way,64,32,"));
 }
 
-TEST(CliStudy, StudiesEnginesSideBySide) {
+TEST(CliStudy, ComparesEngines) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"study", "furnace", "--directions", "8,16", "--sampling", "fibonacci,hammersley",
@@ -59,7 +60,7 @@ TEST(CliStudy, StudiesEnginesSideBySide) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("12 hemicubes of 768 pixels"));
   const auto lines = lines_of(read_file(folder / "s.csv"));
-  // Hemicubes take neither samplings nor numbers of directions.
+  // Samplings and numbers of directions do not apply to hemicubes.
   ASSERT_THAT(lines, SizeIs(1 + 2 * 3 * 2 + 2));
   EXPECT_THAT(lines,
               Contains(AllOf(StartsWith("fibonacci/zbuffer:64,32,16,"), EndsWith(",zbuffer,64"))));
@@ -69,7 +70,7 @@ TEST(CliStudy, StudiesEnginesSideBySide) {
   EXPECT_THAT(read_file(folder / "s.svg"), Not(HasSubstr("nan")));
 }
 
-TEST(CliStudy, KeepsReferencesUnlessTold) {
+TEST(CliStudy, CachesReferences) {
   const TemporaryFolder folder;
   const auto study = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"study",      "furnace",       "--directions", "8",
@@ -81,31 +82,30 @@ TEST(CliStudy, KeepsReferencesUnlessTold) {
     return result.out.substr(0, result.out.find("slope"));
   };
   const std::string table = study({});
-  const TemporaryFolder& kept = folder;
-  ASSERT_THAT(kept.names(), ElementsAre("cache"));
+  ASSERT_THAT(folder.names(), ElementsAre("cache"));
   EXPECT_EQ(study({}), table);
-  // A folder that cannot be made costs the cache, not the study.
+  // If the folder cannot be created, the study still runs.
   const ProgramResult result = run_program(
       {"study", "furnace", "--directions", "8", "--reference", "16", "--cache", "/dev/null/cache"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("the reference is not cached"));
 }
 
-TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
+TEST(CliStudy, InvalidArgumentsGiveOneLineAndStatus2) {
   const std::pair<std::vector<std::string>, std::string> calls[] = {
       {{}, "SCENE is required"},
       {{"furnace", "--directions", "16,"}, "--directions: \"\""},
       {{"furnace", "--directions", "16,0"}, "--directions: \"0\""},
-      {{"furnace", "--directions", "64..16"}, "ends before it begins"},
-      {{"furnace", "--directions", "16..32,32"}, "there twice"},
+      {{"furnace", "--directions", "64..16"}, "not an increasing range"},
+      {{"furnace", "--directions", "16..32,32"}, "given twice"},
       {{"furnace", "--sampling", "random,fibonaci"}, "unknown sampling \"fibonaci\""},
-      {{"furnace", "--sampling", "random,random"}, "there twice"},
+      {{"furnace", "--sampling", "random,random"}, "given twice"},
       {{"furnace", "--normalize", "symmetric", "--one-way"}, "both ways"},
       {{"furnace", "--scheme", "quick"}, "fixed, growing"},
       {{"furnace", "--first-shot", "auto,soon"}, "none, auto or a number"},
       {{"furnace", "--error", "least"}, "rms, max"},
       {{"furnace", "--engines", "fast,fest"}, "unknown engine \"fest\""},
-      {{"furnace", "--engines", "fast,fast"}, "there twice"},
+      {{"furnace", "--engines", "fast,fast"}, "given twice"},
       {{"furnace", "--engines", "zbuffer:0"}, "\"0\""},
       {{"furnace", "--engines", "hemicube:63"}, "63 is not an even number"},
       {{"furnace", "--engines", "hemicube", "--scheme", "growing"}, "no directions"},
@@ -114,10 +114,10 @@ TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
       {{"furnace", "--reference", "0"}, "--reference: \"0\""},
       {{"furnace", "--no-cache", "--cache", "x"}, "excludes"},
       {{"furnace", "--plot", "s.pdf"}, "must end in .svg or .png"},
-      {{"furnace", "--out", "s.svg", "--plot", "s.svg"}, "named twice"},
+      {{"furnace", "--out", "s.svg", "--plot", "s.svg"}, "given twice"},
       {{"furnace", "--out", "/no/such/folder/s.csv"}, "/no/such/folder"},
   };
-  for (const auto& [more, complaint] : calls) {
+  for (const auto& [more, expected] : calls) {
     std::vector<std::string> arguments{"study"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     SCOPED_TRACE(::testing::PrintToString(arguments));
@@ -125,16 +125,16 @@ TEST(CliStudy, WrongCallsGetOneLineAndStatus2) {
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(line_count(result.err), 1U) << result.err;
-    EXPECT_THAT(result.err, HasSubstr(complaint));
+    EXPECT_THAT(result.err, HasSubstr(expected));
   }
 }
 
-TEST(CliStudy, CombinationsThatDoNotGoTogetherAreLeftOut) {
+TEST(CliStudy, SkipsInvalidCombinations) {
   const ProgramResult result = run_program({"study", "furnace", "--directions", "8", "--sampling",
                                             "fibonacci", "--one-way", "--two-way", "--normalize",
                                             "none,symmetric", "--reference", "16", "--no-cache"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, HasSubstr("left out: normalize: symmetric wants directions used both"));
+  EXPECT_THAT(result.err, HasSubstr("skipped: normalize: symmetric wants directions used both"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/two-way/symmetric"));
   EXPECT_THAT(result.out, Not(HasSubstr("one-way/symmetric")));
 }
@@ -145,12 +145,13 @@ TEST(CliStudy, ComparesWithAndWithoutAFirstShot) {
       {"study", "stars", "--directions", "16", "--sampling", "fibonacci", "--first-shot",
        "none,auto", "--without-sources", "--error", "max", "--reference", "64", "--no-cache"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, StartsWith("Largest error of B in %, without sources, by passes"));
+  EXPECT_THAT(result.out,
+              StartsWith("Largest error of B in %, without sources, by number of passes"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/no-shot"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/first-shot 1000"));
 }
 
-TEST(CliStudy, InterruptedItSavesThePointsSoFar) {
+TEST(CliStudy, SavesPointsSoFarWhenInterrupted) {
   const TemporaryFolder folder;
   RunningProgram program({"study", "rooms", "--max-patch-area", "0.2", "--directions", "1,1000000",
                           "--sampling", "fibonacci", "--reference", "4", "--no-cache", "--out",

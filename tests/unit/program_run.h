@@ -9,7 +9,7 @@
 
 namespace transillum::testing {
 
-/// A folder of its own for one test, gone with it.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -19,7 +19,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// The names of what is in it, sorted; hidden files too.
+  /// The names of its entries, sorted, including hidden files.
   std::vector<std::string> names() const;
 
  private:
@@ -29,21 +29,21 @@ class TemporaryFolder {
 std::string read_file(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
 
-/// What a run of the program `transillum` left.
+/// The result of a run of the program `transillum`.
 struct ProgramResult {
-  int status = -1;  ///< exit status; 128 + signal where one ended it
+  int status = -1;  ///< exit status; 128 + signal number if a signal ended it
   std::string out, err;
 };
 
-/// A running program `transillum`, its streams kept in files.
+/// A process of the program `transillum`; its output is stored in files.
 class RunningProgram {
  public:
-  /// @param out where standard output goes; empty: kept for the result
+  /// @param out file for standard output; empty: ProgramResult::out
   explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {});
   void send(int signal) const;
-  /// Whether it has got so far as to take a signal as a wish, not as its end.
+  /// Whether the process has installed a handler for the signal.
   bool catches(int signal) const;
-  /// Text on stderr so far.
+  /// The text on stderr so far.
   std::string err_so_far() const;
   ProgramResult wait();
 

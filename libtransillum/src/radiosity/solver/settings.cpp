@@ -40,7 +40,7 @@ std::vector<Setting> engine_settings(const SolveOptions& solve, const EngineOpti
       {"lines", "a number", "engine rays: lines per patch and direction",
        fmt::to_string(engine.lines_per_patch), false},
       {"order", "a name",
-       "engine painter: order of the patches; newell fails if patches overlap in a cycle",
+       "engine painter: order of the patches (newell fails if patches overlap in a cycle)",
        name_of(engine.order), false},
       {"random-lines", "yes or no",
        "engine rays: random lines instead of one in each cell of a grid",

@@ -1,0 +1,19 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string>
+
+#include "transillum/vec3.h"
+
+namespace transillum::cli {
+
+/// A line of a report: a name, padded to a column, and its value.
+std::string report_row(const std::string& name, const std::string& value);
+
+/// The three channels, with the given number of significant digits.
+std::string rgb_text(const Rgb& color, int digits);
+
+/// 75 s -> "1:15 min".
+std::string time_text(double seconds);
+
+}  // namespace transillum::cli
