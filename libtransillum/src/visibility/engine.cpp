@@ -72,8 +72,7 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
       return corrected_engine(std::move(scene), std::move(tree));
     case Engine::hemicube:
       throw InputError(
-          "engine hemicube: it draws what each patch sees, and has no directions; `solve`, "
-          "`factors` and `study` take it");
+          "engine hemicube: it has no directions; it draws the scene as seen from each patch");
   }
   throw InputError("no such engine");
 }
