@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Compares two engines on the direction in focus. Their transfers come from EngineComparer; the
+// maps are painted by MapCanvas, the difference by DifferencePicture.
 #include "map/compare_view.h"
 
 #include <QComboBox>

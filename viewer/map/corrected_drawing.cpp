@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Draws a CorrectedMap: whole fragments, the farthest first, by open share or by its error.
 #include "map/corrected_drawing.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "transillum/at.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -78,10 +79,9 @@ double DifferencePicture::share(PatchId patch) const {
   if (!comparison_ || !comparison_->ok()) {
     return -1;
   }
-  const auto i = static_cast<std::size_t>(patch);
-  const double projected = comparison_->projected[i];
+  const double projected = at(comparison_->projected, patch);
   // What one patch loses another gains, so half of the difference belongs to this patch.
-  return projected > 0 ? comparison_->transfers.differences[i] / (2 * projected) : 0;
+  return projected > 0 ? at(comparison_->transfers.differences, patch) / (2 * projected) : 0;
 }
 
 }  // namespace transillum::viewer

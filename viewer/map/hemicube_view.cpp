@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Renders the hemicube of the selected patch on a worker thread and shows it unfolded. The image
+// comes from render_hemicube(), the errors from with_exact().
 #include "map/hemicube_view.h"
 
 #include <QHelpEvent>
@@ -201,12 +204,11 @@ bool HemicubeView::event(QEvent* event) {
     QToolTip::hideText();
     return true;
   }
-  const auto k = static_cast<std::size_t>(patch);
   QString text = tr("Patch %1: form factor %2")
                      .arg(patch)
-                     .arg(number_text(comparison_->image.form_factors[k]));
+                     .arg(number_text(at(comparison_->image.form_factors, patch)));
   if (!comparison_->exact.empty()) {
-    text += tr(", exact %1").arg(number_text(comparison_->exact[k]));
+    text += tr(", exact %1").arg(number_text(at(comparison_->exact, patch)));
   }
   QToolTip::showText(help->globalPos(), text, this);
   return true;

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Implementation of the map widget: requests pictures from the painter thread, draws selection,
+// scale bar, axes and legend over them, and handles the mouse.
 #include "map/map_canvas.h"
 
 #include <QApplication>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The widget that shows a visibility map. Content comes from MapView, CompareView or
+// DifferencePicture; paint_map() paints it on a worker thread.
 #pragma once
 
 #include <QWidget>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Paints V of a recorded map (MapPictureRequest) into an image: exactly, with the changes of one
+// step, or as another engine computes it. Runs on any thread.
 #include "map/map_painter.h"
 
 #include <QPainter>

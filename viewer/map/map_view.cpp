@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel of the visibility map: title, canvas or hemicube, phase buttons and engine menu. It
+// follows Focus (direction, step, phase) and ColorChoice.
 #include "map/map_view.h"
 
 #include <QButtonGroup>

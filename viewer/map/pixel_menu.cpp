@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The menu that chooses the engine, resolution and error marks of a map (PixelChoice).
 #include "map/pixel_menu.h"
 
 #include <QActionGroup>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Computes V after a step by a discrete engine or engine corrected, finds its errors against the
+// exact V, and draws pixels.
 #include "map/pixel_view.h"
 
 #include <QPolygonF>

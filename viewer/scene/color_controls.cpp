@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The strip above the 3-D view. It shows and sets a ColorChoice (quantity, color mode, exposure,
+// range), and holds the Show menu.
 #include "scene/color_controls.h"
 
 #include <QAbstractItemView>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Arrows and plane of a transillumination direction, as VTK actors. SceneView passes direction,
+// place and size.
 #include "scene/direction_glyph.h"
 
 #include <vtkArrowSource.h>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Fragment edges, normals and back sides of a scene, as VTK actors built on first use from the
+// loaded scene and its BSP tree.
 #include "scene/scene_overlays.h"
 
 #include <vtkCellArray.h>
@@ -52,8 +55,7 @@ vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& t
   Lines lines;
   for (const BspTree::Fragment& f : tree.fragments()) {
     // A non-convex patch has several pieces without being cut.
-    const auto patch = static_cast<std::size_t>(f.patch);
-    if (fragments[patch] == pieces[patch]) {
+    if (at(fragments, f.patch) == at(pieces, f.patch)) {
       continue;
     }
     const auto corners = tree.corners(f);

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Implementation of the 3-D view: actors for the colored patches, the selection, the direction and
+// the current step; camera; picking by the scene's Embree picker.
 #include "scene/scene_view.h"
 
 #include <QVTKOpenGLNativeWidget.h>

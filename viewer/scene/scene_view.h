@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The 3-D view of the scene, on VTK. Scene and snapshots come from the window, colors from
+// ColorChoice, the current step from Focus.
 #pragma once
 
 #include <vtkActor.h>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Highlights the fragment of a step in the 3-D view, and dims the patches of later steps. Input: a
+// recorded map and a step of it.
 #include "scene/step_glyph.h"
 
 #include <vtkCellArray.h>
@@ -88,8 +91,8 @@ Vec3 center_of_step(const RecordedMap& map, std::int32_t step) {
 void dim_later_patches(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors) {
   const auto& patches = map.record().step_patch;
   std::vector<bool> is_later(colors.size(), false);
-  for (auto k = static_cast<std::size_t>(step + 1); k < patches.size(); ++k) {
-    at(is_later, patches[k]) = true;
+  for (std::int32_t k = step + 1; k < std::ssize(patches); ++k) {
+    at(is_later, at(patches, k)) = true;
   }
   const int background[3] = {theme::scene_background.red(), theme::scene_background.green(),
                              theme::scene_background.blue()};

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The page shown before a scene is open: one card per built-in scene, with its name, summary and a
+// picture from the resources.
 #include "scene/welcome_page.h"
 
 #include <QEvent>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel of the paper's pseudo-code. Lines and values come from algorithm_state.h, for the
+// position in Focus and the newest snapshot.
 #include "stepping/algorithm_view.h"
 
 #include <QComboBox>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel that lists and adds breakpoints (state/breakpoints.h) and runs to where one holds, by
+// Focus.
 #include "stepping/breakpoint_panel.h"
 
 #include <QAction>

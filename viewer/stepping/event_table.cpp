@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Table model of step events (state/step_events.h), with bold rows for the current step.
 #include "stepping/event_table.h"
 
 #include <QFont>

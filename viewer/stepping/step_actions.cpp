@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The actions of the Step menu and the timeline's buttons; each moves Focus to another phase, step,
+// direction or iteration.
 #include "stepping/step_actions.h"
 
 #include <QAction>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel with three event tables: of the current step, of the selected patch, and along the
+// probed line. Events come from the map in Focus.
 #include "stepping/step_panel.h"
 
 #include <QHeaderView>

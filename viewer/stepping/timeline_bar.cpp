@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The timeline: step buttons, a text on the current step, and the lanes. Input: Focus and
+// snapshots.
 #include "stepping/timeline_bar.h"
 
 #include <QAction>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Draws the lanes of iterations, directions and steps, and moves Focus by mouse and keys. Bars show
+// the cuts (gray) and exchanges (orange) of the steps in each pixel column.
 #include "stepping/timeline_lanes.h"
 
 #include <QKeyEvent>

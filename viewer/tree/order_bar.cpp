@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Delegate that draws the run of steps below a BSP plane as a bar. Input: a TreeVisit per cell,
+// Focus and Selection.
 #include "tree/order_bar.h"
 
 #include <QMouseEvent>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The outline view of the whole BSP tree, on TreeModel; expands the path to the current fragment.
 #include "tree/tree_browser.h"
 
 #include <QEvent>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Item model of the BSP tree for one direction and step. Input: a TreeOutline, which counts
+// fragments.
 #include "tree/tree_model.h"
 
 #include <algorithm>

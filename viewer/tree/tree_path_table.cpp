@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Table model of the planes from the root of the BSP tree to one fragment (TreeOutline::path_to()).
 #include "tree/tree_path_table.h"
 
 #include <utility>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel of the BSP tree: a text, the path to the current fragment, and the whole tree. It
+// follows the map in Focus.
 #include "tree/tree_view.h"
 
 #include <QHeaderView>
