@@ -81,7 +81,7 @@ QString text_of(const Breakpoint& b) {
     case Kind::pair:
       return Breakpoints::tr("Patches %1 and %2 exchange light").arg(b.patch).arg(b.other);
     case Kind::small_fragment:
-      return Breakpoints::tr("A fragment is smaller than %1 m²").arg(number_text(b.value));
+      return Breakpoints::tr("A polygon of V is smaller than %1 m²").arg(number_text(b.value));
     case Kind::open_receiver:
       return Breakpoints::tr("A receiver's closure defect is above %1").arg(number_text(b.value));
     case Kind::large_map:

@@ -88,7 +88,7 @@ void CameraBookmarks::add(const ViewPoint& view, const QString& name) {
   }
   auto bookmarks = bookmarks_;
   bookmarks.push_back({free, view});
-  change(tr("keep view: %1").arg(free), std::move(bookmarks));
+  change(tr("save view: %1").arg(free), std::move(bookmarks));
 }
 
 void CameraBookmarks::rename(std::size_t k, const QString& name) {
@@ -108,7 +108,7 @@ void CameraBookmarks::remove(std::size_t k) {
 
 void CameraBookmarks::clear() {
   if (!bookmarks_.empty()) {
-    change(tr("remove all kept views"), {});
+    change(tr("remove all saved views"), {});
   }
 }
 

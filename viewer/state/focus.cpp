@@ -61,6 +61,10 @@ void Focus::go_to(const RunPosition& position) {
       [step = position.step](const MapHistory& history) { return nearest_step(history, step); });
 }
 
+void Focus::go_to_step(std::int32_t step) {
+  go_to({position_.iteration, position_.direction, step});
+}
+
 void Focus::go_to_first(int iteration, int direction, StepFinder finder) {
   if (passes_ == 0) {
     return;

@@ -78,6 +78,8 @@ class Focus : public QObject {
   // Each of these functions, except follow(), ends following. Values out of range are clamped.
 
   void go_to(const RunPosition& position);
+  /// To a step of the same direction.
+  void go_to_step(std::int32_t step);
   /// To the first step of a direction that `finder` finds; before the first step if it finds none.
   void go_to_first(int iteration, int direction, StepFinder finder);
   /// At most to an end of the direction; from there to the next direction.

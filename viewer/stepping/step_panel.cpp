@@ -71,9 +71,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
                           : event.above);
   });
   connect(tab.view, &QTableView::doubleClicked, this, [this, tab](const QModelIndex& index) {
-    RunPosition to = focus_.position();
-    to.step = tab.table->event(index.row()).step;
-    focus_.go_to(to);
+    focus_.go_to_step(tab.table->event(index.row()).step);
   });
   return tab;
 }

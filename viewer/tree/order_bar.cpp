@@ -8,7 +8,6 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "tree/tree_text.h"
 #include "widgets/theme.h"
@@ -21,13 +20,8 @@ const QColor done_color{0x7f, 0x98, 0xbd}, later_color{0xdc, 0xe1, 0xe8};
 
 }  // namespace
 
-OrderBar::OrderBar(const Focus& focus, const Selection& selection, QObject* parent)
+OrderBar::OrderBar(Focus& focus, Selection& selection, QObject* parent)
     : QStyledItemDelegate(parent), focus_(focus), selection_(selection) {}
-
-void OrderBar::set_handlers(StepHandler clicked, StepHandler double_clicked) {
-  clicked_ = std::move(clicked);
-  double_clicked_ = std::move(double_clicked);
-}
 
 QRectF OrderBar::bar_in(const QRect& cell) { return QRectF(cell).adjusted(6, 4, -6, -6); }
 
@@ -98,9 +92,11 @@ bool OrderBar::editorEvent(QEvent* event, QAbstractItemModel* model,
   if (!data.canConvert<TreeVisit>() || mouse->button() != Qt::LeftButton) {
     return false;
   }
-  const StepHandler& handler = pressed ? clicked_ : double_clicked_;
-  if (handler) {
-    handler(step_at(data.value<TreeVisit>(), bar_in(option.rect), mouse->pos().x()));
+  const std::int32_t step = step_at(data.value<TreeVisit>(), bar_in(option.rect), mouse->pos().x());
+  if (!pressed) {
+    focus_.go_to_step(step);
+  } else if (const auto map = focus_.map()) {
+    selection_.select(map->history.step(step).patch);
   }
   return true;
 }

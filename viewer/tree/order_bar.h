@@ -3,7 +3,6 @@
 
 #include <QRect>
 #include <QStyledItemDelegate>
-#include <functional>
 
 #include "state/focus.h"
 #include "state/selection.h"
@@ -15,11 +14,8 @@ namespace transillum::viewer {
 /// dark, later ones pale, those in the plane yellow, the selected patch's marked below the bar.
 class OrderBar : public QStyledItemDelegate {
  public:
-  using StepHandler = std::function<void(std::int32_t step)>;
-
-  OrderBar(const Focus& focus, const Selection& selection, QObject* parent);
-  /// Called with the step that is clicked or double-clicked.
-  void set_handlers(StepHandler clicked, StepHandler double_clicked);
+  /// A click on a step selects its patch, a double-click goes to it.
+  OrderBar(Focus& focus, Selection& selection, QObject* parent);
 
   /// The step drawn at `x`, and the left end of a step, pixels.
   static std::int32_t step_at(const TreeVisit& visit, const QRectF& bar, double x);
@@ -34,9 +30,8 @@ class OrderBar : public QStyledItemDelegate {
                    const QModelIndex& index) override;
 
  private:
-  const Focus& focus_;
-  const Selection& selection_;
-  StepHandler clicked_, double_clicked_;
+  Focus& focus_;
+  Selection& selection_;
 };
 
 }  // namespace transillum::viewer

@@ -30,20 +30,7 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
   view_->setMinimumHeight(60);
   view_->header()->setStretchLastSection(false);
   view_->header()->setSectionResizeMode(TreeModel::of_order, QHeaderView::Stretch);
-  const auto go_to = [this](std::int32_t step) {
-    RunPosition to = focus_.position();
-    to.step = step;
-    focus_.go_to(to);
-  };
-  auto* bars = new OrderBar(focus_, selection_, this);
-  bars->set_handlers(
-      [this](std::int32_t step) {
-        if (const auto map = focus_.map()) {
-          selection_.select(map->history.step(step).patch);
-        }
-      },
-      go_to);
-  view_->setItemDelegateForColumn(TreeModel::of_order, bars);
+  view_->setItemDelegateForColumn(TreeModel::of_order, new OrderBar(focus_, selection_, this));
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -54,11 +41,11 @@ TreeBrowser::TreeBrowser(Focus& focus, Selection& selection, QWidget* parent)
       selection_.select(patch);
     }
   });
-  connect(view_, &QTreeView::doubleClicked, this, [this, go_to](const QModelIndex& index) {
+  connect(view_, &QTreeView::doubleClicked, this, [this](const QModelIndex& index) {
     const TreeVisit& visit = model_->visit(index);
     // A free plane holds no fragment: go to the first one of its far side.
     if (index.column() != TreeModel::of_order) {
-      go_to(visit.plane_begin < visit.end ? visit.plane_begin : visit.begin);
+      focus_.go_to_step(visit.plane_begin < visit.end ? visit.plane_begin : visit.begin);
     }
   });
   connect(&selection_, &Selection::changed, view_->viewport(), qOverload<>(&QWidget::update));

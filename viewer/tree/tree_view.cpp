@@ -57,10 +57,7 @@ void TreeView::make_path_table() {
   table_->setFocusPolicy(Qt::NoFocus);
   table_->horizontalHeader()->setSectionResizeMode(TreePathTable::of_order, QHeaderView::Stretch);
   set_up_figure_table(*table_, {"patch 888 + 8", "−0.888", "before: front", "", "88 888"});
-  auto* bars = new OrderBar(focus_, selection_, this);
-  bars->set_handlers([this](std::int32_t step) { select_step(step); },
-                     [this](std::int32_t step) { go_to_step(step); });
-  table_->setItemDelegateForColumn(TreePathTable::of_order, bars);
+  table_->setItemDelegateForColumn(TreePathTable::of_order, new OrderBar(focus_, selection_, this));
 
   const auto patch_at = [this](const QModelIndex& index) {
     return patch_of(path_->outline(), path_->visit(index.row()));
@@ -75,7 +72,7 @@ void TreeView::make_path_table() {
   });
   connect(table_, &QTableView::doubleClicked, this, [this, in_plane](const QModelIndex& index) {
     if (in_plane(index)) {
-      go_to_step(path_->visit(index.row()).plane_begin);
+      focus_.go_to_step(path_->visit(index.row()).plane_begin);
     }
   });
 }
@@ -145,18 +142,6 @@ QString TreeView::text_of_selection() const {
   return tr("Patch %1 comes %2 it, separated by %3.")
       .arg(patch)
       .arg(when, plane_phrase(*outline_, path_->visit(row)));
-}
-
-void TreeView::select_step(std::int32_t step) {
-  if (const auto map = focus_.map()) {
-    selection_.select(map->history.step(step).patch);
-  }
-}
-
-void TreeView::go_to_step(std::int32_t step) {
-  RunPosition to = focus_.position();
-  to.step = step;
-  focus_.go_to(to);
 }
 
 }  // namespace transillum::viewer

@@ -33,8 +33,6 @@ class TreeView : public QWidget {
   void show_position();
   void show_text();
   QString text_of_selection() const;
-  void select_step(std::int32_t step);
-  void go_to_step(std::int32_t step);
 
   Focus& focus_;
   Selection& selection_;
