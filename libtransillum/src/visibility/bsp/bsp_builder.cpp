@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Input: the pieces of a scene. Polygons in progress are kept in polygons_ and corners_, and become
+// fragments of the tree when they lie in the plane of a node. Every edge refers to a line through
+// two points of its input edge or cut, so that the engines can clip by the same line on both sides.
 #include "visibility/bsp/bsp_builder.h"
 
 #include <algorithm>
@@ -38,15 +42,16 @@ void BspBuilder::build() {
     open.push_back(std::move(all));
   }
 
-  std::size_t heard = 0;
+  std::size_t reported = 0;
   while (!open.empty()) {
     cancellation_.throw_if_canceled();
     Task task = std::move(open.back());
     open.pop_back();
     split_node(std::move(task), open);
-    if (progress_ && tree_.fragments_.size() >= heard + 512) {
-      heard = tree_.fragments_.size();
-      progress_(std::min(1.0, static_cast<double>(heard) / static_cast<double>(polygons_.size())));
+    if (progress_ && tree_.fragments_.size() >= reported + 512) {
+      reported = tree_.fragments_.size();
+      progress_(
+          std::min(1.0, static_cast<double>(reported) / static_cast<double>(polygons_.size())));
     }
   }
 }
@@ -55,7 +60,7 @@ void BspBuilder::add_pieces() {
   tree_.points_ = scene_.points();
   piece_planes_.reserve(scene_.pieces().size());
   for (const Piece& piece : scene_.pieces()) {
-    look_for_cancellation();
+    check_cancellation();
     const auto points = scene_.corners(piece);
     Polygon polygon{piece.patch, static_cast<std::int32_t>(piece_planes_.size()),
                     static_cast<std::uint32_t>(corners_.size()), 0};
@@ -76,41 +81,44 @@ void BspBuilder::add_pieces() {
   }
 }
 
-/// In loops over many polygons.
-void BspBuilder::look_for_cancellation() {
-  if (++polygons_since_look_ % 4096 == 0) {
+/// To be called in loops over many polygons.
+void BspBuilder::check_cancellation() {
+  if (++polygons_since_check_ % 4096 == 0) {
     cancellation_.throw_if_canceled();
   }
 }
 
 LineId BspBuilder::line_between(PointId a, PointId b) {
-  const auto [place, is_new] =
+  const auto [entry, is_new] =
       line_of_edge_.try_emplace(edge_key(a, b), static_cast<LineId>(tree_.lines_.size()));
   if (is_new) {
     tree_.lines_.push_back({std::min(a, b), std::max(a, b)});
   }
-  return place->second;
+  return entry->second;
 }
 
-void BspBuilder::split_node(Task task, std::vector<Task>& open) {
-  // Choose the plane that buys order with the fewest cuts.
+PlaneSearch::Choice BspBuilder::choose_plane(const PolygonList& polygons) {
   search_.clear();
-  for (const std::int32_t p : task.polygons) {
-    look_for_cancellation();
+  for (const std::int32_t p : polygons) {
+    check_cancellation();
     const Polygon& polygon = at(polygons_, p);
     search_.add_polygon(at(piece_planes_, polygon.piece));
     for (std::uint32_t c = polygon.begin; c < polygon.end; ++c) {
       search_.add_point(at(tree_.points_, corners_[c].point));
     }
   }
-  const PlaneSearch::Choice choice = search_.best();
+  return search_.best();
+}
+
+void BspBuilder::split_node(Task task, std::vector<Task>& open) {
+  const PlaneSearch::Choice choice = choose_plane(task.polygons);
   const std::int32_t own = choice.polygon < 0 ? -1 : at(task.polygons, choice.polygon);
 
-  // Deal the polygons out, cutting those that cross.
+  // Distribute the polygons to the plane and its sides, cutting those that cross it.
   PolygonList coplanar, front, back;
   cut_of_edge_.clear();
   for (const std::int32_t p : task.polygons) {
-    look_for_cancellation();
+    check_cancellation();
     const Side side = p == own ? Side::coplanar : classify(at(polygons_, p), choice.plane);
     switch (side) {
       case Side::coplanar:
@@ -130,11 +138,11 @@ void BspBuilder::split_node(Task task, std::vector<Task>& open) {
   TRANSILLUM_INVARIANT(front.size() < task.polygons.size() && back.size() < task.polygons.size(),
                        "a BSP node makes no progress");
 
-  // Hang the node in, and leave its sides for later.
+  // Add the node, and leave its sides for later.
   const auto node_id = static_cast<std::int32_t>(tree_.nodes_.size());
   BspTree::Node node;
   node.plane = choice.plane;
-  keep_coplanar(std::move(coplanar), node);
+  add_coplanar(std::move(coplanar), node);
   tree_.nodes_.push_back(node);
   tree_.depth_ = std::max(tree_.depth_, task.depth);
   if (task.parent != BspTree::no_node) {
@@ -177,7 +185,7 @@ PointId BspBuilder::cut_edge(PointId a, PointId b, double distance_a, double dis
     std::swap(distance_a, distance_b);
   }
   const auto next = static_cast<PointId>(tree_.points_.size());
-  const auto [place, is_new] = cut_of_edge_.try_emplace(edge_key(a, b), next);
+  const auto [entry, is_new] = cut_of_edge_.try_emplace(edge_key(a, b), next);
   if (is_new) {
     const double t = distance_a / (distance_a - distance_b);
     const Vec3& from = at(tree_.points_, a);
@@ -185,18 +193,18 @@ PointId BspBuilder::cut_edge(PointId a, PointId b, double distance_a, double dis
     tree_.cut_points_.push_back({a, b, t});
     tree_.points_.push_back(from + t * (to - from));
   }
-  return place->second;
+  return entry->second;
 }
 
-/// Splits a polygon that classify() has just found on both sides.
+/// Splits a polygon that classify() has just found on both sides of the plane.
 ///
-///        d>0   o-------x-------o  d<0      x: cut points, made once an edge and plane, so that
-///              | front : back  |              neighbors get the same
+///        d>0   o-------x-------o  d<0      x: cut points, made once per edge and plane, so that
+///              | front : back  |              neighbors get the same ones
 ///              o-------x-------o           : the new line, shared by both halves
 ///
-/// The outline is walked from a corner off the plane. It changes sides at a cut point, or at the
-/// first of some corners on the plane; the others of these stay with the side it goes to, so that
-/// the halves share the new line and nothing else.
+/// The outline is traversed from a corner off the plane. It changes sides at a cut point, or at the
+/// first of several consecutive corners on the plane; the others belong to the side that follows,
+/// so that the halves have only the new line in common.
 void BspBuilder::cut(std::int32_t polygon, PolygonList& front, PolygonList& back) {
   const Polygon whole = at(polygons_, polygon);
   const std::size_t count = whole.end - whole.begin;
@@ -213,8 +221,8 @@ void BspBuilder::cut(std::int32_t polygon, PolygonList& front, PolygonList& back
   };
 
   std::vector<BspTree::Corner> halves[2];
-  std::size_t closing[2] = {0, 0};  // where a half's outline runs along the new line
-  PointId turning[2] = {-1, -1};    // the corner there: the outline leaves that side
+  std::size_t closing[2] = {0, 0};  // per half: index of the corner from which the new line runs
+  PointId turning[2] = {-1, -1};    // and its point, where the polygon's outline leaves that side
   int side = side_of(start);
   const auto change_sides = [&](const BspTree::Corner& corner) {
     halves[side].push_back(corner);
@@ -253,16 +261,17 @@ void BspBuilder::cut(std::int32_t polygon, PolygonList& front, PolygonList& back
   }
 }
 
-void BspBuilder::keep_coplanar(PolygonList coplanar, BspTree::Node& node) {
-  const auto lit_along = [&](std::int32_t p) {
+/// Adds the polygons in a node's plane to the tree as fragments, those that cover others first.
+void BspBuilder::add_coplanar(PolygonList coplanar, BspTree::Node& node) {
+  const auto faces_along_normal = [&](std::int32_t p) {
     const auto piece = static_cast<std::size_t>(at(polygons_, p).piece);
     return dot(piece_planes_[piece].normal, node.plane.normal) >= 0;
   };
-  // A light in its ceiling must shine, and so must what is smaller; the number settles the rest.
+  // Emitters and smaller patches must stay visible: a lamp in its ceiling. Ids break ties.
   const auto rank = [&](std::int32_t p) {
     const PatchId patch = at(polygons_, p).patch;
-    return std::tuple(!lit_along(p), -max_abs(scene_.exitance(patch)), scene_.patch(patch).area,
-                      -patch, p);
+    return std::tuple(!faces_along_normal(p), -max_abs(scene_.exitance(patch)),
+                      scene_.patch(patch).area, -patch, p);
   };
   std::sort(coplanar.begin(), coplanar.end(),
             [&](std::int32_t a, std::int32_t b) { return rank(a) < rank(b); });
@@ -275,7 +284,7 @@ void BspBuilder::keep_coplanar(PolygonList coplanar, BspTree::Node& node) {
                           corners_.begin() + polygon.end);
     tree_.fragments_.push_back(
         {polygon.patch, begin, static_cast<std::uint32_t>(tree_.corners_.size())});
-    if (lit_along(p)) {
+    if (faces_along_normal(p)) {
       ++node.middle;
     }
   }

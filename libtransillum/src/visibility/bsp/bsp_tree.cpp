@@ -25,7 +25,7 @@ std::vector<FragmentId> BspTree::order(const Vec3& omega, const Cancellation& ca
   std::vector<FragmentId> order;
   order.reserve(fragments_.size());
 
-  // A visited node waits on the stack, complemented, until its nearer side is done.
+  // A visited node stays on the stack, complemented, until its nearer side is done.
   std::vector<std::int32_t> stack;
   if (root() != no_node) {
     stack.push_back(root());
@@ -47,7 +47,8 @@ std::vector<FragmentId> BspTree::order(const Vec3& omega, const Cancellation& ca
       }
       continue;
     }
-    // In the plane: what receives, coverers first; then what emits, coverers last.
+    // In the plane: first the receiving fragments, those that cover others first; then the emitting
+    // ones, those that cover others last.
     const FragmentId first = along ? node.begin : node.middle;
     const FragmentId first_end = along ? node.middle : node.end;
     const FragmentId second = along ? node.middle : node.begin;

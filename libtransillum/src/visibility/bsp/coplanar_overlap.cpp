@@ -11,14 +11,14 @@
 namespace transillum {
 namespace {
 
-/// Whatever of two fragments lies in one place ends in the same node of the tree: there they meet.
+/// Finds overlaps node by node: coplanar fragments that overlap are in the same node of the tree.
 class OverlapFinder {
  public:
-  OverlapFinder(const Scene& scene, const BspTree& tree, std::size_t most,
+  OverlapFinder(const Scene& scene, const BspTree& tree, std::size_t max_pairs,
                 const Cancellation& cancellation)
       : tree_(tree),
         thickness_(BspTree::thickness(scene)),
-        most_(most),
+        max_pairs_(max_pairs),
         cancellation_(cancellation) {}
 
   std::vector<CoplanarOverlap> find() {
@@ -43,7 +43,8 @@ class OverlapFinder {
     return corners;
   }
 
-  /// Fragments lit on one side of one plane; those that cover others come first.
+  /// Finds overlaps among fragments of one plane and one orientation; those that cover others come
+  /// first.
   void find_among(FragmentId begin, FragmentId end) {
     if (end - begin < 2) {
       return;
@@ -55,7 +56,7 @@ class OverlapFinder {
       }
     }
     const BoxTree box_tree(boxes);
-    for (FragmentId f = begin; f < end && areas_.size() < most_; ++f) {
+    for (FragmentId f = begin; f < end && areas_.size() < max_pairs_; ++f) {
       cancellation_.throw_if_canceled();
       const Bounds& own = at(boxes, f - begin);
       const Vec3 center = own.center(), half = 0.5 * (own.high - own.low);
@@ -65,14 +66,15 @@ class OverlapFinder {
                std::abs(apart.z) <= sum.z + thickness_;
       };
       box_tree.for_each(reaches, [&](std::int32_t other) {
-        if (begin + other > f && areas_.size() < most_) {
-          add(f, begin + other);
+        if (begin + other > f && areas_.size() < max_pairs_) {
+          add_overlap(f, begin + other);
         }
       });
     }
   }
 
-  void add(FragmentId upper, FragmentId lower) {
+  /// Adds the area in which two fragments overlap, if any.
+  void add_overlap(FragmentId upper, FragmentId lower) {
     const PatchId a = tree_.fragment(upper).patch, b = tree_.fragment(lower).patch;
     if (a == b) {
       return;
@@ -100,7 +102,7 @@ class OverlapFinder {
 
   const BspTree& tree_;
   const double thickness_;
-  const std::size_t most_;
+  const std::size_t max_pairs_;
   const Cancellation& cancellation_;
   std::map<std::pair<PatchId, PatchId>, double> areas_;
 };

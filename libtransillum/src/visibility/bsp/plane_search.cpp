@@ -14,11 +14,12 @@ constexpr std::size_t largest_sample = 1024;
 constexpr std::size_t polygon_normals = 8;
 constexpr std::size_t edge_normals = 8;
 constexpr std::size_t line_normals = 8;
-/// What a plane costs that cuts nothing, in cuts: keeps the tree from being a list of planes that
-/// split off one polygon each.
+/// Cost of a plane that cuts nothing, in cuts: keeps the tree from degenerating to a list of planes
+/// that split off one polygon each.
 constexpr double cost_of_a_node = 0.3;
 
-/// Order bought by a plane, in bits: what it then takes less to sort the polygons.
+/// Order gained by a plane, in bits: by how much it reduces the information that sorting the
+/// polygons requires.
 double bits(double below, double above) {
   const double n = below + above;
   const auto term = [n](double part) { return part > 0 ? part * std::log2(n / part) : 0.0; };
@@ -46,7 +47,7 @@ Vec3 PlaneSearch::center_of(std::int32_t polygon) const {
 PlaneSearch::Choice PlaneSearch::best() {
   begin_.push_back(static_cast<std::uint32_t>(points_.size()));
   best_cost_ = std::numeric_limits<double>::infinity();
-  // One polygon needs no choice, and a plane of its own is always a way on.
+  // The plane of a polygon is always a valid choice.
   best_ = {planes_[0], 0};
   if (planes_.size() > 1) {
     collect_sample();
@@ -76,7 +77,8 @@ void PlaneSearch::collect_normals() {
   if (n <= 4) {
     return;
   }
-  // Planes along two edges: rings of corners, which part what is round or boxy without a cut.
+  // Planes parallel to two edges: planes through rings of corners split round or box-like objects
+  // without cuts.
   const auto edge = [&](std::size_t of_sample, std::size_t number) {
     const auto p = static_cast<std::size_t>(sample_[of_sample % n]);
     const std::uint32_t count = begin_[p + 1] - begin_[p];
@@ -91,7 +93,8 @@ void PlaneSearch::collect_normals() {
       normals_.push_back(normalized(across));
     }
   }
-  // Normals between places far apart in the list, which keeps neighbors together.
+  // Normals between polygons far apart in the list: neighbors in the list are often neighbors in
+  // space.
   for (std::size_t k = 0; k < line_normals; ++k) {
     const std::size_t a = k * n / line_normals;
     const std::size_t b = (a + n / 2 + k * n / (3 * line_normals)) % n;
@@ -103,17 +106,19 @@ void PlaneSearch::collect_normals() {
   }
 }
 
-void PlaneSearch::sweep(const Vec3& normal) {
+/// Collects the intervals that the sample's polygons cover along the normal, sorted by their lower
+/// ends, and their upper ends, sorted.
+void PlaneSearch::collect_intervals(const Vec3& normal) {
   intervals_.clear();
   ends_.clear();
   for (const std::int32_t p : sample_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (std::uint32_t c = at(begin_, p); c < begin_[static_cast<std::size_t>(p) + 1]; ++c) {
-      const double at = dot(normal, points_[c]);
-      low = std::min(low, at);
-      high = std::max(high, at);
+      const double along = dot(normal, points_[c]);
+      low = std::min(low, along);
+      high = std::max(high, along);
     }
-    // What is on the plane within its thickness does not cross it.
+    // A polygon that reaches beyond the plane by no more than the thickness does not cross it.
     if (high - low > 2 * thickness_) {
       low += thickness_;
       high -= thickness_;
@@ -126,56 +131,69 @@ void PlaneSearch::sweep(const Vec3& normal) {
   std::sort(intervals_.begin(), intervals_.end(),
             [](const Interval& a, const Interval& b) { return a.low < b.low; });
   std::sort(ends_.begin(), ends_.end());
+}
 
-  // An offset between two neighboring ends of intervals: `started` began below, of which
-  // `ended` lie below altogether.
+/// Considers all offsets along one normal.
+void PlaneSearch::sweep(const Vec3& normal) {
+  collect_intervals(normal);
   const std::size_t n = intervals_.size();
-  std::size_t ended = 0;
+  std::size_t ended = 0;  // intervals that end at or below the start of the last one
   for (std::size_t started = 1; started <= n; ++started) {
     const Interval& last = intervals_[started - 1];
     if (last.high == last.low) {
-      // A polygon across the normal: its own plane.
-      const double offset = last.low;
-      const auto below = static_cast<std::size_t>(
-          std::upper_bound(ends_.begin(), ends_.end(), offset + thickness_) - ends_.begin());
-      const auto above_from = static_cast<std::size_t>(
-          std::lower_bound(intervals_.begin(), intervals_.end(), offset - thickness_,
-                           [](const Interval& i, double at) { return i.low < at; }) -
-          intervals_.begin());
-      // Polygons in the plane were counted with both.
-      const double in_plane =
-          static_cast<double>(below + (n - above_from)) - static_cast<double>(n);
-      const double coplanar = std::max(1.0, in_plane);
-      const double under = static_cast<double>(below) - coplanar;
-      const double over = static_cast<double>(n - above_from) - coplanar;
-      const double crossing = static_cast<double>(n) - under - over - coplanar;
-      offer(normal, offset, last.polygon, std::max(0.0, under), std::max(0.0, over),
-            std::max(0.0, crossing));
+      consider_plane_of(normal, last);
     }
-    const double from = last.low;
-    const double next_start = started < n ? intervals_[started].low : HUGE_VAL;
-    while (ended < n && ends_[ended] <= from) {
+    while (ended < n && ends_[ended] <= last.low) {
       ++ended;
     }
-    // The last end before the next start, where the fewest still cross.
-    std::size_t ended_by_then = ended;
-    while (ended_by_then < n && ends_[ended_by_then] <= next_start) {
-      ++ended_by_then;
-    }
-    const double low = ended_by_then > 0 ? std::max(from, ends_[ended_by_then - 1]) : from;
-    const double high = std::min(next_start, ended_by_then < n ? ends_[ended_by_then] : HUGE_VAL);
-    if (high == HUGE_VAL) {
-      continue;
-    }
-    // Halfway through the gap; along a ring of shared corners that is on the corners.
-    const double offset = 0.5 * (low + high);
-    offer(normal, offset, -1, static_cast<double>(ended_by_then), static_cast<double>(n - started),
-          static_cast<double>(started - ended_by_then));
+    consider_gap(normal, started, ended);
   }
 }
 
-void PlaneSearch::offer(const Vec3& normal, double offset, std::int32_t polygon, double below,
-                        double above, double crossing) {
+/// Considers the plane of a polygon perpendicular to the normal.
+void PlaneSearch::consider_plane_of(const Vec3& normal, const Interval& interval) {
+  const std::size_t n = intervals_.size();
+  const double offset = interval.low;
+  const auto below = static_cast<std::size_t>(
+      std::upper_bound(ends_.begin(), ends_.end(), offset + thickness_) - ends_.begin());
+  const auto above_from = static_cast<std::size_t>(
+      std::lower_bound(intervals_.begin(), intervals_.end(), offset - thickness_,
+                       [](const Interval& i, double low) { return i.low < low; }) -
+      intervals_.begin());
+  // `below` and `above` both count the polygons in the plane.
+  const double in_plane = static_cast<double>(below + (n - above_from)) - static_cast<double>(n);
+  const double coplanar = std::max(1.0, in_plane);
+  const double under = static_cast<double>(below) - coplanar;
+  const double over = static_cast<double>(n - above_from) - coplanar;
+  const double crossing = static_cast<double>(n) - under - over - coplanar;
+  consider(normal, offset, interval.polygon, std::max(0.0, under), std::max(0.0, over),
+           std::max(0.0, crossing));
+}
+
+/// Considers an offset between two successive ends of intervals, before the next interval starts:
+/// `started` intervals start below it, of which `ended` end at or below the start of the last one.
+void PlaneSearch::consider_gap(const Vec3& normal, std::size_t started, std::size_t ended) {
+  const std::size_t n = intervals_.size();
+  const double from = intervals_[started - 1].low;
+  const double next_start = started < n ? intervals_[started].low : HUGE_VAL;
+  // The last end before the next start: there the fewest intervals are crossed.
+  while (ended < n && ends_[ended] <= next_start) {
+    ++ended;
+  }
+  const double low = ended > 0 ? std::max(from, ends_[ended - 1]) : from;
+  const double high = std::min(next_start, ended < n ? ends_[ended] : HUGE_VAL);
+  if (high == HUGE_VAL) {
+    return;
+  }
+  // The middle of the gap; between polygons with a ring of common corners it is at the corners.
+  const double offset = 0.5 * (low + high);
+  consider(normal, offset, -1, static_cast<double>(ended), static_cast<double>(n - started),
+           static_cast<double>(started - ended));
+}
+
+/// Keeps the plane if it is the best so far.
+void PlaneSearch::consider(const Vec3& normal, double offset, std::int32_t polygon, double below,
+                           double above, double crossing) {
   if (polygon < 0 && (below == 0 || above == 0)) {
     return;
   }
@@ -183,7 +201,7 @@ void PlaneSearch::offer(const Vec3& normal, double offset, std::int32_t polygon,
       polygon < 0 ? 0 : static_cast<double>(sample_.size()) - below - above - crossing;
   const double scale = static_cast<double>(planes_.size()) / static_cast<double>(sample_.size());
   const double gain = bits(below + 0.5 * crossing, above + 0.5 * crossing + in_plane) +
-                      in_plane;  // what lies in the plane is done with
+                      in_plane;  // polygons in the plane need no further order
   const double cost = (crossing * scale + cost_of_a_node) / (gain * scale);
   if (gain > 0 && cost < best_cost_) {
     best_cost_ = cost;

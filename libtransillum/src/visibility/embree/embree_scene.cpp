@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Embree 3 and 4 name the same things differently; the difference stays in this file.
+// Triangulates a scene for Embree and wraps its ray queries. Embree 3 and 4 have different names
+// for the same things; the differences are confined to this file.
 #include "visibility/embree/embree_scene.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
-/// A query's context with the caller's data behind it, where filters find it.
+/// A query's context followed by the caller's data, so that filters can find it.
 struct Query : Context {
   explicit Query(void* caller_data) : data(caller_data) {
 #if RTC_VERSION_MAJOR >= 4
@@ -70,8 +71,7 @@ void check(RTCDevice device) {
   if (error == RTC_ERROR_OUT_OF_MEMORY) {
     throw std::bad_alloc();
   }
-  throw std::runtime_error("Embree fails with its error " +
-                           std::to_string(static_cast<int>(error)));
+  throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
 }  // namespace
@@ -94,19 +94,20 @@ EmbreeScene::EmbreeScene(const Scene& scene, const Cancellation& cancellation)
     : description_(scene),
       center_(scene.bounds().center()),
       scale_(2 / scene.bounds().diagonal()),
-      // No configuration: "threads=1" would bind the threads of the whole process.
+      // No configuration string: "threads=1" would limit the threads of the whole process.
       device_(rtcNewDevice(nullptr)) {
   if (!device_) {
     check(nullptr);
   }
   scene_.reset(rtcNewScene(device_.get()));
-  // Robust: a line does not slip through between two triangles.
+  // Robust: no line passes between two adjacent triangles.
   rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | filter_flag));
   add_triangles();
-  const auto go_on = [](void* wish, double) {
-    return !static_cast<const Cancellation*>(wish)->canceled();
+  const auto keep_building = [](void* cancellation_pointer, double) {
+    return !static_cast<const Cancellation*>(cancellation_pointer)->canceled();
   };
-  rtcSetSceneProgressMonitorFunction(scene_.get(), go_on, const_cast<Cancellation*>(&cancellation));
+  rtcSetSceneProgressMonitorFunction(scene_.get(), keep_building,
+                                     const_cast<Cancellation*>(&cancellation));
   rtcCommitScene(scene_.get());
   rtcSetSceneProgressMonitorFunction(scene_.get(), nullptr, nullptr);
   cancellation.throw_if_canceled();
@@ -150,7 +151,7 @@ void* EmbreeScene::data_of(const RTCFilterFunctionNArguments* hits) {
   return static_cast<Query*>(hits->context)->data;
 }
 
-void EmbreeScene::look_through_backs(const RTCFilterFunctionNArguments* hits) {
+void EmbreeScene::ignore_backs(const RTCFilterFunctionNArguments* hits) {
   const auto& scene = *static_cast<const EmbreeScene*>(data_of(hits));
   for (unsigned k = 0; k < hits->N; ++k) {
     if (!hits->valid[k]) {
@@ -170,10 +171,10 @@ PatchId EmbreeScene::lit_at(PatchId hit, const Vec3& origin, const Vec3& directi
   if (is_lit(hit, direction)) {
     return hit;
   }
-  constexpr float blur = 2e-6F;  // what rounding may do to a distance
+  constexpr float rounding = 2e-6F;  // bound on the error of a distance
   RTCRayHit ray = make_ray(origin, direction);
-  ray.ray.tnear = std::max(distance - blur, 0.0F);
-  ray.ray.tfar = distance + blur;
+  ray.ray.tnear = std::max(distance - rounding, 0.0F);
+  ray.ray.tfar = distance + rounding;
   first_hit(ray, true);
   return has_hit(ray) ? patch_of(ray.hit.primID) : no_patch;
 }
@@ -198,7 +199,7 @@ void EmbreeScene::first_hits(const int* valid, RTCRayHit16& rays) const {
 void EmbreeScene::first_hit(RTCRayHit& ray, bool lit_only) const {
   Query query(const_cast<EmbreeScene*>(this));
   RTCIntersectArguments arguments =
-      intersect_arguments(query, false, lit_only ? look_through_backs : nullptr);
+      intersect_arguments(query, false, lit_only ? ignore_backs : nullptr);
   rtcIntersect1(scene_.get(), &ray, &arguments);
 }
 
@@ -219,7 +220,7 @@ void EmbreeScene::first_hits(const int* valid, RTCRayHit16& rays) const {
 
 void EmbreeScene::first_hit(RTCRayHit& ray, bool lit_only) const {
   Query query(const_cast<EmbreeScene*>(this));
-  prepare(query, false, lit_only ? look_through_backs : nullptr);
+  prepare(query, false, lit_only ? ignore_backs : nullptr);
   rtcIntersect1(scene_.get(), &query, &ray);
 }
 

@@ -15,45 +15,47 @@
 
 namespace transillum {
 
-/// A ray from `origin` in Embree's coordinates, to where there is no end.
+/// An unbounded ray from `origin`, in Embree's coordinates.
 RTCRayHit make_ray(const Vec3& origin, const Vec3& direction);
 inline bool has_hit(const RTCRayHit& ray) { return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID; }
 
-/// A scene as Embree sees it: triangles in single precision, moved and scaled into the ball of
-/// radius 1 about the origin, so that float32 keeps its seven digits for any place and size.
+/// Embree's representation of a scene: triangles in single precision, moved and scaled into the
+/// ball of radius 1 about the origin, so that float32 keeps its seven digits for scenes of any
+/// position and size.
 ///
 /// Threads: immutable once built, so any number of threads may query it.
 class EmbreeScene {
  public:
-  /// Keeps a reference.
-  /// @throws Canceled, std::bad_alloc, std::runtime_error where Embree fails.
+  /// Keeps a reference to `scene`.
+  /// @throws Canceled, std::bad_alloc, std::runtime_error if Embree fails
   explicit EmbreeScene(const Scene& scene, const Cancellation& cancellation = {});
 
   /// A point of the scene in Embree's coordinates.
   Vec3 inside(const Vec3& p) const { return scale_ * (p - center_); }
-  /// Embree's units a meter.
+  /// Embree's units per meter.
   double scale() const { return scale_; }
   PatchId patch_of(unsigned triangle) const { return patches_[triangle]; }
 
-  /// Hears of hits as Embree finds them, in any order; lanes that it sets invalid are looked
-  /// through. `data_of` gives it what the query was called with.
+  /// Called for hits as Embree finds them, in any order; hits of lanes that it sets invalid are
+  /// ignored. data_of() returns the `data` of the query.
   using Filter = void (*)(const RTCFilterFunctionNArguments*);
   static void* data_of(const RTCFilterFunctionNArguments* hits);
 
-  /// Shows all that 16 rays meet to `filter`, which must set all lanes invalid. `valid`: 64 bytes
-  /// aligned, -1 for a ray, 0 for none. Coherent: neighbors that run along each other.
+  /// Calls `filter`, which must set all lanes invalid, for all hits of 16 rays.
+  /// @param valid aligned to 64 bytes; -1 for a ray, 0 for none
+  /// @param coherent the rays have nearly the same origins and directions
   void all_hits(const int* valid, RTCRay16& rays, bool coherent, Filter filter, void* data) const;
-  /// The nearest hit of each of 16 rays that go much the same way; geomID stays
-  /// RTC_INVALID_GEOMETRY_ID without.
+  /// Finds the nearest hit of each of 16 coherent rays; geomID stays RTC_INVALID_GEOMETRY_ID if
+  /// there is none.
   void first_hits(const int* valid, RTCRayHit16& rays) const;
-  /// The nearest hit of one ray; with `lit_only` that on a lit side.
+  /// Finds the nearest hit of one ray; with `lit_only`, the nearest one on a front side.
   void first_hit(RTCRayHit& ray, bool lit_only) const;
 
   bool is_lit(PatchId i, const Vec3& direction) const {
     return dot(description_.patch(i).normal, direction) < 0;
   }
-  /// The patch whose lit side a ray meets where it hits `hit`: that one, or one that coincides
-  /// with it, or no_patch. In Embree's coordinates.
+  /// The patch whose front side a ray meets at its hit of patch `hit`: that patch, one that
+  /// coincides with it, or no_patch. In Embree's coordinates.
   PatchId lit_at(PatchId hit, const Vec3& origin, const Vec3& direction, float distance) const;
 
  private:
@@ -62,7 +64,7 @@ class EmbreeScene {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
   void add_triangles();
-  static void look_through_backs(const RTCFilterFunctionNArguments* hits);
+  static void ignore_backs(const RTCFilterFunctionNArguments* hits);
 
   const Scene& description_;
   Vec3 center_;

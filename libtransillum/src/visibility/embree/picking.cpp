@@ -17,12 +17,12 @@ struct Picker::Impl {
       : scene(std::move(picked)), embree(*scene, cancellation) {}
 
   std::optional<PickedPoint> hit(const Vec3& origin, const Vec3& direction, bool lit_only) const {
-    const Vec3 way = normalized(direction / max_abs(direction));
-    // Single precision has no digits to spare for the way to the scene: start near its ball.
+    const Vec3 along = normalized(direction / max_abs(direction));
+    // Start near the scene's ball: single precision has no digits to spare for the distance to it.
     const Vec3 far = embree.inside(origin);
-    const double skipped = std::max(0.0, -dot(far, way) - 1.25);
-    const Vec3 start = far + skipped * way;
-    RTCRayHit ray = make_ray(start, way);
+    const double skipped = std::max(0.0, -dot(far, along) - 1.25);
+    const Vec3 start = far + skipped * along;
+    RTCRayHit ray = make_ray(start, along);
     embree.first_hit(ray, lit_only);
     if (!has_hit(ray)) {
       return std::nullopt;
@@ -30,24 +30,26 @@ struct Picker::Impl {
 
     PickedPoint picked;
     picked.patch = embree.patch_of(ray.hit.primID);
-    const PatchId lit = embree.lit_at(picked.patch, start, way, ray.ray.tfar);
+    const PatchId lit = embree.lit_at(picked.patch, start, along, ray.ray.tfar);
     picked.lit_side = lit != no_patch;
     if (picked.lit_side) {
       picked.patch = lit;
     }
-    picked.distance = distance_to(picked.patch, origin, way,
+    picked.distance = distance_to(picked.patch, origin, along,
                                   (skipped + static_cast<double>(ray.ray.tfar)) / embree.scale());
-    picked.point = origin + picked.distance * way;
+    picked.point = origin + picked.distance * along;
     return picked;
   }
 
-  /// In double precision, along the ray to the plane of patch i; `roughly` where that is grazing.
-  double distance_to(PatchId i, const Vec3& origin, const Vec3& way, double roughly) const {
+  /// The distance along the ray to the plane of patch i, in double precision; `rough_distance` if
+  /// the ray is nearly parallel to the plane.
+  double distance_to(PatchId i, const Vec3& origin, const Vec3& along,
+                     double rough_distance) const {
     constexpr double grazing = 1e-4;
     const Patch& patch = scene->patch(i);
-    const double cosine = dot(patch.normal, way);
+    const double cosine = dot(patch.normal, along);
     if (std::abs(cosine) < grazing) {
-      return roughly;
+      return rough_distance;
     }
     return std::max(0.0, dot(patch.normal, patch.center - origin) / cosine);
   }

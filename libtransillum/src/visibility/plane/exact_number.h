@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// For the few files that compute in exact numbers: this draws in CGAL.
+// Exact numbers. Includes CGAL, so only the few files that compute with them should include this.
 #pragma once
 
 #include <CGAL/Gmpq.h>
@@ -11,12 +11,12 @@
 
 namespace transillum {
 
-/// The number of the exact maps, always in lowest terms. Copies share their digits without a lock,
-/// so none may pass from one thread to another.
+/// Rational number of the exact maps, always in lowest terms. Copies share their digits without
+/// synchronization: each number must stay in one thread.
 using Rational = CGAL::Gmpq;
 
-/// A sum of exact areas, m²: an integer multiple of 2^-1200, which is finer than any double. A sum
-/// of fractions would have all their denominators multiplied together.
+/// A sum of exact areas, m²: an integer multiple of 2^-1200, which is finer than any double. (The
+/// denominator of a sum of fractions would be the product of theirs.)
 class ExactArea {
  public:
   ExactArea() = default;
@@ -32,7 +32,7 @@ class ExactArea {
     return difference;
   }
   friend bool operator==(const ExactArea& a, const ExactArea& b) { return a.units_ == b.units_; }
-  /// The double nearest to it.
+  /// The nearest double.
   friend double nearest_double(const ExactArea& area);
 
  private:

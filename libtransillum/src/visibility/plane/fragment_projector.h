@@ -7,14 +7,14 @@
 
 namespace transillum {
 
-/// A fragment of the tree as the plane sees it, one at a time.
+/// Projects fragments of the tree onto the plane, one at a time.
 template <class Number>
 class FragmentProjector {
  public:
   FragmentProjector(const BspTree& tree, const BasicProjection<Number>& projection)
       : tree_(tree), projection_(projection) {}
 
-  /// Projects `fragment`. Returns false where it is seen edge-on and takes no part.
+  /// Projects `fragment`. Returns false if it is seen edge-on and must be left out.
   bool project(const BspTree::Fragment& fragment) {
     outline_.clear();
     for (const BspTree::Corner& corner : tree_.corners(fragment)) {
@@ -34,7 +34,7 @@ class FragmentProjector {
   bool front_facing() const { return front_facing_; }
 
  private:
-  /// Turns a clockwise outline round: the edge that left a corner now arrives there.
+  /// Reverses a clockwise outline: the edge that left a corner now arrives there.
   void reverse() {
     const std::size_t count = outline_.size();
     reversed_.resize(count);
@@ -46,9 +46,9 @@ class FragmentProjector {
     outline_.swap(reversed_);
   }
 
-  /// Whether the outline turns left everywhere. Pieces are planar to rounding only, so one seen
-  /// within rounding of edge-on may not, and takes no part. A right turn that is little of the area
-  /// says nothing: collinear corners turn either way.
+  /// Whether the outline turns left everywhere. Pieces are planar only to rounding, so the outline
+  /// of one seen edge-on within rounding may not, and is left out. Right turns that are small
+  /// compared with the area are ignored: nearly collinear corners may turn either way.
   bool is_convex() const {
     const std::size_t count = outline_.size();
     for (std::size_t k = 0; k < count; ++k) {

@@ -5,28 +5,28 @@
 
 namespace transillum {
 
-/// The number of the local visibility map. A patch seen at 1e-6 of its area is a needle whose
-/// width takes 1e-10 of itself only with more than a double's 53 bits; x86's 64 bits are enough
-/// and cost little here (decisions/0003-extended-precision.md).
+/// Number type of the local visibility map. The projection of a patch at 1e-6 of its area is a
+/// needle whose width has a relative precision of 1e-10 only with more than a double's 53 bits;
+/// x86's 64 bits suffice at little cost (decisions/0003-extended-precision.md).
 using Real = long double;
 
-/// What the maps ask of a number besides arithmetic and signs; Rational has one too
-/// (decisions/0008-exact-numbers.md).
+/// What the maps require of a number type besides arithmetic and signs; also specialized for
+/// Rational (decisions/0008-exact-numbers.md).
 template <class Number>
 struct MapNumber;
 
 template <>
 struct MapNumber<Real> {
-  using Area = double;  ///< what areas are summed in
+  using Area = double;  ///< type of sums of areas
 
   static Area area(Real number) { return static_cast<double>(number); }
-  /// Two doubles with the number between them, but for a rounding.
+  /// Bounds of the number, up to rounding.
   static std::pair<double, double> around(Real number) {
     return {static_cast<double>(number), static_cast<double>(number)};
   }
 };
 
-/// The double next to an area.
+/// The double nearest to an area.
 inline double nearest_double(double area) { return area; }
 
 }  // namespace transillum

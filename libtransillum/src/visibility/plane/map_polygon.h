@@ -8,8 +8,8 @@
 
 namespace transillum {
 
-/// A corner of a polygon of the map, and the tree's line on which the edge to the next corner
-/// lies, whatever has been cut off that edge since.
+/// A corner of a polygon of the map, and the line of the BSP tree on which the edge to the next
+/// corner lies, however that edge has been shortened by cuts.
 template <class Number>
 struct BasicMapCorner {
   BasicPlanePoint<Number> at;
@@ -23,8 +23,8 @@ template <class Number>
 using BasicMapPolygon = std::vector<BasicMapCorner<Number>>;
 using MapPolygon = BasicMapPolygon<Real>;
 
-/// Area by closed form, relative to the first corner so that small polygons far out keep their
-/// digits.
+/// Area, by the shoelace formula relative to the first corner, so that small polygons far from the
+/// origin keep their digits.
 template <class Number>
 Number area_of(const std::vector<BasicMapCorner<Number>>& polygon) {
   Number twice = 0;
@@ -34,7 +34,7 @@ Number area_of(const std::vector<BasicMapCorner<Number>>& polygon) {
   return twice / 2;
 }
 
-/// Cuts convex polygons against one another by the lines of their edges.
+/// Clips convex polygons against each other by the lines of their edges.
 template <class Number>
 class BasicMapClipper {
  public:
@@ -43,9 +43,9 @@ class BasicMapClipper {
 
   explicit BasicMapClipper(const BasicProjection<Number>& projection) : projection_(projection) {}
 
-  /// Splits `subject` into the part inside `window`, left in inside(), and parts outside, left in
-  /// outside(0) … outside(outside_count() - 1). Returns false, and leaves nothing, where the two
-  /// share no area; no cut is made then.
+  /// Splits `subject` into the part inside `window`, available as inside(), and parts outside,
+  /// available as outside(0) … outside(outside_count() - 1). Returns false if the two have no
+  /// common area; the parts are then unspecified.
   bool clip(const Polygon& subject, const Polygon& window) {
     if (separated(window, subject) || separated(subject, window)) {
       return false;
@@ -60,7 +60,7 @@ class BasicMapClipper {
         any_outside |= s < 0;
       }
       if (!any_inside) {
-        return false;  // they overlapped by rounding only
+        return false;  // overlap by rounding only
       }
       if (any_outside) {
         split(edge);
@@ -97,8 +97,9 @@ class BasicMapClipper {
     return !std::all_of(by.begin(), by.end(), inside_of);
   }
 
-  /// Sides of all corners of `polygon` against the line of `edge`. Corners of an edge on that very
-  /// line are on it by definition: what a determinant of nearly equal points says is noise.
+  /// Computes the sides of all corners of `polygon` relative to the line of `edge`. Corners of an
+  /// edge on the same line are on it by definition: the determinant of nearly equal points is
+  /// noise.
   void measure_sides(const Polygon& polygon, const Corner& edge) {
     const BasicPlaneLine<Number>& line = projection_.line(edge.line);
     const std::size_t count = polygon.size();
@@ -114,8 +115,8 @@ class BasicMapClipper {
     }
   }
 
-  /// Splits inside_ along `edge`, of which sides_ tells: what lies outside becomes a part of its
-  /// own, and both get an edge on the line of `edge`.
+  /// Splits inside_ along the line of `edge`, by sides_: the part outside is added to outside_, and
+  /// both parts get an edge on that line.
   void split(const Corner& edge) {
     if (outside_.size() == outside_count_) {
       outside_.emplace_back();
@@ -135,7 +136,7 @@ class BasicMapClipper {
         out.push_back(corner);
       }
       if (here == 0) {
-        // Leaving from a corner on the line, or coming back to one.
+        // The outline leaves or reaches the inner side at a corner on the line.
         if (there < 0) {
           kept_.back().line = edge.line;
           kept_.back().forward = edge.forward;
@@ -169,7 +170,7 @@ class BasicMapClipper {
   std::vector<Polygon> outside_;
   std::size_t outside_count_ = 0;
   Number inside_area_{};
-  std::vector<Number> sides_;  ///< of the corners of the polygon at hand, > 0 inside
+  std::vector<Number> sides_;  ///< of the corners given to measure_sides(), > 0 inside
 };
 using MapClipper = BasicMapClipper<Real>;
 

@@ -6,7 +6,7 @@
 namespace transillum {
 
 PlaneFrame plane_frame(const Scene& scene, const Vec3& omega) {
-  // The axis most across omega gives the plane's "up" a steady meaning: z where possible.
+  // The plane's "up" is z unless omega is nearly parallel to it.
   const Vec3 up = std::abs(omega.z) < 0.95 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
   PlaneFrame frame;
   frame.origin = scene.bounds().center();

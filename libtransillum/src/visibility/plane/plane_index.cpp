@@ -8,8 +8,8 @@
 namespace transillum {
 namespace {
 
-constexpr int most_levels = 24;
-/// Levels beyond those that an even spread needs.
+constexpr int max_levels = 24;
+/// Levels beyond those that an even distribution requires.
 constexpr int spare_levels = 8;
 
 bool overlap(const PlaneBox& a, const PlaneBox& b) {
@@ -19,14 +19,14 @@ bool overlap(const PlaneBox& a, const PlaneBox& b) {
 }  // namespace
 
 PlaneIndex::PlaneIndex(const PlaneBox& all, std::size_t expected) : levels_(spare_levels) {
-  while (levels_ < most_levels && (std::size_t{1} << (2 * (levels_ - spare_levels))) < expected) {
+  while (levels_ < max_levels && (std::size_t{1} << (2 * (levels_ - spare_levels))) < expected) {
     ++levels_;
   }
   cells_.reserve(2 * expected);
   cells_.push_back({all.x0, all.y0, std::max(all.x1 - all.x0, all.y1 - all.y0), none});
 }
 
-/// The child of `cell` that holds the point, made where it is not there yet.
+/// The child of `cell` that contains the point; created if missing.
 std::int32_t PlaneIndex::child_toward(std::int32_t cell, double x, double y) {
   const Cell& parent = at(cells_, cell);
   const double size = 0.5 * parent.size;
@@ -84,8 +84,8 @@ void PlaneIndex::erase(std::int32_t id) {
 }
 
 void PlaneIndex::query(const PlaneBox& box, std::vector<std::int32_t>& found) const {
-  // Each cell taken off leaves at most four in its place.
-  std::array<std::int32_t, 4 * most_levels> stack;
+  // Each cell popped pushes at most four.
+  std::array<std::int32_t, 4 * max_levels> stack;
   std::size_t height = 0;
   stack[height++] = 0;
   while (height > 0) {

@@ -24,8 +24,8 @@ struct PlaneBox {
   }
 };
 
-/// The box of a polygon, rounded outward: a needle thinner than a double's last place still has
-/// one.
+/// The box of a polygon, rounded outward, so that it is not empty even for a needle thinner than
+/// the last place of a double.
 template <class Number>
 PlaneBox box_of(const std::vector<BasicMapCorner<Number>>& polygon) {
   PlaneBox box{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -37,16 +37,18 @@ PlaneBox box_of(const std::vector<BasicMapCorner<Number>>& polygon) {
   return {down(box.x0), down(box.y0), up(box.x1), up(box.y1)};
 }
 
-/// Which polygons may overlap a box: a loose quadtree over the plane.
+/// A spatial index of polygons: a loose quadtree over the plane.
 ///
-/// A polygon hangs in one cell: on the finest level whose cells are no smaller than its box, in
-/// the cell of its center. A cell's polygons thus stay within half a cell around it. Putting in
-/// and taking out cost O(levels); asking skips empty subtrees, so one huge polygon over many
-/// small ones costs what it finds. Cells are made where polygons are, some levels finer than an
-/// even spread would need: a detailed house on a wide plain is no worse than the house.
+/// A polygon is stored in one cell: on the finest level whose cells are no smaller than its box, in
+/// the cell of its center. A cell's polygons thus reach at most half a cell beyond it. insert() and
+/// erase() cost O(levels); query() skips empty subtrees, so a huge polygon over many small ones
+/// costs in proportion to what it finds. Cells are created where polygons are, some levels finer
+/// than an even distribution would require: a detailed house on a wide plain costs no more than the
+/// house.
 class PlaneIndex {
  public:
-  /// Covers `all`; made for about `expected` polygons at a time.
+  /// @param all bounds of all polygons.
+  /// @param expected approximate number of polygons at a time.
   PlaneIndex(const PlaneBox& all, std::size_t expected);
 
   void insert(std::int32_t id, const PlaneBox& box);
@@ -66,7 +68,7 @@ class PlaneIndex {
     std::int32_t parent;
     std::array<std::int32_t, 4> children{none, none, none, none};
     std::int32_t head = none;
-    std::int32_t below = 0;  ///< entries here and in all cells beneath
+    std::int32_t below = 0;  ///< number of entries in this cell and its descendants
   };
   std::int32_t child_toward(std::int32_t cell, double x, double y);
   void count(std::int32_t cell, std::int32_t change);

@@ -38,16 +38,16 @@ template <class Number>
 struct BasicPlaneLine {
   BasicPlanePoint<Number> origin, along;
 
-  /// Twice the area of the triangle with `along`: > 0 to the left.
+  /// Twice the area of the triangle of `along` and p: > 0 if p lies left of the line.
   Number side(const BasicPlanePoint<Number>& p) const { return cross(along, p - origin); }
 };
 using PlaneLine = BasicPlaneLine<Real>;
 
 /// All points and lines of a tree, projected along one direction.
 ///
-/// Every point is projected once, and cut points are interpolated from projected ones, so what
-/// meets in space meets here: to the bit or to the last place, and in exact numbers truly, since
-/// then every corner of a fragment lies on the lines of both its edges.
+/// Every point is projected once, and cut points are interpolated from projected ones, so that
+/// points that coincide in space coincide here: bit for bit or to the last place. In exact numbers
+/// every corner of a fragment also lies exactly on the lines of both its edges.
 template <class Number>
 class BasicProjection {
  public:
@@ -59,23 +59,23 @@ class BasicProjection {
   BasicProjection(const Scene& scene, const BspTree& tree, const Vec3& omega,
                   const Cancellation& cancellation = {})
       : frame(plane_frame(scene, omega)) {
-    const auto look_for_cancellation = [&cancellation](std::size_t done) {
+    const auto check_cancellation = [&cancellation](std::size_t done) {
       if (done % 256 == 0) {
         cancellation.throw_if_canceled();
       }
     };
     points.reserve(tree.points().size());
     for (const Vec3& p : scene.points()) {
-      look_for_cancellation(points.size());
+      check_cancellation(points.size());
       points.push_back({along(frame.u, p), along(frame.v, p)});
     }
     for (const BspTree::CutPoint& cut : tree.cut_points()) {
-      look_for_cancellation(points.size());
+      check_cancellation(points.size());
       points.push_back(between(point(cut.a), point(cut.b), static_cast<Number>(cut.t)));
     }
     lines.reserve(tree.lines().size());
     for (const BspTree::Line& line : tree.lines()) {
-      look_for_cancellation(lines.size());
+      check_cancellation(lines.size());
       const BasicPlanePoint<Number>& a = point(line.a);
       lines.push_back({a, point(line.b) - a});
     }

@@ -12,18 +12,20 @@
 
 namespace transillum {
 
-/// Adds up who looks at whom in one direction, both ways.
+/// Sums the transfers of one direction, for omega and -omega, from the areas in which fragments see
+/// each other.
 template <class Area>
 class TransferSums {
  public:
   explicit TransferSums(PatchId patch_count) : patches_(static_cast<std::size_t>(patch_count)) {}
 
-  /// Books a part of patch i's projection.
+  /// Adds a part of patch i's projected area.
   void project(PatchId i, bool front_facing, const Area& area) {
     at(patches_, i).sides[front_facing ? 0 : 1].projected += area;
   }
 
-  /// Books `area` between a part of patch `below` and one of `above` right above it.
+  /// Adds `area` in which a part of patch `below` sees a part of patch `above`, which is nearer to
+  /// omega.
   void accumulate(PatchId below, bool below_front_facing, PatchId above, bool above_front_facing,
                   const Area& area) {
     if (below_front_facing) {
@@ -40,7 +42,7 @@ class TransferSums {
     }
   }
 
-  /// The sums, rounded once; leaves nothing behind.
+  /// Returns the sums, each rounded once. The object must not be used afterwards.
   /// @throws Canceled
   Transfers finish(const Vec3& omega, const Cancellation& cancellation) {
     Transfers transfers;
@@ -76,24 +78,25 @@ class TransferSums {
     return {nearest_double(sums.projected), nearest_double(sums.covered)};
   }
 
-  /// One entry a pair, by receiver and source; parts summed in the order they were found.
+  /// One entry per pair, by receiver and source; parts are summed in the order in which they were
+  /// added.
   void add_exchanges(std::vector<Transfer>& summed, const Cancellation& cancellation) const {
-    // Dealt out by receiver, then each row sorted.
+    // Counting sort by receiver, then each row by source.
     std::vector<std::size_t> end(patches_.size() + 1, 0);
     for (const Exchange& e : exchanges_) {
       ++end[static_cast<std::size_t>(e.receiver) + 1];
     }
     std::partial_sum(end.begin(), end.end(), end.begin());
-    std::vector<const Exchange*> dealt(exchanges_.size());
+    std::vector<const Exchange*> by_receiver(exchanges_.size());
     for (const Exchange& e : exchanges_) {
-      dealt[at(end, e.receiver)++] = &e;
+      by_receiver[at(end, e.receiver)++] = &e;
     }
-    auto begin = dealt.begin();
+    auto begin = by_receiver.begin();
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       if (i % 256 == 0) {
         cancellation.throw_if_canceled();
       }
-      const auto row_end = dealt.begin() + static_cast<std::ptrdiff_t>(end[i]);
+      const auto row_end = by_receiver.begin() + static_cast<std::ptrdiff_t>(end[i]);
       std::stable_sort(begin, row_end,
                        [](const Exchange* a, const Exchange* b) { return a->source < b->source; });
       while (begin != row_end) {
