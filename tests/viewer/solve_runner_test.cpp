@@ -193,7 +193,7 @@ class SessionTest : public QObject {
     }));
     QCOMPARE(passes_done(w.snapshot->progress, w.snapshot->kept_passes), std::int64_t{passes});
     // It rests there: what is asked for has been done.
-    w.runner.pursue({Goal::Kind::passes, passes});
+    w.runner.set_goal({Goal::Kind::passes, passes});
     QTest::qWait(50);
     QCOMPARE(w.snapshot->progress.direction, direction);
     QCOMPARE(w.snapshot->progress.iteration, iteration);

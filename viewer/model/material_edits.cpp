@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Materials edited by the user, with an undo stack; changes during one drag are merged.
 #include "model/material_edits.h"
 
 #include <algorithm>
@@ -24,7 +26,7 @@ class MaterialEdits::Change : public QUndoCommand {
         drag_(edits.drag_),
         before_(at(edits.now_, material)),
         after_(std::move(after)) {
-    setText(MaterialEdits::tr("change of %1").arg(QString::fromStdString(before_.name)));
+    setText(MaterialEdits::tr("change %1").arg(QString::fromStdString(before_.name)));
   }
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override {
@@ -74,7 +76,7 @@ void MaterialEdits::restore() {
     return;
   }
   begin_drag();
-  undo_.beginMacro(tr("return to the scene's materials"));
+  undo_.beginMacro(tr("restore the scene's materials"));
   for (std::size_t m = 0; m < now_.size(); ++m) {
     set(static_cast<int>(m), originals_[m].exitance, originals_[m].reflectance);
   }
@@ -98,14 +100,14 @@ std::vector<std::string> MaterialEdits::start_over(const std::vector<MaterialCha
   std::vector<std::string> unknown;
   now_ = originals_;
   for (const MaterialChange& change : changes) {
-    const auto changed_one = std::find_if(
+    const auto changed_material = std::find_if(
         now_.begin(), now_.end(), [&](const Material& one) { return one.name == change.name; });
-    if (changed_one == now_.end()) {
+    if (changed_material == now_.end()) {
       unknown.push_back(change.name);
       continue;
     }
-    changed_one->exitance = change.exitance;
-    changed_one->reflectance = change.reflectance;
+    changed_material->exitance = change.exitance;
+    changed_material->reflectance = change.reflectance;
   }
   undo_.clear();
   emit changed();
@@ -113,9 +115,9 @@ std::vector<std::string> MaterialEdits::start_over(const std::vector<MaterialCha
 }
 
 void MaterialEdits::put(int material, const Rgb& exitance, const Rgb& reflectance) {
-  Material& changed_one = at(now_, material);
-  changed_one.exitance = exitance;
-  changed_one.reflectance = reflectance;
+  Material& changed_material = at(now_, material);
+  changed_material.exitance = exitance;
+  changed_material.reflectance = reflectance;
   emit changed();
 }
 

@@ -10,36 +10,38 @@
 
 namespace transillum::viewer {
 
-/// A material by its name, and what it was changed to.
+/// A material by name, with its new values.
 struct MaterialChange {
   std::string name;
   Rgb exitance;     ///< E, W/m²
   Rgb reflectance;  ///< rho, 0 to below 1
 };
 
-/// A scene's materials as the user has changed them; every change can be undone.
+/// The materials of a scene with the user's changes, which can be undone.
+///
+/// Threads: the main thread only.
 class MaterialEdits : public QObject {
   Q_OBJECT
 
  public:
   using QObject::QObject;
 
-  /// Starts over with a scene's own; there is nothing to undo then.
+  /// Sets the original materials of a scene and clears the undo stack.
   void start_with(std::vector<Material> materials);
   const std::vector<Material>& materials() const { return now_; }
   const std::vector<Material>& originals() const { return originals_; }
-  /// Whether any differs from the scene's own.
+  /// Whether any material differs from the original.
   bool any() const;
 
-  /// E and rho of one material. Changes of one drag, from begin_drag() on, are undone as one.
+  /// Sets E (W/m²) and rho of one material. Changes since begin_drag() are undone together.
   void set(int material, const Rgb& exitance, const Rgb& reflectance);
   void begin_drag() { ++drag_; }
-  /// All as the scene has them.
+  /// Restores all originals, as one undoable change.
   void restore();
-  /// What differs from the scene's own.
+  /// All materials that differ from the originals.
   std::vector<MaterialChange> changes() const;
-  /// The scene's own but for `changes`, as where a session begins: nothing can be undone.
-  /// @return the names that no material has.
+  /// Sets the originals with `changes` and clears the undo stack.
+  /// @return names in `changes` that no material has
   std::vector<std::string> start_over(const std::vector<MaterialChange>& changes);
 
   QUndoStack& undo_stack() { return undo_; }

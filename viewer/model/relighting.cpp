@@ -8,13 +8,13 @@
 namespace transillum::viewer {
 
 Relighting::Relighting(QObject* parent) : QObject(parent) {
-  connect(&edits_, &MaterialEdits::changed, this, &Relighting::ask);
+  connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
   connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
   connect(
       &relighter_, &Relighter::relit, this,
       [this](const std::shared_ptr<const RelightResult>& light, std::vector<Material> materials) {
         if (!edits_.any()) {
-          return;  // undone meanwhile
+          return;  // undone since
         }
         light_ = light;
         materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
@@ -37,8 +37,8 @@ QString Relighting::obstacle() const {
   }
   if (snapshot_->shot && !snapshot_->shot->sources.empty() && snapshot_->shot->parts.empty()) {
     return tr(
-        "The first shot's light takes more memory than it may, kept for each material: solve "
-        "without it to change the light.");
+        "The first shot, stored per material, exceeds the memory limit: solve without it to change "
+        "the light.");
   }
   return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
 }
@@ -48,15 +48,17 @@ QString Relighting::account() const {
     return {};
   }
   if (snapshot_->options.scheme == Scheme::semi_iterative) {
-    return tr("A change takes all steps' form factors; the scheme's own B is a mean over steps.");
+    return tr(
+        "Edited light uses the form factors of all iterations; B of the scheme is a mean over "
+        "iterations.");
   }
   if (snapshot_->shot && !snapshot_->shot->sources.empty()) {
-    return tr("The first shot follows; what was dark and emits now is not shot.");
+    return tr("The first shot is included; patches that did not emit before are not shot.");
   }
   return {};
 }
 
-void Relighting::ask() {
+void Relighting::request_light() {
   if (!edits_.any()) {
     relighter_.clear();
     light_ = nullptr;
@@ -78,9 +80,9 @@ void Relighting::ask() {
 std::shared_ptr<const SolverSnapshot> Relighting::lit(
     std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
-  // Form factors of more passes than those asked with last.
+  // Form factors of more passes than those of the newest request.
   if (edits_.any() && snapshot_->form_factors && snapshot_->form_factors != used_) {
-    ask();
+    request_light();
   }
   if (!light_ || !snapshot_->form_factors) {
     return snapshot_;

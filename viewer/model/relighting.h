@@ -10,7 +10,9 @@
 
 namespace transillum::viewer {
 
-/// Lays the light of changed materials over what the solver tells.
+/// Replaces the light in snapshots by that of edited materials, computed from stored form factors.
+///
+/// Threads: the main thread only.
 class Relighting : public QObject {
   Q_OBJECT
 
@@ -18,33 +20,33 @@ class Relighting : public QObject {
   explicit Relighting(QObject* parent = nullptr);
 
   MaterialEdits& edits() { return edits_; }
-  /// A new scene: its materials, unchanged.
+  /// Starts with the unedited materials of a new scene.
   void show_scene(const Scene& scene);
-  /// What is to be shown of a snapshot of the solver: itself, or with the light and the materials
-  /// of the edits, as soon as that light is found.
+  /// The snapshot to show for one of the solver: the same, or with the edited materials and their
+  /// light once it is computed.
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);
-  /// Why materials cannot be changed now; empty where they can.
+  /// The reason why materials cannot be edited now; empty if they can.
   QString obstacle() const;
-  /// What the light of changed materials is found from, a sentence for the user; empty where it is
-  /// the solve's form factors and nothing else.
+  /// A sentence for the user on how the light of edited materials is computed; empty if it is only
+  /// from the form factors of the solve run.
   QString account() const;
-  /// Whether a light that was asked for is still being found.
+  /// Whether requested light has not been delivered yet.
   bool busy() const { return relighter_.busy(); }
 
  signals:
-  /// Other light: what lit() gives has changed.
+  /// The result of lit() has changed.
   void changed();
   void form_factors_requested();
   void failed(const QString& message);
 
  private:
-  void ask();
+  void request_light();
 
   MaterialEdits edits_;
   Relighter relighter_;
-  std::shared_ptr<const SolverSnapshot> snapshot_;          ///< the solver's newest
-  std::shared_ptr<const FormFactors> used_;                 ///< that were asked with last
-  std::shared_ptr<const RelightResult> light_;              ///< null: the solver's own
+  std::shared_ptr<const SolverSnapshot> snapshot_;          ///< newest of the solver
+  std::shared_ptr<const FormFactors> used_;                 ///< of the newest request
+  std::shared_ptr<const RelightResult> light_;              ///< null: the solver's light
   std::shared_ptr<const std::vector<Material>> materials_;  ///< of light_
 };
 

@@ -60,7 +60,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   object.read("two-sided", options.scene.two_sided);
   object.read("max-patch-area", options.scene.max_patch_area);
   if (!(options.scene.max_patch_area >= 0)) {
-    object.fail_at("max-patch-area", "must be an area in m², or 0 to leave faces whole");
+    object.fail_at("max-patch-area", "must be an area in m², or 0 for no limit");
   }
   object.done();
   try {

@@ -10,7 +10,7 @@
 
 namespace transillum::viewer {
 
-/// All that a solve is told.
+/// All options of a solve run.
 struct RunOptions {
   SolveOptions solve;
   SceneOptions scene;
@@ -21,11 +21,12 @@ struct RunOptions {
   }
 };
 
-/// Options as lessons and sessions name them: as the command line does, without the dashes. What is
-/// missing has its default. Threads and memory are the machine's business, and not among them.
-/// @throws InputError that begins with `where`.
+/// Reads options from a lesson or session file. Names as on the command line, without dashes;
+/// missing options have their defaults. The numbers of threads and bytes depend on the computer and
+/// are not included.
+/// @throws InputError that begins with `where`
 RunOptions run_options_from_json(const nlohmann::json& value, const std::string& where);
-/// All settings() that files name.
+/// All options of run_options_from_json().
 nlohmann::json to_json(const RunOptions& options);
 
 }  // namespace transillum::viewer

@@ -16,21 +16,21 @@
 
 namespace transillum::viewer {
 
-/// A scene with its order, and what finds its patches along rays. Immutable, shared by all threads.
+/// A scene with its BSP tree and ray picker. Immutable, shared by all threads.
 struct LoadedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  std::shared_ptr<const Solution> stored;  ///< of the result's file it comes from; else null
-  std::string file;                        ///< that file
-  double seconds_load = 0;
-  double seconds_bsp = 0;
+  std::shared_ptr<const Solution> stored;  ///< of the result file that was opened; else null
+  std::string file;                        ///< path of the result file
+  double seconds_load = 0;                 ///< wall-clock time of reading
+  double seconds_bsp = 0;                  ///< wall-clock time of building the tree
 };
 
-/// Passes that the steps so far rest on; one that a step takes over from those before (in the
-/// growing scheme, or from kept sums) counts in each.
-/// @param kept_passes of each step from 0 that has begun, as in SolverSnapshot
+/// The sum of the passes of all iterations so far. A pass that several iterations use (in the
+/// growing scheme, or from stored sums) counts in each.
+/// @param kept_passes  as in SolverSnapshot
 inline std::int64_t passes_done(const SolveProgress& progress,
                                 const std::vector<int>& kept_passes) {
   const auto finished =
@@ -40,56 +40,59 @@ inline std::int64_t passes_done(const SolveProgress& progress,
                          std::int64_t{progress.direction});
 }
 
-/// Where a solve stands at one moment. Immutable: the worker makes it, the window shows it.
+/// The state of a solve run at one moment. Immutable: created by the worker, shown by the window.
 struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
   SolveOptions options;
   SolveProgress progress;
-  std::shared_ptr<const std::vector<Vec3>> directions;  ///< omega of each pass of the newest step
-  /// The same for each step from 0 that has begun, the first always: one list for all, but of their
-  /// own in the semi-iterative scheme; null where memory would not do.
+  std::shared_ptr<const std::vector<Vec3>>
+      directions;  ///< omega of each pass of the newest iteration
+  /// The directions of each iteration that has begun, and always of the first: one shared list,
+  /// except in the semi-iterative scheme; null if the memory limit was exceeded.
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions;
-  /// M of each step from 0 that has begun: fewer at first in the growing scheme.
+  /// M of each iteration that has begun; smaller in the first ones of the growing scheme.
   std::vector<int> kept_passes;
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;   ///< running estimate, W/m², one a patch
-  std::vector<Rgb> irradiance;  ///< of the last finished step, W/m², one a patch
-  /// Of all passes so far; null until the session was asked for them and has them.
+  std::vector<Rgb> radiosity;   ///< B, running estimate, W/m², one per patch
+  std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
+  /// Of all passes so far; null until SolveRunner::include_form_factors() was called and they are
+  /// assembled.
   std::shared_ptr<const FormFactors> form_factors;
-  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros where there is none
-  /// E and rho that radiosity and irradiance are of, where they are not the scene's; else null.
+  std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros without one
+  /// E and rho of radiosity and irradiance if they differ from the scene's; else null.
   std::shared_ptr<const std::vector<Material>> materials;
-  /// The figures are those of loaded->stored: nothing has been solved here yet.
+  /// The values are those of loaded->stored; nothing has been solved yet.
   bool of_file = false;
-  bool form_factors_fit = true;  ///< false: they would take too much memory
-  /// B(n), one a patch, for each n from 0 whose step has begun; null where memory would not do.
+  bool form_factors_fit = true;  ///< false: the memory limit was exceeded
+  /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
+  /// exceeded.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
-  std::vector<double> form_factor_sums;   ///< one a patch
-  std::vector<double> estimate_changes;   ///< of the newest step that has passes, one a pass
-  std::vector<double> quadrature_errors;  ///< eps after each pass
-  ErrorEstimate error;                    ///< from replicas, if any
-  int estimate_iteration = 0;             ///< 0-based number of that step
+  std::vector<double> form_factor_sums;   ///< one per patch
+  std::vector<double> estimate_changes;   ///< of the newest iteration with passes, one per pass
+  std::vector<double> quadrature_errors;  ///< epsilon after each pass
+  ErrorEstimate error;                    ///< from replicas; empty without
+  int estimate_iteration = 0;             ///< number of that iteration, from 0
 
-  /// Directions of a step, the newest one's where they have not been kept.
+  /// Directions of an iteration; the newest one's if they were not stored.
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
     const auto n = static_cast<std::size_t>(iteration);
     return n < kept_directions.size() && kept_directions[n] ? kept_directions[n] : directions;
   }
-  /// How many of them the step took, or takes.
+  /// The number of passes of an iteration.
   int passes_of(int iteration) const {
     const auto n = static_cast<std::size_t>(iteration);
     return n < kept_passes.size() ? kept_passes[n] : progress.passes;
   }
 };
 
-/// E and rho that the snapshot is of.
+/// E and rho of patch i in the snapshot.
 inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
   const Scene& scene = *snapshot.loaded->scene;
   const auto m = static_cast<std::size_t>(scene.patch(i).material);
   return snapshot.materials ? (*snapshot.materials)[m] : scene.materials()[m];
 }
 
-/// What the session is doing.
+/// What the solve runner does.
 enum class RunState { empty, loading, paused, running, finished };
 
 }  // namespace transillum::viewer

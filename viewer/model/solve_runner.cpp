@@ -1,34 +1,32 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The worker thread that loads scenes and solves them. Commands from the window set requests and a
+// goal; the worker handles one at a time (work()), advances the solver toward the goal, and posts
+// snapshots, states and failures back to the window's thread.
 #include "model/solve_runner.h"
 
 #include <QMetaObject>
 #include <algorithm>
-#include <chrono>
+#include <new>
 #include <utility>
 
 #include "support/failure_text.h"
 #include "support/thread_priority.h"
+#include "transillum/errors.h"
 #include "transillum/files.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-// All B(n) together, and all directions; later ones are not kept.
+// Limit for all B(n) together, and for all directions; later ones are not stored.
 constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
 
-// What form factors may take beside the solver's own sums.
+// Limit for the form factors in addition to the solver's sums.
 constexpr std::int64_t most_form_factor_bytes = std::int64_t{1} << 30;
 
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
-      .count();
-}
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
+double seconds(const QElapsedTimer& timer) {
+  return 1e-9 * static_cast<double>(timer.nsecsElapsed());
 }
 
 }  // namespace
@@ -50,7 +48,7 @@ SolveRunner::~SolveRunner() {
 void SolveRunner::open(OpenRequest request) {
   {
     const std::lock_guard lock(mutex_);
-    // A load under way is given up; a solve merely rests, and goes on should this load fail.
+    // A running load is canceled; a solve only pauses, and continues if this load fails.
     if (loading_) {
       load_cancellation_.cancel();
     }
@@ -64,7 +62,7 @@ void SolveRunner::stop() {
   {
     const std::lock_guard lock(mutex_);
     if (open_request_) {
-      // The solve that was to make room goes on.
+      // The solve that was paused for loading continues.
       open_request_.reset();
       ++goal_number_;
       return;
@@ -99,17 +97,17 @@ void SolveRunner::restart(const SolveOptions& options, Goal then) {
 }
 
 void SolveRunner::include_form_factors() {
-  if (form_factors_wanted_) {
+  if (includes_form_factors_) {
     return;
   }
   {
     const std::lock_guard lock(mutex_);
-    form_factors_wanted_ = form_factors_asked_ = true;
+    includes_form_factors_ = form_factors_requested_ = true;
   }
   wake_.notify_one();
 }
 
-void SolveRunner::aim(Goal goal) {
+void SolveRunner::set_goal(Goal goal) {
   {
     const std::lock_guard lock(mutex_);
     goal_ = goal;
@@ -123,14 +121,14 @@ void SolveRunner::work() {
   lower_thread_priority();
   std::unique_lock lock(mutex_);
   while (true) {
-    const auto anything = [this] {
-      return quit_ || open_request_ || restart_request_ || form_factors_asked_ ||
+    const auto has_work = [this] {
+      return quit_ || open_request_ || restart_request_ || form_factors_requested_ ||
              goal_.kind != Goal::Kind::rest;
     };
-    if (!anything()) {
-      post_state(resting_state());
+    if (!has_work()) {
+      post_state(idle_state());
     }
-    wake_.wait(lock, anything);
+    wake_.wait(lock, has_work);
     if (quit_) {
       return;
     }
@@ -149,12 +147,12 @@ void SolveRunner::work() {
       solve_cancellation_ = Cancellation();
       const SolveOptions options = options_;
       lock.unlock();
-      begin_solve(options);
+      start_solve(options);
       lock.lock();
-    } else if (form_factors_asked_) {
-      form_factors_asked_ = false;
+    } else if (form_factors_requested_) {
+      form_factors_requested_ = false;
       lock.unlock();
-      show_form_factors();
+      post_form_factors();
       lock.lock();
     } else {
       const Goal goal = goal_;
@@ -162,7 +160,7 @@ void SolveRunner::work() {
       lock.unlock();
       advance(goal);
       lock.lock();
-      // A goal that was left for a load's sake is taken up again should that load fail.
+      // Keep a goal that was interrupted by a load: the solve continues if that load fails.
       if (number == goal_number_ && !open_request_) {
         goal_ = {};
       }
@@ -173,94 +171,98 @@ void SolveRunner::work() {
 void SolveRunner::load(const OpenRequest& request) {
   post_state(RunState::loading);
   const QString name = QString::fromStdString(request.spec);
-  const auto report = [this](const QString& phase, double share) {
-    post([this, phase, share] { emit load_progressed(phase, share); });
-  };
   try {
     request.solve_options.validate();
     const Cancellation cancellation = load_cancellation_;
-    const auto load_begin = Clock::now();
     auto loaded = std::make_shared<LoadedScene>();
-    report(tr("Loading %1").arg(name), -1);
-    if (is_result_file(request.spec)) {
-      loaded->stored = std::make_shared<const Solution>(read_result(request.spec, cancellation));
-      loaded->scene = loaded->stored->scene;
-      loaded->file = request.spec;
-    } else {
-      loaded->scene = load_scene(request.spec, request.scene_options, cancellation);
-    }
-    loaded->picker = std::make_shared<const Picker>(loaded->scene, cancellation);
-    loaded->measures = measure(*loaded->scene, cancellation);
-    loaded->seconds_load = seconds_since(load_begin);
-
-    const auto tree_begin = Clock::now();
-    auto last_report = tree_begin;
-    loaded->tree = std::make_shared<BspTree>(*loaded->scene, cancellation,
-                                             [this, &report, &last_report](double share) {
-                                               if (seconds_since(last_report) < 0.05) {
-                                                 return;
-                                               }
-                                               last_report = Clock::now();
-                                               report(tr("Sorting patches"), share);
-                                             });
-    loaded->seconds_bsp = seconds_since(tree_begin);
-
+    post_load_progress(tr("Loading %1").arg(name), -1);
+    read_scene(request, *loaded, cancellation);
+    build_tree(*loaded, cancellation);
     if (request.solve_options.first_shot) {
-      report(tr("Shooting small sources"), -1);
+      post_load_progress(tr("Computing the first shot"), -1);
     }
     auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.solve_options,
                                                     loaded->tree, cancellation);
-    {
-      // From here on the scene is there: who stops now stops its solve.
-      const std::lock_guard lock(mutex_);
-      cancellation.throw_if_canceled();
-      solve_cancellation_ = cancellation;
-      loading_ = false;
-      options_ = request.solve_options;
-      goal_ = request.then;
-      ++goal_number_;
-    }
-    loaded_ = loaded;
-    take_solver(std::move(solver));
-    {
-      const std::lock_guard lock(mutex_);
-      mailbox_ = nullptr;  // of the scene before
-    }
-    post([this, loaded] {
-      announced_ = loaded;
-      emit scene_loaded(loaded);
-      deliver_snapshot();
-    });
-    post_snapshot();
-  } catch (const Canceled&) {
-    // The user's wish: nothing to say.
-  } catch (const InputError& error) {
-    post_failure(QString::fromStdString(error.what()), true);
-  } catch (const std::bad_alloc&) {
-    post_failure(tr("%1 does not fit into memory").arg(name), false);
-  } catch (const std::exception& error) {
-    post_failure(failure_text(error), false);
+    replace_scene(request, loaded, std::move(solver), cancellation);
+  } catch (...) {
+    post_current_failure(tr("%1 does not fit into memory").arg(name));
   }
 }
 
-void SolveRunner::begin_solve(const SolveOptions& options) {
+void SolveRunner::read_scene(const OpenRequest& request, LoadedScene& loaded,
+                             const Cancellation& cancellation) {
+  QElapsedTimer timer;
+  timer.start();
+  if (is_result_file(request.spec)) {
+    loaded.stored = std::make_shared<const Solution>(read_result(request.spec, cancellation));
+    loaded.scene = loaded.stored->scene;
+    loaded.file = request.spec;
+  } else {
+    loaded.scene = load_scene(request.spec, request.scene_options, cancellation);
+  }
+  loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
+  loaded.measures = measure(*loaded.scene, cancellation);
+  loaded.seconds_load = seconds(timer);
+}
+
+void SolveRunner::build_tree(LoadedScene& loaded, const Cancellation& cancellation) {
+  constexpr qint64 report_interval_ms = 50;
+  QElapsedTimer timer, since_report;
+  timer.start();
+  since_report.start();
+  const auto report = [this, &since_report](double share) {
+    if (since_report.elapsed() < report_interval_ms) {
+      return;
+    }
+    since_report.start();
+    post_load_progress(tr("Building the BSP tree"), share);
+  };
+  loaded.tree = std::make_shared<BspTree>(*loaded.scene, cancellation, report);
+  loaded.seconds_bsp = seconds(timer);
+}
+
+void SolveRunner::replace_scene(const OpenRequest& request,
+                                const std::shared_ptr<const LoadedScene>& loaded,
+                                std::unique_ptr<RadiositySolver> solver,
+                                const Cancellation& cancellation) {
+  {
+    // From here on, stop() stops the solve of the new scene.
+    const std::lock_guard lock(mutex_);
+    cancellation.throw_if_canceled();
+    solve_cancellation_ = cancellation;
+    loading_ = false;
+    options_ = request.solve_options;
+    goal_ = request.then;
+    ++goal_number_;
+  }
+  loaded_ = loaded;
+  replace_solver(std::move(solver));
+  {
+    const std::lock_guard lock(mutex_);
+    pending_snapshot_ = nullptr;  // of the previous scene
+  }
+  post([this, loaded] {
+    announced_ = loaded;
+    emit scene_loaded(loaded);
+    deliver_snapshot();
+  });
+  post_snapshot();
+}
+
+void SolveRunner::start_solve(const SolveOptions& options) {
   if (!loaded_) {
     return;
   }
   try {
-    take_solver(std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
-                                                  solve_cancellation_));
+    replace_solver(std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
+                                                     solve_cancellation_));
     post_snapshot();
-  } catch (const Canceled&) {
-    // Another wish has come in the meantime; the loop sees to it.
-  } catch (const InputError& error) {
-    post_failure(QString::fromStdString(error.what()), true);
-  } catch (const std::exception& error) {
-    post_failure(failure_text(error), false);
+  } catch (...) {
+    post_current_failure();
   }
 }
 
-void SolveRunner::take_solver(std::unique_ptr<RadiositySolver> solver) {
+void SolveRunner::replace_solver(std::unique_ptr<RadiositySolver> solver) {
   solver_ = std::move(solver);
   solver_->keep_form_factors();
   kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
@@ -272,7 +274,7 @@ void SolveRunner::take_solver(std::unique_ptr<RadiositySolver> solver) {
   more_to_do_ = true;
 }
 
-void SolveRunner::keep_radiosity() {
+void SolveRunner::store_radiosity() {
   const auto iteration = static_cast<std::size_t>(solver_->progress().iteration);
   if (iteration < kept_radiosity_.size()) {
     return;
@@ -284,7 +286,7 @@ void SolveRunner::keep_radiosity() {
   }
 }
 
-void SolveRunner::keep_directions() {
+void SolveRunner::store_directions() {
   const SolveProgress progress = solver_->progress();
   const std::size_t begun =
       static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
@@ -328,32 +330,32 @@ void SolveRunner::advance(const Goal& goal) {
     }
   } catch (const Canceled&) {
     return;
-  } catch (const std::exception& error) {
+  } catch (...) {
     more_to_do_ = false;
-    post_failure(failure_text(error), false);
+    post_failure(current_failure_text(), false);
   }
   try {
     post_snapshot();
-  } catch (const std::bad_alloc&) {
-    post_failure(tr("There is no memory left to show the result"), false);
+  } catch (...) {
+    post_current_failure(tr("Not enough memory to show the result"));
   }
 }
 
 void SolveRunner::advance_exactly(std::int64_t passes) {
-  // Passes under way on other threads are finished after a pause: leave room for them, then take
-  // the last ones one by one.
-  const int room = 2 * std::max(solver_->statistics().threads, 1);
-  const auto go_on = [this](std::int64_t wanted) {
-    return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < wanted;
+  // The solver finishes the passes that run on other threads before it pauses: stop early enough,
+  // then make the last passes one by one.
+  const int margin = 2 * std::max(solver_->statistics().threads, 1);
+  const auto is_below = [this](std::int64_t target) {
+    return more_to_do_ && !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < target;
   };
-  if (go_on(passes - room)) {
+  if (is_below(passes - margin)) {
     more_to_do_ =
         solver_->advance(RadiositySolver::Until::finished, [&](const RadiositySolver& solver) {
           on_pass(solver);
-          return !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < passes - room;
+          return !interrupted_.load(std::memory_order_relaxed) && passes_so_far() < passes - margin;
         });
   }
-  while (go_on(passes)) {
+  while (is_below(passes)) {
     more_to_do_ =
         solver_->advance(RadiositySolver::Until::direction, [this](const RadiositySolver& solver) {
           on_pass(solver);
@@ -363,45 +365,47 @@ void SolveRunner::advance_exactly(std::int64_t passes) {
 }
 
 void SolveRunner::on_pass(const RadiositySolver& solver) {
-  keep_radiosity();
-  keep_directions();
+  store_radiosity();
+  store_directions();
   const SolveProgress progress = solver.progress();
   if (progress.direction == progress.passes) {
-    // Finishing the step will clear them.
-    step_changes_ = solver.estimate_changes();
-    step_changes_iteration_ = progress.iteration;
+    // Store them: the solver clears them at the end of the iteration.
+    iteration_changes_ = solver.estimate_changes();
+    changes_iteration_ = progress.iteration;
   }
-  // Making a snapshot may take a fifth of the solver's time at most.
+  // Snapshots take at most a fifth of the solver's time.
   const double interval_ms =
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);
-  const bool due = static_cast<double>(now_ns() - last_snapshot_ns_) > 1e6 * interval_ms;
+  const bool due = !since_snapshot_.isValid() ||
+                   static_cast<double>(since_snapshot_.nsecsElapsed()) > 1e6 * interval_ms;
   if (due || form_factors_are_due(progress)) {
     post_snapshot();
   }
 }
 
-// They are whole between steps only, where few snapshots are taken. After that, the semi-iterative
-// scheme's are worth it again when they are of twice as many passes.
+// Form factors are complete only between iterations, where few snapshots are made. In the
+// semi-iterative scheme, they are assembled again when the number of passes has doubled.
 bool SolveRunner::form_factors_are_due(const SolveProgress& progress) const {
-  const bool between_steps = progress.direction == 0 && progress.iteration > 0;
-  return form_factors_wanted_ && between_steps && form_factors_fit_ &&
+  const bool between_iterations = progress.direction == 0 && progress.iteration > 0;
+  return includes_form_factors_ && between_iterations && form_factors_fit_ &&
          solver_->statistics().passes_made >= 2 * form_factors_passes_;
 }
 
-void SolveRunner::put_form_factors_together() {
+void SolveRunner::assemble_form_factors() {
   const SolveProgress progress = solver_->progress();
-  const bool between_steps = progress.direction == 0 && progress.iteration > 0;
-  if (!form_factors_wanted_ || !between_steps || !form_factors_fit_) {
+  const bool between_iterations = progress.direction == 0 && progress.iteration > 0;
+  if (!includes_form_factors_ || !between_iterations || !form_factors_fit_) {
     return;
   }
   const SolveStatistics statistics = solver_->statistics();
   if (statistics.passes_made == form_factors_passes_) {
     return;
   }
-  constexpr std::int64_t bytes_an_entry = sizeof(PatchId) + sizeof(double);
-  const int ways = solver_->options().two_way ? 2 : 1;
-  form_factors_fit_ = statistics.kept_form_factors &&
-                      ways * statistics.form_factors * bytes_an_entry <= most_form_factor_bytes;
+  constexpr std::int64_t bytes_per_entry = sizeof(PatchId) + sizeof(double);
+  const int directions_per_pass = solver_->options().two_way ? 2 : 1;
+  form_factors_fit_ =
+      statistics.kept_form_factors &&
+      directions_per_pass * statistics.form_factors * bytes_per_entry <= most_form_factor_bytes;
   form_factors_ = nullptr;
   if (!form_factors_fit_) {
     return;
@@ -414,28 +418,27 @@ void SolveRunner::put_form_factors_together() {
   }
 }
 
-void SolveRunner::show_form_factors() {
+void SolveRunner::post_form_factors() {
   if (!solver_) {
     return;
   }
   try {
     post_snapshot();
-  } catch (const Canceled&) {
-    // Another wish has come in the meantime; the loop sees to it.
-  } catch (const std::exception& error) {
-    post_failure(failure_text(error), false);
+  } catch (...) {
+    post_current_failure();
   }
 }
 
 void SolveRunner::post_snapshot() {
-  const std::int64_t begin = now_ns();
-  keep_radiosity();
-  put_form_factors_together();
+  QElapsedTimer cost;
+  cost.start();
+  store_radiosity();
+  assemble_form_factors();
   auto snapshot = std::make_shared<SolverSnapshot>();
   snapshot->loaded = loaded_;
   snapshot->options = solver_->options();
   snapshot->progress = solver_->progress();
-  keep_directions();
+  store_directions();
   snapshot->kept_directions = kept_directions_;
   snapshot->kept_passes = kept_passes_;
   snapshot->directions = kept_directions_.back()
@@ -454,25 +457,25 @@ void SolveRunner::post_snapshot() {
   snapshot->error = solver_->error_estimate();
   snapshot->estimate_iteration = snapshot->progress.iteration;
   if (snapshot->estimate_changes.empty() && snapshot->progress.iteration > 0) {
-    snapshot->estimate_changes = step_changes_;
-    snapshot->estimate_iteration = step_changes_iteration_;
+    snapshot->estimate_changes = iteration_changes_;
+    snapshot->estimate_iteration = changes_iteration_;
   }
-  lay_out_stored(*snapshot);
-  last_snapshot_ns_ = now_ns();
-  snapshot_cost_ms_ = static_cast<double>(last_snapshot_ns_ - begin) * 1e-6;
+  use_stored_result(*snapshot);
+  since_snapshot_.start();
+  snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
   {
     const std::lock_guard lock(mutex_);
-    const bool message_under_way = mailbox_ != nullptr;
-    mailbox_ = std::move(snapshot);
-    if (message_under_way) {
+    const bool message_queued = pending_snapshot_ != nullptr;
+    pending_snapshot_ = std::move(snapshot);
+    if (message_queued) {
       return;
     }
   }
   post([this] { deliver_snapshot(); });
 }
 
-// Until the first direction, what a result's file tells is more than the solver knows.
-void SolveRunner::lay_out_stored(SolverSnapshot& snapshot) const {
+// Before the first direction, a result file has more than the solver.
+void SolveRunner::use_stored_result(SolverSnapshot& snapshot) const {
   const auto& stored = loaded_->stored;
   snapshot.of_file = stored && passes_done(snapshot.progress, snapshot.kept_passes) == 0;
   if (!snapshot.of_file) {
@@ -488,16 +491,16 @@ void SolveRunner::deliver_snapshot() {
   std::shared_ptr<const SolverSnapshot> newest;
   {
     const std::lock_guard lock(mutex_);
-    // That of a scene which is still to be announced waits for it.
-    if (!mailbox_ || mailbox_->loaded != announced_) {
+    // A snapshot of a scene that is not announced yet waits for that.
+    if (!pending_snapshot_ || pending_snapshot_->loaded != announced_) {
       return;
     }
-    newest = std::exchange(mailbox_, nullptr);
+    newest = std::exchange(pending_snapshot_, nullptr);
   }
   emit snapshot_ready(newest);
 }
 
-RunState SolveRunner::resting_state() const {
+RunState SolveRunner::idle_state() const {
   if (!solver_) {
     return RunState::empty;
   }
@@ -512,6 +515,25 @@ void SolveRunner::post_state(RunState state) {
     state_ = state;
     emit state_changed(state);
   });
+}
+
+/// To be called in a catch block.
+void SolveRunner::post_current_failure(const QString& no_memory) {
+  try {
+    throw;
+  } catch (const Canceled&) {
+    // Requested by the user, or by a newer request, which is handled next.
+  } catch (const InputError& error) {
+    post_failure(QString::fromStdString(error.what()), true);
+  } catch (const std::bad_alloc&) {
+    post_failure(no_memory.isEmpty() ? current_failure_text() : no_memory, false);
+  } catch (...) {
+    post_failure(current_failure_text(), false);
+  }
+}
+
+void SolveRunner::post_load_progress(const QString& phase, double share) {
+  post([this, phase, share] { emit load_progressed(phase, share); });
 }
 
 void SolveRunner::post_failure(const QString& message, bool bad_input) {

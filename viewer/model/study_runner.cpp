@@ -5,7 +5,6 @@
 #include "model/study_runner.h"
 
 #include <QMetaObject>
-#include <chrono>
 #include <utility>
 
 #include "transillum/reference_cache.h"
@@ -14,12 +13,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr std::int64_t refresh_ns = 100'000'000;
-
-std::int64_t now_ns() {
-  using std::chrono::steady_clock;
-  return std::chrono::nanoseconds(steady_clock::now().time_since_epoch()).count();
-}
+constexpr qint64 refresh_interval_ms = 100;
 
 /// Nothing done yet, not running.
 StudySnapshot without_points(const StudyRunner::Request& request) {
@@ -105,18 +99,17 @@ std::vector<Rgb> StudyRunner::reference_radiosity(const Request& request,
 }
 
 bool StudyRunner::due() {
-  const std::int64_t now = now_ns();
-  if (now - last_post_ns_ < refresh_ns) {
+  if (since_post_.isValid() && since_post_.elapsed() < refresh_interval_ms) {
     return false;
   }
-  last_post_ns_ = now;
+  since_post_.start();
   return true;
 }
 
 void StudyRunner::post(StudySnapshot snapshot) {
   const std::lock_guard lock(mutex_);
-  const bool waiting = mailbox_ != nullptr;
-  mailbox_ = std::make_shared<const StudySnapshot>(std::move(snapshot));
+  const bool waiting = pending_snapshot_ != nullptr;
+  pending_snapshot_ = std::make_shared<const StudySnapshot>(std::move(snapshot));
   if (waiting) {
     return;
   }
@@ -125,8 +118,8 @@ void StudyRunner::post(StudySnapshot snapshot) {
       [this] {
         std::shared_ptr<const StudySnapshot> newest;
         {
-          const std::lock_guard mailbox_lock(mutex_);
-          newest = std::exchange(mailbox_, nullptr);
+          const std::lock_guard delivery_lock(mutex_);
+          newest = std::exchange(pending_snapshot_, nullptr);
         }
         emit snapshot_ready(newest);
       },

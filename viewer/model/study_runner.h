@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 #include <filesystem>
@@ -62,10 +63,10 @@ class StudyRunner : public QObject {
   bool due();
 
   const std::filesystem::path cache_;
-  std::mutex mutex_;  // guards `mailbox_`
-  std::shared_ptr<const StudySnapshot> mailbox_;
+  std::mutex mutex_;  // guards `pending_snapshot_`
+  std::shared_ptr<const StudySnapshot> pending_snapshot_;
 
-  std::int64_t last_post_ns_ = 0;
+  QElapsedTimer since_post_;  // used by the worker's thread only
   RequestWorker<Request> worker_;
 };
 

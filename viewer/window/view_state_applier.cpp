@@ -151,7 +151,7 @@ void ViewStateApplier::start_run() {
   if (beyond || !(snapshot->options == solve)) {
     parts_.runner.restart(solve, requested_.solve);
   } else {
-    parts_.runner.pursue(requested_.solve);
+    parts_.runner.set_goal(requested_.solve);
   }
   on_snapshot();
 }
