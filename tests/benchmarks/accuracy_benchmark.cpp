@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Time to accuracy of B on one core: passes of the fast engine beside a cosine gather by Embree
-// with Jacobi iteration. The flake, reflectance 0.6 everywhere; errors are RMS over patches,
-// relative to the RMS of B, against a run of 4096 other directions.
+// Time to accuracy of B on one core: passes of the fast engine compared with cosine-weighted rays
+// by Embree and Jacobi iteration. Scene: the sphere flake, reflectance 0.6 everywhere; errors are
+// RMS over patches, relative to the RMS of B, against a run of 4096 other directions.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ SceneDescription gray_flake() {
   return flake;
 }
 
-/// The same numbers of patches, turned: so the same sequence gives other directions.
+/// The scene under a rotation, so that the same sequence gives other directions relative to it.
 SceneDescription turned(SceneDescription description) {
   const Vec3 x = normalized({1, 2, 3}), y = normalized(cross({3, 1, 1}, x)), z = cross(x, y);
   for (Vec3& p : description.points) {
@@ -56,7 +56,7 @@ struct Run {
   double seconds, error;
 };
 
-/// Where the line through two runs, both axes logarithmic, meets `error`.
+/// The effort at which the line through two runs, on logarithmic axes, reaches `error`.
 double seconds_at(double error, const Run& a, const Run& b) {
   const double t = std::log(error / a.error) / std::log(b.error / a.error);
   return a.seconds * std::pow(b.seconds / a.seconds, t);
@@ -66,7 +66,7 @@ struct TimeToAccuracy {
   double to_1_percent = 0, to_0_2_percent = 0;
 };
 
-/// Runs ever larger efforts until the error is below 0.2 %, printing each.
+/// Increases the effort until the error is below 0.2 %; prints each run.
 TimeToAccuracy measure(const char* name, int effort, int largest,
                        const std::function<std::vector<Rgb>(int)>& radiosity) {
   TimeToAccuracy times;
@@ -74,7 +74,7 @@ TimeToAccuracy measure(const char* name, int effort, int largest,
   for (; effort <= largest; effort *= 2) {
     std::vector<Rgb> b;
     Run run{};
-    // Of the whole process: whatever thread works, it is the work of one core.
+    // CPU time of the whole process is the work of one core, whichever thread does it.
     run.seconds = seconds_of(CLOCK_PROCESS_CPUTIME_ID, [&] { b = radiosity(effort); });
     run.error = rms_error(b);
     fmt::print("{} {}: {:.2f} s, RMS error {:.3f} %\n", name, effort, run.seconds, 100 * run.error);

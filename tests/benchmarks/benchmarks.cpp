@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Benchmarks. They are no tests: what they print are ratios and exponents within one run, since
-// absolute times are the machine's. Build and run:
+// Benchmarks, not tests: they print ratios and exponents within one run, since absolute times
+// depend on the machine. Build and run:
 //
 //   cmake --preset release -DTRANSILLUM_BUILD_BENCHMARKS=ON
 //   cmake --build build/release --target transillum_benchmarks
@@ -10,15 +10,16 @@
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Scaling   (minutes)
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Threads   (seconds; idle cores)
 //
-//   Lines     one pass of the fast engine on the sphere flake beside 10 parallel lines a patch with
-//             all their hits, traced by Embree the fastest way found; prints `lines ratio`
+//   Lines     one pass of the fast engine on the sphere flake compared with 10 parallel lines per
+//             patch with all their hits, traced by Embree in the fastest way found; prints
+//             `lines ratio`
 //   Accuracy  seconds on one core to 1 % and 0.2 % RMS error of B, reflectance 0.6 everywhere:
-//             passes beside a cosine gather by Embree, and their ratios
-//   Scaling   milliseconds a pass on ever finer scenes, and the fitted exponent;
+//             passes compared with cosine-weighted rays by Embree, and the ratios
+//   Scaling   milliseconds per pass on increasingly fine scenes, and the fitted exponent;
 //             TRANSILLUM_BENCHMARK_HUGE=1 adds a flake of a million patches
 //   Threads   wall time of a solve on one thread over that on two
 //
-// CPU time is measured where one core is compared, so a loaded machine disturbs little.
+// Comparisons of one core measure CPU time, so other load on the machine has little effect.
 #include <benchmark/benchmark.h>
 
 #include "measure.h"

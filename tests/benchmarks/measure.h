@@ -17,8 +17,8 @@ inline double seconds_on(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What `work` takes on a clock: CLOCK_THREAD_CPUTIME_ID for one core whatever else is running,
-/// CLOCK_MONOTONIC for the wall.
+/// Seconds that `work` takes by a clock: CLOCK_THREAD_CPUTIME_ID for the CPU time of one core,
+/// CLOCK_MONOTONIC for wall time.
 template <class Work>
 double seconds_of(clockid_t clock, Work&& work) {
   const double start = seconds_on(clock);
@@ -26,10 +26,10 @@ double seconds_of(clockid_t clock, Work&& work) {
   return seconds_on(clock) - start;
 }
 
-/// Directions that are no sequence's first points, so that no scene is seen along its axes.
+/// Directions that are not the first points of any sequence, so that none is along an axis.
 std::vector<Vec3> some_directions(int count);
 
-/// The slope of log y over log x, least squares.
+/// Slope of log y over log x by least squares.
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace transillum::benchmarks

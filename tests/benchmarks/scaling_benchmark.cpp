@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What a pass of the fast engine costs as scenes grow, and what a second thread gains.
+// Time of a pass of the fast engine against scene size, and the speedup by a second thread.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Scenes = std::vector<std::function<std::shared_ptr<const Scene>()>>;
 
-/// Milliseconds a pass, mean of a few directions, the best of three rounds.
+/// Milliseconds per pass: mean over a few directions, best of three rounds.
 double pass_milliseconds(const std::shared_ptr<const Scene>& scene) {
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine engine = make_engine(Engine::fast, scene, tree);
@@ -84,7 +84,7 @@ void RefinedStarsScaling(benchmark::State& state) {
 }
 BENCHMARK(RefinedStarsScaling)->Name("Scaling/stars")->Iterations(1)->Unit(benchmark::kSecond);
 
-/// A floor of small squares, gaps between them, under one huge square.
+/// A floor of small squares with gaps between them, under one huge square.
 std::shared_ptr<const Scene> huge_over_small(int side) {
   SceneDescription description;
   description.name = "huge over small";

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Oracles 3, 4 and 6: answers known without this program.
+// Answers known in closed form (ALGORITHM.md, oracles 3, 4 and 6).
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using testing::Sketch;
 constexpr double parallel_unit_squares = 0.1998248957;       // at distance 1
 constexpr double perpendicular_unit_squares = 0.2000437761;  // with a common edge
 
-/// F_01 by the estimator: patch 1 emits 1 and nothing reflects, so H_0 is the form factor.
+/// F_01 by the estimator: patch 1 has exitance 1 and nothing reflects, so H_0 is the form factor.
 double form_factor(const Sketch& sketch, const SolveOptions& options) {
   const Solution solution = solve(sketch.scene(), options);
   return solution.irradiance[0].r;
@@ -39,9 +39,9 @@ Sketch perpendicular_squares() {
   return sketch;
 }
 
-TEST(ClosedForms, SquaresSeeEachOtherAsTheFormulasSay) {
-  // The figure in the sky is a few percent of the sphere, its rim costs O(M^-3/4): errors were
-  // measured at a third of these bounds.
+TEST(ClosedForms, FormFactorsOfSquaresMatchTheFormulas) {
+  // The visible square covers a few percent of the sphere; its boundary causes an error of
+  // O(M^-3/4). Measured errors are a third of these bounds.
   for (const auto& [directions, accuracy] :
        {std::pair{1000, 2e-3}, {10000, 4e-4}, {100000, 6e-5}}) {
     SolveOptions options{.directions = directions, .iterations = 1};
@@ -51,7 +51,7 @@ TEST(ClosedForms, SquaresSeeEachOtherAsTheFormulasSay) {
   }
 }
 
-TEST(ClosedForms, EverySamplingAndWayConvergesToTheSame) {
+TEST(ClosedForms, EverySamplingOneWayAndTwoWayConvergesToTheSame) {
   for (const std::string& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     for (const bool two_way : {false, true}) {
@@ -71,16 +71,15 @@ TEST(ClosedForms, EverySamplingAndWayConvergesToTheSame) {
   }
 }
 
-/// A blocker half way cuts the view as a smaller square would be seen: wholly hidden squares
-/// exchange nothing.
-TEST(ClosedForms, AHiddenSquareGivesNothing) {
+/// A blocker halfway between them: squares that are completely hidden exchange nothing.
+TEST(ClosedForms, HiddenSquaresExchangeNothing) {
   Sketch sketch = parallel_squares();
   const int dark = sketch.material(0.5, 0);
   sketch.face({{-9, -9, .5}, {9, -9, .5}, {9, 9, .5}, {-9, 9, .5}}, dark);
   EXPECT_EQ(form_factor(sketch, {.directions = 500, .iterations = 1}), 0);
 }
 
-TEST(ClosedForms, ASphereInAUniformEnclosureSeesItWholly) {
+TEST(ClosedForms, RowSumsOfASphereInAnEnclosureAreOne) {
   const auto scene = load_scene("sphere-flake:levels=0");
   RadiositySolver solver(scene, {.directions = 2000});
   solver.advance(RadiositySolver::Until::iteration);
@@ -91,7 +90,7 @@ TEST(ClosedForms, ASphereInAUniformEnclosureSeesItWholly) {
   }
 }
 
-TEST(Furnace, IsTwoEverywhereExactlyWithNormalizedRows) {
+TEST(Furnace, IsExactlyTwoWithNormalizedRows) {
   for (const std::string& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     for (const bool two_way : {false, true}) {
@@ -126,7 +125,7 @@ TEST(Furnace, IsTwoWithinTheBoundWithoutNormalization) {
   }
 }
 
-TEST(Energy, WhatIsReceivedWasSent) {
+TEST(Energy, PowerReceivedEqualsPowerSent) {
   for (const char* spec : {"cornell-box", "furnace", "boards", "stars"}) {
     for (const bool two_way : {false, true}) {
       const Solution solution =
@@ -137,9 +136,8 @@ TEST(Energy, WhatIsReceivedWasSent) {
   }
 }
 
-/// In a closed scene where nobody looks at backs all that is emitted is absorbed, within
-/// eps(M)/pi.
-TEST(Energy, WhatIsEmittedIsAbsorbed) {
+/// In a closed scene without visible back sides, all power emitted is absorbed, within eps(M)/pi.
+TEST(Energy, PowerEmittedEqualsPowerAbsorbed) {
   for (const char* spec :
        {"cornell-box", "furnace", "boards", "rooms", "stars", "sphere-flake:levels=1"}) {
     RadiositySolver solver(load_scene(spec), {.directions = 256, .tolerance = 1e-10});
@@ -151,7 +149,7 @@ TEST(Energy, WhatIsEmittedIsAbsorbed) {
   }
 }
 
-/// Nothing to see, nothing to receive.
+/// Nothing is visible, so nothing is received.
 TEST(ClosedForms, ALoneSquareKeepsItsExitance) {
   Sketch sketch;
   sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, sketch.material(0.5, 3));

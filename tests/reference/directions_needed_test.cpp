@@ -8,7 +8,7 @@
 namespace transillum {
 namespace {
 
-/// Reflectance 0.6 everywhere, the sky too.
+/// Reflectance 0.6 everywhere, the enclosure included.
 std::shared_ptr<const Scene> gray_flake() {
   SceneDescription flake = describe_scene("sphere-flake:levels=1,slices=9,stacks=5");
   for (Material& material : flake.materials) {
@@ -29,8 +29,8 @@ double rms_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return std::sqrt(difference / norm);
 }
 
-/// The whole flake comes to 0.9 % with 150 passes (ALGORITHM.md, 7.3); this small one, with larger
-/// patches, to 0.25 %. Random directions: 3.5 %, the paper's set: 1.6 %.
+/// The error of the full flake is 0.9 % with 150 passes (ALGORITHM.md, 7.3), of this smaller one
+/// with larger patches 0.25 %. Random directions: 3.5 %, the paper's set: 1.6 %.
 TEST(DirectionsNeeded, DefaultSetReachesOnePercentOnTheFlakeWithin150Passes) {
   const auto scene = gray_flake();
   const auto reference =

@@ -44,7 +44,7 @@ std::shared_ptr<const Scene> squares(const std::vector<Vec3>& second,
   return sketch.scene(options);
 }
 
-TEST(Gather, MeetsTheClosedForms) {
+TEST(Gather, MatchesTheClosedForms) {
   const std::pair<std::vector<Vec3>, double> cases[] = {
       {{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, parallel_unit_squares},
       {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, perpendicular_unit_squares}};
@@ -59,7 +59,7 @@ TEST(Gather, MeetsTheClosedForms) {
         squares_sum += error * error;
       }
     }
-    // Unbiased, and even points err less than the sqrt(F (1 - F) / N) of random ones.
+    // Unbiased; with even points the error is below sqrt(F (1 - F) / N), that of random points.
     const double deviation = std::sqrt(squares_sum / (2 * trials));
     EXPECT_LT(deviation, 0.6 * std::sqrt(exact * (1 - exact) / rays));
     EXPECT_LT(std::abs(sum / (2 * trials)), 3.5 * deviation / std::sqrt(2 * trials));
@@ -68,8 +68,8 @@ TEST(Gather, MeetsTheClosedForms) {
   }
 }
 
-/// Seen on the lit side only: the back of a square blocks and takes nothing.
-TEST(Gather, CoincidentOppositeSquaresAreMetOnTheirLitSides) {
+/// Squares receive on their lit side only: their backs block light and receive nothing.
+TEST(Gather, CoincidentOppositeSquaresAreHitOnTheirLitSides) {
   const std::vector<Vec3> ceiling{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
   const auto two_sided = squares(ceiling, {.two_sided = true});  // patches 0, 1 and 2, 3
   const FormFactors f = gather_form_factors(*two_sided, {.rays_per_patch = 100000});
@@ -88,7 +88,7 @@ TEST(Gather, RowsOfClosedScenesSumToOne) {
     ASSERT_EQ(f.row_begin.size(), static_cast<std::size_t>(scene->patch_count()) + 1);
     double sum = 0;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
-      // Rays that start next to an edge may leak in single precision.
+      // In single precision, rays that start next to an edge may leak.
       EXPECT_NEAR(row_sum(f, i), 1, 0.01) << spec << " " << i;
       sum += row_sum(f, i);
       const auto row = static_cast<std::size_t>(i);
@@ -101,7 +101,7 @@ TEST(Gather, RowsOfClosedScenesSumToOne) {
   }
 }
 
-TEST(Gather, IsReciprocalWithinItsNoise) {
+TEST(Gather, IsReciprocalWithinNoise) {
   const auto scene = load_scene("cornell-box");
   constexpr int rays = 20000;
   const FormFactors f = gather_form_factors(*scene, {.rays_per_patch = rays});
@@ -137,7 +137,7 @@ TEST(Gather, IsTheSameForAnyNumberOfThreads) {
   EXPECT_NE(one.value, gather(1, 2).value);
 }
 
-TEST(Gather, StopsAndRefuses) {
+TEST(Gather, CanBeCanceledAndRejectsBadOptions) {
   const auto scene = load_scene("furnace");
   for (const int rays : {0, -1, (1 << 24) + 1}) {
     EXPECT_THROW(gather_form_factors(*scene, {.rays_per_patch = rays}), InputError);
@@ -148,7 +148,7 @@ TEST(Gather, StopsAndRefuses) {
   EXPECT_THROW(gather_form_factors(*scene, {}, cancellation), Canceled);
 }
 
-TEST(FormFactors, OfPassesGiveWhatTheSolverGives) {
+TEST(FormFactors, OfPassesGiveTheSolversRadiosity) {
   const auto scene = load_scene("cornell-box");
   for (const bool two_way : {true, false}) {
     RadiositySolver solver(scene, {.directions = 300, .two_way = two_way, .tolerance = 1e-12});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-TEST(Bounds, Table1IsThePapers) {
+TEST(Bounds, Table1EqualsThePaper) {
   const PaperTables& paper = paper_tables();
   const double printed[] = {5, 9, 15, 24, 37, 61, 111, 272};
   for (std::size_t k = 0; k < PaperTables::rows; ++k) {
@@ -31,14 +31,14 @@ TEST(Bounds, Tables2And3ByFormula) {
     EXPECT_EQ(directions_if_homogeneous(paper.rho[k], 0.01), table_2[k]);
     const double anywhere = directions_if_heterogeneous(paper.rho[k], 0.01, 150);
     EXPECT_NEAR(anywhere, table_3[k], 0.005 * table_3[k]);
-    // As printed, but for rounding up; Table 2 does not quite follow (method).
+    // As printed, up to rounding; Table 2 of the paper deviates slightly from its formula.
     EXPECT_GE(paper.if_heterogeneous[k], anywhere);
     EXPECT_LE(paper.if_heterogeneous[k], 1.13 * anywhere);
     EXPECT_NEAR(paper.if_homogeneous[k], table_2[k], 0.16 * table_2[k]);
   }
 }
 
-TEST(Bounds, AreTheFormulas) {
+TEST(Bounds, EqualTheFormulas) {
   EXPECT_DOUBLE_EQ(star_discrepancy_bound(1024), 17. / 2048);
   EXPECT_DOUBLE_EQ(quadrature_error_bound(1024), 2 * pi / 1024 * 17);
   EXPECT_DOUBLE_EQ(contraction_bound(0.5, pi / 10), 0.55);
@@ -46,7 +46,7 @@ TEST(Bounds, AreTheFormulas) {
   EXPECT_DOUBLE_EQ(heterogeneous_error_bound(0.5, 2, 0.25), 8 * pi);
 }
 
-TEST(Bounds, StepsBringTheErrorBelowTheTolerance) {
+TEST(Bounds, IterationsReduceTheErrorBelowTheTolerance) {
   for (const double contraction : {0.1, 0.5, 0.62, 0.999}) {
     for (const double tolerance : {0.5, 1e-2, 1e-6}) {
       const double steps = *iterations_to(tolerance, contraction);
@@ -60,8 +60,8 @@ TEST(Bounds, StepsBringTheErrorBelowTheTolerance) {
   EXPECT_EQ(*iterations_to(1, 0.5), 0);
 }
 
-/// The smallest M does, and one less does not; however large it is.
-TEST(Bounds, SmallestNumbersAreTheSmallest) {
+/// The smallest M suffices and M - 1 does not, however large M is.
+TEST(Bounds, SmallestNumbersSufficeAndOneLessDoesNot) {
   for (const double rho : {0.0, 0.05, 0.6, 0.999999}) {
     const double m = directions_to_contract(rho);
     EXPECT_LT(contraction_bound(rho, quadrature_error_bound(m)), 1);
@@ -80,7 +80,7 @@ TEST(Bounds, SmallestNumbersAreTheSmallest) {
   }
 }
 
-TEST(Bounds, RefuseWhatHasNone) {
+TEST(Bounds, RejectValuesOutOfRange) {
   for (const double rho : {-0.1, 1.0, HUGE_VAL, std::nan("")}) {
     EXPECT_THROW(directions_to_contract(rho), InputError);
     EXPECT_THROW(directions_if_homogeneous(rho, 0.01), InputError);
@@ -111,7 +111,7 @@ TEST(DirectionSetFamily, NeedFarFewerDirectionsThanProven) {
 }
 
 TEST(DirectionSetFamily, EstimateOfTable3FollowsTheMeasuredDiscrepancy) {
-  // Where it was measured there is nothing to estimate.
+  // At a measured M the estimate equals the measurement.
   const DirectionSetFamily sets;
   for (const int m : {1024, 16384}) {
     const double accuracy = heterogeneous_error_bound(0.5, 9, star_discrepancy(sets.make(m)));
@@ -121,7 +121,7 @@ TEST(DirectionSetFamily, EstimateOfTable3FollowsTheMeasuredDiscrepancy) {
             directions_if_heterogeneous(0.6, 0.01, 150));
 }
 
-TEST(SceneMeasures, AreThoseOfABox) {
+TEST(SceneMeasures, OfABox) {
   testing::Sketch sketch;
   const int dark = sketch.material(0.25, 1), bright = sketch.material(0.75, 0);
   sketch.box({0, 0, 0}, {3, 4, 12}, true, dark).box({1, 1, 1}, {1.5, 1.5, 1.5}, false, bright);
@@ -133,7 +133,7 @@ TEST(SceneMeasures, AreThoseOfABox) {
   EXPECT_DOUBLE_EQ(m.size_ratio, m.extent * m.extent / 0.25);
 }
 
-TEST(SceneMeasures, ExtentIsNoLessWhicheverWayTheSceneLies) {
+TEST(SceneMeasures, ExtentIsAnUpperBoundForAnyRotation) {
   testing::Sketch sketch;
   sketch.box({0, 0, 0}, {1, 1e-3, 1e-3}, true, sketch.material(0.5, 1));
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -148,7 +148,7 @@ TEST(EstimatedPasses, FollowTheSlope) {
   EXPECT_EQ(estimated_passes(Sampling::fibonacci, 100, 0.08, 0.01), 1600);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.08, 0.01), 6400);
   EXPECT_EQ(estimated_passes(Sampling::random, 100, 0.0009, 0.01), 1);
-  // Replicas cost random directions nothing; four even sets of 100 are but twice as good as one.
+  // Replicas do not change random directions; four even sets of 100 halve the error of one.
   EXPECT_EQ(estimated_passes_by_replicas(Sampling::random, 100, 4, 0.08, 0.01), 6400);
   EXPECT_EQ(estimated_passes_by_replicas(Sampling::fibonacci, 400, 4, 0.04, 0.01), 1600);
 }

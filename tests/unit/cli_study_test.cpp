@@ -134,7 +134,7 @@ TEST(CliStudy, SkipsInvalidCombinations) {
                                             "fibonacci", "--one-way", "--two-way", "--normalize",
                                             "none,symmetric", "--reference", "16", "--no-cache"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, HasSubstr("skipped: normalize: symmetric wants directions used both"));
+  EXPECT_THAT(result.err, HasSubstr("skipped: normalize: symmetric requires two-way"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/two-way/symmetric"));
   EXPECT_THAT(result.out, Not(HasSubstr("one-way/symmetric")));
 }

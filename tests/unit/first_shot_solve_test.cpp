@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Solves whose small sources are shot first.
+// Solves with a first shot of small sources.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// RMS over patches that emit nothing, relative.
+/// Relative RMS difference over patches that do not emit.
 double error_of(const Solution& solution, const Solution& reference) {
   double error = 0, norm = 0;
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
@@ -27,21 +27,21 @@ double error_of(const Solution& solution, const Solution& reference) {
   return std::sqrt(error / norm);
 }
 
-TEST(FirstShot, TakesTheErrorOfStarsAway) {
+TEST(FirstShot, RemovesTheErrorOfStars) {
   const auto scene = load_scene("stars");
   const Solution reference = solve(scene, {.directions = 8192});
   const Solution plain = solve(scene, {.directions = 512});
   const Solution shot = solve(scene, {.directions = 256, .first_shot = small_source_ratio});
   EXPECT_EQ(shot.statistics.shot_sources, 96);
   EXPECT_DOUBLE_EQ(shot.statistics.shot_power_share, 1);
-  // Plain passes err by 1.8e-3 still in the reference.
+  // The reference, of plain passes, still has an error of 1.8e-3.
   EXPECT_GT(error_of(plain, reference), 5 * error_of(shot, reference));
   const Solution finer = solve(scene, {.directions = 2048, .first_shot = small_source_ratio});
   EXPECT_LT(error_of(shot, finer), 1e-3);
   EXPECT_GT(error_of(plain, finer), 10 * error_of(shot, finer));
 }
 
-TEST(FirstShot, OfAllLightAgreesWithPlainPasses) {
+TEST(FirstShot, OfAllSourcesAgreesWithPlainPasses) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.03});
   const Solution plain = solve(scene, {.directions = 4000});
   const Solution shot = solve(scene, {.directions = 1000, .first_shot = 0});
@@ -50,7 +50,7 @@ TEST(FirstShot, OfAllLightAgreesWithPlainPasses) {
   EXPECT_LT(shot.statistics.energy_defect, 1e-12);
 }
 
-TEST(FirstShot, KeepsTheFurnace) {
+TEST(FirstShot, LeavesTheFurnaceExact) {
   const Solution solution = solve(
       load_scene("furnace"), {.directions = 64, .normalize = Normalization::rows, .first_shot = 0});
   for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
@@ -59,7 +59,7 @@ TEST(FirstShot, KeepsTheFurnace) {
   }
 }
 
-TEST(FirstShot, IsTheSameByAnySchemeThreadsAndSteps) {
+TEST(FirstShot, DoesNotDependOnSchemeThreadsOrPauses) {
   const auto scene = load_scene("stars:n=2");
   SolveOptions options{.directions = 128, .tolerance = 1e-10};
   options.first_shot = small_source_ratio;
@@ -82,7 +82,7 @@ TEST(FirstShot, IsTheSameByAnySchemeThreadsAndSteps) {
   EXPECT_GT(replicas.error.rms, 0);
 }
 
-TEST(FirstShot, IsThereBeforeTheFirstPass) {
+TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
   const auto scene = load_scene("stars:n=2");
   SolveOptions options{.directions = 64};
   options.first_shot = small_source_ratio;
@@ -99,7 +99,7 @@ TEST(FirstShot, IsThereBeforeTheFirstPass) {
   EXPECT_THROW(RadiositySolver(scene, options, nullptr, cancellation), Canceled);
 }
 
-TEST(FirstShot, OptionsAreReadAndChecked) {
+TEST(FirstShot, OptionsAreParsedAndChecked) {
   EXPECT_EQ(first_shot_from_name("none"), std::nullopt);
   EXPECT_EQ(first_shot_from_name("auto"), small_source_ratio);
   EXPECT_EQ(first_shot_from_name("2.5e3"), 2500.0);
@@ -108,7 +108,7 @@ TEST(FirstShot, OptionsAreReadAndChecked) {
       first_shot_from_name(name);
       ADD_FAILURE() << name;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("is not none, auto or a number from 0"));
+      EXPECT_THAT(error.what(), HasSubstr("is not none, auto or a number of at least 0"));
     }
   }
   SolveOptions options;

@@ -30,11 +30,11 @@ double power_sent(const Scene& scene, const DirectLight& light) {
   return power;
 }
 
-TEST(SmallSources, AreWhatHangsTogetherAndIsSmallAndBright) {
+TEST(SmallSources, AreConnectedSmallAndBright) {
   EXPECT_THAT(find_small_sources(*load_scene("stars")), SizeIs(12 * 8));
   EXPECT_THAT(find_small_sources(*load_scene("cornell-box")), IsEmpty());
   EXPECT_THAT(find_small_sources(*load_scene("cornell-box"), 0), SizeIs(1));
-  // Cut into many small patches it is as large a light as before.
+  // Divided into many small patches, it is still one large source.
   EXPECT_THAT(find_small_sources(*load_scene("cornell-box", {.max_patch_area = 1e-4})), IsEmpty());
   EXPECT_THAT(find_small_sources(*load_scene("furnace")), IsEmpty());
 
@@ -49,8 +49,8 @@ TEST(SmallSources, AreWhatHangsTogetherAndIsSmallAndBright) {
   EXPECT_THAT(find_small_sources(*sketch.scene(), 31'000), IsEmpty());
 }
 
-/// In closed scenes all that is sent arrives.
-TEST(Shoot, KeepsThePower) {
+/// In a closed scene, all power sent is received.
+TEST(Shoot, ConservesPower) {
   for (const auto& [spec, accuracy] :
        {std::pair{"stars", 1e-5}, {"cornell-box", 1e-4}, {"furnace", 1e-4}}) {
     const auto scene = load_scene(spec);
@@ -61,7 +61,7 @@ TEST(Shoot, KeepsThePower) {
   }
 }
 
-TEST(Shoot, GivesTheFormulasIrradiance) {
+TEST(Shoot, MatchesTheFormulaForIrradiance) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 7);
   sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
@@ -85,7 +85,7 @@ TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Shoot, StopsAndTellsHowFarItIs) {
+TEST(Shoot, CanBeCanceledAndReportsProgress) {
   const auto scene = load_scene("stars");
   Cancellation cancellation;
   std::vector<double> heard;

@@ -15,7 +15,7 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
 
-/// RMS over patches and channels of a - b, over that of b.
+/// RMS of a - b over patches and channels, over the RMS of b.
 double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -26,13 +26,13 @@ double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   return std::sqrt(apart / size);
 }
 
-/// Of many directions, and by nothing that is tested here.
+/// A solve with many directions and default options.
 const std::vector<Rgb>& box_reference() {
   static const auto b = solve(box(), {.directions = 8192, .tolerance = 1e-9}).radiosity;
   return b;
 }
 
-TEST(Schemes, GrowingEndsWhereFixedDoesWithEachDirectionTakenOnce) {
+TEST(Schemes, GrowingEqualsFixedAndUsesEachDirectionOnce) {
   const SolveOptions fixed{.directions = 300, .tolerance = 1e-9};
   SolveOptions growing = fixed;
   growing.scheme = Scheme::growing;
@@ -40,14 +40,14 @@ TEST(Schemes, GrowingEndsWhereFixedDoesWithEachDirectionTakenOnce) {
   EXPECT_LT(distance(a.radiosity, b.radiosity), 1e-8);
   EXPECT_EQ(b.statistics.passes_made, 300);
   EXPECT_GT(b.statistics.iterations, 4);
-  // Sums that do not fit are no excuse for another answer.
+  // The answer is the same if the sums exceed the memory limit.
   growing.memory = 1;
   const Solution c = solve(box(), growing);
   EXPECT_LT(distance(a.radiosity, c.radiosity), 1e-8);
   EXPECT_GT(c.statistics.passes_made, 18 + 37 + 75 + 150 + 300);
 }
 
-TEST(Schemes, GrowingStepsDouble) {
+TEST(Schemes, GrowingDoublesTheDirections) {
   RadiositySolver solver(box(), {.directions = 300, .scheme = Scheme::growing});
   std::vector<int> passes;
   for (int step = 0; step < 6; ++step) {
@@ -57,7 +57,7 @@ TEST(Schemes, GrowingStepsDouble) {
   EXPECT_EQ(passes, (std::vector<int>{18, 37, 75, 150, 300, 300}));
 }
 
-TEST(Schemes, ConjugateGradientsSolveWhatIterationSolves) {
+TEST(Schemes, ConjugateGradientsEqualTheIteration) {
   for (const Normalization normalize : {Normalization::none, Normalization::symmetric}) {
     SolveOptions options{.directions = 64, .normalize = normalize, .tolerance = 1e-12};
     const Solution by_steps = solve(box(), options);
@@ -70,20 +70,20 @@ TEST(Schemes, ConjugateGradientsSolveWhatIterationSolves) {
   }
 }
 
-TEST(Schemes, SemiIterativeMeansComeNearTheTruth) {
+TEST(Schemes, SemiIterativeMeansConverge) {
   SolveOptions options{
       .directions = 16, .sampling = Sampling::random, .scheme = Scheme::semi_iterative};
   options.iterations = 40;
   const double early = distance(solve(box(), options).radiosity, box_reference());
   options.iterations = 8 + 16 * 32;
   const Solution late = solve(box(), options);
-  // 16 times as many directions are in the mean: a quarter of the error, by luck half or an eighth.
+  // The mean has 16 times as many directions: a quarter of the error, by chance half or an eighth.
   EXPECT_LT(distance(late.radiosity, box_reference()), 0.5 * early);
   EXPECT_EQ(late.statistics.passes_made, 16 * options.iterations);
   EXPECT_FALSE(late.statistics.kept_form_factors);
 }
 
-TEST(Schemes, OracleOfEnergyHoldsInEach) {
+TEST(Schemes, ConserveEnergy) {
   for (const Scheme scheme :
        {Scheme::fixed, Scheme::growing, Scheme::semi_iterative, Scheme::conjugate_gradients}) {
     const Solution solution =
@@ -93,7 +93,7 @@ TEST(Schemes, OracleOfEnergyHoldsInEach) {
   }
 }
 
-TEST(Schemes, GiveTheSameBitsForAnyNumberOfThreadsAndAnyPauses) {
+TEST(Schemes, GiveTheSameBitsForAnyThreadsAndPauses) {
   for (const Scheme scheme :
        {Scheme::fixed, Scheme::growing, Scheme::semi_iterative, Scheme::conjugate_gradients}) {
     SolveOptions options{.directions = 70,
@@ -115,7 +115,7 @@ TEST(Schemes, GiveTheSameBitsForAnyNumberOfThreadsAndAnyPauses) {
   }
 }
 
-TEST(Schemes, TellTheDirectionOfAnyPass) {
+TEST(Schemes, ReportTheDirectionOfAnyPass) {
   for (const Scheme scheme : {Scheme::fixed, Scheme::growing, Scheme::semi_iterative}) {
     RadiositySolver solver(
         box(), {.directions = 35, .scheme = scheme, .burn_in = 1, .replicas = 2, .iterations = 3});
@@ -156,7 +156,7 @@ TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
       EXPECT_NEAR(there, scene.patches()[j].area * dense[j][i], 1e-14 * there);
     }
   }
-  // What is sent is received, and what is received is what was sent out and reflected.
+  // All power sent is received, and all power emitted is absorbed.
   EXPECT_NEAR(solver.statistics().energy_balance, 1, 1e-8);
   for (const double sum : solver.form_factor_sums()) {
     EXPECT_NEAR(sum, 1, 1e-8);
@@ -172,8 +172,8 @@ TEST(Normalize, SymmetricMakesTheFurnaceExact) {
   }
 }
 
-/// Before the rest of the passes is made.
-TEST(Schemes, WhatWantsKeptFormFactorsSaysThatItWantsMemory) {
+/// The error comes as soon as the limit is exceeded, before the remaining passes.
+TEST(Schemes, ThatRequireKeptFormFactorsReportTheMemoryLimit) {
   const SolveOptions symmetric{.directions = 9, .normalize = Normalization::symmetric, .memory = 1};
   const SolveOptions conjugate{.directions = 9, .scheme = Scheme::conjugate_gradients, .memory = 1};
   for (const SolveOptions& options : {symmetric, conjugate}) {
@@ -188,11 +188,11 @@ TEST(Schemes, WhatWantsKeptFormFactorsSaysThatItWantsMemory) {
   }
 }
 
-/// How often intervals hold the truth, over runs of 8 replicas each.
+/// How often error intervals contain the true value, over runs of 8 replicas each.
 struct Coverage {
-  double patches = 0;  ///< share of the patches' intervals, of red
-  int means = 0;       ///< runs whose interval of the mean B does
-  double rms = 0;      ///< RMS error as estimated, over the actual one
+  double patches = 0;  ///< share of the patches' intervals, red channel
+  int means = 0;       ///< number of runs whose interval of the mean B does
+  double rms = 0;      ///< estimated RMS error over the actual one
 };
 Coverage coverage_of(int runs, int directions_a_replica) {
   const auto& truth = box_reference();
@@ -221,7 +221,7 @@ Coverage coverage_of(int runs, int directions_a_replica) {
     EXPECT_NEAR(error.quantile, 2.3646, 1e-4);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const Rgb off = solver.radiosity()[i] - truth[i];
-      // A patch that reflects nothing is known.
+      // B of a patch that reflects nothing is exact.
       if (error.standard_error[i].r == 0) {
         continue;
       }
@@ -238,9 +238,9 @@ Coverage coverage_of(int runs, int directions_a_replica) {
   return coverage;
 }
 
-/// 95 of 100 intervals shall hold the truth. So few directions meet some lights once or never, and
-/// what is so skewed is held less often (decisions/0030).
-TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
+/// 95 % of the intervals should contain the true value. So few directions hit some lights once or
+/// never; errors that skewed are contained less often (decisions/0030).
+TEST(Replicas, IntervalsContainTheTrueValueAtTheirConfidence) {
   const Coverage coverage = coverage_of(60, 24);
   RecordProperty("patches_held", std::to_string(coverage.patches));
   RecordProperty("means_held", std::to_string(coverage.means));
@@ -250,7 +250,7 @@ TEST(Replicas, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_GE(coverage.means, 51);  // 57 expected; a chance of 1 in 100
 }
 
-TEST(Replicas, IntervalsOfLargerReplicasHoldItAsOftenAsTheySay) {
+TEST(Replicas, IntervalsOfLargerReplicasContainItToo) {
   const Coverage coverage = coverage_of(40, 192);
   RecordProperty("patches_held", std::to_string(coverage.patches));
   EXPECT_NEAR(coverage.rms, 1, 0.15);
@@ -258,13 +258,13 @@ TEST(Replicas, IntervalsOfLargerReplicasHoldItAsOftenAsTheySay) {
   EXPECT_GE(coverage.means, 34);
 }
 
-TEST(Replicas, AreNothingWithoutBeingAskedFor) {
+TEST(Replicas, GiveNoEstimateUnlessRequested) {
   const Solution solution = solve(box(), {.directions = 20});
   EXPECT_EQ(solution.error.replicas, 0);
   EXPECT_TRUE(solution.error.standard_error.empty());
 }
 
-TEST(SchemeOptions, NameWhatDoesNotGoTogether) {
+TEST(SchemeOptions, ReportInvalidCombinations) {
   const auto message = [](const SolveOptions& options) {
     return test::refusal([&] { options.validate(); });
   };

@@ -19,7 +19,7 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> small_scene() { return load_scene("furnace"); }
 
-TEST(RadiositySolver, GoesByDirectionByIterationAndToTheEnd) {
+TEST(RadiositySolver, AdvancesByDirectionByIterationAndToTheEnd) {
   RadiositySolver solver(small_scene(), {.directions = 5, .tolerance = 1e-8});
   EXPECT_TRUE(solver.advance(Until::direction));
   EXPECT_EQ(solver.progress().direction, 1);
@@ -34,7 +34,7 @@ TEST(RadiositySolver, GoesByDirectionByIterationAndToTheEnd) {
   EXPECT_LE(solver.statistics().iteration_records.back().change, 1e-8);
 }
 
-TEST(RadiositySolver, PassesByOneAndAllAtOnceGiveTheSameBits) {
+TEST(RadiositySolver, SinglePassesAndAllAtOnceGiveTheSameBits) {
   const SolveOptions options{.directions = 9, .iterations = 3};
   RadiositySolver stepped(small_scene(), options);
   while (stepped.advance(Until::direction)) {
@@ -42,7 +42,7 @@ TEST(RadiositySolver, PassesByOneAndAllAtOnceGiveTheSameBits) {
   EXPECT_TRUE(stepped.radiosity() == solve(small_scene(), options).radiosity);
 }
 
-TEST(RadiositySolver, PausesWhereTheObserverSays) {
+TEST(RadiositySolver, PausesWhenTheObserverReturnsFalse) {
   RadiositySolver solver(small_scene(), {.directions = 400, .threads = 2});
   int heard = 0;
   const bool more = solver.advance(Until::finished, [&](const RadiositySolver& s) {
@@ -51,7 +51,7 @@ TEST(RadiositySolver, PausesWhereTheObserverSays) {
     return heard < 10;
   });
   EXPECT_TRUE(more);
-  // Passes under way are taken along, no more.
+  // Only the passes under way are still added.
   EXPECT_GE(solver.progress().direction, 10);
   EXPECT_LE(solver.progress().direction, 10 + 4);
   const Solution whole = solve(small_scene(), {.directions = 400, .threads = 2});
@@ -59,7 +59,7 @@ TEST(RadiositySolver, PausesWhereTheObserverSays) {
   EXPECT_TRUE(solver.radiosity() == whole.radiosity);
 }
 
-TEST(RadiositySolver, ACanceledSolveReturnsWhatThereIs) {
+TEST(RadiositySolver, ACanceledSolveReturnsTheEstimateSoFar) {
   const Cancellation cancellation;
   const Solution solution = solve(
       load_scene("rooms"), {.directions = 5000},
@@ -91,12 +91,12 @@ TEST(RadiositySolver, CancelingIsQuick) {
   EXPECT_THROW(solver.advance(Until::finished), Canceled);
   const std::chrono::duration<double> until_left = std::chrono::steady_clock::now() - start;
   later.join();
-  // 0.3 s of solving, and at worst a pass each of whatever else the machine is busy with.
+  // 0.3 s of solving, and the delays of a busy machine.
   EXPECT_LT(until_left.count(), 2);
 }
 
-TEST(RadiositySolver, SaysWhenItDiverges) {
-  // One direction down on a lamp over a mirror-bright floor: rows sum to 4.
+TEST(RadiositySolver, ReportsDivergence) {
+  // One direction down onto a highly reflective floor below a lamp: rows sum to 4.
   Sketch sketch;
   sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.99, 1));
   try {
@@ -109,7 +109,7 @@ TEST(RadiositySolver, SaysWhenItDiverges) {
   EXPECT_NO_THROW(solve(sketch.scene(), {.directions = 1, .normalize = Normalization::rows}));
 }
 
-TEST(RadiositySolver, ADarkSceneIsDarkAtOnce) {
+TEST(RadiositySolver, ADarkSceneConvergesAtOnce) {
   Sketch sketch;
   sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.5, 0));
   const Solution solution = solve(sketch.scene(), {.directions = 8});
@@ -120,7 +120,7 @@ TEST(RadiositySolver, ADarkSceneIsDarkAtOnce) {
   }
 }
 
-/// Eq. 25: changes shrink by rho_max times the largest row sum at most.
+/// Eq. 25: the contraction is at most rho_max times the largest row sum.
 TEST(RadiositySolver, ContractsAsPredicted) {
   const Solution solution = solve(load_scene("furnace"), {.directions = 300, .tolerance = 1e-10});
   const double predicted = solution.statistics.predicted_contraction;
@@ -133,8 +133,8 @@ TEST(RadiositySolver, ContractsAsPredicted) {
             static_cast<int>(std::ceil(std::log(1e-10) / std::log(predicted))) + 1);
 }
 
-/// Eq. 17 for the normals of a box are those of the axes.
-TEST(RadiositySolver, TellsHowWellItsDirectionsIntegrateACosine) {
+/// For a box, eq. 17 is evaluated for the normals along the axes.
+TEST(RadiositySolver, ReportsTheQuadratureErrorOfTheCosine) {
   RadiositySolver solver(load_scene("furnace"), {.directions = 30, .two_way = false});
   solver.advance(Until::iteration);
   const auto& errors = solver.quadrature_errors();
@@ -155,7 +155,7 @@ TEST(RadiositySolver, TellsHowWellItsDirectionsIntegrateACosine) {
   }
 }
 
-TEST(SolveOptions, NamesWhatIsOutOfRange) {
+TEST(SolveOptions, ReportValuesOutOfRange) {
   const auto message = [](const SolveOptions& options) {
     return test::refusal([&] { options.validate(); });
   };

@@ -41,7 +41,7 @@ Solved solved(const SceneDescription& description, const SolveOptions& options,
   return result;
 }
 
-/// Another light and another wall than the scene has.
+/// The scene's materials with another light and another wall.
 std::vector<Material> other(std::vector<Material> materials) {
   for (Material& material : materials) {
     const bool emits = max_abs(material.exitance) > 0;
@@ -58,7 +58,7 @@ void expect_same(const std::vector<Rgb>& a, const std::vector<Rgb>& b, double to
   }
 }
 
-TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGives) {
+TEST(Relight, EqualsASolveWithTheOtherMaterials) {
   const SceneDescription description = describe_scene("cornell-box");
   SceneDescription changed = description;
   changed.materials = other(description.materials);
@@ -74,7 +74,7 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGives) {
   }
 }
 
-TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
+TEST(Relight, EqualsASolveWithTheOtherMaterialsAfterAFirstShot) {
   int several = 0;
   for (const auto& [spec, ratio] : {std::pair("stars", small_source_ratio),
                                     std::pair("cornell-box", 0.0), std::pair("rooms", 0.0)}) {
@@ -102,7 +102,7 @@ TEST(Relight, GivesWhatASolveOfTheOtherMaterialsGivesAfterAFirstShot) {
   EXPECT_GT(several, 0);
 }
 
-TEST(Relight, ShootsNothingWhereNothingEmits) {
+TEST(Relight, ShootsNothingIfNothingEmits) {
   const Scene scene(describe_scene("cornell-box"));
   const DirectLight light = shoot(scene, find_small_sources(scene, 0));
   std::vector<Material> dark = scene.materials();
@@ -119,7 +119,7 @@ TEST(Relight, ShootsNothingWhereNothingEmits) {
   }
 }
 
-TEST(Relight, KeepsTheSourcesThatWereShot) {
+TEST(Relight, KeepsTheSourcesOfTheShot) {
   const SceneDescription description = describe_scene("cornell-box");
   SceneDescription changed = description;
   for (Material& material : changed.materials) {
@@ -136,7 +136,7 @@ TEST(Relight, KeepsTheSourcesThatWereShot) {
   expect_same(relit.radiosity, after.radiosity, 1e-10);
 }
 
-TEST(Relight, RefusesAShotThatIsNotKeptByMaterialsOrOfAnotherScene) {
+TEST(Relight, RejectsAShotWithoutPartsOrOfAnotherScene) {
   SolveOptions options{.directions = 16};
   options.first_shot = 0;
   const Solved s = solved(describe_scene("cornell-box"), options);
@@ -150,7 +150,7 @@ TEST(Relight, RefusesAShotThatIsNotKeptByMaterialsOrOfAnotherScene) {
                InputError);
 }
 
-/// F of all directions of all steps, put together by hand.
+/// F of all directions of all iterations, assembled here.
 std::vector<std::vector<double>> dense_form_factors(const RadiositySolver& solver, int steps) {
   const Scene& scene = solver.scene();
   const auto patches = static_cast<std::size_t>(scene.patch_count());
@@ -180,7 +180,7 @@ std::vector<std::vector<double>> dense_form_factors(const RadiositySolver& solve
   return f;
 }
 
-TEST(Relight, HasTheFormFactorsOfAllStepsOfTheSemiIterativeScheme) {
+TEST(Relight, UsesTheFormFactorsOfAllIterationsOfTheSemiIterativeScheme) {
   const auto scene = std::make_shared<const Scene>(describe_scene("cornell-box"));
   for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
     for (const int replicas : {1, 3}) {
@@ -208,7 +208,7 @@ TEST(Relight, HasTheFormFactorsOfAllStepsOfTheSemiIterativeScheme) {
   }
 }
 
-TEST(Relight, ComesNearTheMeanOfTheSemiIterativeScheme) {
+TEST(Relight, IsCloseToTheMeanOfTheSemiIterativeScheme) {
   SolveOptions options{.directions = 128};
   options.scheme = Scheme::semi_iterative;
   options.iterations = 40;
@@ -225,7 +225,7 @@ TEST(Relight, ComesNearTheMeanOfTheSemiIterativeScheme) {
   EXPECT_LT(std::sqrt(difference / norm), 2e-3);
 }
 
-TEST(Relight, WhatIsKeptLeavesTheSemiIterativeSchemeAsItIs) {
+TEST(Relight, KeepingFormFactorsDoesNotChangeTheSemiIterativeScheme) {
   const auto scene = std::make_shared<const Scene>(describe_scene("cornell-box"));
   SolveOptions options{.directions = 32};
   options.scheme = Scheme::semi_iterative;
@@ -252,7 +252,7 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
   EXPECT_THAT(ask, ThrowsMessage<std::runtime_error>(HasSubstr("no form factors yet")));
   solver.advance(RadiositySolver::Until::iteration);
   const FormFactors kept = solver.form_factors();
-  const std::vector<double> sums = solver.form_factor_sums();  // of the newest step
+  const std::vector<double> sums = solver.form_factor_sums();  // of the newest iteration
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double sum = 0;
     for (std::size_t k = kept.row_begin[i]; k < kept.row_begin[i + 1]; ++k) {
@@ -262,7 +262,7 @@ TEST(Relight, FormFactorsAreKeptFromTheNextPassOn) {
   }
 }
 
-TEST(Relight, ComesBackToTheSolveWithTheScenesOwnMaterials) {
+TEST(Relight, WithTheScenesOwnMaterialsEqualsTheSolve) {
   const Solved s = solved(describe_scene("rooms"), {.directions = 64, .tolerance = tight});
   const RelightResult relit = relight(*s.scene, s.form_factors, s.scene->materials(),
                                       {.tolerance = 1e-9, .start = s.radiosity});
@@ -270,7 +270,7 @@ TEST(Relight, ComesBackToTheSolveWithTheScenesOwnMaterials) {
   expect_same(relit.radiosity, s.radiosity, 1e-9);
 }
 
-TEST(Relight, IsTheSameBitsForAnyNumberOfThreads) {
+TEST(Relight, GivesTheSameBitsForAnyNumberOfThreads) {
   const Solved s = solved(describe_scene("rooms"), {.directions = 32});
   const auto materials = other(s.scene->materials());
   const RelightResult one = relight(*s.scene, s.form_factors, materials, {.threads = 1});
@@ -282,7 +282,7 @@ TEST(Relight, IsTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST(Relight, EndsAtTheSamePlaceFromAnyStart) {
+TEST(Relight, ConvergesToTheSameFromAnyStart) {
   const Solved s = solved(describe_scene("cornell-box"), {.directions = 64});
   const auto materials = other(s.scene->materials());
   const std::vector<Rgb> bright(s.radiosity.size(), Rgb{50, 50, 50});
@@ -293,7 +293,7 @@ TEST(Relight, EndsAtTheSamePlaceFromAnyStart) {
   expect_same(from_bright.radiosity, from_light.radiosity, 1e-8);
 }
 
-TEST(Relight, RefusesWhatIsNoMaterialOrOfAnotherScene) {
+TEST(Relight, RejectsInvalidMaterialsAndThoseOfAnotherScene) {
   const Solved s = solved(describe_scene("furnace"), {.directions = 16});
   auto materials = s.scene->materials();
   materials[0].reflectance.g = 1;

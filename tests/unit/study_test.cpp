@@ -49,7 +49,7 @@ StudyPoint point(std::int64_t passes, double error) {
   return point;
 }
 
-TEST(Study, ErrorsAreRelativeAndOfAllPatchesAlike) {
+TEST(Study, ErrorsAreRelativeAndOverAllPatches) {
   const std::vector<Rgb> one(27, {1, 1, 1});
   EXPECT_EQ(radiosity_error(one, one).rms, 0);
   auto off = one;
@@ -65,7 +65,7 @@ TEST(Study, ErrorsAreRelativeAndOfAllPatchesAlike) {
               1e-15);
 }
 
-TEST(Study, RandomFallsAsOneOverTheRootAndFibonacciFaster) {
+TEST(Study, RandomErrorFallsAsOneOverTheRootAndFibonacciFaster) {
   StudyOptions options;
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {16, 32, 64, 128, 256, 512};
@@ -85,7 +85,7 @@ TEST(Study, RandomFallsAsOneOverTheRootAndFibonacciFaster) {
   }
 }
 
-TEST(Study, PointsAreThoseOfPlainSolves) {
+TEST(Study, PointsEqualPlainSolves) {
   StudyOptions options;
   options.series = {{Sampling::hammersley, false, Normalization::rows},
                     {Sampling::random, true, Normalization::none, Scheme::semi_iterative}};
@@ -114,8 +114,8 @@ TEST(Study, PointsAreThoseOfPlainSolves) {
   EXPECT_EQ(study.points[1].passes, 24 * 18);
 }
 
-/// Passes of the stars' light have hardly an error beside what the stars themselves shine with.
-TEST(Study, TellsWhatAFirstShotIsWorthToPatchesThatEmitNothing) {
+/// Relative to the exitance of the stars, the error of their light elsewhere is negligible.
+TEST(Study, ShowsTheGainOfAFirstShotOnPatchesThatDoNotEmit) {
   const auto scene = load_scene("stars");
   const auto tree = std::make_shared<const BspTree>(*scene);
   StudyOptions options;
@@ -135,7 +135,7 @@ TEST(Study, TellsWhatAFirstShotIsWorthToPatchesThatEmitNothing) {
   EXPECT_GT(error(true, 1), 10 * error(false, 1));
 }
 
-TEST(Study, NamesTellOnlyWhatDiffers) {
+TEST(Study, NamesContainOnlyWhatDiffers) {
   std::vector<StudySeries> series{{Sampling::random}, {Sampling::hammersley}};
   EXPECT_THAT(names_of(series), ElementsAre("random", "hammersley"));
   series.push_back({Sampling::random, false, Normalization::none, Scheme::growing});
@@ -157,7 +157,7 @@ TEST(Study, FitsPowerLawsExactly) {
   EXPECT_FALSE(fitted_power_law(std::vector{point(10, 1), point(10, 2)}));
 }
 
-TEST(Study, CostsAreReadBetweenPoints) {
+TEST(Study, CostsAreInterpolated) {
   const std::vector<StudyPoint> points{point(100, 0.1), point(400, 0.025)};
   const auto cost = cost_of(points, 0.05);
   ASSERT_TRUE(cost);
@@ -174,12 +174,12 @@ TEST(Study, CostsAreReadBetweenPoints) {
   EXPECT_NEAR(cost_of(largest, 0.2, ErrorMeasure::max)->passes, 200, 1e-9);
   EXPECT_NEAR(fitted_power_law(largest, ErrorMeasure::max)->slope, -1, 1e-12);
   EXPECT_FALSE(cost_of(points, 0.01));
-  // A dip by luck, after which the error is larger again, is not enough.
+  // A dip by chance, after which the error is larger again, does not count.
   EXPECT_FALSE(cost_of(std::vector{point(1, 1e-9), point(2, 0.1)}, 0.05));
 }
 
 TEST(Study, TooFewDirectionsAreAResult) {
-  // Mirrors, nearly: three directions make rows sum to far more than 1.
+  // Reflectance near 1: with three directions rows sum to far more than 1.
   SceneDescription description = describe_scene("furnace");
   for (Material& material : description.materials) {
     material.reflectance = {0.98, 0.98, 0.98};
@@ -196,8 +196,8 @@ TEST(Study, TooFewDirectionsAreAResult) {
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
-/// Pixels so coarse that rows of form factors sum to far more than 1: B outgrows all numbers.
-TEST(Study, InfiniteLightIsNoFigure) {
+/// Pixels so coarse that rows of form factors sum to far more than 1: B exceeds all numbers.
+TEST(Study, InfiniteRadiosityIsAFailure) {
   const auto scene = load_scene("sphere-flake:levels=1");
   StudyOptions options;
   options.series = {{Sampling::fibonacci}};
@@ -212,7 +212,7 @@ TEST(Study, InfiniteLightIsNoFigure) {
   EXPECT_TRUE(std::isnan(study.points[0].max_error));
 }
 
-TEST(Study, TooLittleMemoryIsAResultOfWhatWantsIt) {
+TEST(Study, TooLittleMemoryIsAResult) {
   StudyOptions options;
   options.series = {{Sampling::fibonacci},
                     {Sampling::fibonacci, true, Normalization::none, Scheme::conjugate_gradients}};
@@ -224,7 +224,7 @@ TEST(Study, TooLittleMemoryIsAResultOfWhatWantsIt) {
   EXPECT_THAT(study.points[1].failure, HasSubstr("--memory"));
 }
 
-TEST(Study, CanceledItKeepsWhatIsDone) {
+TEST(Study, KeepsFinishedPointsWhenCanceled) {
   StudyOptions options;
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {64, 16};
@@ -249,7 +249,7 @@ TEST(Study, CanceledItKeepsWhatIsDone) {
   EXPECT_GT(last_share, 0.5);
 }
 
-TEST(Study, RefusesWhatItCannotStudy) {
+TEST(Study, RejectsWhatItCannotStudy) {
   StudyOptions options;
   EXPECT_THROW(box().study(options), InputError);
   options.series = {{Sampling::random, false, Normalization::symmetric}};
@@ -259,7 +259,7 @@ TEST(Study, RefusesWhatItCannotStudy) {
   EXPECT_THROW(run_study(box().scene, box().tree, options, {}), InputError);
   const std::vector<Rgb> dark(box().reference.size());
   EXPECT_THROW(run_study(box().scene, box().tree, options, dark), InputError);
-  // Every patch of the furnace shines.
+  // Every patch of the furnace emits.
   const auto furnace = load_scene("furnace");
   options.without_sources = true;
   EXPECT_THROW(run_study(furnace, std::make_shared<const BspTree>(*furnace), options,
@@ -267,7 +267,7 @@ TEST(Study, RefusesWhatItCannotStudy) {
                InputError);
 }
 
-/// Every byte counts: what differs in one is not believed.
+/// A difference in any byte of the key is a miss.
 TEST(ReferenceCache, FindsWhatItStoredAndNothingElse) {
   const TemporaryFolder folder;
   const Scene& scene = *box().scene;
@@ -294,7 +294,7 @@ TEST(ReferenceCache, FindsWhatItStoredAndNothingElse) {
   EXPECT_TRUE(cache.find(Scene(describe_scene("cornell-box")), options));
 }
 
-TEST(ReferenceCache, DoesNotBelieveDamagedFiles) {
+TEST(ReferenceCache, RejectsDamagedFiles) {
   const TemporaryFolder folder;
   const Scene& scene = *box().scene;
   const ReferenceCache cache(folder / "");
@@ -364,7 +364,7 @@ TEST(ReferenceCache, StoresNothingWhenTheSolveIsCanceled) {
   EXPECT_FALSE(cache.find(*box().scene, reference_options(8)));
 }
 
-// Plots. Cairo writes text as outlines, so that what a plot says is in its lines: colors, dashes.
+// Plots. Cairo writes text as glyph outlines, so the tests read lines: colors and dashes.
 
 Study two_ways(double factor) {
   Study study;
@@ -378,7 +378,7 @@ Study two_ways(double factor) {
   return study;
 }
 
-TEST(StudyPlot, SvgHasALineWithDashesOfItsOwnForEverySeries) {
+TEST(StudyPlot, SvgHasALineWithItsOwnDashesForEverySeries) {
   const TemporaryFolder folder;
   const auto plot = [&](const std::vector<StudySeries>& series) {
     write_charts(folder / "p.svg", {study_chart("box", series, two_ways(1))});
@@ -426,7 +426,7 @@ TEST(StudyPlot, PngShowsTheSeriesInTheirColors) {
   EXPECT_LT(blue, orange);
 }
 
-TEST(StudyPlot, LegendTellsSlopesWorstFirst) {
+TEST(StudyPlot, LegendShowsSlopesWorstFirst) {
   const std::vector<StudySeries> series{{Sampling::random}, {Sampling::halton}};
   Study study = two_ways(1);
   for (StudyPoint& point : study.points) {

@@ -8,17 +8,18 @@
 
 namespace transillum {
 
-/// Calls `body` for each index of [first, end), by the threads of `arena`, in any order; what is
-/// done before happens before all of it, and all of it before what follows.
+/// Calls body(i) for each i of [first, end) on the threads of `arena`, in any order. What precedes
+/// the call happens before every body, and every body before what follows. Rethrows what a body
+/// throws.
 template <class Index, class Body>
 void for_each_index(oneapi::tbb::task_arena& arena, Index first, Index end, const Body& body) {
-  // Not captured: what is captured has to be taken over first.
+  // Static, not captured: a worker must acquire before it reads anything captured.
   static const char start = 0, done = 0;
-  // Also where `body` throws.
+  // In a destructor, so that it also runs where `body` throws.
   struct AtEnd {
-    void (*tell)(const void*);
+    void (*annotate)(const void*);
     const void* place;
-    ~AtEnd() { tell(place); }
+    ~AtEnd() { annotate(place); }
   };
   const AtEnd all{tsan_acquire, &done};
   const auto visit = [&](Index i) {

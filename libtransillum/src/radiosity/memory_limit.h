@@ -7,10 +7,11 @@
 
 namespace transillum {
 
-/// Bytes that kept form factors may take: `wanted`, or where that is 0 a quarter of the machine's.
-inline std::uint64_t memory_limit(std::uint64_t wanted) {
-  if (wanted > 0) {
-    return wanted;
+/// Limit of kept form factors, bytes: `requested`, or if that is 0 a quarter of the machine's
+/// memory.
+inline std::uint64_t memory_limit(std::uint64_t requested) {
+  if (requested > 0) {
+    return requested;
   }
   return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
          static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4;

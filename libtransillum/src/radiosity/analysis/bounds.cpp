@@ -29,7 +29,7 @@ void check_positive(const char* name, double value) {
   }
 }
 
-/// The smallest M >= 1 that is enough. What is enough stays enough: (log2 M + 7)/M falls.
+/// The smallest M >= 1 with enough(M), by bisection: monotone, since (log2 M + 7)/M falls.
 double smallest(const std::function<bool(double)>& enough) {
   double high = 1;
   while (!enough(high)) {
@@ -44,9 +44,10 @@ double smallest(const std::function<bool(double)>& enough) {
   return high;
 }
 
-/// The smallest number of directions that is enough, or one of which the next smaller is not.
+/// The smallest number of directions that is enough, up to 256 by trying all; beyond, one that is
+/// enough while the next smaller one is not.
 std::optional<int> smallest_set(const std::function<bool(int)>& enough) {
-  constexpr int all_tried = 256, most = 1 << 16;
+  constexpr int all_tried = 256, max_directions = 1 << 16;
   for (int m = 1; m <= all_tried; ++m) {
     if (enough(m)) {
       return m;
@@ -56,7 +57,7 @@ std::optional<int> smallest_set(const std::function<bool(int)>& enough) {
   do {
     low = high;
     high *= 2;
-    if (high > most) {
+    if (high > max_directions) {
       return std::nullopt;
     }
   } while (!enough(high));
@@ -190,8 +191,8 @@ SceneMeasures measure(const Scene& scene, const Cancellation& cancellation) {
     measures.smallest_area = scene.patch(i).area;
     measures.smallest = i;
   }
-  // Any direction is within 0.08 of one of these axes (the tests look), so the extent along the
-  // nearest is at least cos 0.08 of the distance of the two farthest points.
+  // Any direction is within 0.08 rad of one of these axes (tested), so the extent along the nearest
+  // axis is at least cos 0.08 times the distance of the two farthest points.
   for (const auto& axis : make_directions(Sampling::fibonacci, 1024, 0)) {
     cancellation.throw_if_canceled();
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -217,7 +218,7 @@ double estimated_passes(Sampling sampling, double passes, double error, double a
 double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
                                     double accuracy) {
   check_positive("replicas", replicas);
-  // One of R independent sets, each of M/R passes, errs by sqrt(R) more than their mean.
+  // The error of one of R independent sets of M/R passes is sqrt(R) times that of their mean.
   return estimated_passes(sampling, passes / replicas, error * std::sqrt(replicas), accuracy);
 }
 

@@ -24,19 +24,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Nobody's favorite, so that no --rotate gives the reference's directions.
+/// An arbitrary seed that no user is likely to choose, so that a studied solve shares no direction
+/// with the reference.
 constexpr std::uint64_t reference_rotation = 0xf3a9c51e0b7d2648U;
 constexpr double reference_tolerance = 1e-10;
 
 double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
 
-/// Of all threads of this process: what others do on the machine does not count.
+/// CPU time of all threads of this process, s; independent of other load on the machine.
 double processor_seconds() {
   std::timespec now{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// The values of patches that do not emit.
 std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& values) {
   std::vector<Rgb> dark;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -47,18 +49,18 @@ std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& val
   return dark;
 }
 
-/// `zbuffer:256`, or `fast`.
+/// As on the command line: `zbuffer:256`, or `fast`.
 std::string engine_text(Engine engine, int resolution) {
   return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
 }
 
-/// All passes of a solve that keeps its form factors.
+/// Number of passes in all iterations of a solve that keeps its form factors.
 std::int64_t passes_of(const SolveOptions& options) {
   return std::int64_t{options.directions} *
          (options.scheme == Scheme::semi_iterative ? options.iterations : 1);
 }
 
-/// One solve after the other, with an eye on the time.
+/// Runs the solves of a study one after the other; measures errors and time, reports progress.
 class StudyRun {
  public:
   StudyRun(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
@@ -83,8 +85,8 @@ class StudyRun {
     }
     if (std::all_of(reference_.begin(), reference_.end(),
                     [](const Rgb& b) { return max_abs(b) == 0; })) {
-      throw InputError(fmt::format("{}: there is no light{}, and no error of it", scene_->name(),
-                                   reference_.empty() ? " but on sources" : ""));
+      throw InputError(fmt::format("{}: the reference is 0{}, so relative errors are undefined",
+                                   scene_->name(), reference_.empty() ? " except on sources" : ""));
     }
   }
 
@@ -93,7 +95,7 @@ class StudyRun {
   void add_hemicubes(std::size_t series) { points_.push_back(hemicubes(series)); }
 
  private:
-  /// What of B of all patches errors are of.
+  /// The part of B that errors are computed of.
   std::vector<Rgb> compared(const std::vector<Rgb>& b) const {
     return options_.without_sources ? of_dark_patches(*scene_, b) : b;
   }
@@ -127,7 +129,7 @@ class StudyRun {
     return point;
   }
 
-  /// There are no rotations of hemicubes either.
+  /// One point for any M and rotation: hemicubes have no directions.
   StudyPoint hemicubes(std::size_t series) {
     const double start = processor_seconds(), before = done_passes_;
     StudyPoint point;
@@ -138,7 +140,7 @@ class StudyRun {
     solve.rotation = std::nullopt;
     const Solution solution = solve_by_hemicubes(scene_, solve, cancellation_, [&](double share) {
       done_passes_ = before + share * static_cast<double>(point.passes);
-      tell(series, static_cast<int>(point.passes));
+      report(series, static_cast<int>(point.passes));
     });
     point.directions = solution.statistics.directions;
     const RadiosityError error = radiosity_error(compared(solution.radiosity), reference_);
@@ -148,14 +150,14 @@ class StudyRun {
     return point;
   }
 
-  /// Adds one solve's share to the sums in `point`.
+  /// Adds the contribution of one solve to the means in `point`.
   void add_solve(StudyPoint& point, int m, int rotation) {
     const double start = processor_seconds();
     const auto options = options_.solve_options(options_.series[point.series], m, rotation);
     RadiositySolver solver(scene_, options, tree_, cancellation_);
     const double before = done_passes_;
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-      tell(point, m, before, watched.progress());
+      report(point, m, before, watched.progress());
       return true;
     });
     done_passes_ = before + static_cast<double>(point.passes);
@@ -166,14 +168,14 @@ class StudyRun {
     point.seconds += share * (processor_seconds() - start);
   }
 
-  void tell(const StudyPoint& point, int m, double before, const SolveProgress& progress) {
+  void report(const StudyPoint& point, int m, double before, const SolveProgress& progress) {
     const bool renews = options_.series[point.series].scheme == Scheme::semi_iterative;
     const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
     done_passes_ = std::max(done_passes_, before + std::min(in_solve, double(point.passes)));
-    tell(point.series, m);
+    report(point.series, m);
   }
 
-  void tell(std::size_t series, int m) const {
+  void report(std::size_t series, int m) const {
     if (!observer_) {
       return;
     }
@@ -238,7 +240,7 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
   for (const StudySeries& s : series) {
     names.push_back(name_of(s.sampling));
   }
-  const auto tell_apart = [&](auto value_of, auto text_of) {
+  const auto append_if_different = [&](auto value_of, auto text_of) {
     const auto differs = [&](const StudySeries& s) { return value_of(s) != value_of(series[0]); };
     if (std::none_of(series.begin(), series.end(), differs)) {
       return;
@@ -247,19 +249,21 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
       names[k] += "/" + std::string(text_of(value_of(series[k])));
     }
   };
-  tell_apart([](const StudySeries& s) { return s.two_way; },
-             [](bool two_way) { return two_way ? "two-way" : "one-way"; });
-  tell_apart([](const StudySeries& s) { return s.normalize; },
-             [](Normalization n) { return name_of(n); });
-  tell_apart([](const StudySeries& s) { return s.scheme; }, [](Scheme s) { return name_of(s); });
-  tell_apart([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
-             [](const auto& how) { return engine_text(how.first, how.second); });
-  tell_apart([](const StudySeries& s) { return s.first_shot; },
-             [](const std::optional<double>& ratio) {
-               return ratio ? fmt::format("first-shot {:g}", *ratio) : std::string("no-shot");
-             });
+  append_if_different([](const StudySeries& s) { return s.two_way; },
+                      [](bool two_way) { return two_way ? "two-way" : "one-way"; });
+  append_if_different([](const StudySeries& s) { return s.normalize; },
+                      [](Normalization n) { return name_of(n); });
+  append_if_different([](const StudySeries& s) { return s.scheme; },
+                      [](Scheme s) { return name_of(s); });
+  append_if_different([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
+                      [](const auto& how) { return engine_text(how.first, how.second); });
+  append_if_different([](const StudySeries& s) { return s.first_shot; },
+                      [](const std::optional<double>& ratio) {
+                        return ratio ? fmt::format("first-shot {:g}", *ratio)
+                                     : std::string("no-shot");
+                      });
   for (std::size_t k = 0; k < series.size(); ++k) {
-    // Nothing of the above makes a difference to them.
+    // The other options do not affect engines without directions.
     if (!takes_directions(series[k].engine)) {
       names[k] = engine_text(series[k].engine, series[k].resolution);
     }
@@ -307,10 +311,10 @@ SolveOptions StudyOptions::reference(int passes) const {
 
 void StudyOptions::validate() const {
   if (series.empty()) {
-    throw InputError("study: there is no series");
+    throw InputError("study: no series is given");
   }
   if (directions.empty()) {
-    throw InputError("study: there is no number of directions");
+    throw InputError("study: no number of directions is given");
   }
   if (rotations < 1 || rotations > 1000) {
     throw InputError(fmt::format("rotations: {} is not from 1 to 1000", rotations));
@@ -406,7 +410,7 @@ std::optional<PowerLaw> fitted_power_law(std::span<const StudyPoint> points, Err
 
 std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
                                  ErrorMeasure measure) {
-  // Backwards over all that are good enough.
+  // Backward over all points within the accuracy.
   auto first = points.end();
   while (first != points.begin() && (first - 1)->error(measure) <= accuracy) {
     --first;

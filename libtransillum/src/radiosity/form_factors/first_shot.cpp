@@ -20,14 +20,15 @@
 namespace transillum {
 namespace {
 
-/// Patches shot at between two looks at the clock and the user.
+/// Receiving patches per thread between reports of progress.
 constexpr PatchId batch = 64;
 
 double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 double power(const Scene& scene, PatchId i) { return scene.patch(i).area * sum(scene.exitance(i)); }
 
-/// Gives every emitting patch the number of a point that all patches of its source share.
+/// Finds connected sources (union-find): root() is the same point for all points of the emitting
+/// patches of one source.
 class SourceNumbers {
  public:
   explicit SourceNumbers(const Scene& scene) : parents_(scene.points().size()) {
@@ -57,17 +58,17 @@ class SourceNumbers {
   std::vector<PointId> parents_;
 };
 
-/// One part a material of the sources, zeros yet; none where they would take too much memory.
+/// One part of zeros per material of the sources; none where they would take too much memory.
 std::vector<DirectLight::Part> empty_parts(const Scene& scene,
                                            const std::vector<PatchId>& sources) {
-  constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  constexpr std::size_t max_bytes = std::size_t{256} << 20;
   std::set<int> materials;
   for (const PatchId j : sources) {
     materials.insert(scene.patch(j).material);
   }
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   std::vector<DirectLight::Part> parts;
-  if (materials.size() * patches * sizeof(double) > most_bytes) {
+  if (materials.size() * patches * sizeof(double) > max_bytes) {
     return parts;
   }
   for (const int m : materials) {
@@ -81,7 +82,7 @@ auto part_of(std::vector<DirectLight::Part>& parts, int material) {
                           [](const DirectLight::Part& part, int m) { return part.material < m; });
 }
 
-/// Fills in what patch i receives of the sources' light.
+/// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
              const Cancellation& cancellation, DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
@@ -102,7 +103,7 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
   light.irradiance[row] = unit * power;
 }
 
-/// What the sources emit, and their share of all power.
+/// Sets the exitance of the sources and their share of all emitted power.
 void count_power(const Scene& scene, const std::vector<Material>& materials, DirectLight& light) {
   const auto exitance = [&](PatchId i) { return at(materials, scene.patch(i).material).exitance; };
   double shot = 0, total = 0;
@@ -129,13 +130,14 @@ std::optional<double> first_shot_from_name(const std::string& name) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), ratio);
   if (error != std::errc() || end != name.data() + name.size() || !(ratio >= 0) ||
       !std::isfinite(ratio)) {
-    throw InputError(fmt::format("first shot: \"{}\" is not none, auto or a number from 0", name));
+    throw InputError(
+        fmt::format("first shot: \"{}\" is not none, auto or a number of at least 0", name));
   }
   return ratio;
 }
 
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
-  constexpr double least_share = 1e-4;
+  constexpr double min_share = 1e-4;
   struct Source {
     double area = 0, power = 0;
   };
@@ -160,7 +162,7 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
       continue;
     }
     const Source& source = source_of(i);
-    if (square >= ratio * source.area && source.power >= least_share * total) {
+    if (square >= ratio * source.area && source.power >= min_share * total) {
       small.push_back(i);
     }
   }
@@ -198,13 +200,13 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
                            const std::vector<Material>& materials) {
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   if (light.irradiance.size() != patches || light.exitance.size() != patches) {
-    throw InputError("the light shot is of another scene: it has other patches");
+    throw InputError("the first shot belongs to another scene: the number of patches differs");
   }
   if (materials.size() != scene.materials().size()) {
-    throw InputError("the materials are of another scene: there are more or fewer");
+    throw InputError("the materials belong to another scene: their number differs");
   }
   if (light.parts.empty() && !light.sources.empty()) {
-    throw InputError("the light shot is not kept by materials: it would take too much memory");
+    throw InputError("the first shot is not stored per material: that would take too much memory");
   }
   DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
   for (const DirectLight::Part& part : light.parts) {

@@ -1,8 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The peer of the transillumination method: form factors by rays from patch to patch. Points on
-// the patch and directions about its normal come from one four-dimensional lattice, shifted at
-// random for each patch, so that they are even in all four dimensions and yet unbiased.
+// Form factors by rays from each patch, the conventional method to compare transillumination with.
+// Start points on the patch and directions about its normal come from one four-dimensional
+// lattice, shifted at random for each patch, so that they are even in all four dimensions and
+// still unbiased. Input: a Scene and GatherOptions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,19 +23,20 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t packet_size = 16;
-/// How far above its patch a ray starts, in Embree's units: a few roundings of a coordinate.
+/// Height above its patch at which a ray starts, in Embree's units: a few roundings of a
+/// coordinate.
 constexpr double lift = 1e-6;
-/// Patches gathered between two looks at the clock and the user.
+/// Patches per thread between reports of progress.
 constexpr PatchId batch = 64;
 
 /// Coordinates in [0,1): two of the direction, two of the point.
 using Sample = std::array<float, 4>;
 
-/// splitmix64
+/// The next number of splitmix64.
 std::uint64_t random_bits(std::uint64_t& state) { return mixed(state += golden_step); }
 
-/// Numbers along a curve that keeps neighbors of the square together: the bits of both
-/// coordinates in turn.
+/// Position along a Z-order curve (interleaved bits of both coordinates), which keeps neighbors of
+/// the square together.
 std::uint32_t place_on_curve(const Sample& sample) {
   const auto x = static_cast<std::uint32_t>(sample[0] * 65536);
   const auto y = static_cast<std::uint32_t>(sample[1] * 65536);
@@ -46,8 +48,8 @@ std::uint32_t place_on_curve(const Sample& sample) {
 }
 
 /// The first points of the additive lattice of the generalized golden ratio in four dimensions
-/// (Roberts), in an order in which neighbors have similar directions: rays of a packet then go
-/// much the same way.
+/// (Roberts), ordered so that neighbors have similar directions, which makes packets of rays
+/// coherent.
 std::vector<Sample> make_lattice(int count) {
   constexpr double ratio = 1.1673039782614187;  // x^5 = x + 1
   std::vector<Sample> samples(static_cast<std::size_t>(count));
@@ -65,9 +67,9 @@ std::vector<Sample> make_lattice(int count) {
   return samples;
 }
 
-/// A point of the unit square to the unit disk, neighbors to neighbors and areas to areas
+/// Maps the unit square to the unit disk, continuous and area-preserving
 /// (Shirley and Chiu 1997): a radius and an angle of at most 45 degrees off an axis, whose sine
-/// and cosine a few terms of their series give to float's last place.
+/// and cosine are series accurate to the last place of float.
 void to_disk(float u, float v, float& x, float& y) {
   const float a = 2 * u - 1, b = 2 * v - 1;
   const bool wide = std::abs(a) > std::abs(b);
@@ -92,14 +94,14 @@ Float3 single(const Vec3& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// A triangle of a patch, to be sampled: points corner + u·a + v·b with u + v <= 1.
+/// A triangle of a patch to sample: points corner + u·a + v·b with u + v <= 1.
 struct SampledTriangle {
-  float share_below;  ///< of the patch's area in the triangles before
+  float share_below;  ///< share of the patch's area in the triangles before this one
   float share;
   Float3 corner, a, b;
 };
 
-/// What all rows need: immutable.
+/// Shared by all rows; immutable.
 struct Gathering {
   const Scene& scene;
   EmbreeScene embree;
@@ -119,7 +121,7 @@ struct Gathering {
   }
 };
 
-/// Gathers one row after the other; one a thread.
+/// Computes rows of the matrix; one object per thread.
 class RowGatherer {
  public:
   explicit RowGatherer(const Gathering& all)
@@ -127,7 +129,7 @@ class RowGatherer {
 
   FormFactorRow gather(PatchId i) {
     patch_ = i;
-    aim();
+    set_frame();
     cut_into_triangles();
     for (std::size_t first = 0; first < all_.lattice.size(); first += packet_size) {
       trace(first);
@@ -136,8 +138,8 @@ class RowGatherer {
   }
 
  private:
-  /// Frame and shift of the patch at hand.
-  void aim() {
+  /// Sets the frame and the lattice shift of the current patch.
+  void set_frame() {
     const Vec3& n = all_.scene.patch(patch_).normal;
     const Vec3 u = normalized(cross(std::abs(n.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n));
     normal_ = single(n);
@@ -173,7 +175,8 @@ class RowGatherer {
     }
   }
 
-  /// A point of the patch; what chooses the triangle serves again within it.
+  /// A point of the patch. `s` selects the triangle; its position within the triangle's share is
+  /// used again as a coordinate.
   Float3 point(float s, float t) const {
     std::size_t k = triangles_.size() - 1;
     while (k > 0 && s < triangles_[k].share_below) {
@@ -187,6 +190,7 @@ class RowGatherer {
             triangle.corner.z + a * triangle.a.z + b * triangle.b.z};
   }
 
+  /// Traces one packet: lattice points from `first` on.
   void trace(std::size_t first) {
     const std::size_t count = std::min(packet_size, all_.lattice.size() - first);
     alignas(64) std::array<int, packet_size> valid{};
@@ -245,8 +249,8 @@ class RowGatherer {
   }
 
   const Gathering& all_;
-  std::vector<std::uint32_t> counts_;  ///< by patch, of the row at hand
-  std::vector<PatchId> seen_;          ///< patches whose count is not 0
+  std::vector<std::uint32_t> counts_;  ///< by patch, of the current row
+  std::vector<PatchId> seen_;          ///< patches with a count above 0
   PatchId patch_ = no_patch;
   Float3 normal_{}, u_{}, v_{};
   std::array<float, 4> shift_{};

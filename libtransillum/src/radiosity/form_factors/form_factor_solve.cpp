@@ -62,11 +62,11 @@ void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& c
   });
 }
 
-void JacobiIteration::run(int most, double tolerance, const Cancellation& cancellation) {
+void JacobiIteration::run(int limit, double tolerance, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
   std::vector<Rgb> next(b.size());
   double last_change = 0;
-  while (!converged && static_cast<int>(steps.size()) < most) {
+  while (!converged && std::ssize(records) < limit) {
     const auto start = Clock::now();
     for_each_row(cancellation, [&](std::size_t i) {
       const Material& material = at(materials_, scene_.patches()[i].material);
@@ -87,16 +87,16 @@ void JacobiIteration::run(int most, double tolerance, const Cancellation& cancel
     }
     IterationRecord record;
     record.change = largest > 0 ? change / largest : 0;
-    record.contraction = steps.empty() || last_change == 0 ? 0 : change / last_change;
+    record.contraction = records.empty() || last_change == 0 ? 0 : change / last_change;
     record.seconds = seconds_since(start);
-    steps.push_back(record);
+    records.push_back(record);
     last_change = change;
     converged = change <= tolerance * largest;
   }
 }
 
 void JacobiIteration::run_to(double tolerance, const Cancellation& cancellation) {
-  run(most_steps, tolerance, cancellation);
+  run(max_iterations, tolerance, cancellation);
   if (!converged) {
     throw divergence();
   }

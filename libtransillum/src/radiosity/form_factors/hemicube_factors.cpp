@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Form factors by hemicubes (Cohen and Greenberg 1985): from the center of each patch's largest
+// piece, all other pieces are drawn onto five sides of half a cube. Input: a Scene, its BspTree and
+// HemicubeOptions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,12 +23,12 @@
 namespace transillum {
 namespace {
 
-/// A point nearer to a plane than this, over the scene's size, is in it.
-constexpr double thin = 1e-12;
-/// Hemicubes drawn between two looks at the clock and the user.
+/// A point counts as in a plane within this distance, relative to the scene's diagonal.
+constexpr double coplanar_tolerance = 1e-12;
+/// Hemicubes per thread between reports of progress.
 constexpr PatchId batch = 4;
 
-/// A piece of the scene, to be drawn.
+/// A piece to draw; its plane is normal · x = offset, and a sphere around center holds it.
 struct DrawnPiece {
   PatchId patch;
   std::uint32_t begin, end;  ///< in HemicubeScene::corners
@@ -32,25 +36,25 @@ struct DrawnPiece {
   double offset, radius;
 };
 
-/// What all hemicubes see: immutable.
+/// The geometry that all hemicubes draw; immutable.
 struct HemicubeScene {
   const Scene& scene;
   const Cancellation& cancellation;
   int resolution;
-  double nothing;  ///< distance from a plane that counts as none
-  bool in_air;     ///< no lit side sees a back
+  double min_distance;  ///< distances from a plane up to this count as 0, m
+  bool fronts_only;     ///< no back side is visible from any front side
   std::vector<Vec3> corners;
-  std::vector<DrawnPiece> pieces;   ///< what covers what it coincides with comes after it
-  std::vector<std::size_t> eye_of;  ///< a patch: its largest piece
+  std::vector<DrawnPiece> pieces;          ///< of coincident pieces, the covering one is last
+  std::vector<std::size_t> largest_piece;  ///< per patch, in `pieces`
 
-  /// Keeps references, but to the tree.
+  /// Keeps references to the scene and `stop`.
   HemicubeScene(const std::shared_ptr<const Scene>& seen,
                 const std::shared_ptr<const BspTree>& tree, int pixels, const Cancellation& stop)
       : scene(*seen),
         cancellation(stop),
         resolution(pixels),
-        nothing(thin * seen->bounds().diagonal()),
-        in_air(fronts_see_no_backs(seen, tree)) {
+        min_distance(coplanar_tolerance * seen->bounds().diagonal()),
+        fronts_only(fronts_see_no_backs(seen, tree)) {
     for (const Piece& piece : scene.pieces()) {
       add(piece);
     }
@@ -58,13 +62,13 @@ struct HemicubeScene {
       return rank(a.patch) < rank(b.patch);
     });
     std::vector<double> largest(static_cast<std::size_t>(scene.patch_count()));
-    eye_of.resize(largest.size());
+    largest_piece.resize(largest.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       const auto i = static_cast<std::size_t>(pieces[p].patch);
       const double area = area_of(pieces[p]);
       if (area > largest[i]) {
         largest[i] = area;
-        eye_of[i] = p;
+        largest_piece[i] = p;
       }
     }
   }
@@ -113,7 +117,7 @@ struct HemicubeScene {
   }
 };
 
-/// Draws one hemicube after the other; one a thread.
+/// Draws one hemicube after the other; one object per thread.
 class HemicubeRows {
  public:
   explicit HemicubeRows(const HemicubeScene& shared)
@@ -122,9 +126,9 @@ class HemicubeRows {
         sums_(static_cast<std::size_t>(shared.scene.patch_count())) {}
 
   FormFactorRow gather(PatchId i) {
-    stand_on(i);
+    set_frame(i);
     cube_.clear();
-    if (!shared_.in_air) {
+    if (!shared_.fronts_only) {
       for (const DrawnPiece& piece : shared_.pieces) {
         draw(i, piece, false);
       }
@@ -134,14 +138,14 @@ class HemicubeRows {
     }
     return add_up();
   }
-  /// What it saw last.
+  /// The hemicube of the last row.
   const Hemicube& cube() const { return cube_; }
 
  private:
-  /// The frame of a patch, turned about its normal by an angle of its own: pixels that err alike
-  /// from patch to patch would show.
-  void stand_on(PatchId i) {
-    const DrawnPiece& own = shared_.pieces[at(shared_.eye_of, i)];
+  /// Sets the eye and frame of patch i, rotated about its normal by an angle that differs from
+  /// patch to patch: equal pixel errors on neighboring patches would be visible.
+  void set_frame(PatchId i) {
+    const DrawnPiece& own = shared_.pieces[at(shared_.largest_piece, i)];
     eye_ = shared_.middle_of(own);
     up_ = own.normal;
     const Vec3 u = normalized(cross(std::abs(up_.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up_));
@@ -152,28 +156,30 @@ class HemicubeRows {
     v_ = cross(up_, u_);
   }
 
-  Vec3 turned(const Vec3& d) const { return {dot(u_, d), dot(v_, d), dot(up_, d)}; }
+  /// Components of a vector in the frame.
+  Vec3 in_frame(const Vec3& d) const { return {dot(u_, d), dot(v_, d), dot(up_, d)}; }
 
-  /// Where the eye is on its lit side, or else on its back.
+  /// Draws a piece if the eye is on its lit side (`lit`) or on its back.
   void draw(PatchId own, const DrawnPiece& piece, bool lit) {
     const double offset = piece.offset - dot(piece.normal, eye_);
-    if ((lit ? -offset : offset) <= shared_.nothing || piece.patch == own) {
+    if ((lit ? -offset : offset) <= shared_.min_distance || piece.patch == own) {
       return;
     }
     const Vec3 to_center = piece.center - eye_;
     if (dot(up_, to_center) <= -piece.radius) {
       return;
     }
-    // At high resolutions a cube takes seconds.
+    // Checked per piece: at high resolutions a cube takes seconds.
     shared_.cancellation.throw_if_canceled();
     corners_.clear();
     for (std::uint32_t k = piece.begin; k < piece.end; ++k) {
-      corners_.push_back(turned(shared_.corners[k] - eye_));
+      corners_.push_back(in_frame(shared_.corners[k] - eye_));
     }
-    cube_.draw({corners_, turned(piece.normal), offset, turned(to_center), piece.radius,
+    cube_.draw({corners_, in_frame(piece.normal), offset, in_frame(to_center), piece.radius,
                 lit ? piece.patch : no_patch});
   }
 
+  /// Sums the delta form factors of the pixels by patch.
   FormFactorRow add_up() {
     const std::vector<PatchId>& patches = cube_.patches();
     const std::vector<double>& delta = cube_.delta_form_factors();
@@ -199,7 +205,7 @@ class HemicubeRows {
 
   const HemicubeScene& shared_;
   Hemicube cube_;
-  std::vector<double> sums_;  ///< by patch, of the row at hand
+  std::vector<double> sums_;  ///< by patch, of the current row
   std::vector<PatchId> seen_;
   Vec3 eye_, up_, u_, v_;
   std::vector<Vec3> corners_;
@@ -221,7 +227,7 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                   const Cancellation& cancellation,
                                   const std::function<void(double)>& progress) {
   options.validate();
-  // The scene outlives this.
+  // Not owned: the scene outlives this call.
   const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
   const HemicubeScene shared(borrowed, std::make_shared<const BspTree>(scene, cancellation),
                              options.resolution, cancellation);
@@ -248,7 +254,7 @@ HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
 
 std::optional<std::size_t> HemicubeImage::pixel_at(int column, int row) const {
   const int half = resolution / 2;
-  // From the top's first pixel, and how far out of the top.
+  // Relative to the first pixel of the top side.
   const int x = column - half, y = row - half;
   const bool in_x = x >= 0 && x < resolution, in_y = y >= 0 && y < resolution;
   const auto pixel = [this](int side, int a, int b) {
@@ -258,7 +264,7 @@ std::optional<std::size_t> HemicubeImage::pixel_at(int column, int row) const {
   if (in_x && in_y) {
     return pixel(0, x, y);
   }
-  // Rows of a side go upward: from its base, which is outermost, to the fold.
+  // Rows of a side run from its base, which is outermost, up to the fold.
   if (in_y && x >= resolution) {
     return pixel(1, y, half - 1 - (x - resolution));
   }

@@ -34,10 +34,11 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
   return hemicubes;
 }
 
+/// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
 void add_power(const Scene& scene, const FormFactors& form_factors,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
-  double area = 0, seen = 0;
-  Rgb received, sent, kept, emitted;
+  double area = 0, visible = 0;
+  Rgb received, sent, absorbed, emitted;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto row = static_cast<std::size_t>(i);
     double sum = 0;
@@ -46,18 +47,18 @@ void add_power(const Scene& scene, const FormFactors& form_factors,
     }
     const double own = scene.patch(i).area;
     area += own;
-    seen += own * sum;
+    visible += own * sum;
     statistics.closure_defect_max = std::max(statistics.closure_defect_max, std::abs(1 - sum));
     received += own * iteration.h[row];
     sent += own * sum * iteration.b[row];
-    kept += own * ((Rgb{1, 1, 1} - scene.reflectance(i)) * iteration.h[row]);
+    absorbed += own * ((Rgb{1, 1, 1} - scene.reflectance(i)) * iteration.h[row]);
     emitted += own * scene.exitance(i);
     statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
   }
-  statistics.escaped = area > 0 ? std::max(0.0, 1 - seen / area) : 0.0;
+  statistics.escaped = area > 0 ? std::max(0.0, 1 - visible / area) : 0.0;
   statistics.energy_defect = ratio_or_zero(max_abs(received - sent), max_abs(sent));
   statistics.energy_balance =
-      ratio_or_zero(kept.r + kept.g + kept.b, emitted.r + emitted.g + emitted.b);
+      ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptio
   statistics.seconds_transfers = seconds_since(start);
   const auto start_iteration = Clock::now();
   JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
-  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::most_steps,
+  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
                 options.iterations > 0 ? 0 : options.tolerance, cancellation);
   statistics.seconds_iterate = seconds_since(start_iteration);
   add_power(*scene, form_factors, iteration, statistics);
@@ -83,14 +84,14 @@ Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptio
   statistics.directions = 3 * hemicubes.resolution * hemicubes.resolution;
   statistics.passes = scene->patch_count();
   statistics.passes_made = statistics.hemicubes = scene->patch_count();
-  statistics.iterations = static_cast<int>(iteration.steps.size());
+  statistics.iterations = static_cast<int>(iteration.records.size());
   statistics.threads =
       hemicubes.threads > 0 ? hemicubes.threads : oneapi::tbb::info::default_concurrency();
   statistics.form_factors = static_cast<std::int64_t>(form_factors.size());
   statistics.kept_form_factors = true;
   statistics.converged = iteration.converged;
   statistics.predicted_contraction = statistics.rho_max;
-  statistics.iteration_records = std::move(iteration.steps);
+  statistics.iteration_records = std::move(iteration.records);
   statistics.seconds_total = seconds_since(start);
   solution.scene = std::move(scene);
   solution.radiosity = std::move(iteration.b);

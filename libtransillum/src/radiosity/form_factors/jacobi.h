@@ -11,42 +11,43 @@
 
 namespace transillum {
 
-/// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j, rows dealt out to threads; the
-/// result does not depend on how many there are.
+/// Jacobi iteration of B_i = E_i + rho_i H_i, H_i = sum_j F_ij B_j (eq. 11). Rows are computed in
+/// parallel; the result does not depend on the number of threads.
 struct JacobiIteration {
-  /// An iteration by tolerance that takes so many steps does not converge.
-  static constexpr int most_steps = 10'000;
+  /// A solve by tolerance that needs more iterations is considered divergent.
+  static constexpr int max_iterations = 10'000;
 
-  /// From B = E on.
-  /// @param materials E and rho: as many as the scene has, in its order
+  /// Starts from B = E. Keeps references to the arguments.
+  /// @param materials E and rho: one per material of the scene, in its order
   /// @param threads 0: all cores
   JacobiIteration(const Scene& scene, const FormFactors& form_factors,
                   std::span<const Material> materials, int threads);
 
-  std::vector<Rgb> b, h;  ///< W/m², one a patch; `b` may be set to start from it
-  std::vector<IterationRecord> steps;
+  std::vector<Rgb> b, h;                 ///< W/m², one per patch; `b` may be set to another start
+  std::vector<IterationRecord> records;  ///< one per iteration
   bool converged = false;
 
-  /// From now on this light goes on top, and what it has shot need not be gathered:
+  /// From now on adds the light of `shot`, and does not gather the exitance that it covers:
   ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
   /// @throws Canceled
   void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
-  /// Goes on for `most` steps, or until no patch changes by more than `tolerance` of the largest B.
-  /// @throws Canceled, std::runtime_error where B outgrows all numbers.
-  void run(int most, double tolerance, const Cancellation& cancellation);
-  /// The same by tolerance only.
-  /// @throws Canceled, std::runtime_error where it does not get there.
+  /// Iterates up to `limit` iterations in total, or until no patch changes by more than
+  /// `tolerance` of the largest B.
+  /// @throws Canceled; NotConvergent where B exceeds the range of numbers
+  void run(int limit, double tolerance, const Cancellation& cancellation);
+  /// Iterates until the tolerance is reached.
+  /// @throws Canceled; NotConvergent where max_iterations do not reach it
   void run_to(double tolerance, const Cancellation& cancellation);
 
  private:
-  /// Calls visit(i) for every patch, on all threads.
+  /// Calls visit(i) for every patch i, on several threads.
   template <class Visit>
   void for_each_row(const Cancellation& cancellation, Visit visit) const;
 
   const Scene& scene_;
   const FormFactors& form_factors_;
   std::span<const Material> materials_;
-  std::vector<Rgb> correction_;  ///< to sum_j F_ij B_j, by a first shot; empty: there was none
+  std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by the first shot; empty without one
   int threads_;
 };
 

@@ -13,13 +13,14 @@ void check(const Scene& scene, const FormFactors& form_factors,
            const std::vector<Material>& materials, std::span<const Rgb> start) {
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   if (form_factors.row_begin.size() != patches + 1) {
-    throw InputError("the form factors are of another scene: they have other patches");
+    throw InputError("the form factors belong to another scene: the number of patches differs");
   }
   if (materials.size() != scene.materials().size()) {
-    throw InputError("the materials are of another scene: there are more or fewer");
+    throw InputError("the materials belong to another scene: their number differs");
   }
   if (!start.empty() && start.size() != patches) {
-    throw InputError("the radiosity to start from is of another scene: it has other patches");
+    throw InputError(
+        "the radiosity to start from belongs to another scene: the number of patches differs");
   }
   for (const Material& material : materials) {
     check_material(material, "");
@@ -40,7 +41,8 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
     iteration.b.assign(options.start.begin(), options.start.end());
   }
   iteration.run_to(options.tolerance, cancellation);
-  return {std::move(iteration.b), std::move(iteration.h), static_cast<int>(iteration.steps.size())};
+  return {std::move(iteration.b), std::move(iteration.h),
+          static_cast<int>(iteration.records.size())};
 }
 
 }  // namespace transillum

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A matrix that Eigen knows by its product only.
+/// A matrix given by its product only, for Eigen's matrix-free solvers.
 class ProductMatrix;
 
 }  // namespace

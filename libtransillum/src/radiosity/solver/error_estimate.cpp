@@ -11,7 +11,7 @@ namespace {
 
 constexpr double confidence = 0.95;
 
-/// Mean of a few values, and how far it is off by their spread.
+/// Mean of independent values and its standard error.
 struct Mean {
   Rgb value, standard_error;
 };

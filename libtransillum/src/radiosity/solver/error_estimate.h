@@ -8,7 +8,8 @@
 
 namespace transillum {
 
-/// How far `b` may be off, given the radiosity that each of at least two replicas makes of it.
+/// The error of `b` from the spread of replicas.
+/// @param replicas B of each, at least two
 ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas);
 

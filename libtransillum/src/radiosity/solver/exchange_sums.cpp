@@ -23,7 +23,7 @@ ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges)
   if (!two_way_) {
     return exchanges;
   }
-  // By the lower number: counted, then dealt out.
+  // Counting sort by the lower patch.
   std::vector<std::uint32_t> next(patches_ + 1, 0);
   for (const Transfer& t : exchanges) {
     ++next[static_cast<std::size_t>(std::min(t.receiver, t.source)) + 1];
@@ -43,14 +43,14 @@ void ExchangeSums::add(Run run) {
   }
   waiting_size_ += run.size();
   waiting_.push_back(std::move(run));
-  // While passes are merged, the new sums exist beside all that they are made of.
+  // While passes are merged, the new sums and their inputs exist at the same time.
   const bool crowded = 2 * size() * sizeof(Transfer) > budget_;
-  // A merge passes over all the sums, and is put off until as many exchanges are waiting.
+  // A merge traverses all sums, so it is deferred until as many exchanges are waiting.
   if (!crowded && waiting_size_ < sums_.source.size()) {
     return;
   }
   merge();
-  // Sums that left little room for passes would have to be merged again and again.
+  // Sums that leave little room for passes would have to be merged too often.
   if (3 * size() * sizeof(Transfer) > budget_) {
     drop();
   }
@@ -90,7 +90,7 @@ void ExchangeSums::merge() {
       std::size_t taken = 0;
       for (; taken < run.size() && static_cast<std::size_t>(run[taken].receiver) == row; ++taken) {
         const Transfer& t = run[taken];
-        // What another row has left here points beyond this one, or to another source in it.
+        // A place left by an earlier row points beyond this one, or to another source in it.
         std::uint32_t& place = at(place_, t.source);
         const std::size_t k = first + place;
         if (k < source.size() && source[k] == t.source) {
@@ -115,7 +115,7 @@ void ExchangeSums::finish() {
     return;
   }
   merge();
-  // Dealing out by source, then by receiver again, sorts each row.
+  // Sorting by source, then by receiver again, sorts each row.
   transpose();
   transpose();
   spare_ = {};

@@ -10,37 +10,38 @@
 
 namespace transillum {
 
-/// The sums over all passes of the exchanged areas: form factors but for a factor a row.
-/// F_ij = 4 / (M A_i) * (entry i,j), as in method.md's estimator.
+/// Exchanged areas summed over all passes, a sparse matrix: form factors up to one factor per row,
+/// F_ij = 4 / (M A_i) * (entry i,j) for M directions (ALGORITHM.md, estimator).
 ///
-/// Two-way sums are symmetric, so a pair is kept once, the lower number first. A pair's areas are
-/// added in the order of the passes, whenever that happens. All that may take long throws
-/// Canceled.
+/// Two-way sums are symmetric, so each pair is kept once, the lower patch first. The areas of a
+/// pair are added in the order of the passes, whenever they are merged, so the bits do not depend
+/// on the budget. Functions that can take long throw Canceled.
 class ExchangeSums {
  public:
-  /// Exchanges by rising receiver, sources in any order.
+  /// Exchanges of one pass by rising receiver; sources in any order.
   using Run = std::vector<Transfer>;
 
-  /// @param budget bytes that the sums may take, also while passes are merged into them; passes
-  /// under way, two a thread, and a few numbers a patch come on top.
+  /// @param budget limit of the sums, bytes, also while passes are merged into them. Passes under
+  /// way, two per thread, and a few numbers per patch come on top.
   ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
                const Cancellation& cancellation);
 
-  /// Puts a pass's exchanges into the rows of the sums. Any thread may, at any time.
+  /// Sorts the exchanges of a pass by the rows of the sums. Any thread may call it at any time.
   Run make_run(const std::vector<Transfer>& exchanges) const;
 
-  /// Adds a pass. Once the budget is overrun everything is let go, and overrun() stays true.
+  /// Adds a pass. Once the budget is exceeded, everything is dropped and overrun() stays true.
   void add(Run run);
   bool overrun() const { return overrun_; }
-  /// Lets everything go, as where the budget is overrun.
+  /// Drops everything, as if the budget were exceeded.
   void drop();
-  /// After the last pass.
+  /// Merges all passes and sorts the rows; to be called after the last pass.
   void finish();
+  /// Number of entries, those of unmerged passes included.
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
 
-  /// gathered_i += sum_j entry_ij b_j for all i; `gathered` has the size of `b`. After finish().
+  /// gathered_i += sum_j entry_ij b_j for all i; `gathered` is as long as `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
-  /// visit(i, j, entry) by rising pairs; a two-way pair comes once, i < j. After finish().
+  /// Calls visit(i, j, entry) by rising pairs; for a two-way pair once, i < j. After finish().
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t i = 0; i < patches_; ++i) {
@@ -51,14 +52,14 @@ class ExchangeSums {
   }
 
  private:
-  /// Row i: from begin[i] to before begin[i + 1].
+  /// Compressed rows: row i is [begin[i], begin[i + 1]).
   struct Rows {
     std::vector<std::size_t> begin;
     std::vector<PatchId> source;
     std::vector<double> area;
   };
   Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
-  /// What waits, into the sums: row by row, of each first the sums and then the passes.
+  /// Merges the waiting passes into the sums, row by row: first the sums, then each pass.
   void merge();
   void transpose();
 
@@ -68,12 +69,12 @@ class ExchangeSums {
   Cancellation cancellation_;
   bool overrun_ = false;
   Rows sums_;
-  /// Passes still to be merged into the sums, in their order.
+  /// Passes not yet merged, in order.
   std::vector<Run> waiting_;
   std::size_t waiting_size_ = 0;
-  /// Where the next sums are made; kept, for fresh memory costs as much as the merging.
+  /// Receives the next sums; kept because allocating it costs as much as merging.
   Rows spare_;
-  /// A source: where in its row the merge has put it last.
+  /// Per source: its last position in a row, while merging.
   std::vector<std::uint32_t> place_;
 };
 

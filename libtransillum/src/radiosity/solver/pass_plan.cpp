@@ -10,29 +10,30 @@
 namespace transillum {
 namespace {
 
-/// Fewer directions than this, a replica, are not worth a step.
-constexpr int fewest_directions = 16;
+/// Smallest number of directions per replica in the first iteration of the growing scheme.
+constexpr int min_directions = 16;
 
 }  // namespace
 
-int PassPlan::passes(int step) const {
+int PassPlan::passes(int iteration) const {
   if (options_.scheme != Scheme::growing) {
     return options_.directions;
   }
   int doublings = 0;
-  while (options_.directions >> (doublings + 1) >= fewest_directions * options_.replicas) {
+  while (options_.directions >> (doublings + 1) >= min_directions * options_.replicas) {
     ++doublings;
   }
-  return options_.directions >> std::max(doublings - step, 0);
+  return options_.directions >> std::max(doublings - iteration, 0);
 }
 
-std::vector<Vec3> PassPlan::directions(int step) const {
+std::vector<Vec3> PassPlan::directions(int iteration) const {
   const int replicas = options_.replicas;
   std::vector<Vec3> directions(static_cast<std::size_t>(options_.directions));
   for (int r = 0; r < replicas; ++r) {
     const int count = (options_.directions - r + replicas - 1) / replicas;
-    auto set = renews() ? directions_of_iteration(options_.sampling, count, options_.seed, step)
-                        : make_directions(options_.sampling, count, options_.seed);
+    auto set = renews()
+                   ? directions_of_iteration(options_.sampling, count, options_.seed, iteration)
+                   : make_directions(options_.sampling, count, options_.seed);
     if (options_.rotation || replicas > 1) {
       set = rotated(std::move(set),
                     options_.rotation.value_or(options_.seed) + static_cast<std::uint64_t>(r));

@@ -7,20 +7,20 @@
 
 namespace transillum {
 
-/// Which direction each pass of each step takes.
+/// The direction of each pass of each iteration.
 ///
-/// Passes come in an order whose every beginning is spread over the sphere. With replicas, pass k
-/// belongs to replica k mod R: R sets of the sampling, each turned by a rotation of its own.
+/// Any initial part of the passes is spread over the sphere. With R replicas, pass k belongs to
+/// replica k mod R; each replica is a set of the sampling under a rotation of its own.
 class PassPlan {
  public:
   explicit PassPlan(const SolveOptions& options) : options_(options) {}
 
-  /// How many passes a step is made of, those that it takes over from earlier steps included.
-  int passes(int step) const;
-  /// Whether each step has directions of its own.
+  /// Number of passes of an iteration, including those taken from kept sums.
+  int passes(int iteration) const;
+  /// Whether each iteration has its own directions.
   bool renews() const { return options_.scheme == Scheme::semi_iterative; }
-  /// The M directions of a step; a step of fewer passes takes the first.
-  std::vector<Vec3> directions(int step) const;
+  /// The M directions of an iteration; one of fewer passes uses the first of them.
+  std::vector<Vec3> directions(int iteration) const;
 
  private:
   SolveOptions options_;

@@ -10,7 +10,7 @@
 namespace transillum {
 namespace {
 
-/// `image` += S `values`, S what the lists of sums add up to; it is symmetric.
+/// image += S values, where S is the total of `sums`, a symmetric matrix.
 void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
                            std::vector<double>& image) {
   for (const ExchangeSums* part : sums) {
@@ -101,11 +101,11 @@ void RadiosityIterate::gather(const KeptSums& sums) {
   }
 }
 
-/// Scales d with d_i sum_j S_ij d_j = the area that row i would sum to if its quadrature of the
-/// cosine were exact: Sinkhorn's iteration, its symmetric form.
+/// Computes scales d with d_i sum_j S_ij d_j = the area that row i would sum to if its quadrature
+/// of the cosine were exact, by the symmetric form of Sinkhorn's iteration.
 void RadiosityIterate::find_scales(const KeptSums& sums) {
-  constexpr int most_sweeps = 200;
-  constexpr double close_enough = 1e-9;
+  constexpr int max_sweeps = 200;
+  constexpr double tolerance = 1e-9;
   const std::size_t patches = b_.size();
   const double directions = passes_ * (two_way_ ? 2 : 1);
   scales_.assign(patches, 1.0);
@@ -115,7 +115,7 @@ void RadiosityIterate::find_scales(const KeptSums& sums) {
     const double exact = directions / 4 * scene_.patches()[i].area;
     wanted[i] = projected_[i] > 0 ? image[i] * exact / projected_[i] : 0.0;
   }
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     double worst = 0;
     for (std::size_t i = 0; i < patches; ++i) {
       const double sum = scales_[i] * image[i];
@@ -127,7 +127,7 @@ void RadiosityIterate::find_scales(const KeptSums& sums) {
     }
     std::fill(image.begin(), image.end(), 0.0);
     add_symmetric_product(sums, scales_, image);
-    if (worst <= close_enough) {
+    if (worst <= tolerance) {
       break;
     }
   }
@@ -137,7 +137,7 @@ void RadiosityIterate::find_scales(const KeptSums& sums) {
   }
 }
 
-/// What turns what row i gathers along `passes` directions into the irradiance H_i.
+/// The factor from what row i gathers in `passes` passes to the irradiance H_i.
 double RadiosityIterate::row_scale(std::size_t i, double projected, int passes) const {
   if (normalization_ == Normalization::rows) {
     return projected > 0 ? 1 / projected : 0.0;
@@ -150,8 +150,8 @@ Rgb RadiosityIterate::estimate(PatchId i) const {
   return radiosity(i, irradiance(i, row_scale(row) * gathered_[row]));
 }
 
-Rgb RadiosityIterate::irradiance(PatchId i, const Rgb& brought) const {
-  return at(shot_.irradiance, i) + brought;
+Rgb RadiosityIterate::irradiance(PatchId i, const Rgb& gathered) const {
+  return at(shot_.irradiance, i) + gathered;
 }
 
 Rgb RadiosityIterate::radiosity(PatchId i, const Rgb& irradiance) const {
@@ -205,8 +205,8 @@ void RadiosityIterate::leap(const KeptSums& sums, double tolerance,
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
   std::vector<Rgb> result(patches);
   const auto channel = [&](auto rho_of) {
-    // With E what is known of B and not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i sqrt(rho_i /
-    // A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
+    // With E the known part of B that was not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i
+    // sqrt(rho_i / A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const auto row = static_cast<std::size_t>(i);
       const double scale = scales_.empty() ? 1.0 : scales_[row];

@@ -11,51 +11,55 @@
 
 namespace transillum {
 
-/// Lists of sums that are to be added up.
+/// Kept sums whose total is meant.
 using KeptSums = std::vector<const ExchangeSums*>;
 
-/// The radiosity that one set of directions makes, step by step (eq. 11): that of all passes, or
-/// that of one replica's.
+/// B and H of one set of directions, iteration by iteration (eq. 11): of all passes, or of one
+/// replica's passes. Areas as in VisibleAreaSums.
 class RadiosityIterate {
  public:
-  /// Keeps references. `shot`: light that goes on top, and what of B then need not be gathered,
+  /// Keeps references to `scene` and `shot`. The light of the first shot is added to H, and the
+  /// exitance that it covers is not gathered again:
   ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
   RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot);
 
-  const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished step, W/m²
-  const std::vector<Rgb>& h() const { return h_; }  ///< the irradiance that made it
+  const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
+  const std::vector<Rgb>& h() const { return h_; }  ///< irradiance, W/m²: B = E + rho H
+  /// sum_d sum_j A(i,j,omega_d) (B_j - E_j shot) of the iteration under way, W
   const std::vector<Rgb>& gathered() const { return gathered_; }
-  int passes() const { return passes_; }  ///< that the step under way rests on
+  int passes() const { return passes_; }  ///< of the iteration under way
 
-  /// Begins a step with nothing gathered.
+  /// Begins an iteration with nothing gathered.
   void begin();
-  /// Begins a step with what the passes gather that `sums` were kept of.
+  /// Begins an iteration with what the passes of `sums` gather; keep() must have been called.
   void begin(const KeptSums& sums);
-  /// Gathers along one direction.
+  /// Gathers along the directions of one pass.
   void add(const Transfers& transfers);
-  /// From now on `sums` stand for the passes so far: of the same directions, finished. Finds the
-  /// scales of a symmetric normalization, and gathers anew with them.
+  /// From now on `sums`, finished and of the same directions, stand for the passes so far. For the
+  /// symmetric normalization it computes the scales and gathers again with them.
   void keep(const KeptSums& sums);
 
-  /// B of the step under way, from the passes so far.
+  /// B_i of the iteration under way, estimated from the passes so far, W/m².
   Rgb estimate(PatchId i) const;
-  /// What turns an entry (i, j) of kept sums into F_ij, given how many passes they are of and what
-  /// those have seen of i.
+  /// The factor from entry (i, j) of kept sums to F_ij.
+  /// @param projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_scale(PatchId i, PatchId j, double projected, int passes) const;
-  /// sum_j F_ij, given the same, and the sum of the row's entries unscaled.
+  /// sum_j F_ij.
+  /// @param row_areas, projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_sum(PatchId i, double row_areas, double projected, int passes) const;
-  /// Power sent by what is gathered of B, in the units of gathered(), given the unscaled sums of
-  /// columns' areas.
+  /// Power sent by the part of B that is gathered, in the unit of gathered().
+  /// @param column_areas as in VisibleAreaSums, unscaled
   Rgb sent(const std::vector<double>& column_areas) const;
-  /// Ends the step: h and b are what was gathered. Returns the largest change of B.
+  /// Ends the iteration: computes H and B from gathered(). Returns the largest change of B, W/m².
   double finish();
-  /// Goes on from B as it would be after infinitely many steps, by conjugate gradients.
-  /// @throws Canceled, std::runtime_error where B grows without bound
+  /// Sets B to the limit of the iteration, by conjugate gradients on the symmetric form.
+  /// @param tolerance of the residual, relative
+  /// @throws Canceled, NotConvergent
   void leap(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
 
  private:
-  /// H and B of a patch, given what directions bring.
-  Rgb irradiance(PatchId i, const Rgb& brought) const;
+  /// H_i from what is gathered, and B_i from H_i.
+  Rgb irradiance(PatchId i, const Rgb& gathered) const;
   Rgb radiosity(PatchId i, const Rgb& irradiance) const;
   void set_radiosity(PatchId i, const Rgb& b);
   void gather(const KeptSums& sums);
@@ -68,14 +72,14 @@ class RadiosityIterate {
   bool two_way_;
   Normalization normalization_;
   std::vector<Rgb> b_, h_;
-  std::vector<Rgb> unshot_;        ///< b less what was shot: what directions carry
-  std::vector<Rgb> gathered_;      ///< sum_d sum_j A(i,j,omega_d) unshot_j, scaled where symmetric
+  std::vector<Rgb> unshot_;        ///< B - E shot: what passes gather
+  std::vector<Rgb> gathered_;      ///< sum_d sum_j A(i,j,omega_d) unshot_j, scaled if symmetric
   std::vector<double> projected_;  ///< sum_d A_i max(n_i·omega_d, 0)
   int passes_ = 0;
   std::vector<double> kept_projected_;
   int kept_passes_ = 0;
-  std::vector<double> scales_;    ///< of rows and columns, where symmetric; else empty
-  std::vector<double> row_sums_;  ///< of the kept sums, scaled; where symmetric
+  std::vector<double> scales_;    ///< of rows and columns, if symmetric; else empty
+  std::vector<double> row_sums_;  ///< of the kept sums, scaled; if symmetric
 };
 
 }  // namespace transillum

@@ -7,7 +7,7 @@
 
 namespace transillum {
 
-/// The mean of a list that gets longer (eq. 45).
+/// The mean of lists of the same length, added one by one (eq. 45).
 struct RunningMean {
   std::vector<Rgb> sum;
   int count = 0;

@@ -57,26 +57,29 @@ void SolveOptions::validate() const {
   }
   if (replicas > directions) {
     throw InputError(
-        fmt::format("replicas: {} are more than the {} directions", replicas, directions));
+        fmt::format("replicas: {} is more than the {} directions", replicas, directions));
   }
   if (normalize == Normalization::symmetric) {
     if (!two_way) {
-      throw InputError("normalize: symmetric wants directions used both ways");
+      throw InputError("normalize: symmetric requires two-way passes");
     }
     if (scheme == Scheme::semi_iterative) {
-      throw InputError("normalize: symmetric does not go with the semi-iterative scheme");
+      throw InputError("normalize: symmetric is not available with the semi-iterative scheme");
     }
   }
   if (scheme == Scheme::conjugate_gradients) {
     if (!two_way) {
-      throw InputError("scheme: conjugate-gradients wants directions used both ways");
+      throw InputError("scheme: conjugate-gradients requires two-way passes");
     }
     if (normalize == Normalization::rows) {
-      throw InputError("scheme: conjugate-gradients wants a symmetric matrix; rows makes it none");
+      throw InputError(
+          "scheme: conjugate-gradients requires a symmetric matrix, so it cannot normalize by "
+          "rows");
     }
   }
   if (first_shot && !(*first_shot >= 0 && std::isfinite(*first_shot))) {
-    throw InputError(fmt::format("first shot: {} is not a number from 0", *first_shot));
+    throw InputError(
+        fmt::format("first shot: {} is not a finite number of at least 0", *first_shot));
   }
   if (threads < 0 || threads > 4096) {
     throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
