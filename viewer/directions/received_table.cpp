@@ -133,12 +133,11 @@ QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int
     case of_direction:
       return pick(tr("Direction"), tr("Number of the pass; −ω: its opposite direction"));
     case of_area:
-      return pick(tr("Visible, m²"),
+      return pick(tr("Seen, m²"),
                   tr("Area of front sides that the patch sees, projected onto the plane"));
     case of_visible_share:
-      return pick(tr("Visible, %"),
-                  tr("The same as a share of the patch's projected area; the rest "
-                     "is back sides or empty"));
+      return pick(tr("Seen"), tr("The same as a share of the patch's projected area; the rest "
+                                 "is back sides or empty"));
     case of_irradiance:
       return pick(tr("ΔH, W/m²"),
                   tr("Contribution to the irradiance H of the patch (luminance), before "
