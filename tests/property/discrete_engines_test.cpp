@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Engines that count pixels, against areas.
+// The engines zbuffer and painter: exact properties of counted pixels, and convergence to the areas
+// of the local map.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -33,8 +34,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, DiscreteEngines,
                          ::testing::Values(Engine::zbuffer, Engine::painter),
                          [](const auto& engine) { return name_of(engine.param); });
 
-/// Whole pixels are shared out: what a patch of a closed scene exchanges is exactly what it covers,
-/// as receiver for omega and for -omega, from the same list.
+/// Pixels are counted: in a closed scene, the areas that a patch exchanges sum exactly to its
+/// projected area, as receiver for omega and for -omega.
 TEST_P(DiscreteEngines, AreasOfAPatchSumToItsPixels) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "furnace", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec);
@@ -67,7 +68,7 @@ double total_difference(const PairAreas& exact, PairAreas found) {
   return sum;
 }
 
-/// The share of the area that is exchanged wrongly falls as the pixel's side, or faster.
+/// The share of wrongly exchanged area falls in proportion to the pixel's side, or faster.
 TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
   for (const auto& scene : {load_scene("cornell-box"), load_scene("rooms"), random_triangles(),
                             load_scene("boards", {.two_sided = true})}) {
@@ -76,7 +77,7 @@ TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
     const auto error = [&](int resolution) {
       const TransferEngine engine = engine_of(GetParam(), scene, {.resolution = resolution});
       double sum = 0, total = 0;
-      // The first ones look along axes, where pixels may happen to fit.
+      // The first ones are axes and diagonals, along which pixels may fit the scene.
       for (auto omega = directions.begin() + 14; omega != directions.end(); ++omega) {
         const PairAreas areas = areas_of(exact(*omega, {}));
         for (const auto& [pair, area] : areas) {
@@ -94,8 +95,8 @@ TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
   }
 }
 
-/// The other way round the same centers are met, mirrored. Only an edge that runs through centers
-/// gives them to another side then; where a scene's edges run along the grid, to a row of pixels.
+/// Along -omega the sample points are the same, mirrored. Only points on an edge may be counted for
+/// the other side; where edges are aligned with the grid, these are whole rows of pixels.
 TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
   constexpr int resolution = 64;
   int equal = 0, directions = 0;
@@ -103,15 +104,15 @@ TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
                             load_scene("sphere-flake:levels=1")}) {
     const TransferEngine engine = engine_of(GetParam(), scene, {.resolution = resolution});
     for (const Vec3& omega : testing::test_directions(20, 8)) {
-      PairAreas there = areas_of(engine(omega, {})), back;
+      PairAreas forward = areas_of(engine(omega, {})), backward;
       for (const Transfer& t : engine(-1 * omega, {}).exchanges) {
-        back[{t.source, t.receiver}] = t.area;
+        backward[{t.source, t.receiver}] = t.area;
       }
       double all = 0;
-      for (const auto& [pair, area] : there) {
+      for (const auto& [pair, area] : forward) {
         all += area;
       }
-      const double differ = total_difference(there, back);
+      const double differ = total_difference(forward, backward);
       EXPECT_LE(differ, 8.0 / resolution * all)
           << scene->name() << " " << omega.x << " " << omega.y;
       equal += differ <= 1e-3 * all ? 1 : 0;
@@ -121,7 +122,7 @@ TEST_P(DiscreteEngines, TheOppositeDirectionGivesTheSame) {
   EXPECT_GE(equal, 0.75 * directions);
 }
 
-/// Both sample the same points, one by heights and one by order.
+/// Both sample the same points; one compares heights, the other paints in order.
 TEST(DiscreteEngines, ZBufferAndPainterAgree) {
   for (const auto& scene :
        {load_scene("cornell-box"), load_scene("sphere-flake:levels=1"), random_triangles(),
@@ -138,7 +139,7 @@ TEST(DiscreteEngines, ZBufferAndPainterAgree) {
   }
 }
 
-/// Two unit squares face each other in pixels of 1/64.
+/// A unit square faces two half squares; pixels of 1/64 fit all edges.
 TEST_P(DiscreteEngines, PixelsThatFitAreExact) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -152,7 +153,7 @@ TEST_P(DiscreteEngines, PixelsThatFitAreExact) {
   EXPECT_EQ(transfers.counts.pixels, 2 * 64 * 64);
 }
 
-/// What falls between the centers of pixels is lost, and said to be.
+/// Patches that contain no center of a pixel are lost, and counted as missed.
 TEST_P(DiscreteEngines, SmallPatchesAreMissedAndCounted) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -189,8 +190,8 @@ TEST_P(DiscreteEngines, TheFurnaceIsAtTwoForAnyNumberOfThreads) {
   }
 }
 
-/// Where Newell's tests find an order, it shows what the tree's shows.
-TEST(NewellOrder, ShowsWhatTheTreeShows) {
+/// Where Newell's tests find an order, the transfers equal those in BSP order.
+TEST(NewellOrder, GivesTheTransfersOfTheBspOrder) {
   Sketch light_in_ceiling;
   const int gray = light_in_ceiling.material(0.5, 0), bright = light_in_ceiling.material(0.5, 9);
   light_in_ceiling.box({0, 0, 0}, {3, 2, 1}, true, gray);
@@ -209,36 +210,36 @@ TEST(NewellOrder, ShowsWhatTheTreeShows) {
   }
 }
 
-std::string complaint(const std::shared_ptr<const Scene>& scene, const Vec3& omega) {
+std::string error_of(const std::shared_ptr<const Scene>& scene, const Vec3& omega) {
   try {
     engine_of(Engine::painter, scene, {.resolution = 90, .order = PaintersOrder::newell})(omega,
                                                                                           {});
   } catch (const InputError& error) {
     return error.what();
   }
-  return "no complaint";
+  return "no error";
 }
 
 TEST(NewellOrder, FailsOnCyclesAndIntersections) {
-  EXPECT_THAT(complaint(load_scene("boards"), {0, 0, 1}),
+  EXPECT_THAT(error_of(load_scene("boards"), {0, 0, 1}),
               ::testing::MatchesRegex("boards: direction 0, 0, 1: patches [0-9, ]+ overlap in a "
                                       "cycle; .*newell.*bsp.*"));
   Sketch crossed;
   const int gray = crossed.material(0.5, 1);
   crossed.face({{0, 0, 0}, {2, 0, 1}, {2, 1, 1}, {0, 1, 0}}, gray);
   crossed.face({{0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {0, 1, 1}}, gray);
-  EXPECT_THAT(complaint(crossed.scene(), {0, 0, 1}),
+  EXPECT_THAT(error_of(crossed.scene(), {0, 0, 1}),
               ::testing::HasSubstr("patches 0 and 1 intersect"));
-  // Both reach over both sides of the other's plane, but not where they overlap.
+  // Each is on both sides of the other's plane, but not where their projections overlap.
   Sketch skew;
   ASSERT_EQ(skew.material(0.5, 1), gray);
   skew.face({{0, 0, 0}, {4, 0, 2}, {4, 1, 2}, {0, 1, 0}}, gray);
   skew.face({{0, -1, 1}, {1, -1, 1}, {1, 5, 0}, {0, 5, 0}}, gray);
-  EXPECT_EQ(complaint(skew.scene(), {0, 0, 1}), "no complaint");
+  EXPECT_EQ(error_of(skew.scene(), {0, 0, 1}), "no error");
 }
 
-/// One line a pixel, somewhere in it.
-TEST(RayLines, TakeAGridOfPixels) {
+/// One line per pixel, at a random point of it.
+TEST(RayLines, UseAGridOfPixels) {
   const auto scene = load_scene("cornell-box");
   const Vec3 omega = normalized({1, -2, 3});
   const Transfers pixels = engine_of(Engine::zbuffer, scene, {.resolution = 200})(omega, {});
@@ -249,7 +250,7 @@ TEST(RayLines, TakeAGridOfPixels) {
   EXPECT_NE(areas_of(pixels), areas_of(lines));
 }
 
-TEST_P(DiscreteEngines, StopAndRefuse) {
+TEST_P(DiscreteEngines, CanBeCanceledAndCheckTheResolution) {
   const auto scene = load_scene("furnace");
   for (const int resolution : {-1, EngineOptions::largest_resolution + 1}) {
     EXPECT_THROW(engine_of(GetParam(), scene, {.resolution = resolution}), InputError);

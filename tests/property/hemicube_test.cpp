@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Form factors by hemicubes: what holds whatever their resolution, and what they converge to.
+// Form factors by hemicubes: properties that hold at any resolution, and convergence.
 #include "transillum/hemicube.h"
 
 #include <gmock/gmock.h>
@@ -54,8 +54,8 @@ TEST(Hemicube, DeltaFormFactorsSumToOne) {
   }
 }
 
-/// The four top pixels of the coarsest cube see the top's form factor, 0.5541... in all.
-TEST(Hemicube, TheTopHasItsShare) {
+/// The four top pixels of the coarsest cube sum to the form factor of the top, 0.5541...
+TEST(Hemicube, TopPixelsSumToItsFormFactor) {
   const Hemicube cube(2);
   const double top = std::accumulate(cube.delta_form_factors().begin(),
                                      cube.delta_form_factors().begin() + 4, 0.0);
@@ -73,7 +73,7 @@ TEST(HemicubeFactors, RowsOfClosedScenesSumToOne) {
   }
 }
 
-/// From a point to a square above it.
+/// The form factor from a point to a square above it.
 TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -91,7 +91,7 @@ TEST(HemicubeFactors, ConvergeAsPixelsShrink) {
   EXPECT_LT(error(1024), 1e-4);
 }
 
-/// Two unit squares at distance 1: a point in the middle of a whole one sees too much.
+/// Two unit squares at distance 1: the form factor from the center of a whole one is too large.
 TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
   const double exact = 0.1998248957;
   const auto error = [&](double patch_area) {
@@ -113,7 +113,7 @@ TEST(HemicubeFactors, ConvergeAsPatchesShrink) {
   EXPECT_LT(small, 2e-3);
 }
 
-TEST(HemicubeFactors, WhatIsNearerHidesAndBacksAbsorb) {
+TEST(HemicubeFactors, NearerPatchesHideAndBackSidesAbsorb) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.face(square(1e-3, 0, true), gray)
@@ -130,8 +130,8 @@ TEST(HemicubeFactors, WhatIsNearerHidesAndBacksAbsorb) {
   EXPECT_LT(row_sum(shaded, 0), 0.3);
 }
 
-/// As the tree has it: of coincident faces the brighter covers the other, whatever their order.
-TEST(HemicubeFactors, ALightInItsCeilingShines) {
+/// As in the BSP order: of coincident faces, the brighter covers the other, whatever their order.
+TEST(HemicubeFactors, ALightCoversTheCeilingAroundIt) {
   for (const bool light_first : {true, false}) {
     Sketch sketch;
     const int gray = sketch.material(0.5, 0), bright = sketch.material(0, 10);
@@ -148,7 +148,7 @@ TEST(HemicubeFactors, ALightInItsCeilingShines) {
   }
 }
 
-/// How many parts each patch has in the unfolded picture.
+/// Number of connected parts of each patch in the unfolded picture.
 std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
   const int size = image.cross();
   std::vector<PatchId> cells;
@@ -190,8 +190,8 @@ std::vector<int> parts_in_cross(const HemicubeImage& image, PatchId patches) {
   return parts;
 }
 
-/// What lies over a fold stays in one piece: a ring of faces half way up, small enough not to reach
-/// the corners.
+/// Patches across a fold stay connected: a ring of faces half way up, small enough not to reach the
+/// corners.
 TEST(HemicubeImage, UnfoldsToACross) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -208,21 +208,21 @@ TEST(HemicubeImage, UnfoldsToACross) {
   const auto scene = sketch.scene();
   const auto tree = std::make_shared<const BspTree>(*scene);
   const HemicubeImage image = hemicube_image(scene, tree, 0, {.resolution = 100});
-  std::vector<int> met(image.items.size(), 0);
+  std::vector<int> count_of_pixel(image.items.size(), 0);
   for (int row = 0; row < image.cross(); ++row) {
     for (int column = 0; column < image.cross(); ++column) {
       if (const auto pixel = image.pixel_at(column, row)) {
-        ++met[*pixel];
+        ++count_of_pixel[*pixel];
       }
     }
   }
-  EXPECT_THAT(met, ::testing::Each(1));
+  EXPECT_THAT(count_of_pixel, ::testing::Each(1));
   std::vector<int> parts = parts_in_cross(image, scene->patch_count());
   parts.erase(parts.begin());
   EXPECT_THAT(parts, ::testing::Each(1));
 }
 
-TEST(HemicubeImage, IsTheRowOfTheEngine) {
+TEST(HemicubeImage, HasTheFormFactorsOfTheEngine) {
   for (const char* spec : {"cornell-box", "boards", "sphere-flake:levels=0"}) {
     const auto scene = load_scene(spec);
     const auto tree = std::make_shared<const BspTree>(*scene);
@@ -236,13 +236,13 @@ TEST(HemicubeImage, IsTheRowOfTheEngine) {
   }
 }
 
-TEST(ExactFormFactors, SumToOneAndAreWhatHemicubesComeTo) {
+TEST(ExactFormFactors, SumToOneAndAreTheLimitOfHemicubes) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
   const auto tree = std::make_shared<const BspTree>(*scene);
   for (const PatchId i : {3, scene->patch_count() / 2}) {
     const std::vector<double> exact = exact_form_factors(*scene, i);
     EXPECT_NEAR(std::accumulate(exact.begin(), exact.end(), 0.0), 1, 1e-3);
-    const auto off = [&](int resolution) {
+    const auto error = [&](int resolution) {
       const HemicubeImage image = hemicube_image(scene, tree, i, {.resolution = resolution});
       double sum = 0;
       for (std::size_t j = 0; j < exact.size(); ++j) {
@@ -250,23 +250,23 @@ TEST(ExactFormFactors, SumToOneAndAreWhatHemicubesComeTo) {
       }
       return sum;
     };
-    EXPECT_LT(off(256), 0.1);           // patches are not small
-    EXPECT_LT(off(256), 0.9 * off(8));  // but pixels are
+    EXPECT_LT(error(256), 0.1);             // the patches are not small
+    EXPECT_LT(error(256), 0.9 * error(8));  // but the pixels are
   }
 }
 
 double rms_difference(const Solution& a, const Solution& b) {
-  double off = 0, all = 0;
+  double difference = 0, all = 0;
   for (std::size_t i = 0; i < a.radiosity.size(); ++i) {
     const Rgb d = a.radiosity[i] - b.radiosity[i];
-    off += d.r * d.r + d.g * d.g + d.b * d.b;
+    difference += d.r * d.r + d.g * d.g + d.b * d.b;
     const Rgb& v = b.radiosity[i];
     all += v.r * v.r + v.g * v.g + v.b * v.b;
   }
-  return std::sqrt(off / all);
+  return std::sqrt(difference / all);
 }
 
-TEST(HemicubeSolve, ComesNearerToTheExactEngineAsPatchesShrink) {
+TEST(HemicubeSolve, ApproachesTheExactEngineAsPatchesShrink) {
   const auto error = [](double patch_area) {
     const auto scene = load_scene("cornell-box", {.max_patch_area = patch_area});
     SolveOptions options{.directions = 256};
@@ -292,7 +292,7 @@ TEST(HemicubeSolve, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(solve_by_hemicubes(scene, options).radiosity == one.radiosity);
 }
 
-TEST(HemicubeSolve, RefusesWhatItHasNot) {
+TEST(HemicubeSolve, RefusesOptionsThatItLacks) {
   const auto scene = load_scene("furnace");
   const auto solve_with = [&](auto change) {
     SolveOptions options;

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// What a direction's history answers, against slow and independent ways to the same answers.
+// The queries of a direction's history, against slow, independent computations.
 #include "transillum/map_history.h"
 
 #include <gmock/gmock.h>
@@ -40,8 +40,8 @@ struct Recorded {
   }
 };
 
-/// Area of a union of convex polygons: between two neighbors among the x of all corners and
-/// crossings no edges cross, so the union's height is linear and its middle tells the area.
+/// Area of a union of convex polygons. Between two successive x of corners and crossings, no edges
+/// cross, so the union's height is linear and the area is its middle value times the width.
 class UnionArea {
  public:
   void add(const std::vector<Vec2>& polygon) {
@@ -117,7 +117,7 @@ class UnionArea {
   std::vector<std::vector<Vec2>> polygons_;
 };
 
-TEST(MapHistory, MapHasTheAreaOfTheUnionOfWhatWasProcessed) {
+TEST(MapHistory, MapHasTheAreaOfTheUnionOfProcessedFragments) {
   for (const auto& scene : scenes()) {
     const Recorded recorded(scene, 9);
     for (const MapHistory& history : recorded.histories) {
@@ -143,7 +143,7 @@ TEST(MapHistory, MapHasTheAreaOfTheUnionOfWhatWasProcessed) {
   }
 }
 
-TEST(MapHistory, StepsTellWhatTheTableTells) {
+TEST(MapHistory, StepsAgreeWithTheRows) {
   for (const auto& scene : scenes()) {
     for (const MapHistory& history : Recorded(scene, 9).histories) {
       const MapRecord& record = history.record();
@@ -165,9 +165,9 @@ TEST(MapHistory, StepsTellWhatTheTableTells) {
         }
         EXPECT_THAT(history.inside_at(k), ElementsAreArray(inside));
         EXPECT_THAT(history.outside_at(k), ElementsAreArray(outside));
-        std::vector<std::int32_t> told = history.cut_at(k);
-        std::sort(told.begin(), told.end());
-        EXPECT_THAT(told, ElementsAreArray(cut));
+        std::vector<std::int32_t> found = history.cut_at(k);
+        std::sort(found.begin(), found.end());
+        EXPECT_THAT(found, ElementsAreArray(cut));
         const MapHistory::Step& step = history.step(k);
         EXPECT_EQ(step.cut, static_cast<std::int32_t>(cut.size()));
         EXPECT_EQ(step.map_size, static_cast<std::int32_t>(record.map_after(k).size()));
@@ -260,7 +260,7 @@ TEST(MapHistory, FindsTheEventsOfAPatch) {
   }
 }
 
-TEST(MapHistory, OfNothingIsEmpty) {
+TEST(MapHistory, OfAnEmptyRecordIsEmpty) {
   const MapHistory history{MapRecord{}};
   EXPECT_EQ(history.step_count(), 0);
   EXPECT_EQ(history.next_step_of(0, -1), MapHistory::none);

@@ -36,7 +36,7 @@ TEST(MapRecord, GivesTheSameBitsAsTheUnrecordedRun) {
   }
 }
 
-/// V after step k = V before, less what step k cut out of it, and its polygon put in.
+/// Area of V after step k = area before - area of the inside list + area of the step's polygon.
 TEST(MapRecord, AreaIsKeptAtEveryStep) {
   const auto scene = load_scene("boards");
   const BspTree tree(*scene);
@@ -48,27 +48,27 @@ TEST(MapRecord, AreaIsKeptAtEveryStep) {
       for (const std::int32_t row : record.map_after(step)) {
         area += area_of(record.outline(at(record.rows, row)));
       }
-      double taken = 0, put = 0;
+      double inside = 0, inserted = 0;
       for (const MapRecord::Row& row : record.rows) {
         if (row.made != step) {
           continue;
         }
         const double part = area_of(record.outline(row));
         if (row.consumed == step) {
-          taken += part;
+          inside += part;
         }
         if (row.parent == MapRecord::no_row) {
-          put += part;
+          inserted += part;
         }
       }
-      ASSERT_NEAR(area, area_before - taken + put, 1e-12) << "step " << step;
-      ASSERT_LE(taken, put + 1e-12) << "step " << step;
+      ASSERT_NEAR(area, area_before - inside + inserted, 1e-12) << "step " << step;
+      ASSERT_LE(inside, inserted + 1e-12) << "step " << step;
       area_before = area;
     }
   }
 }
 
-TEST(MapRecord, RowsTellWhereTheyCameFrom) {
+TEST(MapRecord, RowsReferToTheirParents) {
   const auto scene = load_scene("cornell-box");
   const BspTree tree(*scene);
   const MapRecord record =
@@ -87,7 +87,8 @@ TEST(MapRecord, RowsTellWhereTheyCameFrom) {
     }
   }
   EXPECT_GT(cut, 0);
-  const auto shining = [&](std::int32_t step) {
+  // Number times area of the back-facing rows of V after a step.
+  const auto fullness = [&](std::int32_t step) {
     double rows = 0, area = 0;
     for (const std::int32_t number : record.map_after(step)) {
       const MapRecord::Row& row = at(record.rows, number);
@@ -99,10 +100,10 @@ TEST(MapRecord, RowsTellWhereTheyCameFrom) {
     }
     return rows * area;
   };
-  const auto most = shining(record.fullest_step());
+  const auto most = fullness(record.fullest_step());
   EXPECT_GT(most, 0);
   for (std::int32_t step = 0; step < record.step_count(); ++step) {
-    EXPECT_LE(shining(step), most * (1 + 1e-12));
+    EXPECT_LE(fullness(step), most * (1 + 1e-12));
   }
 }
 

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Regions of the global visibility map, against a picture filled from point to point.
+// Regions of the global visibility map, against a flood fill of a sampled picture.
 #include "transillum/map_region.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ MapHistory history_of(const Scene& scene, const Vec3& omega) {
   return MapHistory(record_local_map(scene, BspTree(scene), omega).record);
 }
 
-/// The plane sampled on a grid: what covers each point, and which points hang together.
+/// The plane sampled on a grid: the fragments that cover each point, and connected points.
 class Picture {
  public:
   static constexpr int side = 240;
@@ -39,37 +39,37 @@ class Picture {
     return {low_.x + (x + 0.5) / side * (high_.x - low_.x),
             low_.y + (y + 0.5) / side * (high_.y - low_.y)};
   }
-  /// The steps that cover a point, from the light down.
+  /// The steps whose fragments cover a point, nearest to the light first.
   const std::vector<std::int32_t>& list(int x, int y) const { return at(x, y); }
   bool covered(int x, int y) const { return !at(x, y).empty(); }
   double pixel() const { return (high_.x - low_.x) * (high_.y - low_.y) / (side * side); }
 
   struct Filled {
     double area = 0;
-    int rim = 0;  ///< pixels with others beside them
+    int boundary = 0;  ///< pixels with a neighbor that is covered differently
   };
-  /// The pixels that can be reached from one through neighbors with the same cover.
+  /// The pixels connected to one through neighbors covered by the same fragments.
   Filled fill(int x, int y) const {
-    std::vector<char> seen(covers_.size());
-    std::vector<std::array<int, 2>> waiting{{x, y}};
-    seen[index(x, y)] = 1;
+    std::vector<char> visited(covers_.size());
+    std::vector<std::array<int, 2>> pending{{x, y}};
+    visited[index(x, y)] = 1;
     Filled filled;
-    while (!waiting.empty()) {
-      const auto [px, py] = waiting.back();
-      waiting.pop_back();
+    while (!pending.empty()) {
+      const auto [px, py] = pending.back();
+      pending.pop_back();
       filled.area += pixel();
-      bool rim = false;
+      bool boundary = false;
       for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
         const int nx = px + dx, ny = py + dy;
         const bool same = nx >= 0 && ny >= 0 && nx < side && ny < side && at(nx, ny) == at(x, y);
-        rim = rim || !same;
-        if (!same || seen[index(nx, ny)]) {
+        boundary = boundary || !same;
+        if (!same || visited[index(nx, ny)]) {
           continue;
         }
-        seen[index(nx, ny)] = 1;
-        waiting.push_back({nx, ny});
+        visited[index(nx, ny)] = 1;
+        pending.push_back({nx, ny});
       }
-      filled.rim += rim;
+      filled.boundary += boundary;
     }
     return filled;
   }
@@ -93,7 +93,7 @@ class Picture {
   std::vector<std::vector<std::int32_t>> covers_;
 };
 
-TEST(MapRegion, GoesRoundAHoleAndEndsAtAPoint) {
+TEST(MapRegion, SurroundsAHoleAndEndsAtAPoint) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   const auto plate = [&](double x, double y, double z, double size) {
@@ -101,7 +101,7 @@ TEST(MapRegion, GoesRoundAHoleAndEndsAtAPoint) {
   };
   plate(0, 0, 0, 4);
   plate(1, 1, 1, 1);
-  // These two share a corner, and what lies between them, left and right, does not hang together.
+  // These two share a corner; the parts of the plate on either side of it are not connected.
   plate(5, 0, 0, 4);
   plate(5, 0, 1, 2);
   plate(7, 2, 1, 2);
@@ -119,7 +119,7 @@ TEST(MapRegion, GoesRoundAHoleAndEndsAtAPoint) {
   EXPECT_EQ(area_at(1.5, 1), 0);
 }
 
-TEST(MapRegion, HasTheAreaThatAPictureFills) {
+TEST(MapRegion, HasTheAreaOfAFloodFill) {
   testing::Sketch soup;
   soup.box({0, 0, 0}, {1, 1, 1}, true, soup.material(0.5, 1));
   soup.triangles(8, 0.5, 7, soup.material(0.5, 0));
@@ -136,11 +136,11 @@ TEST(MapRegion, HasTheAreaThatAPictureFills) {
           continue;
         }
         const Picture::Filled filled = picture.fill(x, y);
-        // Where the picture is too coarse for a narrow place it may end, or go on, at it.
-        if (filled.rim * picture.pixel() > 0.2 * filled.area) {
+        // Skip regions with parts too narrow for the picture's resolution.
+        if (filled.boundary * picture.pixel() > 0.2 * filled.area) {
           continue;
         }
-        EXPECT_NEAR(region->area, filled.area, 0.5 * filled.rim * picture.pixel())
+        EXPECT_NEAR(region->area, filled.area, 0.5 * filled.boundary * picture.pixel())
             << scene->patch_count() << ' ' << x << ' ' << y;
         ++compared;
         several += region->parts.size() > 1;
@@ -173,8 +173,8 @@ bool has(const MapRegion& region, const Vec2& p) {
   });
 }
 
-// Section 3.1 as it is printed: in each region every front-facing patch of the list sees the next.
-TEST(MapRegion, AddsUpToWhatTheLocalMapExchanges) {
+// Section 3.1 as printed: in each region, every front-facing patch of the list sees the next.
+TEST(MapRegion, AddsUpToTheTransfersOfTheLocalMap) {
   testing::Sketch soup;
   soup.box({0, 0, 0}, {1, 1, 1}, true, soup.material(0.5, 1));
   soup.triangles(8, 0.5, 7, soup.material(0.5, 0));
@@ -212,7 +212,7 @@ TEST(MapRegion, AddsUpToWhatTheLocalMapExchanges) {
       by_regions += sums[{t.receiver, t.source}];
       EXPECT_LE((sums[{t.receiver, t.source}]), t.area + 1e-9) << t.receiver << ' ' << t.source;
     }
-    // Regions of less than some points are missed.
+    // Regions that contain no sample point are missed.
     EXPECT_GT(by_regions, 0.99 * all) << scene->name();
     EXPECT_GT(found.size(), 20U);
   }

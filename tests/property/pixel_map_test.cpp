@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// What discrete engines show of the plane, and where that is wrong.
+// Maps of the engines zbuffer, painter and rays, and their differences from the exact map.
 #include "transillum/pixel_map.h"
 
 #include <gmock/gmock.h>
@@ -46,14 +46,14 @@ double area_of(const Polygons& polygons) {
                          [](double sum, const auto& polygon) { return sum + polygon.area; });
 }
 
-/// Whether p lies in a convex outline, not near its edge; nothing where it is near.
-std::optional<bool> holds(std::span<const Vec2> outline, const Vec2& p, double near) {
+/// Whether p lies in a convex outline; nothing if it is near an edge.
+std::optional<bool> contains(std::span<const Vec2> outline, const Vec2& p, double near) {
   bool inside = true;
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (length < 1e-12) {
-      continue;  // its line is noise
+      continue;  // its direction is noise
     }
     const double side = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
     if (side < -near) {
@@ -80,7 +80,7 @@ Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
     if (polygon.area < 1e-15) {
       continue;  // may be a point
     }
-    const auto inside = holds(map.outline(polygon), p, 1e-9);
+    const auto inside = contains(map.outline(polygon), p, 1e-9);
     found.doubtful = found.doubtful || !inside;
     if (inside.value_or(false)) {
       found.polygon = &polygon;
@@ -89,7 +89,7 @@ Found find(const VisibilityMap& map, const Polygons& polygons, const Vec2& p) {
   return found;
 }
 
-/// Whatever the point: it is marked if, and only if, another patch is seen there than shown.
+/// At random points: a point is marked if and only if the visible patch is not the one shown.
 void expect_marked_where_wrong(const Views& views) {
   const PixelMap& pixels = views.pixels;
   std::mt19937_64 random(7);
@@ -100,17 +100,17 @@ void expect_marked_where_wrong(const Views& views) {
     const Vec2 p{pixels.corner.x + column * pixels.side, pixels.corner.y + row * pixels.side};
     const PatchId shown =
         pixels.items[pixels.index(static_cast<int>(column), static_cast<int>(row))];
-    const Found truly = find(views.exact, views.exact.polygons, p);
+    const Found exact = find(views.exact, views.exact.polygons, p);
     const Found marked = find(views.drawn, views.drawn.pixels.differences, p);
     const Found drawn = find(views.drawn, views.drawn.polygons, p);
-    if (truly.doubtful || marked.doubtful || drawn.doubtful) {
+    if (exact.doubtful || marked.doubtful || drawn.doubtful) {
       continue;
     }
-    const PatchId seen = truly.polygon != nullptr ? truly.polygon->patch : no_patch;
+    const PatchId visible = exact.polygon != nullptr ? exact.polygon->patch : no_patch;
     ASSERT_EQ(drawn.polygon != nullptr ? drawn.polygon->patch : no_patch, shown);
-    ASSERT_EQ(marked.polygon != nullptr, seen != shown) << seen << " " << shown;
+    ASSERT_EQ(marked.polygon != nullptr, visible != shown) << visible << " " << shown;
     if (marked.polygon != nullptr) {
-      ASSERT_EQ(marked.polygon->patch, seen);
+      ASSERT_EQ(marked.polygon->patch, visible);
       ++wrong;
     }
   }
@@ -164,10 +164,10 @@ TEST(PixelMap, ZBufferAndPainterShowTheSame) {
   }
 }
 
-/// A step of a direction, in pixels of 1/`resolution`.
+/// V after a step, in pixels.
 struct Step {
   PixelMap pixels;
-  double wrong;  ///< share of V
+  double wrong;  ///< differing share of V
 };
 
 Step after_step(const std::shared_ptr<const Scene>& scene, const BspTree& tree,
@@ -205,7 +205,7 @@ TEST(PixelMap, AllEnginesShowEachStepOfADirection) {
       if (step < 0) {
         continue;
       }
-      // Rays meet another point of each pixel, and the same share of it is wrong.
+      // Rays sample another point of each pixel; a similar share is wrong.
       const Step rays = show(Engine::rays, {.resolution = 100});
       EXPECT_NE(rays.pixels.items, painter.pixels.items);
       EXPECT_NEAR(rays.wrong / painter.wrong, 1.3, 0.45) << scene->name() << " " << step;
@@ -230,7 +230,7 @@ TEST(PixelMap, IsWrittenAndDrawn) {
   }
 }
 
-TEST(PixelMap, RefusesWhatHasNoPixels) {
+TEST(PixelMap, RefusesEnginesWithoutPixelsAndBadResolutions) {
   const auto scene = load_scene("furnace");
   const auto tree = std::make_shared<const BspTree>(*scene);
   const Vec3 up{0, 0, 1};

@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Rays against areas: lines that are counted must agree with the local map as statistics allow.
+// The engine rays: counts of lines must agree with the areas of the local map within their
+// statistical errors.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -27,7 +28,7 @@ double total(const Transfers& transfers) {
   return sum;
 }
 
-/// The box on the plane that random lines are spread over.
+/// Area of the box on the plane in which random lines are placed.
 double window_area(const Scene& scene, const Vec3& omega) {
   const PlaneFrame frame = plane_frame(scene, omega);
   Bounds box;
@@ -48,7 +49,7 @@ struct Deviations {
   double largest = 0;
 
   void add(double count, double lines, double share) {
-    // One that fills the window has no variance but rounding.
+    // A pair that fills the window has no variance except rounding.
     const double variance = std::max(lines * share * (1 - share), 1.0);
     const double z = (count - lines * share) / std::sqrt(variance);
     ++pairs;
@@ -60,7 +61,7 @@ struct Deviations {
 Sketch letters() {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
-  // A U, concave, above an L, looking at each other.
+  // A concave U above an L, facing each other.
   sketch.face({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, gray);
   sketch.face(
       {{0, 0, 1}, {0, 3, 1}, {1, 3, 1}, {1, 1, 1}, {2, 1, 1}, {2, 3, 1}, {3, 3, 1}, {3, 0, 1}},
@@ -95,7 +96,7 @@ TEST(RayEngine, CountsArePlainBinomialNumbers) {
       const double window = window_area(*scene, omega);
       const PairAreas expected = areas_of(exact(omega, {}));
       PairAreas found = areas_of(rays(omega, {}));
-      // Pairs too small to be counted one by one are counted together.
+      // Pairs of too small expectation are counted together.
       double rest = 0, rest_expected = 0;
       for (const auto& [pair, area] : expected) {
         const double share = area / window;
@@ -118,12 +119,12 @@ TEST(RayEngine, CountsArePlainBinomialNumbers) {
     }
   }
   ASSERT_GT(all.pairs, 2000);
-  // Of a normal distribution 4.55 % lie beyond 2, and one in 1.7 million beyond 5.
+  // In a normal distribution, 4.55 % lie beyond 2, and one in 1.7 million beyond 5.
   EXPECT_NEAR(all.beyond_2, 0.0455 * all.pairs, 0.01 * all.pairs);
   EXPECT_LT(all.largest, 5);
 }
 
-TEST(RayEngine, LinesSeeNoGaps) {
+TEST(RayEngine, LinesFindNoGaps) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "furnace", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec);
     const TransferEngine rays = make_engine(Engine::rays, scene, nullptr);
@@ -162,7 +163,7 @@ TEST(RayEngine, ErrorFallsAsLinesGrow) {
     }
     return sum / 6;
   };
-  // Random lines: as n^-1/2. A jittered grid errs at outlines only: as n^-3/4.
+  // Random lines: n^-1/2. On a jittered grid only cells at outlines have errors: n^-3/4.
   EXPECT_NEAR(error(50, false) / error(3200, false), 8, 2);
   EXPECT_NEAR(error(50, true) / error(3200, true), 22.6, 6);
   EXPECT_LT(error(50, true), error(50, false) / 2);
@@ -222,8 +223,8 @@ TEST(RayEngine, IsAFunctionOfTheDirection) {
   EXPECT_FALSE(same_bits(first, reseeded(omega, {})));
 }
 
-/// Single precision must not show: the same scene tiny, huge, and far away.
-TEST(RayEngine, SizeAndPlaceDoNotMatter) {
+/// Single precision must have no effect: the same scene tiny, huge, and far from the origin.
+TEST(RayEngine, ResultDoesNotDependOnScaleAndPosition) {
   const SceneDescription flake = describe_scene("sphere-flake:levels=1");
   const Vec3 omega = normalized({1, 2, -1});
   const auto areas = [&](double size, const Vec3& shift) {
@@ -251,7 +252,7 @@ TEST(RayEngine, SizeAndPlaceDoNotMatter) {
   }
 }
 
-TEST(RayEngine, StopsAndRefuses) {
+TEST(RayEngine, CanBeCanceledAndChecksTheNumberOfLines) {
   const auto scene = load_scene("furnace");
   for (const double lines : {0.0, -1.0, std::nan(""), 2e6}) {
     EXPECT_THROW(make_engine(Engine::rays, scene, nullptr, {.lines_per_patch = lines}), InputError);
@@ -262,7 +263,7 @@ TEST(RayEngine, StopsAndRefuses) {
   EXPECT_THROW(rays({0, 0, 1}, cancellation), Canceled);
 }
 
-/// With rows normalized by what the same lines saw, the furnace is exact whatever they hit.
+/// Rows are normalized by the sums of the same lines, so the furnace is exact for any lines.
 TEST(RayEngine, TheFurnaceIsAtTwo) {
   const Solution solution = solve(load_scene("furnace"), {.directions = 32,
                                                           .engine = Engine::rays,

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The map against lines shot through random scenes: an independent, statistical road.
+// The local map against lines through random scenes: an independent, statistical computation.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using testing::test_directions;
 /// Where the line through the plane point `at` meets patch i: the height along omega, or NaN.
 double height_on_line(const Scene& scene, PatchId i, const PlaneFrame& frame, const Vec2& at) {
   const auto outline = scene.outline(i);
-  bool inside = false;  // even-odd rule, good for concave outlines too
+  bool inside = false;  // even-odd rule, valid for concave outlines too
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2 a = frame.project(scene.point(outline[k]));
     const Vec2 b = frame.project(scene.point(outline[(k + 1) % outline.size()]));
@@ -52,13 +52,13 @@ std::vector<Hit> hits_on_line(const Scene& scene, const PlaneFrame& frame, const
       hits.push_back({height, i});
     }
   }
-  // Downward, as light travels.
+  // From above, along -omega.
   std::sort(hits.begin(), hits.end(),
             [](const Hit& a, const Hit& b) { return a.height > b.height; });
   return hits;
 }
 
-/// A(i,j,omega) by a fine grid of lines.
+/// A(i,j,omega) from a fine grid of lines.
 std::map<std::pair<PatchId, PatchId>, double> sampled_transfers(const Scene& scene,
                                                                 const PlaneFrame& frame,
                                                                 double radius, int resolution) {
@@ -102,8 +102,8 @@ TEST(SampledOrder, TransfersAgreeWithLinesThroughInterpenetratingTriangles) {
     for (const auto& [pair, ignored] : pairs) {
       const double a = exact.contains(pair) ? exact.at(pair) : 0.0;
       const double b = sampled.contains(pair) ? sampled.at(pair) : 0.0;
-      // A grid of lines errs by some cells along the outline, which is a few meters at most; the
-      // errors of its cells cancel.
+      // The error of the grid comes from cells along the outline, which is a few meters at most;
+      // the errors of its cells cancel.
       EXPECT_NEAR(a, b, 60 * cell * cell) << seed << ": " << pair.first << " sees " << pair.second;
       total += a;
     }
@@ -126,7 +126,7 @@ TEST(SampledOrder, TreeOrderIsTheOrderOfHeights) {
           return radius * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1);
         };
         const Vec2 at{random(), random()};
-        // Polygons that were new at their step, in the order of steps, against heights.
+        // The fragments that cover the point, in BSP order, must have descending heights.
         double last = HUGE_VAL;
         for (const MapRecord::Row& row : record.rows) {
           if (row.parent != MapRecord::no_row) {

@@ -35,7 +35,7 @@ using ::testing::IsEmpty;
 
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-/// Three patches, one of them concave, with values that do not survive careless printing.
+/// Three patches, one of them concave, with values that rounded decimal output would change.
 Solution awkward_solution() {
   Sketch sketch("awkward");
   const int gray = sketch.material(1.0 / 3, 0.1);
@@ -187,7 +187,7 @@ TEST_F(IoWriters, VtpReadsBackBitForBit) {
   EXPECT_EQ(mesh.GetFieldData()->GetArray("complete")->GetTuple1(0), 1);
 }
 
-TEST_F(IoWriters, StatisticsWriteNullForWhatIsNoNumber) {
+TEST_F(IoWriters, StatisticsWriteNullForNonFiniteNumbers) {
   solution_.statistics.iterations = 1;
   solution_.statistics.energy_defect = std::nan("");
   solution_.statistics.closure_defect_max = HUGE_VAL;
@@ -200,7 +200,7 @@ TEST_F(IoWriters, StatisticsWriteNullForWhatIsNoNumber) {
   EXPECT_EQ(json.at("scene"), "awkward");
 }
 
-TEST_F(IoWriters, TransfersFillUpTheProjectedArea) {
+TEST_F(IoWriters, TransfersOfAReceiverSumToItsProjectedArea) {
   Transfers transfers;
   transfers.exchanges = {{0, 1, 0.25}, {0, 2, 0.5}, {2, 1, 1.0 / 3}};
   transfers.forward = {{1.0, 0.75}, {0, 0}, {1.0 / 3, 1.0 / 3}};
@@ -210,7 +210,7 @@ TEST_F(IoWriters, TransfersFillUpTheProjectedArea) {
             "receiver,source,area\n0,-1,0.25\n0,1,0.25\n0,2,0.5\n2,1,0.3333333333333333\n");
 }
 
-TEST(IoWholeFiles, NothingIsLeftBehindWhereWritingFails) {
+TEST(IoWholeFiles, NothingIsLeftBehindIfWritingFails) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.csv";
   const auto fail = [&] {
@@ -241,7 +241,7 @@ TEST(IoWholeFiles, ReplacesAFileAndKeepsItsPermissions) {
   EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
 }
 
-TEST(IoWholeFiles, ASymbolicLinkStaysOne) {
+TEST(IoWholeFiles, ASymbolicLinkIsKept) {
   const TemporaryFolder folder;
   write_text(folder / "target", "old");
   std::filesystem::create_symlink("target", folder / "link");
@@ -274,7 +274,7 @@ TEST(IoWholeFiles, FailuresNameTheFileAndTheReason) {
   EXPECT_THAT(failure_of("/dev/full"), HasSubstr("No space left"));
 }
 
-TEST(IoWholeFiles, PathsAreCheckedBeforeTheWork) {
+TEST(IoWholeFiles, PathsAreCheckedInAdvance) {
   const TemporaryFolder folder;
   EXPECT_NO_THROW(check_result_path(folder / "a.csv"));
   EXPECT_NO_THROW(check_result_path(folder / "A.VTP"));
@@ -290,14 +290,14 @@ TEST(IoWholeFiles, PathsAreCheckedBeforeTheWork) {
   }
 }
 
-/// To open a pipe for writing waits for a reader, and no signal ends the wait.
-TEST(IoFiles, RefusesPipesBeforeTheLongWork) {
+/// Opening a pipe for writing blocks until a reader opens it, and no signal ends the wait.
+TEST(IoFiles, RefusesPipesInAdvance) {
   const TemporaryFolder folder;
   const std::string pipe = folder / "pipe.csv";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   try {
     check_writable(pipe);
-    FAIL() << "taken";
+    FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("it is a pipe"));
   }

@@ -49,7 +49,7 @@ ChartSeries line(std::vector<ChartPoint> points) {
   return series;
 }
 
-/// Over three decades; no grid, so that a line can be found.
+/// A chart over three decades, without a grid, so that lines can be found by color.
 LineChart decades(std::vector<ChartPoint> points) {
   LineChart chart;
   chart.title = "Title";
@@ -59,7 +59,7 @@ LineChart decades(std::vector<ChartPoint> points) {
   return chart;
 }
 
-TEST(LineChart, LogarithmicAxisPlacesByExponents) {
+TEST(LineChart, LogarithmicAxisPlacesPointsByExponent) {
   const Picture picture = paint(decades({{1, 0.01}, {5, 0.01}}));
   const ChartArea& area = picture.area;
   const double x = (area.left + area.right) / 2;
@@ -67,10 +67,10 @@ TEST(LineChart, LogarithmicAxisPlacesByExponents) {
   EXPECT_EQ(picture.at(x, area.bottom - (area.bottom - area.top) / 20), paper);
 }
 
-TEST(LineChart, ZeroLeavesAGapAndTheAxisLogarithmic) {
+TEST(LineChart, ZeroLeavesAGapAndKeepsTheAxisLogarithmic) {
   const Picture without = paint(decades({{1, 0.01}, {2, 0.5}}));
   for (const double nothing : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    // Behind the last point there is nothing to see of it.
+    // After the last point it has no effect.
     EXPECT_EQ(paint(decades({{1, 0.01}, {2, 0.5}, {3, nothing}})).pixels, without.pixels);
     const Picture gap = paint(decades({{1, 0.01}, {2, nothing}, {3, 0.01}, {5, 0.01}}));
     const ChartArea& area = gap.area;
@@ -80,7 +80,7 @@ TEST(LineChart, ZeroLeavesAGapAndTheAxisLogarithmic) {
   }
 }
 
-TEST(LineChart, OfManyPointsNoPeakIsLost) {
+TEST(LineChart, ThinningKeepsPeaks) {
   std::vector<ChartPoint> points;
   for (int k = 0; k < 100000; ++k) {
     points.push_back({1 + 4 * k / 1e5, k == 50000 ? 0.9 : 0.01});
@@ -108,16 +108,16 @@ TEST(LineChart, LinesStayInThePlot) {
   EXPECT_EQ(outside, 0);
 }
 
-TEST(LineChart, ScaleMakesPixelsNotRoom) {
+TEST(LineChart, ScaleChangesPixelsNotTheLayout) {
   const LineChart chart = decades({{1, 0.01}, {5, 0.5}});
   const Picture one = paint(chart), two = paint(chart, 800, 480, 2);
-  EXPECT_NEAR(one.area.left, two.area.left, 3);  // letters are of whole pixels
+  EXPECT_NEAR(one.area.left, two.area.left, 3);  // letters have whole pixels
   EXPECT_NEAR(one.area.right, two.area.right, 3);
   EXPECT_GT(one.count(red), 100);
-  EXPECT_NEAR(two.count(red) / one.count(red), 4, 1.5);  // the rims of lines are paler
+  EXPECT_NEAR(two.count(red) / one.count(red), 4, 1.5);  // anti-aliased edges of lines are paler
 }
 
-TEST(LineChart, SvgHoldsVectorsAndTheWords) {
+TEST(LineChart, SvgHasVectorsAndTheTextAsDescription) {
   unsetenv("DISPLAY");
   const TemporaryFolder folder;
   LineChart chart = decades({{1, 0.01}, {5, 0.5}});
@@ -148,7 +148,7 @@ TEST(LineChart, PngIsTheSameEachTime) {
 
 TEST(LineChart, AnySizeAndAnyMarkerCanBePainted) {
   LineChart chart = decades({{1, 0.01}, {3, 0.1}, {5, 0.5}});
-  chart.hint = "words that are longer than the place that there is for them";
+  chart.hint = "a hint that is longer than the space available for it in the plot";
   for (int marker = 0; marker <= static_cast<int>(ChartMarker::plus); ++marker) {
     chart.series.push_back(chart.series[0]);
     chart.series.back().marker = static_cast<ChartMarker>(marker);
@@ -166,7 +166,7 @@ TEST(LineChart, AnySizeAndAnyMarkerCanBePainted) {
   paint(LineChart());
 }
 
-TEST(LineChart, WhereItCannotBeWrittenNothingIsLeft) {
+TEST(LineChart, NothingIsLeftBehindIfWritingFails) {
   const TemporaryFolder folder;
   const LineChart chart = decades({{1, 0.01}});
   EXPECT_THROW(check_chart_path(folder / "c.jpg"), InputError);
