@@ -172,7 +172,7 @@ class BreakpointsTest : public QObject {
     QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
     after.load(settings);
     QVERIFY(after.list() == before.list());
-    // A kind that only a later version knows is ignored.
+    // A kind written by a later version is ignored.
     settings.setValue("breakpoints/2/kind", "unknown-kind");
     after.load(settings);
     QCOMPARE(after.list().size(), std::size_t{2});

@@ -111,9 +111,9 @@ class CompareTest : public QObject {
     };
     const auto at = *moved->point_at(middle(moved));
     QTest::mouseClick(moved, Qt::LeftButton, {}, middle(moved).toPoint());
-    QVERIFY(shown.window->focus().probe().has_value());
-    QVERIFY(std::abs(shown.window->focus().probe()->x - at.x) < 0.02);
-    QCOMPARE(shown.window->selection().patch(), moved->patch_at(middle(moved)));
+    QVERIFY(shown.window->focus.probe().has_value());
+    QVERIFY(std::abs(shown.window->focus.probe()->x - at.x) < 0.02);
+    QCOMPARE(shown.window->selection.patch(), moved->patch_at(middle(moved)));
     save_picture(*shown.window, "compare-near");
   }
 
@@ -123,7 +123,7 @@ class CompareTest : public QObject {
     CompareView* view = shown.view;
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return shown.text("compare_words").contains("select a patch"); }));
-    shown.window->selection().select(14);
+    shown.window->selection.select(14);
     QVERIFY(wait_for([&] { return shown.text("compare_words").contains("patch 14 sees"); }));
     QVERIFY(wait_for([&] { return view->up_to_date(); }));
     const auto* hemicube = view->findChildren<HemicubeView*>().last();
@@ -149,12 +149,12 @@ class CompareTest : public QObject {
     auto* engine = panel.findChild<QComboBox*>("engine");
     auto* resolution = panel.findChild<QSpinBox*>("resolution");
     auto* order = panel.findChild<QComboBox*>("painters_order");
-    const auto choose = [&](Engine wanted) {
-      choose_engine(*engine, wanted);
-      QCOMPARE(panel.solve_options().engine, wanted);
+    const auto choose = [&](Engine chosen) {
+      choose_engine(*engine, chosen);
+      QCOMPARE(panel.solve_options().engine, chosen);
       QVERIFY(!engine->toolTip().isEmpty());
-      QCOMPARE(resolution->isVisible(), takes_resolution(wanted));
-      QCOMPARE(order->isVisible(), wanted == Engine::painter);
+      QCOMPARE(resolution->isVisible(), takes_resolution(chosen));
+      QCOMPARE(order->isVisible(), chosen == Engine::painter);
     };
     for (const std::string& name : engine_names()) {
       if (takes_directions(engine_from_name(name))) {

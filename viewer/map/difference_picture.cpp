@@ -37,7 +37,7 @@ class Legend : public QWidget {
     painter.drawRect(bar);
     painter.setPen(theme::on_dark);
     painter.drawText(rect().adjusted(bar.right() + 8, 0, -4, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("0 to %1 % differ").arg(100 * DifferencePicture::full_color_at));
+                     tr("0 to %1 % difference").arg(100 * DifferencePicture::full_color_at));
   }
 };
 

@@ -364,7 +364,7 @@ void MapCanvas::draw_legend(QPainter& painter) const {
   for (const auto& [brush, text] : entries) {
     total += width_of(text);
   }
-  // Between the scale bar with its text and the axes; without room the entry for back sides goes.
+  // Between the scale bar with its text and the axes; without room, back sides are left out.
   const double left = width() / 4.0 + 80, right = width() - axes;
   if (entries.size() > 1 && left + total > right) {
     total -= width_of(entries.front().second);

@@ -35,7 +35,7 @@ QToolButton* text_button(const QString& text, const QString& tip, bool checkable
   return button;
 }
 
-/// Errors of rounding only count as 0.
+/// Counts rounding errors as 0.
 QString percent_of(double share) { return QString::number(share < 1e-9 ? 0 : 100 * share, 'g', 2); }
 
 QString legend_entry(const QColor& color, const QString& name) {
@@ -115,7 +115,7 @@ QWidget* MapView::make_controls() {
   phases_ = new QButtonGroup(this);
   const auto add_phase = [&](Phase phase, const char* name, const QString& text,
                              const QString& tip) {
-    QToolButton* button = text_button(text, tip, true);
+    QToolButton* button = text_button(text, tip + tr("\nNext and previous phase: / and M"), true);
     button->setObjectName(QString::fromLatin1(name));
     phases_->addButton(button, static_cast<int>(phase));
     return button;
@@ -125,11 +125,11 @@ QWidget* MapView::make_controls() {
   row->setContentsMargins(10, 6, 8, 6);
   row->setSpacing(4);
   row->addWidget(add_phase(Phase::before, "phase_before", tr("Before"),
-                           tr("V before the step, and the fragment to insert")));
+                           tr("Show V before the step, with the fragment to insert")));
   row->addWidget(add_phase(Phase::split, "phase_split", tr("Split"),
-                           tr("The parts of V inside and outside the fragment")));
+                           tr("Show the parts of V inside and outside the fragment")));
   row->addWidget(add_phase(Phase::after, "phase_after", tr("After"),
-                           tr("V after the step, with the fragment inserted")));
+                           tr("Show V after the step, with the fragment inserted")));
   row->addStretch(1);
   pixels_ = new PixelMenu;
   row->addWidget(pixels_);

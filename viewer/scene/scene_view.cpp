@@ -295,7 +295,7 @@ void SceneView::show_direction() {
     step_glyph_->hide();
   }
   if (on_a_step && direction_shown_) {
-    // The plane sweeps with the polygons, from where the light comes.
+    // The plane moves with the steps, from the source's side.
     const Vec3& omega = focus_.map()->record().frame.omega;
     const Vec3 center = center_of_step(*focus_.map(), focus_.position().step);
     glyph_->show_at(omega, snapshot_ && snapshot_->options.two_way,
@@ -307,7 +307,7 @@ void SceneView::show_direction() {
     glyph_->hide();
     return;
   }
-  // Just outside of the scene, or of what is worth looking at in a large enclosure.
+  // Just outside the scene, or outside the part of interest of a large enclosure.
   const Vec3& omega = snapshot_->progress.last_direction;
   double reach = 0;
   for (const Vec3& p : loaded_->scene->points()) {

@@ -75,9 +75,10 @@ class WelcomePage::Card : public QPushButton {
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   init_resources();
   title_ = new QLabel;
-  auto* hint = new QLabel(tr(
-      "The scene is solved at once, direction by direction. You can also open a file of your own, "
-      "or drop it here."));
+  auto* hint =
+      new QLabel(tr("The scene is solved immediately, one direction after another. You can also "
+                    "open your own file "
+                    "or drop it here."));
   hint->setWordWrap(true);
   auto* open = new QPushButton(theme::icon(theme::Icon::open), tr("Open a file…"));
   auto* lesson = new QPushButton(theme::icon(theme::Icon::run), tr("Start with a lesson"));

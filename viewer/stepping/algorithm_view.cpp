@@ -96,7 +96,7 @@ QWidget* AlgorithmView::make_local_values() {
   values_->layout()->setContentsMargins(12, 10, 12, 4);
   position_ = values_->add_row(
       tr("n, d"), {},
-      tr("n: index of the B(n) that the iteration starts from, from 0 as in the paper; "
+      tr("n: index of the B(n) that the iteration starts from, 0 first as in the paper; "
          "d: number of the direction"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose fragment this step processes"));
   i_->setObjectName("value_i");
@@ -243,21 +243,21 @@ void AlgorithmView::show_region(const RegionState& state) {
 
 void AlgorithmView::show_values(const AlgorithmState& state) {
   const QString none = QStringLiteral("–");
-  const bool any = state.i != no_patch, lit = state.j != no_patch;
+  const bool has_i = state.i != no_patch, has_j = state.j != no_patch;
   const RunPosition& position = focus_.position();
   position_->setText(
       focus_.map() ? tr("%1, %2").arg(position.iteration).arg(count_text(position.direction + 1))
                    : none);
-  i_->setText(any ? tr("%1, A = %2 m², %3")
-                        .arg(QString::number(state.i), number_text(state.area_i),
-                             role_text(state.front_facing))
-                  : none);
-  map_->setText(any ? tr("%1 → %2").arg(count_text(state.map_before), count_text(state.map_after))
+  i_->setText(has_i ? tr("%1, A = %2 m², %3")
+                          .arg(QString::number(state.i), number_text(state.area_i),
+                               role_text(state.front_facing))
                     : none);
-  lists_->setText(any ? tr("%1, %2").arg(count_text(state.inside), count_text(state.outside))
+  map_->setText(has_i ? tr("%1 → %2").arg(count_text(state.map_before), count_text(state.map_after))
                       : none);
-  j_->setText(lit ? tr("%1, %2").arg(QString::number(state.j), number_text(state.area_j)) : none);
-  weight_->setText(any ? tr("4π, %1").arg(count_text(state.directions)) : none);
+  lists_->setText(has_i ? tr("%1, %2").arg(count_text(state.inside), count_text(state.outside))
+                        : none);
+  j_->setText(has_j ? tr("%1, %2").arg(QString::number(state.j), number_text(state.area_j)) : none);
+  weight_->setText(has_i ? tr("4π, %1").arg(count_text(state.directions)) : none);
   radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
   gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
 }

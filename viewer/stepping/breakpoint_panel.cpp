@@ -30,7 +30,7 @@ using Kind = Breakpoint::Kind;
 struct Choice {
   Kind kind;
   const char* text;
-  const char* unit;  ///< of the value; null where there is none
+  const char* unit;  ///< of the value; null if it has none
   const char* first_value;
 };
 constexpr Choice choices[] = {

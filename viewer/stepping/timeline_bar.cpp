@@ -68,7 +68,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   });
   connect(&focus_, &Focus::seek_stopped, this, [this](int searched) {
     text_->set_clauses(
-        {tr("Search stopped; directions searched without a match: %1").arg(count_text(searched))});
+        {tr("Search stopped: nothing found in %1 directions").arg(count_text(searched))});
   });
   show_position();
 }
