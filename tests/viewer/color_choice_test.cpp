@@ -33,7 +33,7 @@ class ColorChoiceTest : public QObject {
   Selection selection_;
 
  private slots:
-  void every_quantity_has_a_value_a_patch_or_a_word_why_not() {
+  void every_quantity_has_values_or_a_reason_why_not() {
     const auto snapshot = solved("cornell-box", 4);
     for (const QuantityTraits& traits : quantity_traits()) {
       QCOMPARE(&traits_of(traits.quantity), &traits);
@@ -52,7 +52,7 @@ class ColorChoiceTest : public QObject {
     QVERIFY(values_of(Quantity::difference, *snapshot, 0, snapshot.get()).missing.isEmpty());
   }
 
-  void quantities_are_what_they_say() {
+  void quantities_agree_with_the_equations() {
     const auto snapshot = solved("cornell-box");
     const Scene& scene = *snapshot->loaded->scene;
     const auto of = [&](Quantity quantity) {
@@ -80,18 +80,18 @@ class ColorChoiceTest : public QObject {
     }
   }
 
-  void an_error_estimate_wants_replicas() {
+  void an_error_estimate_requires_replicas() {
     QVERIFY(!values_of(Quantity::error, *solved("furnace"), 0, nullptr).missing.isEmpty());
     QVERIFY(values_of(Quantity::error, *solved("furnace", 4), 0, nullptr).missing.isEmpty());
   }
 
-  void a_selection_colors_its_form_factors_anew() {
+  void a_new_selection_recolors_form_factors() {
     Selection selection;
     ColorChoice colors(selection);
-    QSignalSpy wanted(&colors, &ColorChoice::form_factors_requested);
+    QSignalSpy requested(&colors, &ColorChoice::form_factors_requested);
     colors.fit(solved("cornell-box"));
     colors.set_quantity(Quantity::form_factor_from);
-    QCOMPARE(wanted.count(), 1);
+    QCOMPARE(requested.count(), 1);
     QVERIFY(colors.values().empty());
     QVERIFY(!colors.missing().isEmpty());
     for (const Color8& color : colors.patch_colors()) {
@@ -101,7 +101,7 @@ class ColorChoiceTest : public QObject {
     selection.select(2);
     QCOMPARE(changed.count(), 1);
     QVERIFY(colors.missing().isEmpty());
-    // What a patch sees least of is itself.
+    // The form factor of a patch to itself is 0, the least.
     QCOMPARE(colors.patch_colors()[2], color_of(colors.scale().map, 0));
     const auto before = colors.patch_colors();
     selection.select(0);
@@ -109,7 +109,7 @@ class ColorChoiceTest : public QObject {
     QVERIFY(colors.patch_colors() != before);
   }
 
-  void a_range_follows_stays_or_widens() {
+  void a_range_is_fitted_fixed_or_widened() {
     ColorChoice colors(selection_);
     const auto snapshot = solved("cornell-box");
     colors.set_mode(ColorMode::luminance);
@@ -130,12 +130,12 @@ class ColorChoiceTest : public QObject {
     QCOMPARE(colors.scale().low, 0.25 * high);
     QCOMPARE(colors.scale().high, 0.5 * high);
     QVERIFY(colors.scale().above && colors.scale().below);
-    // What was fixed for one quantity means nothing for another.
+    // A fixed range does not apply to another quantity.
     colors.set_quantity(Quantity::fragments);
     QVERIFY(colors.range_rule() == RangeRule::automatic);
   }
 
-  void a_range_that_cannot_be_is_mended() {
+  void an_invalid_range_is_repaired() {
     ColorChoice colors(selection_);
     colors.set_mode(ColorMode::luminance);
     colors.fit(solved("furnace"));
@@ -147,7 +147,7 @@ class ColorChoiceTest : public QObject {
     QVERIFY(colors.scale().low > 0 && colors.scale().low < colors.scale().high);
   }
 
-  void a_difference_is_white_where_there_is_none() {
+  void a_difference_of_zero_is_white() {
     ColorChoice colors(selection_);
     const auto snapshot = solved("cornell-box");
     colors.fit(snapshot);
@@ -186,7 +186,7 @@ class ColorChoiceTest : public QObject {
     QVERIFY(colors.patch_colors() == second_colors);
   }
 
-  void the_histogram_weighs_by_area() {
+  void the_histogram_is_weighted_by_area() {
     const auto scene_of_values = load_scene("cornell-box");
     const Scene& scene = *scene_of_values;
     std::vector<Rgb> values(static_cast<std::size_t>(scene.patch_count()), Rgb{0.9, 0, 0});

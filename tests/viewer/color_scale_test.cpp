@@ -23,7 +23,7 @@ class ColorScaleTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void maps_grow_lighter_all_the_way() {
+  void lightness_of_maps_increases() {
     for (const ColorMap map : {ColorMap::viridis, ColorMap::cividis, ColorMap::inferno}) {
       double last = -1;
       for (int k = 0; k <= 50; ++k) {
@@ -44,7 +44,7 @@ class ColorScaleTest : public QObject {
     QCOMPARE(scale.color({0.5, 0, 2}), (Color8{128, 0, 255}));  // sqrt(1/4), 0, 1
   }
 
-  void too_bright_a_patch_keeps_its_hue() {
+  void a_patch_that_is_too_bright_keeps_its_hue() {
     ColorScale scale;
     scale.gamma = 1;
     QCOMPARE(scale.color({4, 2, 1}), (Color8{255, 128, 64}));
@@ -67,7 +67,7 @@ class ColorScaleTest : public QObject {
     }
   }
 
-  void darkness_does_not_break_the_logarithm() {
+  void a_logarithmic_range_allows_zero_values() {
     const auto scene = load_scene("cornell-box");
     std::vector<Rgb> radiosity(static_cast<std::size_t>(scene->patch_count()));
     ColorScale scale;
@@ -85,7 +85,7 @@ class ColorScaleTest : public QObject {
     QVERIFY(scale.position(0) <= 0);
   }
 
-  void a_linear_range_ends_at_what_is_lit() {
+  void a_linear_range_ends_at_the_brightest_receiver() {
     const auto scene = load_scene("cornell-box");
     std::vector<Rgb> radiosity;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
@@ -107,7 +107,7 @@ class ColorScaleTest : public QObject {
     QVERIFY(std::abs(scale.value({1, 1, 1}) - 1) < 1e-12);
   }
 
-  void exposure_looks_at_what_does_not_emit() {
+  void exposure_is_fitted_to_patches_that_do_not_emit() {
     const auto scene = load_scene("cornell-box");
     std::vector<Rgb> radiosity;
     for (PatchId i = 0; i < scene->patch_count(); ++i) {
@@ -119,7 +119,7 @@ class ColorScaleTest : public QObject {
     QVERIFY(std::abs(std::exp2(scale.exposure) * 0.25 - 0.85) < 1e-9);
   }
 
-  void decades_hold_all_positive_values() {
+  void decades_enclose_all_positive_values() {
     const LogChart::Line line{"a", {}, {0, -1, NAN, 3e-4, 0.2}, false};
     const Decades decades = decades_of({line}, {{"level", {}, 1e-6}});
     QCOMPARE(decades.first, -6);
@@ -128,7 +128,7 @@ class ColorScaleTest : public QObject {
     QVERIFY(nothing.first < nothing.last);
   }
 
-  void numbers_read_well() {
+  void numbers_are_formatted() {
     QCOMPARE(number_text(0.000001), QString("10⁻⁶"));
     QCOMPARE(number_text(1.5e-9), QString("1.5 × 10⁻⁹"));
     QCOMPARE(number_text(-0.25), QString("−0.25"));

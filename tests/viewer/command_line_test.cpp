@@ -85,21 +85,21 @@ class CommandLineTest : public QObject {
     QCOMPARE(line.after, 9);
   }
 
-  void wrong_calls_say_so_in_one_line_data() {
+  void wrong_calls_are_reported_in_one_line_data() {
     QTest::addColumn<QStringList>("words");
     QTest::newRow("unknown option") << QStringList{"furnace", "--color"};
     QTest::newRow("no number") << QStringList{"furnace", "-m", "many"};
     QTest::newRow("too few directions") << QStringList{"furnace", "-m", "0"};
     QTest::newRow("unknown sampling") << QStringList{"furnace", "--sampling", "fibonaci"};
     QTest::newRow("unknown normalization") << QStringList{"furnace", "--normalize", "columns"};
-    QTest::newRow("both ways and one") << QStringList{"furnace", "--one-way", "--two-way"};
+    QTest::newRow("two-way and one-way") << QStringList{"furnace", "--one-way", "--two-way"};
     QTest::newRow("two scenes") << QStringList{"furnace", "boards"};
     QTest::newRow("screenshot of nothing") << QStringList{"--screenshot", "a.png"};
     QTest::newRow("no picture") << QStringList{"furnace", "--screenshot", "a.txt"};
     QTest::newRow("no such folder") << QStringList{"furnace", "--screenshot", "no/such/a.png"};
     QTest::newRow("after without screenshot") << QStringList{"furnace", "--after", "3"};
   }
-  void wrong_calls_say_so_in_one_line() {
+  void wrong_calls_are_reported_in_one_line() {
     QFETCH(QStringList, words);
     std::vector<std::string> kept;
     for (const QString& word : words) {
@@ -115,7 +115,7 @@ class CommandLineTest : public QObject {
     QCOMPARE(std::count(outcome.error.begin(), outcome.error.end(), '\n'), std::ptrdiff_t{1});
   }
 
-  void help_is_no_error() {
+  void help_is_not_an_error() {
     const Outcome outcome = parse({"--help"});
     QVERIFY(outcome.parsed.exit_now);
     QCOMPARE(outcome.parsed.exit_status, 0);

@@ -11,7 +11,7 @@ using namespace transillum::viewer;
 
 namespace {
 
-// A runner and the newest that it told.
+// A runner with its newest snapshot, scene and failure.
 struct Watched {
   SolveRunner runner;
   std::shared_ptr<const SolverSnapshot> snapshot;
@@ -34,17 +34,17 @@ struct Watched {
     options.directions = directions;
     runner.open({scene, {}, options, then});
   }
-  bool comes_to(RunState state) {
+  bool reaches(RunState state) {
     return QTest::qWaitFor([&] { return runner.state() == state; }, 30000);
   }
-  bool rests_after_opening() {
+  bool pauses_after_opening() {
     return QTest::qWaitFor([&] { return loaded && runner.state() == RunState::paused; }, 30000);
   }
-  // Commands are obeyed by another thread: wait until it has begun and is done.
-  bool advances(const std::function<bool(const SolveProgress&)>& there) {
+  // Commands run on another thread: wait until the command has begun and is done.
+  bool advances(const std::function<bool(const SolveProgress&)>& reached) {
     return QTest::qWaitFor(
         [&] {
-          return runner.state() != RunState::running && snapshot && there(snapshot->progress);
+          return runner.state() != RunState::running && snapshot && reached(snapshot->progress);
         },
         30000);
   }
@@ -52,21 +52,21 @@ struct Watched {
 
 }  // namespace
 
-class SessionTest : public QObject {
+class SolveRunnerTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void a_scene_opens_and_waits() {
+  void a_scene_opens_paused() {
     Watched w;
     w.open("furnace", 16);
-    QVERIFY(w.rests_after_opening());
+    QVERIFY(w.pauses_after_opening());
     QVERIFY(w.snapshot);
     QCOMPARE(w.snapshot->progress.direction, 0);
     QCOMPARE(w.snapshot->radiosity.size(), std::size_t(w.loaded->scene->patch_count()));
   }
 
-  // While the window is busy a scene is solved and another opened and solved.
-  void a_scene_comes_before_its_snapshots() {
+  // While this thread sleeps, one scene is solved and another is opened and solved.
+  void a_scene_is_announced_before_its_snapshots() {
     Watched w;
     QObject::connect(&w.runner, &SolveRunner::snapshot_ready, &w.runner,
                      [&w](const auto& newest) { QVERIFY(newest->loaded == w.loaded); });
@@ -74,7 +74,7 @@ class SessionTest : public QObject {
       w.open("furnace", 16, {Goal::Kind::finished});
       QThread::msleep(400);
     }
-    QVERIFY(w.comes_to(RunState::finished));
+    QVERIFY(w.reaches(RunState::finished));
     QTRY_VERIFY(w.snapshot && w.snapshot->loaded == w.loaded);
     QVERIFY(w.snapshot->progress.finished);
   }
@@ -82,7 +82,7 @@ class SessionTest : public QObject {
   void one_direction_is_exactly_one() {
     Watched w;
     w.open("furnace", 16);
-    QVERIFY(w.rests_after_opening());
+    QVERIFY(w.pauses_after_opening());
     for (int expected = 1; expected <= 3; ++expected) {
       w.runner.advance_one_direction();
       QVERIFY(w.advances([&](const SolveProgress& p) { return p.direction == expected; }));
@@ -94,7 +94,7 @@ class SessionTest : public QObject {
   void one_iteration_is_exactly_one() {
     Watched w;
     w.open("furnace", 16);
-    QVERIFY(w.rests_after_opening());
+    QVERIFY(w.pauses_after_opening());
     for (int expected = 1; expected <= 2; ++expected) {
       w.runner.advance_one_iteration();
       QVERIFY(w.advances([&](const SolveProgress& p) { return p.iteration == expected; }));
@@ -105,7 +105,7 @@ class SessionTest : public QObject {
     }
   }
 
-  void a_goal_of_passes_is_met_to_the_pass() {
+  void a_goal_of_passes_is_reached_exactly() {
     Watched w;
     w.open("furnace", 64, {Goal::Kind::passes, 23});
     QVERIFY(w.advances([](const SolveProgress& p) { return p.direction == 23; }));
@@ -121,30 +121,30 @@ class SessionTest : public QObject {
         QTest::qWaitFor([&] { return w.snapshot && w.snapshot->progress.direction > 10; }, 30000));
     QCOMPARE(w.runner.state(), RunState::running);
     w.runner.pause();
-    QVERIFY(w.comes_to(RunState::paused));
-    const int at = w.snapshot->progress.direction;
+    QVERIFY(w.reaches(RunState::paused));
+    const int paused_at = w.snapshot->progress.direction;
     QTest::qWait(300);
-    QCOMPARE(w.snapshot->progress.direction, at);  // no pass after the pause
+    QCOMPARE(w.snapshot->progress.direction, paused_at);  // no pass after the pause
     w.runner.run();
-    QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > at; }, 30000));
+    QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > paused_at; }, 30000));
   }
 
-  void a_solve_converges_to_the_furnace() {
+  void a_solve_converges_to_the_exact_solution() {
     Watched w;
     SolveOptions options;
     options.directions = 64;
     options.normalize = Normalization::rows;
     w.runner.open({"furnace", {}, options, {Goal::Kind::finished}});
-    QVERIFY(w.comes_to(RunState::finished));
+    QVERIFY(w.reaches(RunState::finished));
     QTest::qWait(60);
     QVERIFY(w.snapshot->statistics.converged);
-    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the step with passes
+    QCOMPARE(w.snapshot->estimate_changes.size(), std::size_t{64});  // of the iteration with passes
     for (const Rgb& b : w.snapshot->radiosity) {
       QVERIFY(std::abs(b.g - 2) < 1e-5);
     }
   }
 
-  void stop_goes_back_to_the_start() {
+  void stop_returns_to_the_start() {
     Watched w;
     w.open("cornell-box", 100000, {Goal::Kind::finished});
     QVERIFY(
@@ -154,10 +154,10 @@ class SessionTest : public QObject {
     QCOMPARE(w.runner.state(), RunState::paused);
   }
 
-  void restart_takes_new_options() {
+  void restart_uses_new_options() {
     Watched w;
     w.open("furnace", 16);
-    QVERIFY(w.rests_after_opening());
+    QVERIFY(w.pauses_after_opening());
     SolveOptions options;
     options.directions = 24;
     w.runner.restart(options, {Goal::Kind::iteration});
@@ -170,10 +170,10 @@ class SessionTest : public QObject {
     QTest::addColumn<int>("passes");
     QTest::addColumn<int>("iteration");
     QTest::addColumn<int>("direction");
-    // Growing takes 16, 32 and then 64 passes a step, half of them from the step before.
-    QTest::newRow("growing, step 1") << static_cast<int>(Scheme::growing) << 7 << 0 << 7;
-    QTest::newRow("growing, step 2") << static_cast<int>(Scheme::growing) << 40 << 1 << 24;
-    QTest::newRow("growing, step 3") << static_cast<int>(Scheme::growing) << 100 << 2 << 52;
+    // The growing scheme has 16, 32 and then 64 passes per iteration, half of them reused.
+    QTest::newRow("growing, iteration 1") << static_cast<int>(Scheme::growing) << 7 << 0 << 7;
+    QTest::newRow("growing, iteration 2") << static_cast<int>(Scheme::growing) << 40 << 1 << 24;
+    QTest::newRow("growing, iteration 3") << static_cast<int>(Scheme::growing) << 100 << 2 << 52;
     QTest::newRow("semi-iterative") << static_cast<int>(Scheme::semi_iterative) << 150 << 2 << 22;
     QTest::newRow("fixed") << static_cast<int>(Scheme::fixed) << 5 * 64 << 5 << 0;
   }
@@ -192,14 +192,14 @@ class SessionTest : public QObject {
       return p.iteration == iteration && p.direction == direction;
     }));
     QCOMPARE(passes_done(w.snapshot->progress, w.snapshot->kept_passes), std::int64_t{passes});
-    // It rests there: what is asked for has been done.
+    // It stays paused: the goal is already reached.
     w.runner.set_goal({Goal::Kind::passes, passes});
     QTest::qWait(50);
     QCOMPARE(w.snapshot->progress.direction, direction);
     QCOMPARE(w.snapshot->progress.iteration, iteration);
   }
 
-  void a_bad_scene_keeps_the_old_one_solving() {
+  void after_a_bad_scene_the_old_one_continues() {
     Watched w;
     w.open("cornell-box", 100000, {Goal::Kind::finished});
     QVERIFY(
@@ -209,11 +209,12 @@ class SessionTest : public QObject {
     QVERIFY(QTest::qWaitFor([&] { return !w.failure.isEmpty(); }, 30000));
     QVERIFY2(w.failure.contains("scene.obj"), qPrintable(w.failure));
     QVERIFY(w.loaded == old_scene);
-    const int at = w.snapshot->progress.direction;
-    QVERIFY(QTest::qWaitFor([&] { return w.snapshot->progress.direction > at; }, 30000));
+    const int direction_before = w.snapshot->progress.direction;
+    QVERIFY(
+        QTest::qWaitFor([&] { return w.snapshot->progress.direction > direction_before; }, 30000));
   }
 
-  void a_new_scene_replaces_one_that_solves() {
+  void a_new_scene_replaces_one_being_solved() {
     Watched w;
     w.open("cornell-box", 100000, {Goal::Kind::finished});
     QVERIFY(
@@ -245,5 +246,5 @@ class SessionTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(SessionTest)
+QTEST_GUILESS_MAIN(SolveRunnerTest)
 #include "solve_runner_test.moc"

@@ -7,7 +7,7 @@
 
 namespace transillum::viewer::test {
 
-/// What a session tells of a scene after one iteration, without a session.
+/// The snapshot of a scene after one iteration, as SolveRunner makes it, without a thread.
 inline std::shared_ptr<SolverSnapshot> solved_snapshot(const char* spec, int directions = 64,
                                                        int replicas = 1) {
   auto loaded = std::make_shared<LoadedScene>();
