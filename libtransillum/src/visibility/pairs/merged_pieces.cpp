@@ -9,8 +9,8 @@
 namespace transillum {
 namespace {
 
-/// The one loop that is left of the patches' outlines once edges that run both ways are gone;
-/// empty where there is none.
+/// The boundary loop of the union of some patches: the edges of their outlines without those that
+/// occur in both directions. Empty if these do not form a single loop.
 Corners loop_about(const Scene& scene, const std::vector<PatchId>& patches) {
   std::set<std::pair<PointId, PointId>> edges;
   for (const PatchId i : patches) {
@@ -31,23 +31,23 @@ Corners loop_about(const Scene& scene, const std::vector<PatchId>& patches) {
     return loop;
   }
   const PointId first = next.begin()->first;
-  PointId at = first;
+  PointId point = first;
   do {
-    loop.push_back(scene.point(at));
-    const auto edge = next.find(at);
+    loop.push_back(scene.point(point));
+    const auto edge = next.find(point);
     if (edge == next.end()) {
       return {};
     }
-    at = edge->second;
+    point = edge->second;
     next.erase(edge);
-  } while (at != first);
+  } while (point != first);
   if (!next.empty()) {
     loop.clear();
   }
   return loop;
 }
 
-/// Without corners on straight edges; empty where it is not convex.
+/// The loop without corners on straight edges; empty if it is not convex.
 Corners convex_outline(const Corners& loop) {
   Corners corners;
   if (loop.empty()) {
@@ -69,7 +69,7 @@ Corners convex_outline(const Corners& loop) {
   return corners;
 }
 
-/// Whether the corners are in one plane but for rounding.
+/// Whether the corners lie in one plane, up to rounding.
 bool is_flat(Outline polygon) {
   constexpr double rounding = 1e-13;
   const HalfSpace front = lit_half_space(polygon);
@@ -94,12 +94,12 @@ std::vector<Corners> merged_pieces(const Scene& scene) {
       }
     }
   };
-  // The patches of a face follow each other.
+  // The patches of a face are consecutive.
   for (PatchId begin = 0, end = 0; begin < scene.patch_count(); begin = end) {
     std::vector<PatchId> patches;
     const Patch& first = scene.patch(begin);
     for (; end < scene.patch_count() && scene.patch(end).face == first.face; ++end) {
-      // One side of a two-sided face is enough.
+      // Of a two-sided face, take the patches of one side only.
       if (dot(scene.patch(end).normal, first.normal) > 0) {
         patches.push_back(end);
       }

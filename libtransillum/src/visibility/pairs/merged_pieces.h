@@ -8,8 +8,8 @@
 
 namespace transillum {
 
-/// Convex polygons that together cover what the scene's patches do, some of them more than once:
-/// where the patches of one face make up a convex polygon, that; else their pieces.
+/// Convex polygons whose union is that of the scene's patches; they may overlap. If the patches of
+/// a face form a convex polygon, that polygon; otherwise their pieces.
 std::vector<Corners> merged_pieces(const Scene& scene);
 
 }  // namespace transillum

@@ -1,4 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Input: the pieces of a scene. The constructor finds the blockers (merged pieces, in a box tree)
+// and the parts of the patches that coplanar patches do not cover; a query then clips each pair of
+// parts to their front sides and computes the exchange in closed form, or by points if anything
+// blocks it (decisions/0021-exact-pairs.md).
 #include "visibility/pairs/patch_exchange.h"
 
 #include <algorithm>
@@ -13,31 +18,31 @@
 namespace transillum {
 namespace {
 
-/// Calls visit(point, weight) for points of a polygon, weights adding up to its area: the rule of
-/// three points on each of `steps`² equal parts of each triangle about the first corner; none: its
-/// middle.
+/// Calls visit(point, weight) for the points of a quadrature over a polygon, whose weights sum to
+/// its area: the three-point rule on each of `divisions`² congruent parts of each triangle of its
+/// fan about the first corner; the triangle's center if `divisions` is 0.
 template <class Visit>
-void for_points_of(Outline polygon, int steps, Visit&& visit) {
+void for_points_of(Outline polygon, int divisions, Visit&& visit) {
   constexpr double sixth = 1.0 / 6;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Vec3 a = polygon[k] - polygon[0], b = polygon[k + 1] - polygon[0];
     const double twice_area = norm(cross(a, b));
-    if (steps == 0) {
+    if (divisions == 0) {
       visit(polygon[0] + (a + b) / 3, twice_area / 2);
       continue;
     }
-    const double weight = twice_area * sixth / (steps * steps);
-    const auto visit_triangle = [&](double u, double v, double step) {
+    const double weight = twice_area * sixth / (divisions * divisions);
+    const auto visit_triangle = [&](double u, double v, double size) {
       for (const auto& [s, t] : {std::pair{1.0, 1.0}, {4.0, 1.0}, {1.0, 4.0}}) {
-        visit(polygon[0] + (u + step * s * sixth) * a + (v + step * t * sixth) * b, weight);
+        visit(polygon[0] + (u + size * s * sixth) * a + (v + size * t * sixth) * b, weight);
       }
     };
-    const double step = 1.0 / steps;
-    for (int i = 0; i < steps; ++i) {
-      for (int j = 0; i + j < steps; ++j) {
-        visit_triangle(i * step, j * step, step);
-        if (i + j + 1 < steps) {
-          visit_triangle((i + 1) * step, (j + 1) * step, -step);
+    const double size = 1.0 / divisions;
+    for (int i = 0; i < divisions; ++i) {
+      for (int j = 0; i + j < divisions; ++j) {
+        visit_triangle(i * size, j * size, size);
+        if (i + j + 1 < divisions) {
+          visit_triangle((i + 1) * size, (j + 1) * size, -size);
         }
       }
     }
@@ -100,7 +105,7 @@ Corners ExchangeFinder::corners_of(const Piece& piece) const {
   return corners;
 }
 
-/// For patches of one plane that face the same way.
+/// Whether `upper` covers `lower` where they overlap, for coplanar patches with the same normal.
 bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
   const auto rank = [&](PatchId i) {
     return std::tuple(-max_abs(scene_.exitance(i)), scene_.patch(i).area, -i);
@@ -147,8 +152,9 @@ void ExchangeFinder::collect_blockers(const FacingPolygons& facing,
                  });
 }
 
-/// Whether one blocker alone hides all of both: it meets every line between a corner of one and a
-/// corner of the other, so it meets all lines between them, as they and it are convex.
+/// Whether one blocker alone hides the two polygons from each other: if it meets every line between
+/// a corner of one and a corner of the other, it meets all lines between them, since all are
+/// convex.
 bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& blocker) const {
   const HalfSpace front = lit_half_space(blocker);
   const bool p_is_before = front.distance(facing.p[0]) > 0;
@@ -162,7 +168,7 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
   }
   for (const Vec3& x : before) {
     for (std::size_t k = 0; k < blocker.size(); ++k) {
-      // Seen from before the edges run counter-clockwise.
+      // Seen from the front, the edges run counter-clockwise.
       const Vec3 out = cross(blocker[k] - x, blocker[k + 1 < blocker.size() ? k + 1 : 0] - x);
       const auto is_outside = [&](const Vec3& y) { return dot(out, y - x) > 0; };
       if (std::any_of(behind.begin(), behind.end(), is_outside)) {
@@ -173,9 +179,10 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
   return true;
 }
 
+/// The exchange of two polygons past blockers, by points of the smaller polygon.
 double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
                                         const std::vector<Corners>& blockers) const {
-  constexpr double few = 0.2, most_steps = 32;
+  constexpr double min_divisions = 0.2, max_divisions = 32;
   const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
   const double radius_p = radius_about(middle_p, facing.p);
   const double radius_q = radius_about(middle_q, facing.q);
@@ -183,12 +190,14 @@ double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
   const Outline small = p_is_smaller ? facing.p : facing.q;
   const Outline large = p_is_smaller ? facing.q : facing.p;
   const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
-  const double steps =
+  const double ideal =
       density_ * std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
+  const int divisions = ideal < min_divisions
+                            ? 0
+                            : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, max_divisions));
   PointView view(large, blockers);
   double sum = 0;
-  for_points_of(small,
-                steps < few ? 0 : static_cast<int>(std::clamp(std::ceil(steps), 1.0, most_steps)),
+  for_points_of(small, divisions,
                 [&](const Vec3& x, double weight) { sum += weight * view.form_factor(x, normal); });
   return sum;
 }

@@ -10,28 +10,29 @@
 
 namespace transillum {
 
-/// What two patches exchange.
+/// The exchange of two patches.
 struct PatchExchange {
   double area = 0;    ///< A_i F_ij = A_j F_ji, m²
-  bool whole = true;  ///< nothing stands between: exact but for rounding
+  bool whole = true;  ///< nothing blocks any part of it: exact up to rounding
 };
 
-/// Form factors of single pairs of patches, with what stands between.
+/// Form factors of single pairs of patches, with blockers between them.
 ///
-/// Where nothing reaches into the shaft between them, it is that of the polygons. Else the smaller
-/// of the two is taken as points, from each of which the other is seen exactly, less the blockers'
-/// shadows: the error falls about as the square of the points' distance, or as the distance where a
-/// blocker touches the smaller. Of patches of one plane
-/// that face the same way those cover others that do in BspTree::order(). Surfaces nearer to each
-/// other than 1e-12 of the scene's size count as touching, and then as back to back or side by
-/// side.
+/// If nothing reaches into the shaft between the two, the form factor is that of the polygons.
+/// Otherwise the smaller patch is sampled by points, and the form factor from each point to the
+/// visible part of the larger patch is computed exactly: the error decreases about as the square of
+/// the distance between points, or in proportion to it if a blocker touches the smaller patch.
+/// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
+/// Surfaces closer to each other than 1e-12 of the scene's size count as touching, and then as back
+/// to back or side by side.
 ///
-/// Time grows with what is in the shaft, and the logarithm of the number of patches.
+/// The time grows with the number of blockers in the shaft and the logarithm of the number of
+/// patches.
 /// Threads: immutable once built.
 class ExchangeFinder {
  public:
-  /// Keeps a reference.
-  /// @param density points along a patch as large as its distance; the more, the finer.
+  /// Keeps a reference to `scene`.
+  /// @param density number of points along a patch as large as its distance from the other.
   /// @throws Canceled
   explicit ExchangeFinder(const Scene& scene, const Cancellation& cancellation = {},
                           double density = 16);
@@ -55,7 +56,7 @@ class ExchangeFinder {
   double tolerance_;
   std::vector<Corners> blockers_;
   BoxTree tree_;                ///< of blockers_
-  std::vector<Corners> parts_;  ///< convex, of patches, less what covers them
+  std::vector<Corners> parts_;  ///< convex parts of the patches that coplanar ones do not cover
   std::vector<std::size_t> part_begin_;
 };
 

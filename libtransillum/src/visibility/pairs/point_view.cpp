@@ -7,7 +7,7 @@
 namespace transillum {
 namespace {
 
-/// Adds the side on the left of a x + b y + c = 0, where that is a line.
+/// Adds the left side of the line a x + b y + c = 0, unless a = b = 0.
 void add_side(std::vector<PlaneRegion::Side>& sides, double a, double b, double c) {
   const double square = a * a + b * b;
   if (square == 0) {
@@ -54,7 +54,7 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal) {
   }
   region_.assign({projected_.data(), projected_.size()});
   for (const Corners& blocker : blockers_) {
-    take_away(blocker, at);
+    subtract(blocker, at);
     if (region_.empty()) {
       return 0;
     }
@@ -71,8 +71,8 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal) {
   return sum;
 }
 
-/// Projects a blocker from x; what is not beyond x throws no shadow.
-void PointView::take_away(const Corners& blocker, const Vec3& x) {
+/// Subtracts the projection of a blocker from x. Parts of it that are not beyond x do not block.
+void PointView::subtract(const Corners& blocker, const Vec3& x) {
   constexpr double near = 1e-12;
   between_.clear();
   double nearest = HUGE_VAL;

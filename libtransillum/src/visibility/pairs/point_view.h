@@ -22,24 +22,24 @@ struct ViewFrame {
   Vec3 origin, u, v, depth;
 };
 
-/// What points see of a polygon behind others, exactly but for rounding: all is projected from a
-/// point on the polygon's plane.
+/// The part of a polygon that is visible from a point past blockers, exact up to rounding: all
+/// polygons are projected from the point onto the polygon's plane.
 ///
-/// Threads: one at a time.
+/// Threads: not thread-safe.
 class PointView {
  public:
   /// @param polygon convex
-  /// @param blockers convex; what of them is before the polygon's plane blocks.
+  /// @param blockers convex; their parts in front of the polygon's plane block.
   PointView(Outline polygon, std::span<const Corners> blockers);
 
-  /// Form factor of a small area at x to what the blockers leave of the polygon.
-  /// @param normal unit, of the small area.
+  /// Form factor from an area element at x to the visible part of the polygon.
+  /// @param normal unit, of the element.
   double form_factor(const Vec3& x, const Vec3& normal);
 
  private:
-  void take_away(const Corners& blocker, const Vec3& x);
+  void subtract(const Corners& blocker, const Vec3& x);
 
-  ViewFrame frame_;  ///< in the polygon's plane, looking at it
+  ViewFrame frame_;  ///< origin in the polygon's plane, depth against its normal
   Corners polygon_;
   std::vector<Corners> blockers_;
   boost::container::small_vector<PlaneRegion::Point, 12> projected_;
@@ -48,7 +48,7 @@ class PointView {
   PlaneRegion region_;
 };
 
-/// Takes away from a convex polygon what others, of the same plane, cover of it.
+/// The convex parts of a convex polygon that coplanar polygons do not cover.
 std::vector<Corners> uncovered(Outline polygon, const std::vector<Corners>& covers);
 
 }  // namespace transillum

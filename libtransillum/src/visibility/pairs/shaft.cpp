@@ -26,7 +26,8 @@ Shaft::Shaft(const FacingPolygons& facing, double tolerance) : tolerance_(tolera
   }
 }
 
-/// The plane through an edge of one polygon and a corner of the other, if the hull is on one side.
+/// Adds the plane through an edge of one polygon and a corner of the other, if the hull lies on one
+/// side of it.
 void Shaft::add_side(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 across = cross(b - a, c - a);
   const double length = norm(across);

@@ -8,16 +8,16 @@
 
 namespace transillum {
 
-/// The convex hull of two polygons that look at each other: all lines between them run in it.
+/// The convex hull of two polygons that face each other; it contains all lines between them.
 class Shaft {
  public:
-  /// @param tolerance what reaches no deeper than this into the hull only touches it, meters.
+  /// @param tolerance polygons that reach no deeper than this into the hull only touch it, meters.
   Shaft(const FacingPolygons& facing, double tolerance);
 
-  /// False where the box is surely outside.
+  /// Whether the box may reach into the hull; never false if it does.
   bool reaches(const CenteredBox& box) const;
-  /// Whether the convex polygon reaches into the hull. For concave p or q it may say so of what
-  /// only reaches into a notch.
+  /// Whether the convex polygon reaches into the hull. If p or q is concave, also true for polygons
+  /// that only reach into a notch.
   bool meets(Outline polygon) const;
 
  private:
@@ -26,7 +26,7 @@ class Shaft {
   double tolerance_;
   Corners corners_;
   CenteredBox box_;
-  boost::container::small_vector<HalfSpace, 16> sides_;  ///< the hull is before all
+  boost::container::small_vector<HalfSpace, 16> sides_;  ///< the hull is their intersection
 };
 
 }  // namespace transillum
