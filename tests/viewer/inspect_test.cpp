@@ -62,11 +62,11 @@ class InspectTest : public QObject {
     QVERIFY(shown.ready);
     QVERIFY(!shown.window->snapshot()->form_factors);
     const QImage before = shown.picture();
-    shown.window->colors().set_quantity(Quantity::form_factor_from);
+    shown.window->colors.set_quantity(Quantity::form_factor_from);
     QCOMPARE(shown.text("color_note"), QString("Click a patch to see its form factors."));
-    shown.window->selection().select(4);
+    shown.window->selection.select(4);
     QVERIFY(shown.has_form_factors());
-    QVERIFY(wait_for([&] { return shown.window->colors().missing().isEmpty(); }));
+    QVERIFY(wait_for([&] { return shown.window->colors.missing().isEmpty(); }));
     QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
     QVERIFY(wait_for([&] { return shown.picture() != before; }));
   }
@@ -81,9 +81,9 @@ class InspectTest : public QObject {
     view->sortByColumn(2, Qt::DescendingOrder);
     const QRect cell = view->visualRect(all.index(1, 0));
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, cell.center());
-    QCOMPARE(shown.window->selection().patch(), all.patch(1));
+    QCOMPARE(shown.window->selection.patch(), all.patch(1));
     QCOMPARE(shown.text("patch_id"), QString::number(all.patch(1)));
-    shown.window->selection().select(7);
+    shown.window->selection.select(7);
     QCOMPARE(view->selectionModel()->selectedRows().size(), 1);
     QCOMPARE(all.patch(view->selectionModel()->selectedRows().front().row()), PatchId{7});
 
@@ -93,7 +93,7 @@ class InspectTest : public QObject {
     QVERIFY(wait_for([&] { return partners.rowCount() > 0; }));
     QCOMPARE(partners.row_of(7), -1);
     const PatchId first = partners.patch(0);
-    shown.window->selection().select(first);
+    shown.window->selection.select(first);
     QCOMPARE(partners.row_of(first), -1);
     QVERIFY(partners.row_of(7) >= 0);
   }
@@ -107,13 +107,13 @@ class InspectTest : public QObject {
     QVERIFY(wait_for([&] { return all.rowCount() > 0; }));
     QTest::keyClicks(search, "12");
     QTest::keyClick(search, Qt::Key_Return);
-    QCOMPARE(shown.window->selection().patch(), PatchId{12});
+    QCOMPARE(shown.window->selection.patch(), PatchId{12});
     // Patch 1 itself, not one listed before it whose number begins with 1.
     shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::DescendingOrder);
     QTest::keyClicks(search, "1");
     QVERIFY(all.rowCount() > 1 && all.patch(0) != PatchId{1});
     QTest::keyClick(search, Qt::Key_Return);
-    QCOMPARE(shown.window->selection().patch(), PatchId{1});
+    QCOMPARE(shown.window->selection.patch(), PatchId{1});
     shown.part<QTableView>("patch_table")->sortByColumn(0, Qt::AscendingOrder);
 
     const QTemporaryDir folder;
@@ -147,27 +147,28 @@ class InspectTest : public QObject {
     shown.raise("material_dock");
     auto* slider = shown.part<QSlider>("exitance_red");
     QVERIFY(wait_for([&] { return slider->isEnabled(); }));
-    QCOMPARE(shown.text("material_account").contains(how == "first shot" ? "first shot" : "steps"),
-             how != "fixed");
+    QCOMPARE(
+        shown.text("material_account").contains(how == "first shot" ? "first shot" : "iterations"),
+        how != "fixed");
     const auto before = shown.window->snapshot();
     const Scene& scene = *before->loaded->scene;
     PatchId light = 0;
     while (max_abs(scene.exitance(light)) == 0) {
       ++light;
     }
-    shown.window->selection().select(light);
+    shown.window->selection.select(light);
     QCOMPARE(shown.part<QComboBox>("material")->currentIndex(), scene.patch(light).material);
 
-    QSignalSpy snapshots(shown.window.get(), &MainWindow::snapshot_shown);
+    QSignalSpy snapshots(shown.window.get(), &OpenScene::snapshot_shown);
     const auto* exposure = shown.part<QLabel>("material_exposure");
     QVERIFY(exposure->isHidden());
     slider->setValue(2 * slider->value());
     QVERIFY(wait_for([&] { return shown.window->snapshot()->materials != nullptr; }));
     // B doubles, but automatic exposure keeps the picture the same.
     QVERIFY(!exposure->isHidden());
-    shown.window->colors().set_automatic_exposure(false);
+    shown.window->colors.set_automatic_exposure(false);
     QVERIFY(exposure->isHidden());
-    shown.window->colors().set_automatic_exposure(true);
+    shown.window->colors.set_automatic_exposure(true);
     const auto after = shown.window->snapshot();
     QCOMPARE(after->progress.passes, before->progress.passes);
     QVERIFY(std::abs(material_of(*after, light).exitance.r / scene.exitance(light).r - 2) < 1e-9);
@@ -191,18 +192,18 @@ class InspectTest : public QObject {
     QVERIFY(shown.ready);
     const auto* button = shown.part<QPushButton>("solve_with_replicas");
     QVERIFY(!button->isVisible());
-    shown.window->colors().set_quantity(Quantity::error);
+    shown.window->colors.set_quantity(Quantity::error);
     QVERIFY(button->isVisible());
     QVERIFY(shown.text("color_note").contains("replicas"));
     shown.part<QPushButton>("solve_with_replicas")->click();
     QVERIFY(wait_for([&] {
       return shown.window->snapshot()->error.replicas == 8 &&
-             shown.window->runner().state() == RunState::finished;
+             shown.window->runner.state() == RunState::finished;
     }));
     QCOMPARE(shown.window->snapshot()->options.directions, 32);
     QVERIFY(!button->isVisible());
-    QVERIFY(shown.window->colors().missing().isEmpty());
-    QVERIFY(!shown.window->colors().values().empty());
+    QVERIFY(shown.window->colors.missing().isEmpty());
+    QVERIFY(!shown.window->colors.values().empty());
   }
 
   void a_drag_is_one_undo_step() {
@@ -231,28 +232,28 @@ class InspectTest : public QObject {
     const Inspected shown("cornell-box");
     QVERIFY(shown.ready);
     shown.trigger("keep_run");
-    shown.window->colors().set_automatic_exposure(false);
-    shown.window->runner().advance_one_iteration();
+    shown.window->colors.set_automatic_exposure(false);
+    shown.window->runner.advance_one_iteration();
     QVERIFY(wait_for([&] {
       return shown.window->snapshot()->progress.iteration == 2 && shown.window->settled();
     }));
-    const auto second = shown.window->colors().patch_colors();
+    const auto second = shown.window->colors.patch_colors();
     const QWidget& canvas = *shown.scene_view->canvas();
     const auto place = [&canvas] { return QRect(canvas.mapToGlobal(QPoint()), canvas.size()); };
     const QRect before = place();
     QTest::keyPress(shown.window.get(), Qt::Key_A);
-    QVERIFY(shown.window->colors().shows_kept_run());
-    QVERIFY(shown.window->colors().patch_colors() != second);
+    QVERIFY(shown.window->colors.shows_kept_run());
+    QVERIFY(shown.window->colors.patch_colors() != second);
     // For a blink comparison nothing may move: only colors change.
     QTest::qWait(50);
     QVERIFY(shown.part<QLabel>("kept_run_label")->isVisible());
     QCOMPARE(place(), before);
     QTest::keyRelease(shown.window.get(), Qt::Key_A);
-    QVERIFY(shown.window->colors().patch_colors() == second);
+    QVERIFY(shown.window->colors.patch_colors() == second);
     QVERIFY(!shown.part<QLabel>("kept_run_label")->isVisible());
     shown.trigger("show_difference");
-    QVERIFY(shown.window->colors().quantity() == Quantity::difference);
-    QVERIFY(shown.window->colors().missing().isEmpty());
+    QVERIFY(shown.window->colors.quantity() == Quantity::difference);
+    QVERIFY(shown.window->colors.missing().isEmpty());
   }
 
   void each_overlay_changes_the_picture() {
@@ -299,11 +300,11 @@ class InspectTest : public QObject {
     shown.trigger("keep_view");
     shown.trigger("view_top");
     QVERIFY(distance_of(shown.scene_view->view_point(), first) > 0.1);
-    const auto& kept = shown.window->page()->bookmarks().all();
+    const auto& kept = shown.window->parts().page.bookmarks().all();
     QCOMPARE(kept.size(), std::size_t{1});
     shown.scene_view->set_view_point(kept[0].view);
     QVERIFY(distance_of(shown.scene_view->view_point(), first) < 1e-9);
-    shown.window->selection().select(5);
+    shown.window->selection.select(5);
     shown.trigger("view_patch");
     const ViewPoint near = shown.scene_view->view_point();
     QVERIFY(norm(near.target - shown.window->snapshot()->loaded->scene->patch(5).center) < 1e-9);

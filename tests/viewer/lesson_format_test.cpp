@@ -113,8 +113,8 @@ class LessonFormatTest : public QObject {
     row("line a number", lesson(R"({"text": ["a", 3]})"), "bad.json, page 1, text: ");
     row("show a list", lesson(R"({"text": "", "show": []})"), "bad.json, page 1, show: ");
     row("second page", lesson(page("") + "," + page(R"("selct": 3)")),
-        "page 2: there is no \"selct\"");
-    row("type", lesson(page(R"("scene": 3)")), "page 1, scene: must be words");
+        "page 2: unknown key \"selct\"");
+    row("type", lesson(page(R"("scene": 3)")), "page 1, scene: must be a string");
     row("directions", lesson(page(R"("options": {"directions": 0})")),
         "page 1, options, directions: ");
     row("half", lesson(page(R"("options": {"directions": 1.5})")), "options, directions: ");
@@ -122,7 +122,7 @@ class LessonFormatTest : public QObject {
     row("seed", lesson(page(R"("options": {"seed": -1})")), "options, seed: ");
     row("sampling", lesson(page(R"("options": {"sampling": "fibonaci"})")), "options, sampling: ");
     row("option", lesson(page(R"("options": {"direction": 3})")),
-        "options: there is no \"direction\"");
+        "options: unknown key \"direction\"");
     row("area", lesson(page(R"("options": {"max-patch-area": -1})")), "max-patch-area: ");
     row("tolerance", lesson(page(R"("options": {"tolerance": -1})")), "page 1, options: ");
     row("solve", lesson(page(R"("solve": "now")")), "page 1, solve: ");

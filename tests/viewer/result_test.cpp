@@ -18,7 +18,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-bool settles(MainWindow& window) {
+bool settles(TestWindow& window) {
   return wait_for([&] { return window.settled(); });
 }
 
@@ -46,11 +46,11 @@ class ResultTest : public QObject {
     QCOMPARE(snapshot->progress.direction, 0);
     QCOMPARE(snapshot->statistics.iteration_records.size(),
              written_.statistics.iteration_records.size());
-    QVERIFY(text(*window, "color_note").contains("Figures of the file r.vtp"));
+    QVERIFY(text(*window, "color_note").contains("Values from the file r.vtp"));
     QVERIFY(text(*window, "phase").contains("From the file"));
     QVERIFY(window->windowTitle().startsWith("r.vtp"));
-    window->colors().set_quantity(Quantity::irradiance);
-    QVERIFY(window->colors().values() == written_.irradiance);
+    window->colors.set_quantity(Quantity::irradiance);
+    QVERIFY(window->colors.values() == written_.irradiance);
     save_picture(*window, "result");
   }
 
@@ -61,7 +61,7 @@ class ResultTest : public QObject {
     QVERIFY(!window->findChild<QCheckBox*>("two_sided")->isEnabled());
     QVERIFY(window->options().scene.two_sided);
     window->findChild<QAction*>("run")->trigger();
-    QVERIFY(wait_for([&] { return window->runner().state() == RunState::finished; }));
+    QVERIFY(wait_for([&] { return window->runner.state() == RunState::finished; }));
     QVERIFY(settles(*window));
     QVERIFY(!window->snapshot()->of_file);
     // The same patches, options and sums.
@@ -79,10 +79,11 @@ class ResultTest : public QObject {
       SolvedWindow solved("cornell-box");
       QVERIFY(solved.ready);
       radiosity = solved.window->snapshot()->radiosity;
-      solved.window->exports().write_result(path);
-      QVERIFY(wait_for([&] { return !solved.window->exports().writing(); }));
+      solved.window->findChild<ExportActions*>()->write_result(path);
+      QVERIFY(wait_for([&] { return !solved.window->findChild<ExportActions*>()->writing(); }));
       QVERIFY(solved.window->banner_text().isEmpty());
-      QVERIFY_EXCEPTION_THROWN(solved.window->exports().write_result("a.txt"), InputError);
+      QVERIFY_EXCEPTION_THROWN(solved.window->findChild<ExportActions*>()->write_result("a.txt"),
+                               InputError);
     }
     QVERIFY(!read_result(path.toStdString()).complete);
     const auto window = make_window();
@@ -120,7 +121,7 @@ class ResultTest : public QObject {
   }
 
  private:
-  static QString text(MainWindow& window, const char* label) {
+  static QString text(TestWindow& window, const char* label) {
     return window.findChild<QLabel*>(label)->text();
   }
 

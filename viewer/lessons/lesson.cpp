@@ -29,12 +29,12 @@ std::string text_from(const json* value, const JsonObject& page) {
     return value->get<std::string>();
   }
   if (!value->is_array()) {
-    page.fail_at("text", "must be a string or a list of strings");
+    page.fail_at("text", "must be a string in quotes, or a list of them");
   }
   std::string text;
   for (const json& line : *value) {
     if (!line.is_string()) {
-      page.fail_at("text", "each line must be a string");
+      page.fail_at("text", "each line must be a string in quotes");
     }
     text += line.get<std::string>() + '\n';
   }
@@ -110,7 +110,7 @@ void check_panels(const Lesson& lesson, const std::string& name,
         known += (known.empty() ? "" : ", ") + one;
       }
       throw InputError(name + ", page " + std::to_string(k + 1) + ", panels: unknown panel \"" +
-                       panel + "\"; must be one of " + known);
+                       panel + "\"; known panels: " + known);
     }
   }
 }
