@@ -152,6 +152,41 @@ TEST(CliErrors, InvalidScenesAreRefusedAndOutputFilesKept) {
   }
 }
 
+/// A failed solve names the option that may help.
+void expect_hint(const std::vector<std::string>& arguments, int status, const std::string& text,
+                 const std::string& hint) {
+  SCOPED_TRACE(::testing::PrintToString(arguments));
+  const ProgramResult result = run_program(arguments);
+  EXPECT_EQ(result.status, status);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(text));
+  EXPECT_THAT(result.err, HasSubstr(hint));
+}
+
+TEST(CliErrors, HintsNameTheOption) {
+  expect_hint(
+      {"solve", "furnace", "-q", "-m", "9", "--memory", "1", "--scheme", "conjugate-gradients"}, 1,
+      "the scheme conjugate-gradients requires kept form factors", " (try a larger --memory)");
+  expect_hint({"solve", "furnace", "-q", "-m", "9", "--memory", "1", "--normalize", "symmetric"}, 1,
+              "the symmetric normalization requires kept form factors", " (try a larger --memory)");
+  expect_hint({"factors", "furnace", "-m", "9", "--memory", "1"}, 1,
+              "the form factors exceed the memory limit", " (try a larger --memory)");
+  expect_hint({"factors", "furnace", "--engine", "hemicube", "--memory", "1"}, 1,
+              "the form factors exceed the memory limit", " (try a larger --memory)");
+  expect_hint({"transfers", "furnace", "--direction", "1,2,3", "--engine", "hemicube"}, 2,
+              "has no directions", " (try solve, factors or study)");
+}
+
+TEST(CliErrors, HintsForDivergenceNameDirectionsAndNormalization) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "bright.obj";
+  ASSERT_EQ(run_program({"scene", "furnace", "--out", scene}).status, 0);
+  write_text(folder / "bright.mtl", "newmtl glowing\nKd 0.99 0.99 0.99\nKe 1 1 1\n");
+  expect_hint({"solve", scene, "-q", "-m", "1"}, 1, "does not converge for M = 1",
+              " (try more directions with -m, or --normalize rows)");
+}
+
 TEST(CliErrors, SceneFileIsNotOverwritten) {
   const TemporaryFolder folder;
   const std::string scene = folder / "furnace.obj";

@@ -100,7 +100,7 @@ TEST(CliStudy, InvalidArgumentsGiveOneLineAndStatus2) {
       {{"furnace", "--directions", "16..32,32"}, "given twice"},
       {{"furnace", "--sampling", "random,fibonaci"}, "unknown sampling \"fibonaci\""},
       {{"furnace", "--sampling", "random,random"}, "given twice"},
-      {{"furnace", "--normalize", "symmetric", "--one-way"}, "both ways"},
+      {{"furnace", "--normalize", "symmetric", "--one-way"}, "two-way passes"},
       {{"furnace", "--scheme", "quick"}, "fixed, growing"},
       {{"furnace", "--first-shot", "auto,soon"}, "none, auto or a number"},
       {{"furnace", "--error", "least"}, "rms, max"},

@@ -6,6 +6,7 @@
 #include "support/refusal.h"
 #include "transillum/at.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
@@ -181,8 +182,9 @@ TEST(Schemes, ThatRequireKeptFormFactorsReportTheMemoryLimit) {
     try {
       solver.advance(Until::finished);
       FAIL() << "solved";
-    } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("more than --memory"));
+    } catch (const MemoryLimitExceeded& error) {
+      EXPECT_THAT(error.what(), HasSubstr("requires kept form factors"));
+      EXPECT_EQ(error.remedy(), Remedy::memory);
     }
     EXPECT_EQ(solver.statistics().passes_made, 0);
   }
@@ -274,11 +276,11 @@ TEST(SchemeOptions, ReportInvalidCombinations) {
   EXPECT_THAT(message({.scheme = Scheme::semi_iterative, .burn_in = 5, .iterations = 5}),
               HasSubstr("leave none for the mean"));
   EXPECT_THAT(message({.two_way = false, .normalize = Normalization::symmetric}),
-              HasSubstr("both ways"));
+              HasSubstr("requires two-way passes"));
   EXPECT_THAT(message({.normalize = Normalization::symmetric, .scheme = Scheme::semi_iterative}),
               HasSubstr("semi-iterative"));
   EXPECT_THAT(message({.two_way = false, .scheme = Scheme::conjugate_gradients}),
-              HasSubstr("both ways"));
+              HasSubstr("requires two-way passes"));
   EXPECT_THAT(message({.normalize = Normalization::rows, .scheme = Scheme::conjugate_gradients}),
               HasSubstr("symmetric matrix"));
 }

@@ -9,6 +9,7 @@
 #include "support/refusal.h"
 #include "support/scenes.h"
 #include "transillum/radiosity.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
@@ -95,6 +96,28 @@ TEST(RadiositySolver, CancelingIsQuick) {
   EXPECT_LT(until_left.count(), 2);
 }
 
+TEST(RadiositySolver, GivesItsSolutionAtAnyTime) {
+  RadiositySolver solver(small_scene(), {.directions = 20, .replicas = 2});
+  solver.advance(RadiositySolver::Until::iteration);
+  EXPECT_EQ(solver.solution().radiosity, solver.radiosity());
+  EXPECT_EQ(solver.solution().irradiance, solver.irradiance());
+  EXPECT_EQ(solver.solution().error.standard_error, solver.error_estimate().standard_error);
+  EXPECT_EQ(solver.solution().statistics.iterations, 1);
+  EXPECT_FALSE(solver.solution().complete);
+  solver.advance(RadiositySolver::Until::finished);
+  EXPECT_EQ(solver.solution().scene, solver.shared_scene());
+  EXPECT_TRUE(solver.solution().complete);
+}
+
+TEST(RadiositySolver, GivesTheRunningEstimateAsSolutionWithinAnIteration) {
+  RadiositySolver solver(small_scene(), {.directions = 20});
+  solver.advance(RadiositySolver::Until::direction);
+  ASSERT_EQ(solver.progress().direction, 1);
+  EXPECT_EQ(solver.solution().radiosity, solver.running_estimate());
+  EXPECT_NE(solver.solution().radiosity, solver.radiosity());
+  EXPECT_FALSE(solver.solution().complete);
+}
+
 TEST(RadiositySolver, ReportsDivergence) {
   // One direction down onto a highly reflective floor below a lamp: rows sum to 4.
   Sketch sketch;
@@ -102,9 +125,9 @@ TEST(RadiositySolver, ReportsDivergence) {
   try {
     solve(sketch.scene(), {.directions = 1, .two_way = true});
     FAIL() << "converged";
-  } catch (const std::runtime_error& error) {
+  } catch (const NotConvergent& error) {
     EXPECT_THAT(error.what(), HasSubstr("does not converge"));
-    EXPECT_THAT(error.what(), HasSubstr("--normalize rows"));
+    EXPECT_EQ(error.remedy(), Remedy::directions_or_row_normalization);
   }
   EXPECT_NO_THROW(solve(sketch.scene(), {.directions = 1, .normalize = Normalization::rows}));
 }

@@ -193,6 +193,7 @@ TEST(Study, TooFewDirectionsAreAResult) {
   const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
   ASSERT_THAT(study.points, SizeIs(2));
   EXPECT_NE(study.points[0].failure, "");
+  EXPECT_NE(study.points[0].remedy, Remedy::none);
   EXPECT_TRUE(std::isnan(study.points[0].rms_error));
 }
 
@@ -221,7 +222,8 @@ TEST(Study, TooLittleMemoryIsAResult) {
   const Study study = box().study(options);
   ASSERT_THAT(study.points, SizeIs(2));
   EXPECT_EQ(study.points[0].failure, "");
-  EXPECT_THAT(study.points[1].failure, HasSubstr("--memory"));
+  EXPECT_THAT(study.points[1].failure, HasSubstr("memory limit"));
+  EXPECT_EQ(study.points[1].remedy, Remedy::memory);
 }
 
 TEST(Study, KeepsFinishedPointsWhenCanceled) {

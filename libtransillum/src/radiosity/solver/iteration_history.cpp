@@ -84,7 +84,7 @@ void IterationHistory::check_contraction() const {
                                    [](const IterationRecord& r) { return r.contraction >= 1; });
   if (growing) {
     throw NotConvergent(
-        fmt::format("the iteration does not converge with {} directions: each change is {:.3g} "
+        fmt::format("the iteration does not converge for M = {}: each change is {:.3g} "
                     "times the one before",
                     options_.directions, records_.back().contraction),
         Remedy::directions_or_row_normalization);
