@@ -19,8 +19,8 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-// Keys go to the active window; without a window manager nobody makes one.
-std::unique_ptr<MainWindow> make_active_window() {
+// Keys go to the active window; without a window manager, it must be activated here.
+std::unique_ptr<TestWindow> make_active_window() {
   auto window = make_window();
   window->activateWindow();
   (void)QTest::qWaitForWindowActive(window.get());
@@ -33,7 +33,7 @@ class AppearanceTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void projector_mode_enlarges_and_comes_back() {
+  void projector_mode_enlarges_and_can_be_switched_off() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const int size = QFontInfo(solved.window->font()).pixelSize();
@@ -77,28 +77,28 @@ class AppearanceTest : public QObject {
     QVERIFY(lightness() > 200);
   }
 
-  void one_view_takes_the_whole_screen() {
+  void one_view_fills_the_screen() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
-    MainWindow& window = *solved.window;
+    TestWindow& window = *solved.window;
     auto* map = window.findChild<QDockWidget*>("map_dock");
     auto* settings = window.findChild<QDockWidget*>("settings_dock");
-    window.full_screen().show_only(map);
+    window.findChild<FullScreen*>()->show_only(map);
     QVERIFY(wait_for([&] { return map->width() > 0.95 * window.width(); }, 5000));
     QVERIFY(window.isFullScreen() && !settings->isVisible() && !solved.scene_view->isVisible());
-    // The keys go on working, though no menu is there to see.
+    // Shortcuts work although the menu bar is hidden.
     QTest::keyClick(&window, Qt::Key_F11);
     QVERIFY(
         wait_for([&] { return settings->isVisible() && solved.scene_view->isVisible(); }, 5000));
     QVERIFY(!window.isFullScreen() && window.menuBar()->isVisible());
-    window.full_screen().show_only(window.centralWidget());
+    window.findChild<FullScreen*>()->show_only(window.centralWidget());
     QVERIFY(wait_for([&] { return solved.scene_view->width() > 0.8 * window.width(); }, 5000));
     QVERIFY(!map->isVisible());
-    window.full_screen().show_all();
+    window.findChild<FullScreen*>()->show_all();
     QVERIFY(map->isVisible());
   }
 
-  void all_keys_are_told_and_no_key_does_two_things() {
+  void all_keys_are_documented_and_have_one_use() {
     const auto window = make_active_window();
     std::map<QString, QString> uses;
     for (const KeyGroup& group : keys_of(*window)) {
@@ -119,9 +119,9 @@ class AppearanceTest : public QObject {
 
     QFile manual(QStringLiteral(TRANSILLUM_MANUAL));
     QVERIFY(manual.open(QIODevice::ReadOnly));
-    const QString words = QString::fromUtf8(manual.readAll());
-    for (const auto& [key, text] : uses) {
-      QVERIFY2(words.contains('`' + key + '`'), qPrintable(key + ": " + text));
+    const QString text = QString::fromUtf8(manual.readAll());
+    for (const auto& [key, use] : uses) {
+      QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
   }
 

@@ -22,14 +22,14 @@ namespace {
 
 struct Shown : SolvedWindow {
   explicit Shown(const char* scene) : SolvedWindow(scene) {
-    window->runner().run();
+    window->runner.run();
     (void)wait_for([this] { return window->snapshot()->progress.finished && window->settled(); });
     window->findChild<QDockWidget*>("direction_dock")->raise();
     view = window->findChild<DirectionView*>();
     (void)wait_for([this] { return view->isVisible(); });
   }
   void select(PatchId patch) {
-    window->selection().select(patch);
+    window->selection.select(patch);
     QVERIFY(wait_for([this] { return view->up_to_date(); }));
   }
   DirectionView* view;
@@ -93,14 +93,14 @@ class DirectionViewTest : public QObject {
     auto* view = shown.window->findChild<QTableView*>("received_light");
     QVERIFY(wait_for([&] { return view->isVisible(); }));
     auto* table = qobject_cast<ReceivedTable*>(view->model());
-    Focus& focus = shown.window->focus();
+    Focus& focus = shown.window->focus;
     const auto snapshot = shown.window->snapshot();
     const Scene& scene = *snapshot->loaded->scene;
     for (const int n : {0, 1, 3}) {
       focus.go_to({n, 5, 10});
       QVERIFY(wait_for([&] { return focus.arrived(); }));
       for (const PatchId patch : {0, 3, 7}) {
-        shown.window->selection().select(patch);
+        shown.window->selection.select(patch);
         // One of each pair is on the front side; edge-on directions are not listed.
         QVERIFY(wait_for([&] { return table->rowCount() >= 30 && table->rowCount() <= 32; }));
         const Rgb next = at(*at(snapshot->kept_radiosity, n + 1), patch);
@@ -124,7 +124,7 @@ class DirectionViewTest : public QObject {
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QCOMPARE(focus.position().iteration, 3);
     QCOMPARE(focus.position().direction, most.pass);
-    const auto events = events_of_patch(focus.map()->history, shown.window->selection().patch());
+    const auto events = events_of_patch(focus.map()->history, shown.window->selection.patch());
     QVERIFY(std::any_of(events.begin(), events.end(), [&](const StepEvent& event) {
       return event.step == focus.position().step && event.kind == StepEvent::Kind::exchange;
     }));
@@ -137,7 +137,7 @@ class DirectionViewTest : public QObject {
 
   /// In a growing run each iteration has its own number of directions.
   void the_table_sums_to_the_next_radiosity_in_a_growing_run() {
-    MainWindow window(false);
+    TestWindow window;
     SolveOptions options;
     options.directions = 64;
     options.scheme = Scheme::growing;
@@ -145,7 +145,7 @@ class DirectionViewTest : public QObject {
     window.show();
     window.open("cornell-box");
     QVERIFY(wait_for([&] { return window.settled() && window.snapshot()->progress.finished; }));
-    window.docks().bring_to_front("received");
+    window.parts().docks.bring_to_front("received");
     auto* view = window.findChild<QTableView*>("received_light");
     auto* table = qobject_cast<ReceivedTable*>(view->model());
     const auto snapshot = window.snapshot();
@@ -153,11 +153,11 @@ class DirectionViewTest : public QObject {
     QCOMPARE(snapshot->passes_of(1), 32);
     QCOMPARE(snapshot->passes_of(2), 64);
     const Scene& scene = *snapshot->loaded->scene;
-    window.selection().select(3);
+    window.selection.select(3);
     for (const int n : {2, 0, 1}) {
-      window.focus().go_to({n, 5, 10});
-      QVERIFY(wait_for([&] { return window.focus().arrived(); }));
-      QCOMPARE(window.focus().passes_of(n), 16 << n);
+      window.focus.go_to({n, 5, 10});
+      QVERIFY(wait_for([&] { return window.focus.arrived(); }));
+      QCOMPARE(window.focus.passes_of(n), 16 << n);
       const Rgb next = (*at(snapshot->kept_radiosity, n + 1))[3];
       QTRY_VERIFY(max_abs(scene.exitance(3) + scene.reflectance(3) * table->irradiance() - next) <=
                   1e-9 * max_abs(next));
@@ -171,8 +171,8 @@ class DirectionViewTest : public QObject {
     for (int y = 60; y < size.height() - 60; y += 3) {
       for (int x = 20; x < size.width() - 20; x += 3) {
         QTest::mouseClick(shown.view, Qt::LeftButton, {}, {x, y});
-        if (!shown.window->focus().following()) {
-          QVERIFY(wait_for([&] { return shown.window->focus().arrived(); }));
+        if (!shown.window->focus.following()) {
+          QVERIFY(wait_for([&] { return shown.window->focus.arrived(); }));
           return;
         }
       }
@@ -185,7 +185,7 @@ class DirectionViewTest : public QObject {
     shown.select(3);
     QVERIFY(!shown.view->received().empty());
     shown.window->open("furnace");
-    QVERIFY(wait_for([&] { return shown.window->selection().patch() == no_patch; }));
+    QVERIFY(wait_for([&] { return shown.window->selection.patch() == no_patch; }));
     QVERIFY(shown.view->received().empty());
   }
 };

@@ -20,7 +20,7 @@ namespace {
 
 /// A window for lessons.
 struct Taught {
-  std::unique_ptr<MainWindow> window = make_window();
+  std::unique_ptr<TestWindow> window = make_window();
   LessonPanel* panel = window->findChild<LessonPanel*>();
 
   bool settles() {
@@ -29,7 +29,7 @@ struct Taught {
   }
   QString text(const char* name) const { return window->findChild<QLabel*>(name)->text(); }
   void trigger(const char* action) const { window->findChild<QAction*>(action)->trigger(); }
-  const Focus& focus() const { return window->focus(); }
+  const Focus& focus() const { return window->focus; }
 };
 
 void write(const QString& path, const QByteArray& text) {
@@ -46,7 +46,7 @@ class LessonsTest : public QObject {
  private slots:
   void pages_set_up_the_window() {
     Taught taught;
-    MainWindow& window = *taught.window;
+    TestWindow& window = *taught.window;
     const QTemporaryDir folder;
     const QString path = folder.filePath("mine.json");
     write(path, R"({"title": "Mine", "pages": [
@@ -57,14 +57,14 @@ class LessonsTest : public QObject {
         "camera": {"eye": [9, 8, 7], "target": [0, 0, 0], "up": [0, 0, 1], "angle": 20}}},
       {"text": "third", "show": {"options": {"directions": 8}, "solve": "finished",
         "focus": {"iteration": 2, "direction": 2, "step": "exchange"}}}]})");
-    window.open_lesson(path);
+    window.files().try_open(path);
     QVERIFY(taught.settles());
     QCOMPARE(taught.text("lesson_title"), QString("One"));
     QCOMPARE(taught.text("lesson_place"), QString("1 of 3"));
     QCOMPARE(window.findChild<QTextBrowser*>("lesson_text")->toPlainText(), QString("first"));
     QCOMPARE(window.snapshot()->progress.direction, 5);
-    QCOMPARE(window.selection().patch(), PatchId{4});
-    QVERIFY(window.docks().current() == Layout::teach);
+    QCOMPARE(window.selection.patch(), PatchId{4});
+    QVERIFY(window.parts().docks.current() == Layout::teach);
 
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
@@ -73,13 +73,13 @@ class LessonsTest : public QObject {
     QCOMPARE(taught.focus().position().direction, 8);
     QCOMPARE(taught.focus().position().step, 2);
     QVERIFY(taught.focus().phase() == Phase::split);
-    QVERIFY(window.colors().scale().mode == ColorMode::luminance);
+    QVERIFY(window.colors.scale().mode == ColorMode::luminance);
     QCOMPARE(window.findChild<SceneView*>()->view_point().eye.x, 9.0);
 
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
     QCOMPARE(taught.text("lesson_title"), QString("Mine"));
-    QCOMPARE(window.runner().state(), RunState::finished);
+    QCOMPARE(window.runner.state(), RunState::finished);
     QCOMPARE(window.snapshot()->progress.passes, 8);
     QCOMPARE(taught.focus().position().iteration, 1);
     QVERIFY(taught.focus().map()->history.step(taught.focus().position().step).exchanges > 0);
@@ -92,14 +92,14 @@ class LessonsTest : public QObject {
     QCOMPARE(window.snapshot()->progress.direction, 5);
     QCOMPARE(window.snapshot()->progress.iteration, 0);
     QVERIFY(taught.focus().following());
-    QVERIFY(window.colors().scale().mode == ColorMode::true_color);
+    QVERIFY(window.colors.scale().mode == ColorMode::true_color);
     QVERIFY(!window.findChild<QAction*>("lesson_previous")->isEnabled());
 
     // Changes by the user are reverted.
-    window.selection().select(1);
+    window.selection.select(1);
     taught.trigger("lesson_again");
     QVERIFY(taught.settles());
-    QCOMPARE(window.selection().patch(), PatchId{4});
+    QCOMPARE(window.selection.patch(), PatchId{4});
   }
 
   void a_bad_lesson_is_reported_and_changes_nothing() {
@@ -109,7 +109,7 @@ class LessonsTest : public QObject {
     const QString path = folder.filePath("bad.json");
     write(path,
           R"({"title": "T", "pages": [{"text": ""}, {"text": "", "show": {"panels": ["mop"]}}]})");
-    taught.window->open_lesson(path);
+    taught.window->files().try_open(path);
     const QString message = taught.window->banner_text();
     QVERIFY2(message.contains("bad.json, page 2") && message.contains("mop"), qPrintable(message));
     QCOMPARE(taught.panel->lessons().size(), lessons);
@@ -122,11 +122,11 @@ class LessonsTest : public QObject {
     const QString path = folder.filePath("lost.json");
     write(path, R"({"title": "T", "pages": [{"text": "", "show": {"scene": "lost.obj"}},
                     {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}}}]})");
-    taught.window->open_lesson(path);
+    taught.window->files().try_open(path);
     QVERIFY(wait_for([&] { return taught.window->banner_text().contains("lost.obj"); }));
     taught.trigger("lesson_next");
     QVERIFY(taught.settles());
-    QCOMPARE(QString::fromStdString(taught.window->spec()), QString("furnace"));
+    QCOMPARE(QString::fromStdString(taught.window->scene.spec()), QString("furnace"));
   }
 
   void missing_patches_and_directions_are_reported() {
@@ -136,7 +136,7 @@ class LessonsTest : public QObject {
     write(path, R"({"title": "T", "pages": [
       {"text": "", "show": {"scene": "furnace", "options": {"directions": 4}, "select": 99}},
       {"text": "", "show": {"select": 1, "focus": {"direction": 5}}}]})");
-    taught.window->open_lesson(path);
+    taught.window->files().try_open(path);
     QVERIFY(taught.settles());
     QVERIFY(taught.window->banner_text().contains("no patch 99"));
     taught.trigger("lesson_next");
@@ -170,23 +170,23 @@ class LessonsTest : public QObject {
 
   void opening_a_scene_resets_what_a_lesson_set() {
     Taught taught;
-    MainWindow& window = *taught.window;
-    window.colors().set_logarithmic(true);
-    window.begin_lesson("2", 3);
+    TestWindow& window = *taught.window;
+    window.colors.set_logarithmic(true);
+    window.files().open_lesson("2", 3);
     QVERIFY(taught.settles());
     QVERIFY(window.map_view()->labels_shown() && !taught.focus().following());
     // The lesson's scene and another one, each after the exposure was fixed.
-    for (const std::string& scene : {window.spec(), std::string("furnace")}) {
-      window.colors().set_exposure(-3);
+    for (const std::string& scene : {window.scene.spec(), std::string("furnace")}) {
+      window.colors.set_exposure(-3);
       window.findChild<SceneView*>()->view_from_side(Side::top);
       const auto before = window.snapshot()->loaded;
-      window.open_afresh(QString::fromStdString(scene));
+      window.files().open_scene(QString::fromStdString(scene));
       QVERIFY(wait_for([&] { return window.snapshot() && window.snapshot()->loaded != before; }));
       QVERIFY(taught.settles());
-      QCOMPARE(window.spec(), scene);
+      QCOMPARE(window.scene.spec(), scene);
       QCOMPARE(window.snapshot()->options.directions, 32);
       QVERIFY(taught.focus().following());
-      QVERIFY(window.colors().exposure_is_automatic() && window.colors().scale().logarithmic);
+      QVERIFY(window.colors.exposure_is_automatic() && window.colors.scale().logarithmic);
       QVERIFY(!window.map_view()->labels_shown());
       const auto* view = window.findChild<SceneView*>();
       const ViewPoint shown = view->view_point();
@@ -204,8 +204,8 @@ class LessonsTest : public QObject {
     }
     QVERIFY(taught.settles());
     const ViewState& last = first.pages.back().state;
-    QCOMPARE(taught.window->spec(), last.scene);
-    QCOMPARE(taught.window->selection().patch(), last.selection);
+    QCOMPARE(taught.window->scene.spec(), last.scene);
+    QCOMPARE(taught.window->selection.patch(), last.selection);
   }
 
   void every_built_in_page_can_be_shown_data() {
@@ -217,17 +217,17 @@ class LessonsTest : public QObject {
   void every_built_in_page_can_be_shown() {
     QFETCH(int, lesson);
     Taught taught;
-    check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->docks().panels());
+    check_panels(at(built_in_lessons(), lesson), "lesson", taught.window->parts().docks.panels());
     const auto& pages = at(built_in_lessons(), lesson).pages;
     for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
       // Few directions, to save time: what is checked here does not depend on their number.
       ViewState state = at(pages, k).state;
       state.options.solve.directions = state.focus ? state.focus->direction + 1 : 4;
       state.options.solve.iterations = state.focus ? state.focus->iteration + 1 : 1;
-      taught.window->stage().show(state);
+      taught.window->findChild<ViewStateApplier*>()->show(state);
       QVERIFY2(taught.settles(), qPrintable(QString("page %1").arg(k + 1)));
       QCOMPARE(taught.window->banner_text(), QString());
-      QCOMPARE(taught.window->selection().patch(), state.selection);
+      QCOMPARE(taught.window->selection.patch(), state.selection);
       QCOMPARE(!taught.focus().following(), state.focus.has_value());
       if (state.focus) {
         QCOMPARE(taught.focus().position().direction, state.focus->direction);

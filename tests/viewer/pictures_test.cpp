@@ -38,7 +38,7 @@ void keep(const QImage& picture, const QString& name, const QSize& size) {
   QVERIFY(small.convertToFormat(QImage::Format_RGB888).save(QDir(folder()).filePath(name), "PNG"));
 }
 
-bool settles(MainWindow& window) {
+bool settles(TestWindow& window) {
   const auto still = [&] { return window.settled(); };
   if (!wait_for(still, 120000)) {
     return false;
@@ -47,8 +47,8 @@ bool settles(MainWindow& window) {
   return wait_for(still, 120000);
 }
 
-struct PictureWindow : MainWindow {
-  PictureWindow() : MainWindow(false) {
+struct PictureWindow : TestWindow {
+  PictureWindow() {
     resize(window_size);
     show();
   }
@@ -60,7 +60,7 @@ struct PictureWindow : MainWindow {
   }
 };
 
-QImage whole(MainWindow& window) { return window.grab().toImage(); }
+QImage whole(TestWindow& window) { return window.grab().toImage(); }
 
 }  // namespace
 
@@ -71,14 +71,14 @@ class PicturesTest : public QObject {
   void layouts() {
     PictureWindow window;
     QVERIFY(window.shows_the_box());
-    window.selection().select(16);
+    window.selection.select(16);
     for (const char* layout : {"inspect", "debug"}) {
       window.findChild<QAction*>(QStringLiteral("layout_%1").arg(layout))->trigger();
       if (layout == QByteArray("debug")) {
-        window.focus().go_to({0, 9, -1});
+        window.focus.go_to({0, 9, -1});
         QVERIFY(settles(window));
         window.findChild<QAction*>("next_event")->trigger();
-        window.focus().set_phase(Phase::split);
+        window.focus.set_phase(Phase::split);
       }
       QVERIFY(settles(window));
       keep(whole(window), QStringLiteral("layout-%1.png").arg(layout), {960, 600});
@@ -88,8 +88,8 @@ class PicturesTest : public QObject {
   void engines() {
     PictureWindow window;
     QVERIFY(window.shows_the_box());
-    window.selection().select(14);
-    window.focus().go_to({0, 3, 20});
+    window.selection.select(14);
+    window.focus.go_to({0, 3, 20});
     QVERIFY(settles(window));
     // The map of each engine, side by side.
     auto* map_dock = window.findChild<QDockWidget*>("map_dock");
@@ -160,10 +160,10 @@ class PicturesTest : public QObject {
   void panels_and_the_study() {
     PictureWindow window;
     QVERIFY(window.shows_the_box());
-    window.selection().select(16);
+    window.selection.select(16);
     const auto keep_panel = [&](const char* layout, const char* panel, const char* name) {
       window.findChild<QAction*>(layout)->trigger();
-      window.docks().bring_to_front(panel);
+      window.parts().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
       QTest::qWait(500);  // requests that the panel makes beside the solver
@@ -171,7 +171,7 @@ class PicturesTest : public QObject {
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());
     };
-    window.focus().go_to({0, 9, 11});
+    window.focus.go_to({0, 9, 11});
     keep_panel("layout_teach", "tree", "tree");
     if (folder().isEmpty()) {
       return;

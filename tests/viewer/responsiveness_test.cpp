@@ -16,7 +16,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-/// How long this thread could have run and was given no processor, ms; 0 where the kernel does not
+/// The time this thread was ready to run but waited for a processor, ms; 0 if the kernel does not
 /// count it.
 double waited_for_processor() {
   std::ifstream file("/proc/thread-self/schedstat");
@@ -24,7 +24,7 @@ double waited_for_processor() {
   return file >> ran >> waited ? waited * 1e-6 : 0;
 }
 
-/// For what needs solving first: the solver gives way to all other work of the machine.
+/// For waits that include solving: the solver has a lower priority than other work of the machine.
 constexpr int long_enough = 300'000;  // ms
 
 double median(std::vector<double> times) {
@@ -32,16 +32,16 @@ double median(std::vector<double> times) {
   return times[times.size() / 2];
 }
 
-/// What some equal acts take, ms each: by the clock, for people; and of processors, for bounds that
-/// hold whatever else the machine has to do.
+/// Times of equal actions, ms: wall-clock time, for the report; and processor time, for bounds that
+/// do not depend on other work of the machine.
 struct Timings {
   std::vector<double> clock, processor;
 
-  void measure(const std::function<void()>& act) {
+  void measure(const std::function<void()>& action) {
     QElapsedTimer timer;
     timer.start();
     const std::clock_t before = std::clock();
-    act();
+    action();
     processor.push_back(1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     clock.push_back(static_cast<double>(timer.nsecsElapsed()) * 1e-6);
   }
@@ -49,22 +49,23 @@ struct Timings {
 
 }  // namespace
 
-// Measures how long the window is deaf while the solver has all cores.
+// Measures how long the UI thread is blocked while the solver uses all cores.
 class ResponsivenessTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void the_window_answers_while_the_solver_runs() {
+  void the_window_responds_while_the_solver_runs() {
     const auto window = make_window(100000);
     window->open("sphere-flake", {Goal::Kind::finished});
     QVERIFY(
         wait_for([&] { return window->snapshot() && window->snapshot()->progress.direction > 2; },
                  long_enough));
 
-    // ms; the first pictures apart, for which a machine without a GPU compiles its shaders.
+    // ms; the first pictures are separate, because a machine without a GPU compiles shaders for
+    // them.
     std::vector<double> gaps, first_gaps;
     constexpr int first_ms = 1000;
-    double longest_of_its_own = 0, waited = waited_for_processor();
+    double longest_without_waiting = 0, waited = waited_for_processor();
     QElapsedTimer since_last, since_start;
     QTimer tick;
     connect(&tick, &QTimer::timeout, this, [&] {
@@ -72,7 +73,7 @@ class ResponsivenessTest : public QObject {
       (since_start.elapsed() < first_ms || first_gaps.empty() ? first_gaps : gaps).push_back(gap);
       since_last.start();
       const double waited_now = waited_for_processor();
-      longest_of_its_own = std::max(longest_of_its_own, gap - (waited_now - waited));
+      longest_without_waiting = std::max(longest_without_waiting, gap - (waited_now - waited));
       waited = waited_now;
     });
     const int passes_before = window->snapshot()->progress.direction;
@@ -80,8 +81,8 @@ class ResponsivenessTest : public QObject {
     since_last.start();
     since_start.start();
     tick.start(1);
-    // A machine with other work may take longer to come to as many. Not by wait_for(), which sleeps
-    // between its turns.
+    // A machine with other work may need longer for as many gaps. wait_for() is not used here,
+    // because it sleeps between event loop iterations.
     QEventLoop loop;
     QTimer limit;
     limit.start(long_enough);
@@ -96,14 +97,14 @@ class ResponsivenessTest : public QObject {
     tick.stop();
     std::sort(gaps.begin(), gaps.end());
     qInfo(
-        "event loop, ms between turns: 99 %% %.1f, longest %.1f; in the first second %.1f; of all "
-        "without waiting for a processor %.1f; %d passes",
+        "event loop, ms between iterations: 99 %% below %.1f, longest %.1f; in the first second "
+        "%.1f; "
+        "longest without waiting for a processor %.1f; %d passes",
         gaps[gaps.size() * 99 / 100], gaps.back(),
-        *std::max_element(first_gaps.begin(), first_gaps.end()), longest_of_its_own, passes());
+        *std::max_element(first_gaps.begin(), first_gaps.end()), longest_without_waiting, passes());
     QTest::setBenchmarkResult(gaps.back(), QTest::WalltimeMilliseconds);
-    // On an idle machine it is a few dozen. The bound is for slow ones that draw without a GPU, and
-    // holds whatever else they have to do.
-    QVERIFY(longest_of_its_own < 1000);
+    // On an idle machine it is a few dozen ms. The bound is for slow machines without a GPU.
+    QVERIFY(longest_without_waiting < 1000);
 
     QElapsedTimer closing;
     closing.start();
@@ -111,7 +112,7 @@ class ResponsivenessTest : public QObject {
     QVERIFY(closing.elapsed() < 1000);
   }
 
-  void a_seek_shows_soon() {
+  void a_seek_is_shown_soon() {
     const auto window = make_window(64);
     window->open("sphere-flake", {Goal::Kind::passes, 2});
     QVERIFY(wait_for(
@@ -120,7 +121,7 @@ class ResponsivenessTest : public QObject {
                  window->settled();
         },
         long_enough));
-    Focus& focus = window->focus();
+    Focus& focus = window->focus;
     focus.go_to({0, 1, 100});
     QVERIFY(wait_for([&] { return window->settled(); }));
     QTimer heartbeat;
@@ -143,22 +144,22 @@ class ResponsivenessTest : public QObject {
       return RunPosition{0, 1, steps * ((7 * k) % 15) / 15};
     });
     const Timings other = time_seeks(5, [&](int k) { return RunPosition{0, 3 + k, steps / 2}; });
-    qInfo("seek on the sphere-flake, ms in the median: same direction %.0f, another %.0f",
+    qInfo("seek in the sphere-flake, median ms: same direction %.0f, another %.0f",
           median(same.clock), median(other.clock));
-    // The goals are 50 and 500 on an idle machine.
+    // The goals are 50 and 500 ms on an idle machine.
     QVERIFY(median(same.processor) < 500);
     QVERIFY(median(other.processor) < 2500);
   }
 
-  // With the form factors of few directions, for a test's time: what else there is to a picture.
-  void a_slider_shows_soon() {
+  // Few directions, to limit the time of the test: measures everything except large form factors.
+  void a_slider_is_shown_soon() {
     constexpr int directions = 32;
     const auto window = make_window(directions);
     window->open("sphere-flake", {Goal::Kind::iteration});
-    window->runner().include_form_factors();
+    window->runner.include_form_factors();
     QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; },
                      long_enough));
-    MaterialEdits& edits = window->inspection().edits();
+    MaterialEdits& edits = window->relighting.edits();
     const std::vector<Material>& own = edits.originals();
     const auto brightest =
         std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
@@ -179,11 +180,10 @@ class ResponsivenessTest : public QObject {
         window->repaint();
       });
     }
-    qInfo(
-        "slider to picture, ms in the median: %.0f, longest %.0f; %d directions, %lld form factors",
-        median(timings.clock), *std::max_element(timings.clock.begin(), timings.clock.end()),
-        directions, static_cast<long long>(window->snapshot()->form_factors->value.size()));
-    // The goal is 300 with 1,024 directions on an idle machine.
+    qInfo("slider to picture, median ms: %.0f, longest %.0f; %d directions, %lld form factors",
+          median(timings.clock), *std::max_element(timings.clock.begin(), timings.clock.end()),
+          directions, static_cast<long long>(window->snapshot()->form_factors->value.size()));
+    // The goal is 300 ms with 1,024 directions on an idle machine.
     QVERIFY(median(timings.processor) < 1500);
   }
 };

@@ -36,7 +36,7 @@ QByteArray contents(const QString& path) {
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
-bool settles(MainWindow& window) {
+bool settles(TestWindow& window) {
   return wait_for([&] { return window.settled(); });
 }
 
@@ -46,25 +46,25 @@ class SessionFileTest : public QObject {
   Q_OBJECT
 
   // Colors, materials and overlays that differ from the defaults.
-  static void change_appearance(MainWindow& window) {
-    window.colors().set_mode(ColorMode::luminance);
-    window.colors().set_range(0.25, 4);
-    window.colors().set_gamma(1.8);
-    window.inspection().edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
-    window.colors().set_exposure(-2);
+  static void change_appearance(TestWindow& window) {
+    window.colors.set_mode(ColorMode::luminance);
+    window.colors.set_range(0.25, 4);
+    window.colors.set_gamma(1.8);
+    window.relighting.edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
+    window.colors.set_exposure(-2);
     ShowMenu& show = *window.findChild<ShowMenu*>();
     show.overlay(Overlay::normals)->setChecked(true);
     show.overlay(Overlay::wireframe)->setChecked(true);
   }
-  static void check_appearance(MainWindow& window) {
-    QVERIFY(window.colors().scale().mode == ColorMode::luminance);
-    QVERIFY(window.colors().range_rule() == RangeRule::fixed);
-    QCOMPARE(window.colors().scale().low, 0.25);
-    QCOMPARE(window.colors().scale().high, 4.0);
-    QCOMPARE(window.colors().scale().gamma, 1.8);
-    QCOMPARE(window.colors().scale().exposure, -2.0);
-    QVERIFY(!window.colors().exposure_is_automatic());
-    const std::vector<MaterialChange> materials = window.inspection().edits().changes();
+  static void check_appearance(TestWindow& window) {
+    QVERIFY(window.colors.scale().mode == ColorMode::luminance);
+    QVERIFY(window.colors.range_rule() == RangeRule::fixed);
+    QCOMPARE(window.colors.scale().low, 0.25);
+    QCOMPARE(window.colors.scale().high, 4.0);
+    QCOMPARE(window.colors.scale().gamma, 1.8);
+    QCOMPARE(window.colors.scale().exposure, -2.0);
+    QVERIFY(!window.colors.exposure_is_automatic());
+    const std::vector<MaterialChange> materials = window.relighting.edits().changes();
     QCOMPARE(materials.size(), std::size_t{1});
     QCOMPARE(materials[0].name, window.snapshot()->loaded->scene->material(0).name);
     QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
@@ -84,17 +84,17 @@ class SessionFileTest : public QObject {
     {
       SolvedWindow solved("furnace");
       QVERIFY(solved.ready);
-      MainWindow& window = *solved.window;
-      window.selection().select(7);
-      window.focus().go_to({0, 5, 3});
+      TestWindow& window = *solved.window;
+      window.selection.select(7);
+      window.focus.go_to({0, 5, 3});
       QVERIFY(settles(window));
-      window.focus().set_phase(Phase::split);
-      window.breakpoints().set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
+      window.focus.set_phase(Phase::split);
+      window.breakpoints.set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
       change_appearance(window);
       window.algorithm()->set_kind(MapKind::global);
       camera = solved.scene_view->view_point();
-      window.page()->bookmarks().add(camera, "the \"first\" one");
+      window.parts().page.bookmarks().add(camera, "the \"first\" one");
       camera.eye.x += 1;
       solved.scene_view->set_view_point(camera);
       window.files().save_session(path);
@@ -102,21 +102,21 @@ class SessionFileTest : public QObject {
     const auto window = make_window(16);
     window->files().open(path);
     QVERIFY(settles(*window));
-    QCOMPARE(window->spec(), std::string("furnace"));
+    QCOMPARE(window->scene.spec(), std::string("furnace"));
     QCOMPARE(window->snapshot()->options.directions, 32);
-    QCOMPARE(window->selection().patch(), PatchId{7});
+    QCOMPARE(window->selection.patch(), PatchId{7});
     const RunPosition there{0, 5, 3};
-    QVERIFY(window->focus().position() == there);
-    QVERIFY(window->focus().phase() == Phase::split);
-    QCOMPARE(window->breakpoints().list().size(), std::size_t{1});
-    QVERIFY(window->breakpoints().list()[0].kind == Breakpoint::Kind::pair);
-    QVERIFY(!window->breakpoints().list()[0].enabled);
+    QVERIFY(window->focus.position() == there);
+    QVERIFY(window->focus.phase() == Phase::split);
+    QCOMPARE(window->breakpoints.list().size(), std::size_t{1});
+    QVERIFY(window->breakpoints.list()[0].kind == Breakpoint::Kind::pair);
+    QVERIFY(!window->breakpoints.list()[0].enabled);
     QCOMPARE(window->findChild<QPlainTextEdit*>("notes")->toPlainText(),
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
     check_appearance(*window);
     QVERIFY(window->algorithm()->kind() == MapKind::global);
-    const auto& views = window->page()->bookmarks().all();
+    const auto& views = window->parts().page.bookmarks().all();
     QCOMPARE(views.size(), std::size_t{1});
     QCOMPARE(views[0].name, QString("the \"first\" one"));
     QCOMPARE(views[0].view.eye.x, camera.eye.x - 1);
@@ -129,8 +129,8 @@ class SessionFileTest : public QObject {
     {
       SolvedWindow solved("furnace");
       QVERIFY(solved.ready);
-      solved.window->colors().set_mode(ColorMode::luminance);
-      solved.window->colors().widen_from(-3, 70);
+      solved.window->colors.set_mode(ColorMode::luminance);
+      solved.window->colors.widen_from(-3, 70);
       solved.window->files().save_session(path);
     }
     const auto window = make_window(16);
@@ -138,9 +138,9 @@ class SessionFileTest : public QObject {
     QVERIFY(settles(*window));
     window->files().open(path);
     QVERIFY(settles(*window));
-    QVERIFY(window->colors().range_rule() == RangeRule::widening);
-    QCOMPARE(window->colors().scale().low, -3.0);
-    QCOMPARE(window->colors().scale().high, 70.0);
+    QVERIFY(window->colors.range_rule() == RangeRule::widening);
+    QCOMPARE(window->colors.scale().low, -3.0);
+    QCOMPARE(window->colors.scale().high, 70.0);
   }
 
   void a_session_of_an_older_version_opens() {
@@ -149,12 +149,12 @@ class SessionFileTest : public QObject {
     write(path, R"({"show": {"scene": "furnace", "options": {"directions": 16},
                              "colors": {"show": "luminance", "range": [1, 2]}}})");
     const auto window = make_window(16);
-    window->page()->bookmarks().add({});
+    window->parts().page.bookmarks().add({});
     window->files().open(path);
     QVERIFY(settles(*window));
-    QCOMPARE(window->colors().scale().low, 1.0);
-    QVERIFY(window->page()->bookmarks().all().empty());
-    QVERIFY(window->colors().exposure_is_automatic());
+    QCOMPARE(window->colors.scale().low, 1.0);
+    QVERIFY(window->parts().page.bookmarks().all().empty());
+    QVERIFY(window->colors.exposure_is_automatic());
   }
 
   void a_session_and_its_scene_move_together() {
@@ -216,7 +216,7 @@ class SessionFileTest : public QObject {
     QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
     QCOMPARE(window->files().recent(), QStringList{path});
     window->files().open("furnace");
-    QVERIFY(wait_for([&] { return window->spec() == "furnace"; }));
+    QVERIFY(wait_for([&] { return window->scene.spec() == "furnace"; }));
     QCOMPARE(window->files().recent(), QStringList{path});  // built-in scenes are not listed
   }
 
@@ -227,14 +227,14 @@ class SessionFileTest : public QObject {
     const auto window = make_window(4);
     window->files().open(path);
     QVERIFY(settles(*window) && window->snapshot()->radiosity.size() == 4);
-    window->selection().select(2);
+    window->selection.select(2);
     window->findChild<QAction*>("watch")->setChecked(true);
     // As programs do that write a new file and rename it.
     write(path + ".new", QByteArray(triangle_room) + "f 1 2 3\n");
     QVERIFY(QFile::remove(path) && QFile::rename(path + ".new", path));
     QVERIFY(wait_for([&] { return window->snapshot()->radiosity.size() == 5; }, 10000));
     QVERIFY(settles(*window));
-    QCOMPARE(window->selection().patch(), PatchId{2});
+    QCOMPARE(window->selection.patch(), PatchId{2});
   }
 
   void exports_pictures_charts_and_figures() {
@@ -280,7 +280,7 @@ class SessionFileTest : public QObject {
     // Steps are recorded too, after the frames of the earlier recording.
     const QByteArray first = contents(folder.filePath("frame_00001.png"));
     exports.begin_frames(folder.path());
-    solved.window->focus().go_to({0, 0, 2});
+    solved.window->focus.go_to({0, 0, 2});
     QVERIFY(wait_for([&] { return exports.frames() >= frames + 2; }));
     exports.end_frames();
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), exports.frames());

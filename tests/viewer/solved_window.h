@@ -10,7 +10,7 @@ namespace transillum::viewer::test {
 
 /// A window with a scene whose first iteration is done and shown.
 struct SolvedWindow {
-  std::unique_ptr<MainWindow> window;
+  std::unique_ptr<TestWindow> window;
   SceneView* scene_view = nullptr;
   MapView* map_view = nullptr;
   bool ready = false;

@@ -29,7 +29,7 @@ struct Stepping : SolvedWindow {
   TimelineLanes* lanes;
 
   explicit Stepping(const QString& scene)
-      : SolvedWindow(scene), focus(window->focus()), lanes(window->findChild<TimelineLanes*>()) {}
+      : SolvedWindow(scene), focus(window->focus), lanes(window->findChild<TimelineLanes*>()) {}
 
   QPoint place(Lane lane, int k, int count) const {
     const QRectF rect = lanes->rect_of(lane);
@@ -158,7 +158,7 @@ class SteppingTest : public QObject {
     const auto* hemicube = s.map_view->findChild<HemicubeView*>("hemicube_view");
     QVERIFY(hemicube->isVisible() && !hemicube->comparison());
     QVERIFY(s.text("map_text").contains("Select a patch"));
-    s.window->selection().select(14);
+    s.window->selection.select(14);
     QVERIFY(s.settles());
     QVERIFY(hemicube->comparison());
     QCOMPARE(hemicube->comparison()->request.eye, 14);
@@ -225,7 +225,7 @@ class SteppingTest : public QObject {
     QVERIFY(press(Qt::Key_T));
     QVERIFY(s.focus.map()->history.step(s.focus.position().step).exchanges > 0);
 
-    s.window->selection().select(4);
+    s.window->selection.select(4);
     const RunPosition before = s.focus.position();
     QVERIFY(press(Qt::Key_N));
     QVERIFY(before < s.focus.position());
@@ -296,7 +296,7 @@ class SteppingTest : public QObject {
     // A click in the table selects the patch of the polygon that was cut.
     const QModelIndex above = events->model()->index(1, 3);
     QTest::mouseClick(events->viewport(), Qt::LeftButton, {}, events->visualRect(above).center());
-    QCOMPARE(s.window->selection().patch(), above.data().toInt());
+    QCOMPARE(s.window->selection.patch(), above.data().toInt());
     QTest::qWait(100);
     save_picture(*s.window, "step");
   }
@@ -314,7 +314,7 @@ class SteppingTest : public QObject {
     QVERIFY(line->isVisible());
     QVERIFY(line->model()->rowCount() >= 2);
     const int last = line->model()->rowCount() - 1;
-    QCOMPARE(line->model()->index(last, 1).data().toInt(), s.window->selection().patch());
+    QCOMPARE(line->model()->index(last, 1).data().toInt(), s.window->selection.patch());
     // Go to the step of the line's first fragment.
     const QPoint first = line->visualRect(line->model()->index(0, 1)).center();
     QTest::mouseClick(line->viewport(), Qt::LeftButton, {}, first);
@@ -338,10 +338,10 @@ class SteppingTest : public QObject {
     s.trigger("layout_debug");
     s.focus.go_to({0, 3, -1});
     QVERIFY(s.settles());
-    s.window->selection().select(9);
+    s.window->selection.select(9);
     QCOMPARE(s.window->findChild<QSpinBox*>("breakpoint_patch")->value(), 9);
     s.window->findChild<QToolButton*>("add_breakpoint")->click();
-    QCOMPARE(s.window->breakpoints().list().size(), std::size_t{1});
+    QCOMPARE(s.window->breakpoints.list().size(), std::size_t{1});
     std::vector<RunPosition> stops;
     for (int k = 0; k < 6; ++k) {
       s.trigger("run_on");
@@ -351,11 +351,11 @@ class SteppingTest : public QObject {
       QVERIFY(std::find(steps.begin(), steps.end(), s.focus.position().step) != steps.end());
     }
     // The list marks the breakpoint that holds.
-    s.window->breakpoints().add({Breakpoint::Kind::large_map, 0, 0, 1e6, true});
+    s.window->breakpoints.add({Breakpoint::Kind::large_map, 0, 0, 1e6, true});
     const auto* marked = s.window->findChild<QListWidget*>("breakpoint_list");
     QVERIFY(marked->item(0)->text().endsWith("here") && marked->item(0)->font().bold());
     QVERIFY(!marked->item(1)->text().endsWith("here"));
-    s.window->breakpoints().remove(1);
+    s.window->breakpoints.remove(1);
     QVERIFY(stops.front().direction < stops.back().direction || stops.size() == 6);
     for (int k = 4; k >= 0; --k) {
       s.trigger("run_back");
@@ -421,10 +421,10 @@ class SteppingTest : public QObject {
     const RadiositySolver solver(load_scene("furnace"), options);
     QVERIFY(solver.direction(0, 5) != solver.direction(2, 5));
     for (const int n : {2, 0, 1}) {
-      window->focus().go_to({n, 5, 1});
-      QVERIFY(wait_for([&] { return window->focus().arrived(); }));
-      QCOMPARE(window->focus().position().iteration, n);
-      QVERIFY(window->focus().map()->record().frame.omega == solver.direction(n, 5));
+      window->focus.go_to({n, 5, 1});
+      QVERIFY(wait_for([&] { return window->focus.arrived(); }));
+      QCOMPARE(window->focus.position().iteration, n);
+      QVERIFY(window->focus.map()->record().frame.omega == solver.direction(n, 5));
     }
   }
 

@@ -141,7 +141,7 @@ class StudyTest : public QObject {
   void changes_stay_below_the_prediction() {
     // For a scene of higher reflectance eq. 21 gives no bound with 64 directions.
     const SolvedWindow shown("furnace");
-    shown.window->runner().run();
+    shown.window->runner.run();
     QVERIFY(wait_for([&] { return shown.window->snapshot()->progress.finished; }));
     const auto snapshot = shown.window->snapshot();
     const auto& steps = snapshot->statistics.iteration_records;

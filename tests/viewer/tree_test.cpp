@@ -172,7 +172,7 @@ class TreeTest : public QObject {
   void the_panel_follows_the_focus_and_moves_it() {
     const SolvedWindow s("cornell-box");
     QVERIFY(s.ready);
-    Focus& focus = s.window->focus();
+    Focus& focus = s.window->focus;
     s.trigger("layout_debug");
     s.window->findChild<QDockWidget*>("tree_dock")->raise();
     focus.go_to({0, 3, 11});
@@ -189,7 +189,7 @@ class TreeTest : public QObject {
     view->scrollTo(path->index(row, 0));
     const QPoint name = view->visualRect(path->index(row, TreePathTable::of_plane)).center();
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
-    QCOMPARE(s.window->selection().patch(), patch_of(path->outline(), path->visit(row)));
+    QCOMPARE(s.window->selection.patch(), patch_of(path->outline(), path->visit(row)));
     const std::int32_t step = path->visit(row).plane_begin;
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
@@ -204,14 +204,14 @@ class TreeTest : public QObject {
             2,
         bar.center().y());
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
-    QCOMPARE(s.window->selection().patch(), focus.map()->history.step(20).patch);
+    QCOMPARE(s.window->selection.patch(), focus.map()->history.step(20).patch);
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, place.toPoint());
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QCOMPARE(focus.position().step, 20);
 
     // The text states which patch comes first.
     focus.go_to({0, 3, 5});
-    s.window->selection().select(focus.map()->history.step(9).patch);
+    s.window->selection.select(focus.map()->history.step(9).patch);
     QVERIFY(wait_for([&] { return focus.arrived(); }));
     QVERIFY(s.text("tree_words").contains("after"));
     QTest::qWait(50);
@@ -222,9 +222,9 @@ class TreeTest : public QObject {
   void the_whole_tree_is_expanded_along_the_path() {
     const SolvedWindow s("cornell-box");
     QVERIFY(s.ready);
-    Focus& focus = s.window->focus();
+    Focus& focus = s.window->focus;
     s.trigger("layout_debug");
-    s.window->docks().bring_to_front("tree");
+    s.window->parts().docks.bring_to_front("tree");
     s.window->findChild<QTabWidget*>("tree_tabs")->setCurrentIndex(1);
     auto* view = s.window->findChild<QTreeView*>("tree_browser");
     const auto* model = qobject_cast<const TreeModel*>(view->model());
@@ -254,7 +254,7 @@ class TreeTest : public QObject {
     const QPoint name = view->visualRect(root).center();
     const std::int32_t in_plane = model->visit(root).plane_begin;
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
-    QCOMPARE(s.window->selection().patch(), patch_of(model->outline(), model->visit(root)));
+    QCOMPARE(s.window->selection.patch(), patch_of(model->outline(), model->visit(root)));
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, name);
     QVERIFY(wait_for([&] { return focus.arrived() && focus.position().step == in_plane; }));
     save_picture(*s.window, "whole-tree");

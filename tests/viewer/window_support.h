@@ -14,7 +14,11 @@
 #include "map/map_canvas.h"
 #include "map/map_view.h"
 #include "scene/scene_view.h"
+#include "scene/scene_page.h"
+#include "solve/settings_panel.h"
+#include "widgets/banner.h"
 #include "widgets/theme.h"
+#include "window/file_actions.h"
 #include "window/main_window.h"
 
 namespace transillum::viewer::test {
@@ -49,15 +53,30 @@ inline double share_of(const QImage& image, const QColor& color) {
   return static_cast<double>(close) / (image.width() * image.height());
 }
 
-inline std::unique_ptr<MainWindow> make_window(const SolveOptions& options) {
-  auto window = std::make_unique<MainWindow>(false);
+/// A window that remembers nothing, with the state that it shows, which outlives it.
+struct TestWindow : SharedState, MainWindow {
+  TestWindow() : MainWindow(static_cast<SharedState&>(*this), false) {}
+
+  void set_options(const SolveOptions& solve, const SceneOptions& scene_options) {
+    parts().settings.set_options(solve, scene_options);
+  }
+  /// Opens and solves a scene, with the options of the settings panel.
+  void open(const QString& spec, Goal goal = {Goal::Kind::finished}) {
+    scene.open(spec.toStdString(), parts().settings.options(), goal);
+  }
+  std::shared_ptr<const SolverSnapshot> snapshot() const { return scene.snapshot(); }
+  QString banner_text() { return parts().page.banner()->text(); }
+};
+
+inline std::unique_ptr<TestWindow> make_window(const SolveOptions& options) {
+  auto window = std::make_unique<TestWindow>();
   window->set_options(options, {});
   window->show();
   (void)QTest::qWaitForWindowExposed(window.get());
   return window;
 }
-/// A window with small settings, so that a test takes no time.
-inline std::unique_ptr<MainWindow> make_window(int directions = 32) {
+/// A window with small settings, so that a test takes little time.
+inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
   return make_window(SolveOptions{.directions = directions});
 }
 

@@ -26,7 +26,7 @@ struct Solved : SolvedWindow {
   using SolvedWindow::SolvedWindow;
 
   std::set<PatchId> patches_in_map() const {
-    const Focus& focus = window->focus();
+    const Focus& focus = window->focus;
     const MapRecord& record = focus.map()->record();
     std::set<PatchId> patches;
     for (const std::int32_t row : record.map_after(focus.position().step)) {
@@ -70,17 +70,17 @@ class WindowTest : public QObject {
     scenes->trigger();
     QVERIFY(button->isVisible() && !scene_view->isVisible());
     QVERIFY(window->settled() || wait_for([&] { return window->settled(); }));
-    QCOMPARE(window->spec(), std::string("furnace"));
+    QCOMPARE(window->scene.spec(), std::string("furnace"));
     QVERIFY(color_count(scene_view->picture(1)) > 2);
     window->findChild<QPushButton*>("back_to_scene")->click();
     QVERIFY(scene_view->isVisible());
     // A lesson whose scene is open wants it to be seen.
-    window->begin_lesson("1", 1);
-    QVERIFY(wait_for([&] { return window->stage().arrived(); }));
+    window->files().open_lesson("1", 1);
+    QVERIFY(wait_for([&] { return window->findChild<ViewStateApplier*>()->arrived(); }));
     scenes->trigger();
     QVERIFY(!scene_view->isVisible());
     window->findChild<QPushButton*>("begin_lesson")->click();
-    QVERIFY(wait_for([&] { return window->stage().arrived() && scene_view->isVisible(); }));
+    QVERIFY(wait_for([&] { return window->findChild<ViewStateApplier*>()->arrived() && scene_view->isVisible(); }));
   }
 
   void pictures_are_neither_blank_nor_of_one_color() {
@@ -119,21 +119,21 @@ class WindowTest : public QObject {
     QTest::keyClick(quantity->view(), Qt::Key_Down);
     QTest::keyClick(quantity->view(), Qt::Key_Return);
     QVERIFY(wait_for([&] { return !quantity->view()->isVisible(); }));
-    QVERIFY(solved.window->colors().quantity() == Quantity::exitance);
+    QVERIFY(solved.window->colors.quantity() == Quantity::exitance);
     QVERIFY(wait_for([&] { return solved.scene_view->canvas()->hasFocus(); }, 3000));
     QTest::keyClicks(QApplication::focusWidget(), "see");
-    QVERIFY(solved.window->colors().quantity() == Quantity::exitance);
+    QVERIFY(solved.window->colors.quantity() == Quantity::exitance);
   }
 
   void without_values_the_bar_takes_no_room() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
-    solved.window->selection().select(no_patch);
+    solved.window->selection.select(no_patch);
     const int whole = solved.scene_view->width();
-    solved.window->colors().set_quantity(Quantity::form_factor_from);
+    solved.window->colors.set_quantity(Quantity::form_factor_from);
     QTest::qWait(50);
     QCOMPARE(solved.scene_view->width(), whole);
-    solved.window->selection().select(0);
+    solved.window->selection.select(0);
     QVERIFY(wait_for([&] { return solved.scene_view->width() < whole; }));
   }
 
@@ -154,7 +154,7 @@ class WindowTest : public QObject {
     const Patch& patch = solved.window->snapshot()->loaded->scene->patch(lamp);
     ViewPoint view = solved.scene_view->view_point();
     view.target = patch.center;
-    solved.window->selection().select(lamp);
+    solved.window->selection.select(lamp);
     // Its front, nearly from the side, and through its culled back.
     for (const double below : {2.0, 0.2, -0.2, -2.0}) {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
@@ -176,7 +176,7 @@ class WindowTest : public QObject {
     QCOMPARE(share_of(picture_of(solved.map_view->canvas()), theme::selection), 0.0);
 
     QTest::mouseClick(solved.scene_view->canvas(), Qt::LeftButton, {}, place);
-    QCOMPARE(solved.window->selection().patch(), patch);
+    QCOMPARE(solved.window->selection.patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
     QVERIFY(!solved.text("patch_radiosity").isEmpty());
     QVERIFY(wait_for(
@@ -197,7 +197,7 @@ class WindowTest : public QObject {
     }
     QTest::mouseRelease(canvas, Qt::LeftButton, {}, from + QPoint(90, 40));
     QVERIFY(wait_for([&] { return picture_of(canvas) != before; }));
-    QCOMPARE(solved.window->selection().patch(), no_patch);
+    QCOMPARE(solved.window->selection.patch(), no_patch);
   }
 
   void what_a_click_hits_is_seen_from_its_front() {
@@ -217,7 +217,7 @@ class WindowTest : public QObject {
     const PatchId patch = canvas->patch_at(middle);
     QVERIFY(patch != no_patch);
     QTest::mouseClick(canvas, Qt::LeftButton, {}, middle);
-    QCOMPARE(solved.window->selection().patch(), patch);
+    QCOMPARE(solved.window->selection.patch(), patch);
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
   }
 
@@ -225,7 +225,7 @@ class WindowTest : public QObject {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
     // Starting anew with many directions.
-    solved.window->runner().restart(
+    solved.window->runner.restart(
         [] {
           SolveOptions options;
           options.directions = 100000;
@@ -235,11 +235,11 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.passes == 100000; }));
     solved.trigger("one_direction");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 1; }));
-    QVERIFY(wait_for([&] { return solved.window->runner().state() == RunState::paused; }));
+    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
     solved.trigger("run");
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction > 20; }));
     solved.trigger("pause");
-    QVERIFY(wait_for([&] { return solved.window->runner().state() == RunState::paused; }));
+    QVERIFY(wait_for([&] { return solved.window->runner.state() == RunState::paused; }));
     const int at = solved.window->snapshot()->progress.direction;
     QTest::qWait(300);
     QCOMPARE(solved.window->snapshot()->progress.direction, at);
@@ -318,9 +318,9 @@ class WindowTest : public QObject {
     auto* dock = window->findChild<QDockWidget*>("received_dock");
     QVERIFY(!dock->isHidden());
     QVERIFY(!dock->widget()->isVisible());
-    window->docks().bring_to_front("received");
+    window->parts().docks.bring_to_front("received");
     QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }, 5000));
-    window->docks().bring_to_front("convergence");
+    window->parts().docks.bring_to_front("convergence");
     QVERIFY(wait_for([&] { return !dock->widget()->isVisible(); }, 5000));
   }
 
@@ -329,7 +329,7 @@ class WindowTest : public QObject {
     window->resize(1440, 900);
     for (const char* panel : {"tree", "algorithm", "event"}) {
       window->findChild<QAction*>("layout_teach")->trigger();
-      window->docks().bring_to_front(panel);
+      window->parts().docks.bring_to_front(panel);
       const auto* dock = window->findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->width() >= 400 && dock->height() >= 240; }, 5000));
     }

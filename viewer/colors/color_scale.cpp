@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "transillum/at.h"
@@ -153,7 +154,7 @@ void ColorScale::fit_range_where(std::span<const Rgb> values, const Counts& coun
     return;
   }
   // The darkest 1 % would stretch the scale over many nearly empty decades.
-  const auto dark = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 100);
+  const auto dark = positive.begin() + std::ssize(positive) / 100;
   std::nth_element(positive.begin(), dark, positive.end());
   low = std::max(*dark, 1e-6 * high);
   if (!(high > 1.01 * low)) {

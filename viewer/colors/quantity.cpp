@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/form_factor_views.h"
 #include "transillum/at.h"
@@ -102,8 +103,8 @@ const std::vector<QuantityTraits>& quantity_traits() {
        true, false, false},
       {Quantity::last_change, QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
        "|Δ B|", "W/m²",
-       QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"), false, true,
-       false, false},
+       QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"), false,
+       true, false, false},
       {Quantity::difference, QT_TRANSLATE_NOOP("Quantity", "Difference from A"), "B − A", "W/m²",
        QT_TRANSLATE_NOOP("Quantity", "B minus the B of the kept run A"), false, true, true, false},
   };
@@ -117,7 +118,7 @@ std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   // Between two iterations: the change of the one just finished.
   const int before = progress.direction > 0 ? progress.iteration : progress.iteration - 1;
   const auto& kept = snapshot.kept_radiosity;
-  if (before < 0 || static_cast<std::size_t>(before) >= kept.size()) {
+  if (before < 0 || before >= std::ssize(kept)) {
     return {};
   }
   const auto& old = at(kept, before);

@@ -143,8 +143,7 @@ std::vector<double> seen_areas(const Transfers& first, const Transfers& other, P
       area = std::max(area, t.area / 2);
     }
   }
-  const auto k = static_cast<std::size_t>(eye);
-  seen[k] = first.forward[k].projected;
+  at(seen, eye) = at(first.forward, eye).projected;
   return seen;
 }
 

@@ -16,9 +16,7 @@ QString tr(const char* text) { return QCoreApplication::translate("FormFactors",
 
 std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i) {
   std::vector<double> row(form_factors.row_begin.size() - 1);
-  const auto row_of_i = static_cast<std::size_t>(i);
-  for (std::size_t k = form_factors.row_begin[row_of_i]; k < form_factors.row_begin[row_of_i + 1];
-       ++k) {
+  for (std::size_t k = at(form_factors.row_begin, i); k < at(form_factors.row_begin, i + 1); ++k) {
     at(row, form_factors.source[k]) = form_factors.value[k];
   }
   return row;

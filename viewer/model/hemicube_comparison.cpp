@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transillum/at.h"
 #include "transillum/exact_form_factors.h"
 
 namespace transillum::viewer {
 
 double HemicubeComparison::surplus(PatchId j) const {
-  const auto k = static_cast<std::size_t>(j);
-  const double larger = std::max(image.form_factors[k], exact[k]);
-  return larger > 0 ? (image.form_factors[k] - exact[k]) / larger : 0;
+  const double by_hemicube = at(image.form_factors, j), exactly = at(exact, j);
+  const double larger = std::max(by_hemicube, exactly);
+  return larger > 0 ? (by_hemicube - exactly) / larger : 0;
 }
 
 double HemicubeComparison::wrong_share() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -46,7 +47,7 @@ class PerDirectionVisibility : public QObject {
   /// Results of the current request so far, one per direction, from the first.
   const std::vector<VisibleAreas>& found() const { return found_; }
   const Request& current_request() const { return request_; }
-  bool complete() const { return static_cast<int>(found_.size()) >= request_.count; }
+  bool complete() const { return std::ssize(found_) >= request_.count; }
 
  signals:
   void grown();  ///< found() has more directions

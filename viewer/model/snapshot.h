@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/picking.h"
@@ -33,10 +35,8 @@ struct LoadedScene {
 /// @param kept_passes  as in SolverSnapshot
 inline std::int64_t passes_done(const SolveProgress& progress,
                                 const std::vector<int>& kept_passes) {
-  const auto finished =
-      std::min<std::size_t>(static_cast<std::size_t>(progress.iteration), kept_passes.size());
-  return std::accumulate(kept_passes.begin(),
-                         kept_passes.begin() + static_cast<std::ptrdiff_t>(finished),
+  const auto finished = std::min<std::ptrdiff_t>(progress.iteration, std::ssize(kept_passes));
+  return std::accumulate(kept_passes.begin(), kept_passes.begin() + finished,
                          std::int64_t{progress.direction});
 }
 
@@ -75,21 +75,19 @@ struct SolverSnapshot {
 
   /// Directions of an iteration; the newest one's if they were not stored.
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
-    const auto n = static_cast<std::size_t>(iteration);
-    return n < kept_directions.size() && kept_directions[n] ? kept_directions[n] : directions;
+    const bool stored = iteration < std::ssize(kept_directions) && at(kept_directions, iteration);
+    return stored ? at(kept_directions, iteration) : directions;
   }
   /// The number of passes of an iteration.
   int passes_of(int iteration) const {
-    const auto n = static_cast<std::size_t>(iteration);
-    return n < kept_passes.size() ? kept_passes[n] : progress.passes;
+    return iteration < std::ssize(kept_passes) ? at(kept_passes, iteration) : progress.passes;
   }
 };
 
 /// E and rho of patch i in the snapshot.
 inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
   const Scene& scene = *snapshot.loaded->scene;
-  const auto m = static_cast<std::size_t>(scene.patch(i).material);
-  return snapshot.materials ? (*snapshot.materials)[m] : scene.materials()[m];
+  return at(snapshot.materials ? *snapshot.materials : scene.materials(), scene.patch(i).material);
 }
 
 /// What the solve runner does.

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "model/run_options.h"
 #include "transillum/radiosity.h"
 
 class QCheckBox;
@@ -25,6 +26,7 @@ class SettingsPanel : public QWidget {
 
   SolveOptions solve_options() const;
   SceneOptions scene_options() const;
+  RunOptions options() const { return {solve_options(), scene_options()}; }
   void set_options(const SolveOptions& solve, const SceneOptions& scene);
   /// Sets the options of the current solve; the button is emphasized while the panel differs.
   void set_in_effect(const SolveOptions& solve, const SceneOptions& scene);

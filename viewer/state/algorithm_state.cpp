@@ -5,6 +5,7 @@
 #include "state/algorithm_state.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numbers>
 
@@ -103,11 +104,11 @@ int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
 
 /// B_j(n), if it was stored.
 std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
-  const auto n = static_cast<std::size_t>(iteration);
-  if (n >= snapshot.kept_radiosity.size() || !snapshot.kept_radiosity[n]) {
+  const auto& kept = snapshot.kept_radiosity;
+  if (iteration >= std::ssize(kept) || !at(kept, iteration)) {
     return std::nullopt;
   }
-  return at(*snapshot.kept_radiosity[n], patch);
+  return at(*at(kept, iteration), patch);
 }
 
 }  // namespace

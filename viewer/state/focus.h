@@ -5,12 +5,14 @@
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "model/recorded_map.h"
 #include "state/step_finder.h"
+#include "transillum/at.h"
 
 namespace transillum::viewer {
 
@@ -55,8 +57,7 @@ class Focus : public QObject {
   int passes() const { return passes_; }
   /// The number of passes of an iteration.
   int passes_of(int iteration) const {
-    const auto n = static_cast<std::size_t>(iteration);
-    return n < iteration_passes_.size() ? iteration_passes_[n] : passes_;
+    return iteration < std::ssize(iteration_passes_) ? at(iteration_passes_, iteration) : passes_;
   }
 
   /// The shown position; its direction is map()'s. Valid only with a map.

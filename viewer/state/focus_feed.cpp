@@ -2,6 +2,7 @@
 #include "state/focus_feed.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "transillum/at.h"
@@ -66,8 +67,8 @@ void FocusFeed::record(int iteration, int direction) {
     return;
   }
   const auto& kept = snapshot_->kept_directions;
-  const auto n = static_cast<std::size_t>(iteration);
-  const auto& directions = n < kept.size() ? kept[n] : snapshot_->directions;
+  const auto& directions =
+      iteration < std::ssize(kept) ? at(kept, iteration) : snapshot_->directions;
   if (!directions) {
     focus_.stop();
     emit failed(tr("The directions of iteration %1 were not stored: they exceed the memory limit")

@@ -9,6 +9,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "support/number_text.h"
@@ -215,7 +216,7 @@ void LogChart::add_lines(LineChart& chart) const {
         ++gaps;
       }
     }
-    any = any || gaps < static_cast<std::ptrdiff_t>(line.values.size());
+    any = any || gaps < std::ssize(line.values);
     const QString name =
         gaps == 0 ? line.name : tr("%1 (%2 zero)").arg(line.name, count_text(gaps));
     series.name = name.toStdString();

@@ -16,6 +16,9 @@ namespace transillum::viewer {
 
 namespace {
 
+// To be raised when docks are added, removed or renamed: older saved layouts then become invalid.
+constexpr int layout_version = 7;
+
 struct Widths {
   int left, right;
 };
@@ -140,12 +143,14 @@ bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
-bool DockLayouts::restore(int layout, const QByteArray& state, int version) {
+QByteArray DockLayouts::state() const { return window_.saveState(layout_version); }
+
+bool DockLayouts::restore(int layout, const QByteArray& state) {
   if (layout < 0 || layout > static_cast<int>(Layout::debug) || state.isEmpty()) {
     return false;
   }
   arrange(static_cast<Layout>(layout));
-  return window_.restoreState(state, version);
+  return window_.restoreState(state, layout_version);
 }
 
 void DockLayouts::add_to(QMenu& menu) {

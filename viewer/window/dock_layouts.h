@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QByteArray>
 #include <QMainWindow>
 #include <QObject>
 #include <string>
@@ -33,9 +34,10 @@ class DockLayouts : public QObject {
   void arrange(Layout layout);
   /// Gives the sides the widths that the layout wants with the type there is now.
   void follow_type();
-  /// Takes back a state of the window's that was saved in a layout, by its number. False where it
-  /// does not fit.
-  bool restore(int layout, const QByteArray& state, int version);
+  /// The places and sizes of all docks, for restore().
+  QByteArray state() const;
+  /// Restores a state saved in layout number `layout`. False where it does not fit this version.
+  bool restore(int layout, const QByteArray& state);
   /// The one arranged last.
   Layout current() const { return current_; }
   /// Shows a panel, in front of those it shares its place with. `panel` is its dock's name without

@@ -7,6 +7,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
+#include <QMainWindow>
 #include <QMenu>
 #include <QSaveFile>
 #include <algorithm>
@@ -20,7 +21,7 @@
 #include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "widgets/save_dialog.h"
-#include "window/main_window.h"
+#include "window/notifier.h"
 
 namespace transillum::viewer {
 
@@ -60,7 +61,7 @@ VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
   return result;
 }
 
-/// Of an earlier recording, which goes on; 0 where there is none.
+/// Number of the last frame of an earlier recording, which is continued; 0 where there is none.
 int last_frame_in(const QString& folder) {
   int last = 0;
   for (const QString& name : QDir(folder).entryList({QStringLiteral("frame_*.png")})) {
@@ -71,9 +72,9 @@ int last_frame_in(const QString& folder) {
 
 }  // namespace
 
-ExportActions::ExportActions(MainWindow& window)
-    : QObject(&window),
-      window_(window),
+ExportActions::ExportActions(const WindowParts& parts)
+    : QObject(&parts.window),
+      parts_(parts),
       writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); },
               [this](const ResultToWrite& result, const QString& message) {
                 report_written(result, message);
@@ -86,27 +87,27 @@ ExportActions::ExportActions(MainWindow& window)
   add("export_map", tr("Visibility map…"), tr("As vectors (SVG), PNG, VTP or JSON"),
       &E::choose_map);
   add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
-  add("export_figures", tr("Convergence figures…"), tr("What the charts draw, as CSV"),
+  add("export_figures", tr("Convergence figures…"), tr("The data of the charts as CSV"),
       &E::choose_figures);
   add("export_frames", tr("Record frames…"),
-      tr("Each new picture of the scene as a PNG, while it is solved and at each step, until it "
-         "is switched off"),
+      tr("Write each new picture of the scene as a PNG, during the solve and at each step, until "
+         "switched off"),
       &E::toggle_frames);
   record_ = actions_.back();
   record_->setCheckable(true);
-  connect(&window_, &MainWindow::snapshot_shown, this, &ExportActions::write_frame);
-  // A run's own steps come with its snapshots.
-  connect(&window_.focus(), &Focus::moved, this, [this] {
-    if (!window_.focus().following()) {
+  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &ExportActions::write_frame);
+  // While the newest direction is followed, snapshots already write the frames.
+  connect(&parts_.focus, &Focus::moved, this, [this] {
+    if (!parts_.focus.following()) {
       write_frame();
     }
   });
   const auto enable = [this] {
     for (QAction* action : actions_) {
-      action->setEnabled(window_.snapshot() != nullptr);
+      action->setEnabled(parts_.scene.snapshot() != nullptr);
     }
   };
-  connect(&window_, &MainWindow::snapshot_shown, this, enable);
+  connect(&parts_.scene, &OpenScene::snapshot_shown, this, enable);
   enable();
 }
 
@@ -126,21 +127,22 @@ void ExportActions::add_to(QMenu& menu) const {
 }
 
 void ExportActions::write_scene(const QString& path, int scale) const {
-  write_png(path, window_.page()->scene_view()->picture(scale));
+  write_png(path, parts_.page.scene_view()->picture(scale));
 }
 
 void ExportActions::write_result(const QString& path) {
-  const auto snapshot = window_.snapshot();
+  const auto snapshot = parts_.scene.snapshot();
   if (!snapshot) {
     throw InputError("there is no result yet");
   }
   if (snapshot->materials) {
-    throw InputError("a result is of the scene's own materials: take their changes back first");
+    throw InputError(
+        "results are written with the scene's own materials: undo their changes first");
   }
   check_result_path(path.toStdString());
   writing_ = true;
   const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
-                                          : window_.runner().state() == RunState::finished;
+                                          : parts_.runner.state() == RunState::finished;
   writer_.request({path, snapshot, complete}, CurrentJob::finish);
 }
 
@@ -160,35 +162,34 @@ void ExportActions::report_written(const ResultToWrite& result, const QString& f
       [this, failure, path = result.path] {
         writing_ = false;
         if (failure.isEmpty()) {
-          window_.say_written(path);
+          parts_.notifier.show_written(path);
         } else {
-          window_.show_failure(failure);
+          parts_.notifier.show_failure(failure);
         }
       },
       Qt::QueuedConnection);
 }
 
 void ExportActions::write_map_picture(const QString& path) const {
-  const Focus& focus = window_.focus();
+  const Focus& focus = parts_.focus;
   if (!focus.map()) {
     throw std::runtime_error("there is no visibility map yet");
   }
   const std::int32_t step = focus.position().step - (focus.phase() == Phase::before ? 1 : 0);
   check_map_path(path.toStdString());
   MapPictureOptions options;
-  options.patch_colors = window_.colors().patch_colors();
+  options.patch_colors = parts_.colors.patch_colors();
   write_map(path.toStdString(), *focus.map()->loaded->scene, map_at(*focus.map(), step), options);
 }
 
 void ExportActions::write_charts(const QString& path) const {
-  const auto* view = window_.findChild<ConvergenceView*>();
   check_chart_path(path.toStdString());
-  transillum::write_charts(path.toStdString(), view->charts(),
-                           {1.0 * view->width(), 1.0 * view->height()});
+  transillum::write_charts(path.toStdString(), parts_.charts.charts(),
+                           {1.0 * parts_.charts.width(), 1.0 * parts_.charts.height()});
 }
 
 void ExportActions::write_chart_figures(const QString& path) const {
-  const auto snapshot = window_.snapshot();
+  const auto snapshot = parts_.scene.snapshot();
   if (!snapshot) {
     throw std::runtime_error("there is nothing to write yet");
   }
@@ -232,37 +233,37 @@ void ExportActions::write_frame() {
     ++frames_;
   } catch (const std::exception& error) {
     end_frames();
-    window_.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 QString ExportActions::name_with(const char* ending) const {
-  const QString scene = QString::fromStdString(window_.snapshot()->loaded->scene->name());
+  const QString scene = QString::fromStdString(parts_.scene.snapshot()->loaded->scene->name());
   return QFileInfo(scene).completeBaseName() + QString::fromLatin1(ending);
 }
 
 template <class Write>
 void ExportActions::write_chosen(const QString& title, const QString& filter,
                                  const QString& proposed, Write write) {
-  const QString path = ask_where_to_write(&window_, title, filter, proposed);
+  const QString path = ask_where_to_write(&parts_.window, title, filter, proposed);
   if (path.isEmpty()) {
     return;
   }
   try {
     write(path);
     if (!writing_) {
-      window_.say_written(path);
+      parts_.notifier.show_written(path);
     }
   } catch (const std::exception& error) {
-    window_.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 void ExportActions::choose_scene() {
   bool go_on = false;
   const int scale =
-      QInputDialog::getInt(&window_, tr("Picture of the scene"),
-                           tr("Times as many pixels a side as on the screen:"), 2, 1, 8, 1, &go_on);
+      QInputDialog::getInt(&parts_.window, tr("Picture of the scene"),
+                           tr("Scale (pixels per screen pixel):"), 2, 1, 8, 1, &go_on);
   if (go_on) {
     write_chosen(tr("Picture of the scene"), tr("Pictures (*.png)"), name_with(".png"),
                  [&](const QString& path) { write_scene(path, scale); });
@@ -294,7 +295,8 @@ void ExportActions::toggle_frames() {
     end_frames();
     return;
   }
-  const QString folder = QFileDialog::getExistingDirectory(&window_, tr("Folder of the frames"));
+  const QString folder =
+      QFileDialog::getExistingDirectory(&parts_.window, tr("Folder for the frames"));
   if (folder.isEmpty()) {
     record_->setChecked(false);
   } else {

@@ -5,8 +5,8 @@
 #include <QString>
 #include <memory>
 
-#include "model/snapshot.h"
 #include "support/request_worker.h"
+#include "window/window_parts.h"
 
 class QAction;
 class QMenu;
@@ -14,33 +14,31 @@ class QWidget;
 
 namespace transillum::viewer {
 
-class MainWindow;
-
-/// What can be handed on of the window: pictures, vector graphics, figures, frames of the progress.
-/// All files are written whole or not at all; the functions throw std::runtime_error where one
-/// cannot be written.
+/// Exports from the window: pictures, vector graphics, results, figures, recorded frames. All files
+/// are written whole or not at all; the functions throw std::runtime_error where one cannot be
+/// written.
 class ExportActions : public QObject {
   Q_OBJECT
 
  public:
-  explicit ExportActions(MainWindow& window);
+  explicit ExportActions(const WindowParts& parts);
 
   void add_to(QMenu& menu) const;
   /// The scene as it is drawn, `scale` times as many pixels a side (1 … 8).
   void write_scene(const QString& path, int scale) const;
-  /// The figures shown, as `transillum solve --out` writes them: .vtp, .csv, .ply or .obj. Written
-  /// beside the window's work; the window tells a failure later.
-  /// @throws InputError where it is known at once that it cannot be
+  /// The result shown, in the formats of `transillum solve`: .vtp, .csv, .ply or .obj. Written on a
+  /// worker thread; a failure there is shown in the window.
+  /// @throws InputError where it is clear at once that it cannot be written
   void write_result(const QString& path);
   /// Whether a result is still being written.
   bool writing() const { return writing_; }
-  /// The map of the moment in focus, as vectors (.svg) or by the other endings of write_map().
+  /// The map of the step in focus, as vectors (.svg) or by the other endings of write_map().
   void write_map_picture(const QString& path) const;
   /// The convergence charts as vectors.
   void write_charts(const QString& path) const;
   /// What the charts draw: chart,x,change,quadrature_error.
   void write_chart_figures(const QString& path) const;
-  /// From now on each new picture of the scene becomes the next frame_00001.png of `folder`.
+  /// From now on, each new picture of the scene becomes the next frame_00001.png of `folder`.
   void begin_frames(const QString& folder);
   void end_frames();
   int frames() const { return frames_; }
@@ -55,13 +53,13 @@ class ExportActions : public QObject {
   void choose_figures();
   void toggle_frames();
   void write_frame();
-  /// A file's name after the open scene.
+  /// A file name made of the open scene's.
   QString name_with(const char* ending) const;
   template <class Write>
   void write_chosen(const QString& title, const QString& filter, const QString& proposed,
                     Write write);
 
-  MainWindow& window_;
+  WindowParts parts_;
   QList<QAction*> actions_;
   QAction* record_;
   QString folder_;

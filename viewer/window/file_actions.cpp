@@ -4,23 +4,33 @@
 #include <QAction>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMainWindow>
 #include <QMenu>
 #include <QSaveFile>
 #include <QSettings>
+#include <iterator>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
+#include "lessons/lesson_panel.h"
+#include "lessons/session_file.h"
+#include "solve/settings_panel.h"
+#include "transillum/at.h"
 #include "transillum/files.h"
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"
-#include "window/main_window.h"
+#include "window/dock_layouts.h"
+#include "window/notifier.h"
 #include "window/view_state_applier.h"
+#include "window/window_session.h"
 
 namespace transillum::viewer {
 
 namespace {
 
 constexpr int most_recent = 10;
-constexpr int settle_ms = 300, most_looks = 20;
+constexpr int settle_ms = 300, most_checks = 20;
 
 QAction* make_action(QObject* parent, const char* name, const QString& text,
                      const QKeySequence& key, const QString& tip) {
@@ -33,44 +43,52 @@ QAction* make_action(QObject* parent, const char* name, const QString& text,
 
 }  // namespace
 
-FileActions::FileActions(MainWindow& window) : QObject(&window), window_(window) {
-  open_ =
-      make_action(this, "open", tr("Open…"), QKeySequence::Open,
-                  tr("Open a scene, a result, a session or a lesson (Ctrl+O), or drop one here"));
-  open_->setIcon(theme::icon(theme::Icon::open));
-  save_session_ =
-      make_action(this, "save_session", tr("Save session…"), QKeySequence::Save,
-                  tr("Keep scene, options, focus, views, breakpoints and notes in a file"));
-  reload_ = make_action(this, "reload", tr("Reload"), QKeySequence(QStringLiteral("Ctrl+R")),
-                        tr("Read the scene's file again, and show the same of it"));
-  watch_ = make_action(this, "watch", tr("Reload when the file changes"), {},
-                       tr("Read the scene's file again whenever another program writes it"));
-  watch_->setCheckable(true);
-  recent_menu_ = new QMenu(tr("Open recent"), &window);
+FileActions::FileActions(const WindowParts& parts, ViewStateApplier& applier,
+                         WindowSession& session)
+    : QObject(&parts.window), parts_(parts), applier_(applier), session_(session) {
+  make_actions();
+  recent_menu_ = new QMenu(tr("Open recent"), &parts_.window);
   settle_.setSingleShot(true);
   settle_.setInterval(settle_ms);
 
   connect(open_, &QAction::triggered, this, &FileActions::choose);
   connect(save_session_, &QAction::triggered, this, &FileActions::choose_session);
-  connect(reload_, &QAction::triggered, this, &FileActions::reload);
+  connect(reload_, &QAction::triggered, &applier_, &ViewStateApplier::reload);
   connect(watch_, &QAction::toggled, this, &FileActions::watch_scene);
   connect(recent_menu_, &QMenu::aboutToShow, this, &FileActions::fill_recent);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] {
-    looks_ = 0;
+    checks_ = 0;
     settle_.start();
   });
-  connect(&settle_, &QTimer::timeout, this, &FileActions::look_at_file);
-  connect(&window_, &MainWindow::scene_shown, this, [this] {
-    const QString spec = QString::fromStdString(window_.spec());
-    if (QFileInfo::exists(spec)) {
-      remember(spec);
-    }
-    watch_scene();
-    save_session_->setEnabled(true);
-    reload_->setEnabled(true);
-  });
+  connect(&settle_, &QTimer::timeout, this, &FileActions::reload_if_written);
+  connect(&parts_.scene, &OpenScene::scene_shown, this, &FileActions::on_scene_shown);
   save_session_->setEnabled(false);
   reload_->setEnabled(false);
+}
+
+void FileActions::make_actions() {
+  open_ =
+      make_action(this, "open", tr("Open…"), QKeySequence::Open,
+                  tr("Open a scene, a result, a session or a lesson (Ctrl+O), or drop one here"));
+  open_->setIcon(theme::icon(theme::Icon::open));
+  save_session_ = make_action(
+      this, "save_session", tr("Save session…"), QKeySequence::Save,
+      tr("Save scene, options, focus, views, breakpoints and notes in a file (Ctrl+S)"));
+  reload_ = make_action(this, "reload", tr("Reload"), QKeySequence(QStringLiteral("Ctrl+R")),
+                        tr("Read the scene's file again and keep the view (Ctrl+R)"));
+  watch_ = make_action(this, "watch", tr("Reload when the file changes"), {},
+                       tr("Read the scene's file again whenever another program writes it"));
+  watch_->setCheckable(true);
+}
+
+void FileActions::on_scene_shown() {
+  const QString spec = QString::fromStdString(parts_.scene.spec());
+  if (QFileInfo::exists(spec)) {
+    remember(spec);
+  }
+  watch_scene();
+  save_session_->setEnabled(true);
+  reload_->setEnabled(true);
 }
 
 void FileActions::add_to(QMenu& menu) const {
@@ -83,7 +101,7 @@ void FileActions::add_to(QMenu& menu) const {
 
 void FileActions::choose() {
   const QString path = QFileDialog::getOpenFileName(
-      &window_, tr("Open"), {},
+      &parts_.window, tr("Open"), {},
       tr("Scenes, results, sessions, lessons (*.obj *.vtp *.json);;Wavefront OBJ (*.obj);;Results "
          "(*.vtp);;Sessions and lessons (*.json);;All files (*)"));
   if (!path.isEmpty()) {
@@ -95,55 +113,94 @@ void FileActions::try_open(const QString& path) {
   try {
     open(path);
   } catch (const std::exception& error) {
-    window_.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 void FileActions::open(const QString& path, std::optional<Goal> goal) {
   if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
     const bool result = is_result_file(path.toStdString());
-    window_.open_afresh(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
+    open_scene(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
     return;
   }
   const std::string name = path.toStdString();
   if (kind_of_json(text_of_file(name), name) == JsonFile::lesson) {
-    window_.begin_lesson(name, 1);
+    open_lesson(name);
   } else {
     open_session(path);
   }
   remember(path);
 }
 
+void FileActions::open_scene(const QString& spec, Goal goal) {
+  applier_.leave_lesson();
+  parts_.scene.open(spec.toStdString(), parts_.settings.options(), goal);
+}
+
+void FileActions::choose_lesson() {
+  const QString path = QFileDialog::getOpenFileName(&parts_.window, tr("Open a lesson"), {},
+                                                    tr("Lessons (*.json);;All files (*)"));
+  if (path.isEmpty()) {
+    return;
+  }
+  try {
+    open_lesson(path.toStdString());
+  } catch (const InputError& error) {
+    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+  }
+}
+
+void FileActions::open_lesson(const std::string& which, int page) {
+  bool is_number = false;
+  int lesson = QString::fromStdString(which).toInt(&is_number) - 1;
+  if (!is_number) {
+    Lesson read = read_lesson(which);
+    check_panels(read, which, parts_.docks.panels());
+    parts_.lessons.add(std::move(read));
+    lesson = 0;
+  }
+  const auto& lessons = parts_.lessons.lessons();
+  if (lesson < 0 || lesson >= std::ssize(lessons)) {
+    throw InputError("there are lessons 1 to " + std::to_string(lessons.size()));
+  }
+  const auto& pages = at(lessons, lesson).pages;
+  if (page < 1 || page > std::ssize(pages)) {
+    throw InputError("the lesson has pages 1 to " + std::to_string(pages.size()));
+  }
+  parts_.notifier.dismiss();
+  parts_.lessons.show_page(lesson, page - 1);
+}
+
 void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
-  window_.show_session(
+  session_.restore(
       session_from_text(text_of_file(name), name, QFileInfo(path).path().toStdString()));
 }
 
 void FileActions::choose_session() {
-  const QString path = ask_where_to_write(&window_, tr("Save session"), tr("Sessions (*.json)"),
-                                          QStringLiteral("session.json"));
+  const QString path = ask_where_to_write(&parts_.window, tr("Save session"),
+                                          tr("Sessions (*.json)"), QStringLiteral("session.json"));
   if (path.isEmpty()) {
     return;
   }
   try {
     save_session(path);
     remember(path);
-    window_.say_written(path);
+    parts_.notifier.show_written(path);
   } catch (const std::exception& error) {
-    window_.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(QString::fromStdString(error.what()));
   }
 }
 
 void FileActions::save_session(const QString& path) const {
   const std::string text =
-      to_text(window_.current_session(), QFileInfo(path).absolutePath().toStdString());
+      to_text(session_.current(), QFileInfo(path).absolutePath().toStdString());
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly) ||
       file.write(text.data(), static_cast<qint64>(text.size())) < 0 || !file.commit()) {
     throw std::runtime_error((path + ": " + file.errorString()).toStdString());
   }
-  window_.keep_notes();
+  session_.set_notes_saved();
 }
 
 void FileActions::remember(const QString& path) {
@@ -164,11 +221,9 @@ void FileActions::fill_recent() {
     action->setEnabled(QFileInfo::exists(path));
   }
   if (recent_.isEmpty()) {
-    recent_menu_->addAction(tr("Nothing yet"))->setEnabled(false);
+    recent_menu_->addAction(tr("No recent files"))->setEnabled(false);
   }
 }
-
-void FileActions::reload() { window_.stage().reload(); }
 
 void FileActions::watch_scene() {
   if (!watcher_.files().isEmpty()) {
@@ -177,7 +232,7 @@ void FileActions::watch_scene() {
   if (!watch_->isChecked()) {
     return;
   }
-  const QFileInfo scene(QString::fromStdString(window_.spec()));
+  const QFileInfo scene(QString::fromStdString(parts_.scene.spec()));
   const QString materials = scene.path() + '/' + scene.completeBaseName() + ".mtl";
   for (const QString& path : {scene.filePath(), materials}) {
     if (QFileInfo::exists(path)) {
@@ -186,17 +241,17 @@ void FileActions::watch_scene() {
   }
 }
 
-void FileActions::look_at_file() {
-  const QFileInfo scene(QString::fromStdString(window_.spec()));
-  // Programs that write beside and rename leave no file for a moment.
+void FileActions::reload_if_written() {
+  const QFileInfo scene(QString::fromStdString(parts_.scene.spec()));
+  // Programs that write a temporary file and rename it leave no file for a moment.
   if (!scene.exists() || scene.size() == 0) {
-    if (++looks_ < most_looks) {
+    if (++checks_ < most_checks) {
       settle_.start();
     }
     return;
   }
   watch_scene();
-  reload();
+  applier_.reload();
 }
 
 void FileActions::save(QSettings& settings) const { settings.setValue("files/recent", recent_); }

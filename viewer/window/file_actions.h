@@ -7,8 +7,9 @@
 #include <QStringList>
 #include <QTimer>
 #include <optional>
+#include <string>
 
-#include "lessons/session_file.h"
+#include "window/window_parts.h"
 
 class QAction;
 class QMenu;
@@ -16,25 +17,38 @@ class QSettings;
 
 namespace transillum::viewer {
 
-class MainWindow;
+class ViewStateApplier;
+class WindowSession;
 
-/// The files of the window: scenes, sessions and lessons opened, lately opened, saved, read again.
+/// Opens scenes, results, sessions and lessons, keeps the list of recent files, saves sessions, and
+/// reads the scene's file again when it changes.
 class FileActions : public QObject {
   Q_OBJECT
 
  public:
-  explicit FileActions(MainWindow& window);
+  /// The references must outlive this object.
+  FileActions(const WindowParts& parts, ViewStateApplier& applier, WindowSession& session);
 
   void add_to(QMenu& menu) const;
   QAction* open_action() const { return open_; }
 
-  /// A scene, a result, a session or a lesson, by its name and content.
-  /// @param goal none: a scene is solved, a result just shown.
+  /// Opens a scene, a result, a session or a lesson, by its name and content.
+  /// @param goal none: a scene is solved, a result only shown
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
-  /// told later, by MainWindow::failed.
+  /// reported later by SolveRunner::failed
   void open(const QString& path, std::optional<Goal> goal = {});
-  /// open() for files the user has just chosen or dropped: what is wrong goes to the banner.
+  /// open() for files that the user has chosen or dropped: errors go to the banner.
   void try_open(const QString& path);
+  /// Opens a file or a built-in scene with the default camera and exposure and without anything
+  /// that a lesson has set, and follows the newest direction.
+  void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished});
+  /// Shows a page of a lesson.
+  /// @param which a file, or the number of a built-in lesson, from 1
+  /// @param page from 1
+  /// @throws InputError
+  void open_lesson(const std::string& which, int page = 1);
+  /// Asks for a lesson's file, and shows its first page.
+  void choose_lesson();
   /// @throws InputError
   void open_session(const QString& path);
   /// Written whole or not at all. @throws std::runtime_error
@@ -48,20 +62,23 @@ class FileActions : public QObject {
   void choose_session();
 
  private:
+  void make_actions();
   void choose();
   void remember(const QString& path);
   void fill_recent();
-  void reload();
+  void on_scene_shown();
   void watch_scene();
-  void look_at_file();
+  void reload_if_written();
 
-  MainWindow& window_;
+  WindowParts parts_;
+  ViewStateApplier& applier_;
+  WindowSession& session_;
   QAction *open_, *save_session_, *reload_, *watch_;
   QMenu* recent_menu_;
   QStringList recent_;
   QFileSystemWatcher watcher_;
-  QTimer settle_;  ///< a file is written in several strokes
-  int looks_ = 0;
+  QTimer settle_;  ///< waits until the file has been written completely
+  int checks_ = 0;
 };
 
 }  // namespace transillum::viewer

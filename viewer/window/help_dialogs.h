@@ -5,6 +5,7 @@ class QWidget;
 
 namespace transillum::viewer {
 
+/// Shows name, version, authors of the method and license, until it is closed.
 void show_about(QWidget* parent);
 
 }  // namespace transillum::viewer

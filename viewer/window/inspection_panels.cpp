@@ -16,31 +16,27 @@
 
 namespace transillum::viewer {
 
-InspectionPanels::InspectionPanels(Selection& selection, ColorChoice& colors,
-                                   SolveRunner& runner, QWidget* window)
-    : QObject(window) {
+InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
+                                   ColorChoice& colors, SolveRunner& runner, QWidget* window)
+    : QObject(window), relighting_(relighting) {
   materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
   compare_ = new CompareActions(colors, window, this);
-  connect(&colors, &ColorChoice::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(&colors, &ColorChoice::form_factors_requested, &runner,
+          &SolveRunner::include_form_factors);
   connect(&relighting_, &Relighting::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
   connect(tables_, &PatchTablePanel::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
   connect(&relighting_, &Relighting::failed, this, &InspectionPanels::failed);
-  connect(&relighting_, &Relighting::changed, this, [this] {
-    if (newest_) {
-      emit light_changed(newest_);
-    }
-  });
 }
 
 void InspectionPanels::add_materials_to(DockLayouts& docks) {
   const QDockWidget* dock = docks.add(tr("Materials"), "material_dock", scrollable(materials_),
                                       {{Layout::inspect, Qt::LeftDockWidgetArea, 345, true}});
-  // Tells of tabs behind others too, which are "visible" all the time.
+  // The signal is also sent for tabs behind others, whose isVisible() is always true.
   connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
     if (visible) {
       emit relighting_.form_factors_requested();
@@ -56,10 +52,10 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
 
 void InspectionPanels::add_to(QMenuBar& bar) {
   QMenu* edit = bar.addMenu(tr("&Edit"));
-  QAction* undo = edits().undo_stack().createUndoAction(this, tr("Undo"));
+  QAction* undo = relighting_.edits().undo_stack().createUndoAction(this, tr("Undo"));
   undo->setObjectName("undo");
   undo->setShortcut(QKeySequence(QStringLiteral("Ctrl+Z")));
-  QAction* redo = edits().undo_stack().createRedoAction(this, tr("Redo"));
+  QAction* redo = relighting_.edits().undo_stack().createRedoAction(this, tr("Redo"));
   redo->setObjectName("redo");
   redo->setShortcuts(
       {QKeySequence(QStringLiteral("Ctrl+Y")), QKeySequence(QStringLiteral("Ctrl+Shift+Z"))});
@@ -79,16 +75,8 @@ void InspectionPanels::add_to(QMenuBar& bar) {
 }
 
 void InspectionPanels::show_scene(const LoadedScene& loaded) {
-  newest_ = nullptr;
-  relighting_.show_scene(*loaded.scene);
   materials_->show_scene(loaded.scene);
   tables_->clear();
-}
-
-std::shared_ptr<const SolverSnapshot> InspectionPanels::lit(
-    std::shared_ptr<const SolverSnapshot> snapshot) {
-  newest_ = std::move(snapshot);
-  return relighting_.lit(newest_);
 }
 
 void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {

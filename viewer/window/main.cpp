@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "solve/settings_panel.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "widgets/theme.h"
@@ -18,7 +19,7 @@ using namespace transillum::viewer;
 
 namespace {
 
-// Qt would abort without saying what to do.
+// Without a display Qt aborts with a message that names no remedy.
 bool has_display() {
 #ifdef __linux__
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) {
@@ -32,7 +33,7 @@ bool has_display() {
 #endif
 }
 
-void say(const QString& message) {
+void print_error(const QString& message) {
   std::cerr << "transillum-viewer: " << message.toStdString() << std::endl;
 }
 
@@ -44,48 +45,52 @@ int main(int argc, char** argv) {
     return parsed.exit_status;
   }
   if (!has_display()) {
-    say("no display: set DISPLAY, or run it under xvfb-run -a");
+    print_error("no display: set DISPLAY, or run it under xvfb-run -a");
     return 1;
   }
-  const CommandLine& wish = parsed.command_line;
+  const CommandLine& command_line = parsed.command_line;
 
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
 #endif
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  // Qt looks for options of its own: ours are none of them.
+  // Qt would take arguments that it knows; ours are not for it.
   int qt_argc = 1;
   QApplication application(qt_argc, argv);
   QApplication::setOrganizationName("transillum");
   QApplication::setApplicationName("transillum-viewer");
   theme::apply(application);
 
-  const bool for_screenshot = !wish.screenshot.empty();
-  MainWindow window(!for_screenshot);
-  window.set_options(wish.solve_options, wish.scene_options);
+  const bool for_screenshot = !command_line.screenshot.empty();
+  SharedState state;
+  MainWindow window(state, !for_screenshot);
+  window.parts().settings.set_options(command_line.solve_options, command_line.scene_options);
   int status = 0;
   std::unique_ptr<Screenshot> screenshot;
   if (for_screenshot) {
-    screenshot = std::make_unique<Screenshot>(window, QString::fromStdString(wish.screenshot));
+    screenshot = std::make_unique<Screenshot>(
+        window, [&] { return window.settled(); }, QString::fromStdString(command_line.screenshot));
     QObject::connect(screenshot.get(), &Screenshot::done, &application, &QApplication::quit);
     const auto give_up = [&](const QString& message, int exit_status) {
-      say(message);
+      print_error(message);
       status = exit_status;
       application.quit();
     };
     QObject::connect(screenshot.get(), &Screenshot::failed, &application,
                      [give_up](const QString& message) { give_up(message, 1); });
     QObject::connect(
-        &window, &MainWindow::failed, &application,
+        &state.runner, &SolveRunner::failed, &application,
         [give_up](const QString& message, bool bad_input) { give_up(message, bad_input ? 2 : 1); });
   }
   window.show();
-  // Who asks for nothing finds something that runs.
-  const std::string scene = wish.scene.empty() && wish.lesson.empty() ? "sphere-flake" : wish.scene;
+  // Without arguments, start with a scene that is being solved.
+  const std::string scene = command_line.scene.empty() && command_line.lesson.empty()
+                                ? "sphere-flake"
+                                : command_line.scene;
   std::optional<Goal> goal;
-  if (wish.after > 0) {
-    goal = Goal{Goal::Kind::passes, wish.after};
+  if (command_line.after > 0) {
+    goal = Goal{Goal::Kind::passes, command_line.after};
   } else if (for_screenshot && !transillum::is_result_file(scene)) {
     goal = Goal{Goal::Kind::iteration};
   }
@@ -93,11 +98,11 @@ int main(int argc, char** argv) {
     if (!scene.empty()) {
       window.files().open(QString::fromStdString(scene), goal);
     }
-    if (!wish.lesson.empty()) {
-      window.begin_lesson(wish.lesson, wish.page);
+    if (!command_line.lesson.empty()) {
+      window.files().open_lesson(command_line.lesson, command_line.page);
     }
   } catch (const transillum::InputError& error) {
-    say(QString::fromStdString(error.what()));
+    print_error(QString::fromStdString(error.what()));
     return 2;
   }
   QApplication::exec();

@@ -5,8 +5,6 @@
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
-#include <QElapsedTimer>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -15,11 +13,8 @@
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
-#include <QTextDocument>
 #include <QTimer>
 #include <QToolBar>
-#include <algorithm>
-#include <utility>
 
 #include "directions/direction_view.h"
 #include "directions/received_view.h"
@@ -43,8 +38,6 @@
 #include "stepping/step_panel.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
-#include "support/number_text.h"
-#include "transillum/at.h"
 #include "transillum/reference_cache.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
@@ -55,21 +48,15 @@
 #include "window/help_dialogs.h"
 #include "window/inspection_panels.h"
 #include "window/key_list.h"
+#include "window/notifier.h"
 #include "window/setting_list.h"
+#include "window/solve_control.h"
 #include "window/view_state_applier.h"
+#include "window/window_session.h"
 
 namespace transillum::viewer {
 
 namespace {
-
-// Raise it when docks come, go or change their names: an old layout is then laid out anew.
-constexpr int layout_version = 7;
-
-constexpr PatchId few_patches = 64;
-
-std::string fmt(const char* words, std::size_t number) {
-  return QString::fromLatin1(words).arg(number).toStdString();
-}
 
 QString dropped_file(const QMimeData& data) {
   const QList<QUrl> urls = data.urls();
@@ -78,51 +65,93 @@ QString dropped_file(const QMimeData& data) {
 
 }  // namespace
 
-MainWindow::MainWindow(bool remember, QWidget* parent) : QMainWindow(parent), remember_(remember) {
+MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
+    : QMainWindow(parent), state_(state), remember_(remember) {
   setWindowTitle(tr("transillum"));
   setAcceptDrops(true);
-  actions_ = new SolveActions(this);
-  step_actions_ = new StepActions(focus_, selection_, this);
-  study_ =
-      new StudyDialog(remember ? ReferenceCache::default_folder() : std::filesystem::path(), this);
-  inspection_ = new InspectionPanels(selection_, colors_, runner_, this);
-  files_ = new FileActions(*this);
-  exports_ = new ExportActions(*this);
-  make_center();
+  make_views();
+  // Views receive scenes and snapshots in the order in which they are connected here.
+  connect_views();
+  connect_scene();
+  make_whole_window_actions();
+  connect_failures();
   make_docks();
   make_menus();
-  progress_ = new ProgressLine;
-  statusBar()->addWidget(progress_, 1);
-  statusBar()->setSizeGripEnabled(false);
-  connect_runner();
-  breakpoints_.set_undo_stack(&inspection_->edits().undo_stack());
-  page_->bookmarks().set_undo_stack(&inspection_->edits().undo_stack());
-  stage_ = new ViewStateApplier(*this);
-  connect(lesson_panel_, &LessonPanel::page_shown, stage_, &ViewStateApplier::show_page);
-  connect(&appearance_, &AppearanceActions::changed, this, [this] {
-    if (snapshot_) {
-      show_snapshot(snapshot_);
-    }
-    map_view_->update();
-    lesson_panel_->refresh();
-    // Once the layouts have heard of the fonts.
-    QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
-  });
   restore_layout();
 }
 
-MainWindow::~MainWindow() {
-  delete inspection_;           // it watches the window's events
-  map_dock_->disconnect(this);  // it hides when most of the window is gone
+MainWindow::~MainWindow() = default;
+
+WindowParts MainWindow::parts() {
+  return {*this,
+          state_.runner,
+          state_.scene,
+          state_.relighting,
+          state_.focus,
+          state_.selection,
+          state_.colors,
+          state_.breakpoints,
+          docks_,
+          *page_,
+          *map_view_,
+          *algorithm_,
+          *convergence_view_,
+          *settings_,
+          *lesson_panel_,
+          *notes_,
+          *notifier_};
 }
 
-void MainWindow::make_center() {
-  page_ = new ScenePage(focus_, selection_, colors_);
-  scene_view_ = page_->scene_view();
-  connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
-  connect(page_, &ScenePage::built_in_clicked, this,
-          [this](const QString& name) { open_afresh(name); });
+void MainWindow::make_views() {
+  page_ = new ScenePage(state_.focus, state_.selection, state_.colors);
   setCentralWidget(page_);
+  notifier_ = new Notifier(*page_->banner(), *statusBar());
+  notifier_->setParent(this);
+  step_actions_ = new StepActions(state_.focus, state_.selection, this);
+  settings_ = new SettingsPanel;
+  summary_ = new SolveSummary;
+  inspector_ = new PatchInspector(state_.selection, state_.colors);
+  map_view_ = new MapView(state_.focus, state_.selection, state_.colors);
+  convergence_view_ = new ConvergenceView(state_.focus);
+  direction_view_ =
+      new DirectionView(state_.focus, state_.selection, state_.colors, state_.visibility);
+  received_view_ = new ReceivedView(state_.focus, state_.selection, state_.visibility);
+  compare_view_ = new CompareView(state_.focus, state_.selection, state_.colors);
+  algorithm_ = new AlgorithmView(state_.focus, state_.selection);
+  breakpoint_panel_ = new BreakpointPanel(state_.focus, state_.selection, state_.breakpoints);
+  lesson_panel_ = new LessonPanel(built_in_lessons());
+  notes_ = new QPlainTextEdit;
+  notes_->setObjectName("notes");
+  notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
+  timeline_ = new TimelineBar(state_.focus, state_.selection, *step_actions_);
+  timeline_->lanes()->set_marks(
+      [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
+  inspection_ =
+      new InspectionPanels(state_.relighting, state_.selection, state_.colors, state_.runner, this);
+  study_ =
+      new StudyDialog(remember_ ? ReferenceCache::default_folder() : std::filesystem::path(), this);
+  progress_ = new ProgressLine;
+  statusBar()->addWidget(progress_, 1);
+  statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::make_whole_window_actions() {
+  const WindowParts parts = this->parts();
+  solve_actions_ = new SolveActions(this);
+  new SolveControl(parts, *solve_actions_);
+  applier_ = new ViewStateApplier(parts);
+  session_ = new WindowSession(parts, *applier_);
+  files_ = new FileActions(parts, *applier_, *session_);
+  exports_ = new ExportActions(parts);
+  connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
+  connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
+  connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
+  connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
+  connect(page_, &ScenePage::built_in_clicked, files_,
+          [this](const QString& name) { files_->open_scene(name); });
+  QUndoStack& undo_stack = state_.relighting.edits().undo_stack();
+  state_.breakpoints.set_undo_stack(&undo_stack);
+  page_->bookmarks().set_undo_stack(&undo_stack);
 }
 
 void MainWindow::make_docks() {
@@ -130,26 +159,6 @@ void MainWindow::make_docks() {
   constexpr auto inspect = Layout::inspect, debug = Layout::debug;
   constexpr auto left = Qt::LeftDockWidgetArea, right = Qt::RightDockWidgetArea;
   constexpr auto bottom = Qt::BottomDockWidgetArea;
-  settings_ = new SettingsPanel;
-  summary_ = new SolveSummary;
-  inspector_ = new PatchInspector(selection_, colors_);
-  map_view_ = new MapView(focus_, selection_, colors_);
-  convergence_view_ = new ConvergenceView(focus_);
-  direction_view_ = new DirectionView(focus_, selection_, colors_, visibility_);
-  received_view_ = new ReceivedView(focus_, selection_, visibility_);
-  compare_view_ = new CompareView(focus_, selection_, colors_);
-  algorithm_ = new AlgorithmView(focus_, selection_);
-  connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
-  breakpoint_panel_ = new BreakpointPanel(focus_, selection_, breakpoints_);
-  lesson_panel_ = new LessonPanel(built_in_lessons());
-  notes_ = new QPlainTextEdit;
-  notes_->setObjectName("notes");
-  notes_->setPlaceholderText(tr("Words of your own; a session file keeps them"));
-  auto* events = new StepPanel(focus_, selection_);
-  timeline_ = new TimelineBar(focus_, selection_, *step_actions_);
-  timeline_->lanes()->set_marks(
-      [this](const MapHistory& history) { return breakpoints_.steps_in(history); });
-
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
   docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
@@ -168,44 +177,115 @@ void MainWindow::make_docks() {
              {{teach, right, 420, true}, {inspect, right, 400}});
   docks_.add(tr("Directions"), "direction_dock", direction_view_,
              {{teach, right, 420, true}, {inspect, right, 400, true}});
-  docks_.add(tr("Events"), "event_dock", events, {{teach, right, 420, true}, {debug, right, 260}});
-  docks_.add(tr("BSP tree"), "tree_dock", new TreeView(focus_, selection_),
+  docks_.add(tr("Events"), "event_dock", new StepPanel(state_.focus, state_.selection),
+             {{teach, right, 420, true}, {debug, right, 260}});
+  docks_.add(tr("BSP tree"), "tree_dock", new TreeView(state_.focus, state_.selection),
              {{teach, right, 420, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
   QDockWidget* timeline_dock =
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
-  timeline_dock->setTitleBarWidget(new QWidget);  // no room for one on a projector
-  connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
-  connect(lesson_panel_, &LessonPanel::open_clicked, this, &MainWindow::choose_lesson);
-  connect(settings_, &SettingsPanel::restart_clicked, this, &MainWindow::solve_anew);
-  connect(page_, &ScenePage::replicas_requested, this, &MainWindow::solve_with_replicas);
-  connect(map_dock_, &QDockWidget::visibilityChanged, this,
-          [this] { focus_feed_.set_watched(!map_dock_->isHidden()); });
-  connect(&breakpoints_, &Breakpoints::changed, timeline_->lanes(), &TimelineLanes::count_columns);
+  timeline_dock->setTitleBarWidget(new QWidget);  // a title would take too much of a projector
+  connect(map_dock_, &QDockWidget::visibilityChanged, &state_.focus_feed,
+          [this] { state_.focus_feed.set_watched(!map_dock_->isHidden()); });
+}
+
+/// Connects views with one another, through the shared state.
+void MainWindow::connect_views() {
+  connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
+  connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
+          &TimelineLanes::count_columns);
+  connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
+  connect(&state_.runner, &SolveRunner::state_changed, progress_, &ProgressLine::show_state);
+  connect(&appearance_, &AppearanceActions::changed, this, [this] {
+    state_.scene.show_again();
+    map_view_->update();
+    lesson_panel_->refresh();
+    // After the layouts have received the new font.
+    QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
+  });
+}
+
+/// Connects every view with the open scene: the one place where scenes and snapshots go out.
+void MainWindow::connect_scene() {
+  using Loaded = std::shared_ptr<const LoadedScene>;
+  using Snapshot = std::shared_ptr<const SolverSnapshot>;
+  connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
+  connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
+    settings_->set_scene_fixed(loaded->stored != nullptr);
+    if (loaded->stored) {
+      settings_->set_options(settings_->solve_options(), state_.scene.options());
+    }
+    state_.selection.select(no_patch);
+    state_.focus_feed.clear();
+    inspection_->show_scene(*loaded);
+    map_view_->clear();
+    direction_view_->clear();
+    received_view_->clear();
+    compare_view_->clear();
+    page_->show_scene();
+    page_->scene_view()->show_scene(loaded);
+    page_->color_controls()->set_outlines(state_.scene.outlined_by_default());
+    progress_->show_scene(*loaded);
+    study_->show_scene(loaded);
+    const std::string& file = loaded->stored ? loaded->file : loaded->scene->name();
+    setWindowTitle(tr("%1 – transillum").arg(QFileInfo(QString::fromStdString(file)).fileName()));
+    QStringList warnings;
+    for (const std::string& warning : loaded->scene->report().warnings) {
+      warnings << QString::fromStdString(warning);
+    }
+    notifier_->show_warnings(warnings);
+  });
+  connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
+    settings_->set_in_effect(snapshot->options, state_.scene.options());
+    study_->set_solve(snapshot->options);
+    state_.colors.fit(snapshot);
+  });
+  const auto send_to = [this](auto* view) {
+    using View = std::remove_pointer_t<decltype(view)>;
+    if constexpr (std::is_invocable_v<decltype(&View::show_snapshot), View*, const Snapshot&>) {
+      connect(&state_.scene, &OpenScene::snapshot_ready, view, &View::show_snapshot);
+    } else {
+      connect(&state_.scene, &OpenScene::snapshot_ready, view,
+              [view](const Snapshot& snapshot) { view->show_snapshot(*snapshot); });
+    }
+  };
+  send_to(page_->scene_view());
+  send_to(map_view_);
+  send_to(convergence_view_);
+  send_to(direction_view_);
+  send_to(received_view_);
+  send_to(compare_view_);
+  send_to(inspector_);
+  send_to(inspection_);
+  send_to(algorithm_);
+  send_to(summary_);
+  send_to(progress_);
+  send_to(timeline_);
+  send_to(&state_.focus_feed);
+}
+
+void MainWindow::connect_failures() {
+  connect(&state_.runner, &SolveRunner::failed, notifier_, &Notifier::show_failure);
+  connect(inspection_, &InspectionPanels::failed, notifier_, &Notifier::show_failure);
+  connect(&state_.focus_feed, &FocusFeed::failed, notifier_, &Notifier::show_failure);
+  connect(&state_.visibility, &PerDirectionVisibility::failed, notifier_, &Notifier::show_failure);
 }
 
 void MainWindow::make_menus() {
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  fill_open_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
-  file->addAction(page_->scenes_action());
-  files_->add_to(*file);
-  exports_->add_to(*file->addMenu(tr("Export")));
-  file->addSeparator();
-  file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
-
+  make_file_menu();
   inspection_->add_to(*menuBar());
 
   QMenu* solve = menuBar()->addMenu(tr("&Solve"));
-  actions_->add_to(*solve);
+  solve_actions_->add_to(*solve);
   solve->addSeparator();
-  auto* study = new QAction(theme::icon(theme::Icon::study), tr("Study…"), this);
-  study->setObjectName("study");
-  study->setShortcut(QKeySequence(QStringLiteral("Ctrl+T")));
-  study->setToolTip(tr("Error of B against the number of directions (Ctrl+T)"));
-  connect(study, &QAction::triggered, study_, &StudyDialog::present);
-  solve->addAction(study);
+  study_action_ = new QAction(theme::icon(theme::Icon::study), tr("Study…"), this);
+  study_action_->setObjectName("study");
+  study_action_->setShortcut(QKeySequence(QStringLiteral("Ctrl+T")));
+  study_action_->setToolTip(tr("Error of B against the number of directions (Ctrl+T)"));
+  connect(study_action_, &QAction::triggered, study_, &StudyDialog::present);
+  solve->addAction(study_action_);
 
   QMenu* step = menuBar()->addMenu(tr("S&tep"));
   step_actions_->add_to(*step);
@@ -213,7 +293,27 @@ void MainWindow::make_menus() {
   breakpoint_panel_->add_to(*step);
 
   lesson_panel_->add_to(*menuBar()->addMenu(tr("&Lesson")));
+  make_view_menu();
 
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
+  keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
+  help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
+  help->addAction(tr("About transillum"), this, [this] { show_about(this); });
+  make_tool_bar();
+}
+
+void MainWindow::make_file_menu() {
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  fill_built_in_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
+  file->addAction(page_->scenes_action());
+  files_->add_to(*file);
+  exports_->add_to(*file->addMenu(tr("Export")));
+  file->addSeparator();
+  file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
+}
+
+void MainWindow::make_view_menu() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   docks_.add_to(*view);
   view->addSeparator();
@@ -224,22 +324,18 @@ void MainWindow::make_menus() {
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
   view->addAction(
-      tr("Stop searching, or select nothing"), this,
+      tr("Stop searching, or clear the selection"), this,
       [this] {
-        if (focus_.seeking()) {
-          focus_.stop();
+        if (state_.focus.seeking()) {
+          state_.focus.stop();
         } else {
-          selection_.select(no_patch);
+          state_.selection.select(no_patch);
         }
       },
       QKeySequence(Qt::Key_Escape));
+}
 
-  QMenu* help = menuBar()->addMenu(tr("&Help"));
-  QAction* keys = help->addAction(tr("Keys and mouse"), this, [this] { show_keys(*this); });
-  keys->setShortcuts({QKeySequence(Qt::Key_Question), QKeySequence(Qt::Key_F1)});
-  help->addAction(tr("All settings"), this, [this] { show_settings(*this); });
-  help->addAction(tr("About transillum"), this, [this] { show_about(this); });
-
+void MainWindow::make_tool_bar() {
   auto* bar = new QToolBar(tr("Tools"));
   bar->setObjectName("tool_bar");
   bar->setMovable(false);
@@ -247,44 +343,23 @@ void MainWindow::make_menus() {
   bar->addAction(page_->scenes_action());
   bar->addAction(files_->open_action());
   bar->addSeparator();
-  actions_->add_to(*bar);
+  solve_actions_->add_to(*bar);
   bar->addSeparator();
-  bar->addAction(study);
+  bar->addAction(study_action_);
   addToolBar(bar);
 }
 
-void MainWindow::fill_open_menu(QMenu& menu) {
-  for (const BuiltInScene& scene : built_in_scenes()) {
-    const QString name = QString::fromStdString(scene.name);
-    menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(scene.summary)), this,
-                   [this, name] { open_afresh(name); });
+void MainWindow::fill_built_in_menu(QMenu& menu) {
+  for (const BuiltInScene& built_in : built_in_scenes()) {
+    const QString name = QString::fromStdString(built_in.name);
+    menu.addAction(tr("%1 – %2").arg(name, QString::fromStdString(built_in.summary)), files_,
+                   [this, name] { files_->open_scene(name); });
   }
-}
-
-void MainWindow::connect_runner() {
-  connect(&runner_, &SolveRunner::state_changed, this, &MainWindow::show_state);
-  connect(&runner_, &SolveRunner::scene_loaded, this, &MainWindow::show_loaded);
-  connect(&runner_, &SolveRunner::snapshot_ready, this, &MainWindow::show_snapshot);
-  connect(&runner_, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
-  connect(&runner_, &SolveRunner::failed, this, [this](const QString& message, bool bad_input) {
-    show_failure(message);
-    emit failed(message, bad_input);
-  });
-  connect(inspection_, &InspectionPanels::light_changed, this, &MainWindow::show_snapshot);
-  connect(inspection_, &InspectionPanels::failed, this, &MainWindow::show_failure);
-  connect(&focus_feed_, &FocusFeed::failed, this, &MainWindow::show_failure);
-  connect(&visibility_, &PerDirectionVisibility::failed, this, &MainWindow::show_failure);
-
-  connect(actions_, &SolveActions::run, this, &MainWindow::run);
-  connect(actions_, &SolveActions::pause, &runner_, &SolveRunner::pause);
-  connect(actions_, &SolveActions::one_direction, &runner_, &SolveRunner::advance_one_direction);
-  connect(actions_, &SolveActions::one_iteration, &runner_, &SolveRunner::advance_one_iteration);
-  connect(actions_, &SolveActions::stop, &runner_, &SolveRunner::stop);
 }
 
 void MainWindow::restore_layout() {
   QSize size(1600, 1000);
-  // A picture for a script has its size whatever the screen's is.
+  // A screenshot has the same size on every screen.
   if (remember_) {
     size = size.boundedTo(screen()->availableSize());
   }
@@ -294,245 +369,45 @@ void MainWindow::restore_layout() {
     return;
   }
   QSettings settings;
-  breakpoints_.load(settings);
+  state_.breakpoints.load(settings);
   appearance_.load(settings);
   files_->load(settings);
   restoreGeometry(settings.value("window/geometry").toByteArray());
-  // After an update of Qt or of the docks the old state may not fit any more.
+  // The saved state may not fit after an update of Qt or of the docks.
   const int layout = settings.value("window/layout", -1).toInt();
-  if (!docks_.restore(layout, settings.value("window/state").toByteArray(), layout_version)) {
+  if (!docks_.restore(layout, settings.value("window/state").toByteArray())) {
     docks_.arrange(Layout::inspect);
   }
 }
 
-void MainWindow::set_options(const SolveOptions& solve, const SceneOptions& scene) {
-  settings_->set_options(solve, scene);
+void MainWindow::save_layout() {
+  QSettings settings;
+  settings.setValue("window/geometry", saveGeometry());
+  settings.setValue("window/state", docks_.state());
+  settings.setValue("window/layout", static_cast<int>(docks_.current()));
+  state_.breakpoints.save(settings);
+  appearance_.save(settings);
+  files_->save(settings);
 }
 
-void MainWindow::open_afresh(const QString& spec, Goal then) {
-  stage_->leave();
-  open(spec, then);
-}
-
-void MainWindow::open(const QString& spec, Goal then) {
-  page_->banner()->dismiss();
-  asked_spec_ = spec.toStdString();
-  asked_scene_options_ = settings_->scene_options();
-  runner_.open({asked_spec_, asked_scene_options_, settings_->solve_options(), then});
-}
-
-RunOptions MainWindow::options() const {
-  return {settings_->solve_options(), settings_->scene_options()};
-}
-
-bool MainWindow::shows(const std::string& spec, const SceneOptions& options) const {
-  return loaded_ && spec == spec_ &&
-         (loaded_->stored || RunOptions{{}, options} == RunOptions{{}, scene_options_});
-}
-
-bool MainWindow::outlined_at_first() const {
-  // Few large patches of like brightness run into one another without outlines.
-  return loaded_ && loaded_->scene->patch_count() <= few_patches;
-}
-
-void MainWindow::choose_lesson() {
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open a lesson"), {},
-                                                    tr("Lessons (*.json);;All files (*)"));
-  if (!path.isEmpty()) {
-    open_lesson(path);
-  }
-}
-
-void MainWindow::open_lesson(const QString& path) {
-  try {
-    begin_lesson(path.toStdString(), 1);
-  } catch (const InputError& error) {
-    show_failure(QString::fromStdString(error.what()));
-  }
-}
-
-void MainWindow::begin_lesson(const std::string& which, int page) {
-  bool number = false;
-  int lesson = QString::fromStdString(which).toInt(&number) - 1;
-  if (!number) {
-    Lesson read = read_lesson(which);
-    check_panels(read, which, docks_.panels());
-    lesson_panel_->add(std::move(read));
-    lesson = 0;
-  }
-  const auto& lessons = lesson_panel_->lessons();
-  if (lesson < 0 || lesson >= static_cast<int>(lessons.size())) {
-    throw InputError(fmt("there are lessons 1 to %1", lessons.size()));
-  }
-  const std::size_t pages = at(lessons, lesson).pages.size();
-  if (page < 1 || page > static_cast<int>(pages)) {
-    throw InputError(fmt("the lesson has pages 1 to %1", pages));
-  }
-  page_->banner()->dismiss();
-  lesson_panel_->show_page(lesson, page - 1);
-}
-
-void MainWindow::show_session(const Session& session) {
-  page_->banner()->dismiss();
-  stage_->show(session.state);
-  if (session.state.layout && !session.docks.isEmpty()) {
-    docks_.restore(static_cast<int>(*session.state.layout), session.docks, layout_version);
-  }
-  breakpoints_.set_list(session.breakpoints);
-  page_->bookmarks().set(session.kept_views);
-  inspection_->edits().undo_stack().clear();
-  notes_->setPlainText(QString::fromStdString(session.notes));
-}
-
-Session MainWindow::current_session() const {
-  return {stage_->state(), breakpoints_.list(), page_->bookmarks().all(),
-          notes_->toPlainText().toStdString(), saveState(layout_version)};
-}
-
-void MainWindow::keep_notes() { notes_->document()->setModified(false); }
-
-bool MainWindow::notes_may_go() {
-  if (!notes_->document()->isModified() || notes_->document()->isEmpty()) {
+bool MainWindow::may_close() {
+  if (!session_->has_unsaved_notes()) {
     return true;
   }
   const auto answer = QMessageBox::question(
-      this, tr("Notes"), tr("The notes are in no session's file yet. Save the session?"),
+      this, tr("Notes"), tr("The notes have not been saved. Save the session?"),
       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel);
   if (answer == QMessageBox::Save) {
     files_->choose_session();
   }
-  return answer == QMessageBox::Discard || !notes_->document()->isModified();
-}
-
-bool MainWindow::at_start() const {
-  return !snapshot_ || (snapshot_->progress.iteration == 0 && snapshot_->progress.direction == 0);
-}
-
-void MainWindow::run() {
-  // Before the first direction, the panel's settings still count.
-  if (at_start() && settings_->differ_from_effect()) {
-    solve_anew();
-  } else {
-    runner_.run();
-  }
-}
-
-void MainWindow::solve_anew() {
-  if (!loaded_) {
-    return;
-  }
-  page_->banner()->dismiss();
-  const SceneOptions scene = settings_->scene_options();
-  if (shows(spec_, scene)) {
-    runner_.restart(settings_->solve_options(), {Goal::Kind::finished});
-  } else {
-    open(QString::fromStdString(spec_));
-  }
-}
-
-void MainWindow::solve_with_replicas() {
-  constexpr int enough = 8;
-  SolveOptions solve = settings_->solve_options();
-  solve.directions = std::max(solve.directions, enough);
-  solve.replicas = enough;
-  set_options(solve, settings_->scene_options());
-  solve_anew();
-}
-
-void MainWindow::show_loaded(std::shared_ptr<const LoadedScene> loaded) {
-  loaded_ = std::move(loaded);
-  snapshot_ = nullptr;
-  spec_ = asked_spec_;
-  scene_options_ = loaded_->stored ? loaded_->scene->options() : asked_scene_options_;
-  settings_->set_scene_fixed(loaded_->stored != nullptr);
-  if (loaded_->stored) {
-    settings_->set_options(settings_->solve_options(), scene_options_);
-  }
-  selection_.select(no_patch);
-  focus_feed_.clear();
-  inspection_->show_scene(*loaded_);
-  map_view_->clear();
-  direction_view_->clear();
-  received_view_->clear();
-  compare_view_->clear();
-  page_->show_scene();
-  scene_view_->show_scene(loaded_);
-  page_->color_controls()->set_outlines(outlined_at_first());
-  progress_->show_scene(*loaded_);
-  study_->show_scene(loaded_);
-  const std::string& file = loaded_->stored ? loaded_->file : loaded_->scene->name();
-  const QString name = QFileInfo(QString::fromStdString(file)).fileName();
-  setWindowTitle(tr("%1 – transillum").arg(name));
-
-  QStringList warnings;
-  for (const std::string& warning : loaded_->scene->report().warnings) {
-    warnings << QString::fromStdString(warning);
-  }
-  if (warnings.isEmpty()) {
-    page_->banner()->dismiss();
-  } else {
-    page_->banner()->say(
-        Banner::Kind::warning,
-        warnings.size() == 1
-            ? warnings.front()
-            : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1),
-        warnings.join('\n'));
-  }
-  emit scene_shown();
-}
-
-void MainWindow::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
-  if (snapshot->loaded != loaded_) {
-    return;
-  }
-  QElapsedTimer timer;
-  timer.start();
-  snapshot_ = inspection_->lit(std::move(snapshot));
-  settings_->set_in_effect(snapshot_->options, scene_options_);
-  study_->set_solve(snapshot_->options);
-  colors_.fit(snapshot_);
-  scene_view_->show_snapshot(snapshot_);
-  map_view_->show_snapshot(snapshot_);
-  convergence_view_->show_snapshot(*snapshot_);
-  direction_view_->show_snapshot(snapshot_);
-  received_view_->show_snapshot(snapshot_);
-  compare_view_->show_snapshot(snapshot_);
-  inspector_->show_snapshot(snapshot_);
-  inspection_->show_snapshot(snapshot_);
-  algorithm_->show_snapshot(snapshot_);
-  summary_->show_snapshot(*snapshot_);
-  progress_->show_snapshot(snapshot_);
-  actions_->show_state(runner_.state(), at_start());
-  timeline_->show_snapshot(*snapshot_);
-  focus_feed_.show_snapshot(snapshot_);
-  // A large scene is refreshed less often, so that the window has time for its user.
-  runner_.set_refresh_interval(std::clamp(static_cast<int>(4 * timer.elapsed()), 66, 1500));
-  emit snapshot_shown();
-}
-
-void MainWindow::show_state(RunState state) {
-  progress_->show_state(state);
-  actions_->show_state(state, at_start());
-  scene_view_->set_smooth(state != RunState::running);
-  settings_->set_restart_enabled(loaded_ && state != RunState::loading);
+  return answer == QMessageBox::Discard || !session_->has_unsaved_notes();
 }
 
 bool MainWindow::settled() const {
-  const bool resting =
-      runner_.state() == RunState::paused || runner_.state() == RunState::finished;
-  return resting && snapshot_ && stage_->arrived() && inspection_->up_to_date() &&
+  const bool idle =
+      state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
+  return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
-}
-
-QString MainWindow::banner_text() const { return page_->banner()->text(); }
-
-void MainWindow::say_written(const QString& path) {
-  constexpr int ms = 5000;
-  statusBar()->showMessage(tr("Written: %1").arg(path), ms);
-}
-
-void MainWindow::show_failure(const QString& message) {
-  page_->banner()->say(Banner::Kind::error, message);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -551,19 +426,13 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (remember_ && !notes_may_go()) {
+  if (remember_ && !may_close()) {
     event->ignore();
     return;
   }
   full_screen_.show_all();
   if (remember_) {
-    QSettings settings;
-    settings.setValue("window/geometry", saveGeometry());
-    settings.setValue("window/state", saveState(layout_version));
-    breakpoints_.save(settings);
-    appearance_.save(settings);
-    files_->save(settings);
-    settings.setValue("window/layout", static_cast<int>(docks_.current()));
+    save_layout();
   }
   QMainWindow::closeEvent(event);
 }

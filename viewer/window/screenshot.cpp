@@ -4,21 +4,23 @@
 #include <QPixmap>
 #include <QSaveFile>
 #include <QTimer>
-
-#include "window/main_window.h"
+#include <QWidget>
+#include <utility>
 
 namespace transillum::viewer {
 
-Screenshot::Screenshot(MainWindow& window, const QString& path) : window_(window), path_(path) {
+Screenshot::Screenshot(QWidget& window, std::function<bool()> settled, const QString& path)
+    : window_(window), settled_(std::move(settled)), path_(path) {
   timer_ = new QTimer(this);
-  connect(timer_, &QTimer::timeout, this, &Screenshot::look);
+  connect(timer_, &QTimer::timeout, this, &Screenshot::check);
   timer_->start(50);
 }
 
-void Screenshot::look() {
-  // Several looks in a row: a view may only just be about to ask for a new picture.
-  settled_looks_ = window_.settled() ? settled_looks_ + 1 : 0;
-  if (settled_looks_ < 4) {
+void Screenshot::check() {
+  // Several checks in a row: a view may be about to request a new picture.
+  constexpr int enough_checks = 4;
+  settled_checks_ = settled_() ? settled_checks_ + 1 : 0;
+  if (settled_checks_ < enough_checks) {
     return;
   }
   timer_->stop();
@@ -27,7 +29,6 @@ void Screenshot::look() {
 
 void Screenshot::write() {
   const QPixmap picture = window_.grab();
-  // A temporary neighbor, renamed: the file is there whole or not at all.
   QSaveFile file(path_);
   if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit()) {
     emit failed(tr("%1: %2").arg(path_, file.errorString()));

@@ -3,32 +3,35 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 
 class QTimer;
+class QWidget;
 
 namespace transillum::viewer {
 
-class MainWindow;
-
-/// Writes the whole window once all that it shows has settled.
+/// Writes a picture of a window once all that it shows is up to date.
 class Screenshot : public QObject {
   Q_OBJECT
 
  public:
-  Screenshot(MainWindow& window, const QString& path);
+  /// @param settled whether every view shows the newest state
+  /// @param path of the PNG file, written whole or not at all
+  Screenshot(QWidget& window, std::function<bool()> settled, const QString& path);
 
  signals:
   void done();
   void failed(const QString& message);
 
  private:
-  void look();
+  void check();
   void write();
 
-  MainWindow& window_;
+  QWidget& window_;
+  std::function<bool()> settled_;
   QString path_;
   QTimer* timer_;
-  int settled_looks_ = 0;
+  int settled_checks_ = 0;
 };
 
 }  // namespace transillum::viewer

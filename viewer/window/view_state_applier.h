@@ -5,56 +5,58 @@
 #include <optional>
 
 #include "lessons/view_state.h"
+#include "window/window_parts.h"
 
 namespace transillum::viewer {
 
-class MainWindow;
-
-/// Brings the window to what a page of a lesson or a session file tells, step by step: the scene is
-/// loaded, its solve begun, then the moment is looked for.
+/// Brings the window to the state that a lesson page or a session file describes, in phases: the
+/// scene is loaded, its solve is started, then the requested direction and step are shown.
 class ViewStateApplier : public QObject {
   Q_OBJECT
 
  public:
-  explicit ViewStateApplier(MainWindow& window);
+  explicit ViewStateApplier(const WindowParts& parts);
 
-  /// A newer wish replaces an older. A scene that is open with the same options is not solved anew.
+  /// A newer request replaces an older one. A scene that is open with the same options is not
+  /// solved again.
   void show(const ViewState& state);
-  /// The same, of a lesson: what it sets is its own, and goes with it.
+  /// The same for a page of a lesson: what the user had set before comes back with leave_lesson().
   void show_page(const ViewState& page);
-  /// The next scene is the user's: it is looked at as at first, as before the lesson.
-  void leave();
-  /// Reads the open scene's file again, and shows the same of it.
+  /// Call before opening a scene for the user: restores the options of before the lesson now, and
+  /// colors, overlays and camera once the scene is loaded.
+  void leave_lesson();
+  /// Reads the file of the open scene again, and shows the same state of it.
   void reload();
-  /// Whether nothing of the newest wish is still to come.
+  /// Whether the newest request has been carried out.
   bool arrived() const;
   /// What the window shows now.
   ViewState state() const;
 
  private:
-  enum class Act { idle, awaits_scene, awaits_run, awaits_direction };
+  enum class Awaits { nothing, scene, run, direction };
 
-  void bring(const ViewState& state);
+  void apply(const ViewState& state);
   /// Colors, overlays, labels.
-  void put_on(const ViewState& state);
-  ViewState look() const;
-  void begin_with_first_look();
-  void begin_run();
+  void apply_appearance(const ViewState& state);
+  ViewState appearance() const;
+  void restore_appearance();
+  void start_run();
   void on_scene();
   void on_snapshot();
   void on_direction();
-  bool run_has_begun() const;
-  bool moment_is_there() const;
-  void arrange();
-  void focus();
+  bool run_has_started() const;
+  bool requested_iteration_exists() const;
+  void apply_view();
+  void apply_selection();
+  void apply_focus();
 
-  MainWindow& window_;
-  ViewState wish_;
-  std::optional<ViewState> before_;  ///< the look and options before a lesson
-  RunOptions brought_options_;       ///< as the panel had them then
-  bool left_ = false;
-  Act act_ = Act::idle;
-  bool opens_ = false;  ///< the scene was asked for by us; it may come more than once
+  WindowParts parts_;
+  ViewState requested_;
+  std::optional<ViewState> before_lesson_;  ///< appearance and options
+  RunOptions applied_options_;              ///< in the settings panel after the last request
+  bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
+  Awaits awaits_ = Awaits::nothing;
+  bool opened_here_ = false;  ///< the scene being loaded was requested by this object
 };
 
 }  // namespace transillum::viewer

@@ -93,9 +93,8 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   });
   const auto& steps = solution.statistics.iteration_records;
   const int count = static_cast<int>(steps.size());
-  add_numbers(fields, "change", count, [&](int k) { return steps[std::size_t(k)].change; });
-  add_numbers(fields, "contraction", count,
-              [&](int k) { return steps[std::size_t(k)].contraction; });
+  add_numbers(fields, "change", count, [&](int k) { return at(steps, k).change; });
+  add_numbers(fields, "contraction", count, [&](int k) { return at(steps, k).contraction; });
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "transillum/at.h"
@@ -57,7 +58,7 @@ class LocalMap {
   Transfers run() {
     const std::vector<FragmentId> order = tree_.order(omega_, cancellation_);
     begin_record(order);
-    for (step_ = 0; step_ < static_cast<std::int32_t>(order.size()); ++step_) {
+    for (step_ = 0; step_ < std::ssize(order); ++step_) {
       if (step_ % 64 == 0) {
         cancellation_.throw_if_canceled();
       }

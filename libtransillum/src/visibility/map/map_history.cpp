@@ -104,8 +104,7 @@ void MapHistory::find_patches() {
     }
   };
   patch_begin_.assign(static_cast<std::size_t>(patches) + 1, 0);
-  for_each_event(
-      [&](PatchId patch, std::int32_t) { ++patch_begin_[static_cast<std::size_t>(patch) + 1]; });
+  for_each_event([&](PatchId patch, std::int32_t) { ++at(patch_begin_, patch + 1); });
   for (std::size_t p = 1; p < patch_begin_.size(); ++p) {
     patch_begin_[p] += patch_begin_[p - 1];
   }

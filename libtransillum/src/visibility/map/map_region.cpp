@@ -55,9 +55,10 @@ double length_of(const PlaneRegion::Box& box) {
 /// so thin that rounding has reversed it.
 std::vector<PlaneRegion::Side> sides_of(const Polygon& polygon) {
   Point center;
+  const auto count = static_cast<double>(polygon.size());
   for (const Point& p : polygon) {
-    center.u += p.u / static_cast<double>(polygon.size());
-    center.v += p.v / static_cast<double>(polygon.size());
+    center.u += p.u / count;
+    center.v += p.v / count;
   }
   const double shortest = 1e-14 * length_of(box_of(polygon));
   std::vector<PlaneRegion::Side> sides;

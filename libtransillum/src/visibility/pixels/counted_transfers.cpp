@@ -50,7 +50,7 @@ void CountedTransfers::merge_exchanges() {
   // A counting sort by receiver, then a sort of each row.
   std::vector<std::size_t> end(forward_.size() + 1, 0);
   for (const Exchange& e : exchanges_) {
-    ++end[static_cast<std::size_t>(e.receiver) + 1];
+    ++at(end, e.receiver + 1);
   }
   std::partial_sum(end.begin(), end.end(), end.begin());
   by_receiver_.resize(exchanges_.size());
@@ -87,15 +87,15 @@ Transfers CountedTransfers::finish(const Vec3& omega, double area) {
     transfers.exchanges.push_back({e.receiver, e.source, as_area(e.count)});
   }
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const std::int64_t lines = forward_[k].projected + backward_[k].projected;
+    const Side &forward = at(forward_, i), &backward = at(backward_, i);
+    const std::int64_t lines = forward.projected + backward.projected;
     transfers.counts.pixels += lines;
     if (lines == 0 && !heights_.edge_on(i)) {
       ++transfers.counts.missed;
     }
-    transfers.forward.push_back({as_area(forward_[k].projected), as_area(forward_[k].covered)});
-    transfers.backward.push_back({as_area(backward_[k].projected), as_area(backward_[k].covered)});
-    transfers.back_seen.push_back(as_area(back_seen_[k]));
+    transfers.forward.push_back({as_area(forward.projected), as_area(forward.covered)});
+    transfers.backward.push_back({as_area(backward.projected), as_area(backward.covered)});
+    transfers.back_seen.push_back(as_area(at(back_seen_, i)));
   }
   return transfers;
 }

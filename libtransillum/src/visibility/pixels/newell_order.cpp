@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -81,7 +82,7 @@ class NewellOrder {
 
   void measure() {
     states_.resize(scene_.pieces().size());
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(states_.size()); ++k) {
+    for (std::int32_t k = 0; k < std::ssize(states_); ++k) {
       if (k % 1024 == 0) {
         cancellation_.throw_if_canceled();
       }

@@ -5,6 +5,7 @@
 // differ. The part of a pixel that no polygon covers differs too, if the pixel shows a patch.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geometry/plane_region.h"
 #include "transillum/at.h"
@@ -60,8 +61,8 @@ class Differences {
         first_overlap_(pixels.items.size(), no_polygon) {}
 
   void mark() {
-    for (std::size_t k = 0; k < exact_.polygons.size(); ++k) {
-      add(static_cast<std::int32_t>(k));
+    for (std::int32_t k = 0; k < std::ssize(exact_.polygons); ++k) {
+      add(k);
     }
     mark_uncovered_pixels();
   }
@@ -151,8 +152,7 @@ class Differences {
     const PlaneRegion::Point square[] = {{0, 0}, {side, 0}, {side, side}, {0, side}};
     rest_.assign(square);
     for (; overlap != no_polygon; overlap = at(overlaps_, overlap).next) {
-      const auto k = static_cast<std::size_t>(at(overlaps_, overlap).polygon);
-      const auto outline = exact_.outline(exact_.polygons[k]);
+      const auto outline = exact_.outline(at(exact_.polygons, at(overlaps_, overlap).polygon));
       PlaneRegion::Box box;
       sides_.clear();
       for (std::size_t n = 0; n < outline.size(); ++n) {

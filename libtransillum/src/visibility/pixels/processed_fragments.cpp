@@ -54,9 +54,9 @@ ProcessedFragments::ProcessedFragments(const Scene& scene, const BspTree& tree,
     whole_[i] = missing[i] == 0;
   }
   for (const FragmentId f : fragments) {
-    const auto i = static_cast<std::size_t>(tree.fragment(f).patch);
-    if (!whole_[i]) {
-      parts_[i].push_back(part_of(f));
+    const PatchId patch = tree.fragment(f).patch;
+    if (!at(whole_, patch)) {
+      at(parts_, patch).push_back(part_of(f));
     }
   }
 }
@@ -71,14 +71,14 @@ ProcessedFragments::Part ProcessedFragments::part_of(FragmentId f) const {
   return part;
 }
 
-bool ProcessedFragments::covers(PatchId i, const Vec2& at) const {
-  const auto k = static_cast<std::size_t>(i);
-  if (whole_[k]) {
+bool ProcessedFragments::covers(PatchId i, const Vec2& point) const {
+  if (at(whole_, i)) {
     return true;
   }
-  return std::any_of(parts_[k].begin(), parts_[k].end(), [&](const Part& part) {
-    return at.x >= part.low.x && at.x <= part.high.x && at.y >= part.low.y && at.y <= part.high.y &&
-           contains_point(part.outline, tree_.points(), frame_, at);
+  const std::vector<Part>& parts = at(parts_, i);
+  return std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+    return point.x >= part.low.x && point.x <= part.high.x && point.y >= part.low.y &&
+           point.y <= part.high.y && contains_point(part.outline, tree_.points(), frame_, point);
   });
 }
 

@@ -23,7 +23,7 @@ class ProcessedFragments {
                      const PlaneFrame& frame);
 
   /// Whether a point of patch i's projection is in one of the fragments.
-  bool covers(PatchId i, const Vec2& at) const;
+  bool covers(PatchId i, const Vec2& point) const;
 
  private:
   struct Part {

@@ -74,15 +74,13 @@ class LineGrid {
         gridded_(gridded),
         key_(key),
         rows_(gridded ? pixels.rows() : 1),
-        columns_(static_cast<std::int64_t>(pixels.columns()) * (gridded ? 1 : pixels.rows())) {
+        columns_(std::int64_t{pixels.columns()} * (gridded ? 1 : pixels.rows())) {
     count_packets();
   }
 
   std::int64_t packets() const { return packets_; }
   /// Area that one line stands for, m².
-  double area_of_line() const {
-    return size_.x * size_.y / (static_cast<double>(rows_) * static_cast<double>(columns_));
-  }
+  double area_of_line() const { return size_.x * size_.y / (rows() * columns()); }
 
   /// Sets the lines of a packet. On the grid a packet is a tile of 4 x 4 cells.
   void place_lines(std::int64_t packet, Packet& lines) const {
@@ -96,8 +94,7 @@ class LineGrid {
       lines.column[k] = static_cast<int>(i);
       const std::uint64_t number = static_cast<std::uint64_t>(j * columns_ + i);
       const std::uint64_t random = mixed(key_ + number * golden_step);
-      const double u = (static_cast<double>(random >> 32) + 0.5) * 0x1p-32;
-      const double v = (static_cast<double>(random & 0xffffffffU) + 0.5) * 0x1p-32;
+      const double u = fraction(random >> 32), v = fraction(random & 0xffffffffU);
       lines.x[k] = low_.x + size_.x * (gridded_ ? (static_cast<double>(i) + u) / columns() : u);
       lines.y[k] = low_.y + size_.y * (gridded_ ? (static_cast<double>(j) + v) / rows() : v);
     }
@@ -108,6 +105,8 @@ class LineGrid {
     tile_columns_ = gridded_ ? (columns_ + 3) / 4 : (columns_ + 15) / 16;
     packets_ = tile_columns_ * (gridded_ ? (rows_ + 3) / 4 : 1);
   }
+  /// A 32-bit number as a fraction in (0, 1).
+  static double fraction(std::uint64_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; }
   double columns() const { return static_cast<double>(columns_); }
   double rows() const { return static_cast<double>(rows_); }
 

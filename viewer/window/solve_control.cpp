@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/solve_control.h"
+
+#include <QMainWindow>
+#include <algorithm>
+
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
+#include "solve/settings_panel.h"
+#include "solve/solve_actions.h"
+#include "window/notifier.h"
+
+namespace transillum::viewer {
+
+SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions)
+    : QObject(&parts.window), parts_(parts), actions_(actions) {
+  SolveRunner& runner = parts_.runner;
+  connect(&actions_, &SolveActions::run, this, &SolveControl::run);
+  connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
+  connect(&actions_, &SolveActions::one_direction, &runner, &SolveRunner::advance_one_direction);
+  connect(&actions_, &SolveActions::one_iteration, &runner, &SolveRunner::advance_one_iteration);
+  connect(&actions_, &SolveActions::stop, &runner, &SolveRunner::stop);
+  connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
+  connect(&parts_.scene, &OpenScene::snapshot_ready, this,
+          [this] { actions_.show_state(parts_.runner.state(), parts_.scene.at_start()); });
+  connect(&parts_.settings, &SettingsPanel::restart_clicked, this, &SolveControl::solve_again);
+  connect(&parts_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
+}
+
+void SolveControl::run() {
+  // Before the first direction, changed settings still take effect.
+  if (parts_.scene.at_start() && parts_.settings.differ_from_effect()) {
+    solve_again();
+  } else {
+    parts_.runner.run();
+  }
+}
+
+void SolveControl::solve_again() {
+  if (!parts_.scene.loaded()) {
+    return;
+  }
+  parts_.notifier.dismiss();
+  const RunOptions options = parts_.settings.options();
+  if (parts_.scene.is_open(parts_.scene.spec(), options.scene)) {
+    parts_.runner.restart(options.solve, {Goal::Kind::finished});
+  } else {
+    parts_.scene.open(parts_.scene.spec(), options);
+  }
+}
+
+void SolveControl::solve_with_replicas() {
+  constexpr int replicas = 8;
+  SolveOptions solve = parts_.settings.solve_options();
+  solve.directions = std::max(solve.directions, replicas);
+  solve.replicas = replicas;
+  parts_.settings.set_options(solve, parts_.settings.scene_options());
+  solve_again();
+}
+
+void SolveControl::show_state(RunState state) {
+  actions_.show_state(state, parts_.scene.at_start());
+  parts_.page.scene_view()->set_smooth(state != RunState::running);
+  parts_.settings.set_restart_enabled(parts_.scene.loaded() && state != RunState::loading);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,41 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/window_session.h"
+
+#include <QPlainTextEdit>
+#include <QTextDocument>
+#include <QUndoStack>
+
+#include "scene/scene_page.h"
+#include "window/dock_layouts.h"
+#include "window/notifier.h"
+#include "window/view_state_applier.h"
+
+namespace transillum::viewer {
+
+WindowSession::WindowSession(const WindowParts& parts, ViewStateApplier& applier)
+    : QObject(&parts.window), parts_(parts), applier_(applier) {}
+
+Session WindowSession::current() const {
+  return {applier_.state(), parts_.breakpoints.list(), parts_.page.bookmarks().all(),
+          parts_.notes.toPlainText().toStdString(), parts_.docks.state()};
+}
+
+void WindowSession::restore(const Session& session) {
+  parts_.notifier.dismiss();
+  applier_.show(session.state);
+  if (session.state.layout && !session.docks.isEmpty()) {
+    parts_.docks.restore(static_cast<int>(*session.state.layout), session.docks);
+  }
+  parts_.breakpoints.set_list(session.breakpoints);
+  parts_.page.bookmarks().set(session.kept_views);
+  parts_.relighting.edits().undo_stack().clear();
+  parts_.notes.setPlainText(QString::fromStdString(session.notes));
+}
+
+void WindowSession::set_notes_saved() { parts_.notes.document()->setModified(false); }
+
+bool WindowSession::has_unsaved_notes() const {
+  return parts_.notes.document()->isModified() && !parts_.notes.document()->isEmpty();
+}
+
+}  // namespace transillum::viewer

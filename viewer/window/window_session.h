@@ -1,0 +1,31 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+
+#include "lessons/session_file.h"
+#include "window/window_parts.h"
+
+namespace transillum::viewer {
+
+class ViewStateApplier;
+
+/// What a session file holds of the window: read from it, and brought back.
+class WindowSession : public QObject {
+  Q_OBJECT
+
+ public:
+  WindowSession(const WindowParts& parts, ViewStateApplier& applier);
+
+  Session current() const;
+  void restore(const Session& session);
+  /// The notes are in a file now, so that closing the window loses nothing.
+  void set_notes_saved();
+  bool has_unsaved_notes() const;
+
+ private:
+  WindowParts parts_;
+  ViewStateApplier& applier_;
+};
+
+}  // namespace transillum::viewer
