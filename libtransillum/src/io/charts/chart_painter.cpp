@@ -142,10 +142,10 @@ double ChartPainter::measure_legend() {
     notes = std::max(notes, width_of(chart_.series[k].note, legend_size_));
   }
   const double fixed = column_sample + 7 + (notes > 0 ? 14 : 0);
-  const double most = 0.38 * width_ - fixed;
-  const double shrink = std::clamp(most / std::max(names + notes, 1.0), 0.4, 1.0);
+  const double max_text_width = 0.38 * width_ - fixed;
+  const double shrink = std::clamp(max_text_width / std::max(names + notes, 1.0), 0.4, 1.0);
   legend_size_ = shrink < 1 ? std::floor(shrink * legend_size_) : legend_size_;
-  return fixed + std::min(most, shrink * (names + notes));
+  return fixed + std::min(max_text_width, shrink * (names + notes));
 }
 
 void ChartPainter::lay_out() {

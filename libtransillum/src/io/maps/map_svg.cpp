@@ -98,8 +98,8 @@ class SvgFigure {
 
   void add_header() {
     const auto room = static_cast<std::size_t>((width_ - 2 * padding) / title_letter);
-    const std::size_t words = heading({}).size();
-    const std::string name = shortened(scene_.name(), room > words + 8 ? room - words : 8);
+    const std::size_t fixed = heading({}).size();
+    const std::string name = shortened(scene_.name(), room > fixed + 8 ? room - fixed : 8);
     text_.add("  <text class=\"title\" x=\"{}\" y=\"42\">{}</text>\n", padding,
               xml_text(heading(name)));
     const Vec3& omega = map_.frame.omega;
@@ -282,15 +282,15 @@ class SvgFigure {
 
   void add_legend() {
     double x = padding;
-    const auto entry = [&](const Color8& color, const char* words, double width) {
+    const auto entry = [&](const Color8& color, const char* label, double width) {
       text_.add(
           "  <rect class=\"swatch\" x=\"{}\" y=\"{}\" width=\"16\" height=\"12\" rx=\"2\" "
           "fill=\"{}\"/>\n",
           x, height_ - 32, hex(color));
-      text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", x + 22, height_ - 21.5, words);
+      text_.add("  <text x=\"{}\" y=\"{}\">{}</text>\n", x + 22, height_ - 21.5, label);
       x += width;
     };
-    const auto add = [&](PatchRole role, const char* words, double width) {
+    const auto add = [&](PatchRole role, const char* label, double width) {
       const auto found =
           std::find_if(map_.polygons.begin(), map_.polygons.end(), [&](const auto& polygon) {
             // Ignore polygons too small to be visible, such as rounding residues.
@@ -298,7 +298,7 @@ class SvgFigure {
             return pixels > 0.1 && role_of(scene_, polygon) == role;
           });
       if (found != map_.polygons.end()) {
-        entry(color_of(scene_, *found, options_), words, width);
+        entry(color_of(scene_, *found, options_), label, width);
       }
     };
     // The meaning of the caller's colors is not known here.

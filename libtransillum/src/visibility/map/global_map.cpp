@@ -37,7 +37,7 @@
 namespace transillum {
 namespace {
 
-// CGAL's Epeck, but with our fractions behind its intervals.
+// Like CGAL's kernel Epeck, with Rational as the exact numbers behind the intervals.
 using Kernel = CGAL::Lazy_kernel<CGAL::Simple_cartesian<Rational>>;
 /// Index of an edge in TileEdges. Each piece of the map's edges carries the numbers of all edges
 /// that overlap there.
