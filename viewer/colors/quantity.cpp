@@ -6,9 +6,9 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "model/form_factor_views.h"
+#include "support/has_index.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -118,7 +118,7 @@ std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   // Between two iterations: the change of the one just finished.
   const int before = progress.direction > 0 ? progress.iteration : progress.iteration - 1;
   const auto& kept = snapshot.kept_radiosity;
-  if (before < 0 || before >= std::ssize(kept)) {
+  if (!has_index(kept, before)) {
     return {};
   }
   const auto& old = at(kept, before);

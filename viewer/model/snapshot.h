@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/has_index.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
@@ -75,12 +76,12 @@ struct SolverSnapshot {
 
   /// Directions of an iteration; the newest one's if they were not stored.
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {
-    const bool stored = iteration < std::ssize(kept_directions) && at(kept_directions, iteration);
+    const bool stored = has_index(kept_directions, iteration) && at(kept_directions, iteration);
     return stored ? at(kept_directions, iteration) : directions;
   }
   /// The number of passes of an iteration.
   int passes_of(int iteration) const {
-    return iteration < std::ssize(kept_passes) ? at(kept_passes, iteration) : progress.passes;
+    return has_index(kept_passes, iteration) ? at(kept_passes, iteration) : progress.passes;
   }
 };
 

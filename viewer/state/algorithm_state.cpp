@@ -5,11 +5,11 @@
 #include "state/algorithm_state.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <numbers>
 
 #include "state/step_events.h"
+#include "support/has_index.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -105,7 +105,7 @@ int directions_of(const SolverSnapshot& snapshot, const Focus& focus) {
 /// B_j(n), if it was stored.
 std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration, PatchId patch) {
   const auto& kept = snapshot.kept_radiosity;
-  if (iteration >= std::ssize(kept) || !at(kept, iteration)) {
+  if (!has_index(kept, iteration) || !at(kept, iteration)) {
     return std::nullopt;
   }
   return at(*at(kept, iteration), patch);

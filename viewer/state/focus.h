@@ -5,13 +5,13 @@
 #include <compare>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "model/recorded_map.h"
 #include "state/step_finder.h"
+#include "support/has_index.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -57,7 +57,7 @@ class Focus : public QObject {
   int passes() const { return passes_; }
   /// The number of passes of an iteration.
   int passes_of(int iteration) const {
-    return iteration < std::ssize(iteration_passes_) ? at(iteration_passes_, iteration) : passes_;
+    return has_index(iteration_passes_, iteration) ? at(iteration_passes_, iteration) : passes_;
   }
 
   /// The shown position; its direction is map()'s. Valid only with a map.

@@ -2,9 +2,9 @@
 #include "state/focus_feed.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
+#include "support/has_index.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -67,8 +67,7 @@ void FocusFeed::record(int iteration, int direction) {
     return;
   }
   const auto& kept = snapshot_->kept_directions;
-  const auto& directions =
-      iteration < std::ssize(kept) ? at(kept, iteration) : snapshot_->directions;
+  const auto& directions = has_index(kept, iteration) ? at(kept, iteration) : snapshot_->directions;
   if (!directions) {
     focus_.stop();
     emit failed(tr("The directions of iteration %1 were not stored: they exceed the memory limit")
