@@ -140,9 +140,8 @@ TEST(Normalize, SymmetricKeepsReciprocityAndClosesRows) {
   solver.advance(Until::finished);
   const FormFactors f = solver.form_factors();
   const Scene& scene = solver.scene();
-  std::vector<std::vector<double>> dense(
-      static_cast<std::size_t>(scene.patch_count()),
-      std::vector<double>(static_cast<std::size_t>(scene.patch_count())));
+  std::vector<std::vector<double>> dense(scene.patches().size(),
+                                         std::vector<double>(scene.patches().size()));
   for (std::size_t i = 0; i < dense.size(); ++i) {
     double sum = 0;
     for (std::size_t k = f.row_begin[i]; k < f.row_begin[i + 1]; ++k) {

@@ -153,7 +153,7 @@ TEST(Relight, RejectsAShotWithoutPartsOrOfAnotherScene) {
 /// F of all directions of all iterations, assembled here.
 std::vector<std::vector<double>> dense_form_factors(const RadiositySolver& solver, int steps) {
   const Scene& scene = solver.scene();
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   const bool by_rows = solver.options().normalize == Normalization::rows;
   std::vector<std::vector<double>> f(patches, std::vector<double>(patches));
   std::vector<double> projected(patches);

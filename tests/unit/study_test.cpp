@@ -189,7 +189,7 @@ TEST(Study, TooFewDirectionsAreAResult) {
   options.series = {{Sampling::random}};
   options.directions = {2, 4096};
   options.solve.tolerance = 1e-4;
-  const std::vector<Rgb> reference(static_cast<std::size_t>(scene->patch_count()), {50, 50, 50});
+  const std::vector<Rgb> reference(scene->patches().size(), {50, 50, 50});
   const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
   ASSERT_THAT(study.points, SizeIs(2));
   EXPECT_NE(study.points[0].failure, "");
@@ -205,7 +205,7 @@ TEST(Study, InfiniteRadiosityIsAFailure) {
   options.series[0].engine = Engine::zbuffer;
   options.series[0].resolution = 8;
   options.directions = {8};
-  const std::vector<Rgb> reference(static_cast<std::size_t>(scene->patch_count()), {1, 1, 1});
+  const std::vector<Rgb> reference(scene->patches().size(), {1, 1, 1});
   const Study study = run_study(scene, std::make_shared<const BspTree>(*scene), options, reference);
   ASSERT_THAT(study.points, SizeIs(1));
   EXPECT_NE(study.points[0].failure, "");
@@ -265,7 +265,7 @@ TEST(Study, RejectsWhatItCannotStudy) {
   const auto furnace = load_scene("furnace");
   options.without_sources = true;
   EXPECT_THROW(run_study(furnace, std::make_shared<const BspTree>(*furnace), options,
-                         std::vector<Rgb>(static_cast<std::size_t>(furnace->patch_count()))),
+                         std::vector<Rgb>(furnace->patches().size())),
                InputError);
 }
 

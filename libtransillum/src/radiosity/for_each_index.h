@@ -2,17 +2,17 @@
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "radiosity/tsan_scope.h"
+#include "radiosity/worker_threads.h"
 
 namespace transillum {
 
-/// Calls body(i) for each i of [first, end) on the threads of `arena`, in any order. What precedes
-/// the call happens before every body, and every body before what follows. Rethrows what a body
-/// throws.
+/// Calls body(i) for each i of [first, end) on the threads of `workers`, in any order. What
+/// precedes the call happens before every body, and every body before what follows. Rethrows what a
+/// body throws.
 template <class Index, class Body>
-void for_each_index(oneapi::tbb::task_arena& arena, Index first, Index end, const Body& body) {
+void for_each_index(WorkerThreads& workers, Index first, Index end, const Body& body) {
   // Static, not captured: a worker must acquire before it reads anything captured.
   static const char start = 0, done = 0;
   // In a destructor, so that it also runs where `body` throws.
@@ -28,7 +28,7 @@ void for_each_index(oneapi::tbb::task_arena& arena, Index first, Index end, cons
     body(i);
   };
   tsan_release(&start);
-  arena.execute([&] { oneapi::tbb::parallel_for(first, end, visit); });
+  workers.arena().execute([&] { oneapi::tbb::parallel_for(first, end, visit); });
 }
 
 }  // namespace transillum

@@ -349,7 +349,7 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::vector<Rgb>& reference, const StudyObserver& observer,
                 const Cancellation& cancellation) {
   options.validate();
-  if (reference.size() != static_cast<std::size_t>(scene->patch_count())) {
+  if (reference.size() != scene->patches().size()) {
     throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
                                  reference.size(), scene->patch_count()));
   }

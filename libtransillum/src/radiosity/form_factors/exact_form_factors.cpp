@@ -11,7 +11,7 @@ std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const std::function<void(double)>& progress) {
   const ExchangeFinder exchange(scene, cancellation);
   const double area = scene.patch(i).area;
-  std::vector<double> factors(static_cast<std::size_t>(scene.patch_count()));
+  std::vector<double> factors(scene.patches().size());
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
     cancellation.throw_if_canceled();
     if (j != i) {

@@ -1,11 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/first_shot.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -66,7 +63,7 @@ std::vector<DirectLight::Part> empty_parts(const Scene& scene,
   for (const PatchId j : sources) {
     materials.insert(scene.patch(j).material);
   }
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   std::vector<DirectLight::Part> parts;
   if (materials.size() * patches * sizeof(double) > max_bytes) {
     return parts;
@@ -171,22 +168,18 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
 
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
                   const Cancellation& cancellation, const std::function<void(double)>& progress) {
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   DirectLight light{std::vector<Rgb>(patches), std::vector<Rgb>(patches), sources, 0,
                     empty_parts(scene, sources)};
   if (sources.empty()) {
     return light;
   }
   const ExchangeFinder exchange(scene, cancellation);
-  if (threads == 0) {
-    threads = tbb::info::default_concurrency();
-  }
-  const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  threads = thread_count(threads);
+  WorkerThreads workers(threads);
   for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
     const PatchId end = std::min(first + batch * threads, scene.patch_count());
-    for_each_index(arena, first, end,
+    for_each_index(workers, first, end,
                    [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
     if (progress) {
       progress(static_cast<double>(end) / scene.patch_count());
@@ -198,7 +191,7 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
 
 DirectLight with_materials(const DirectLight& light, const Scene& scene,
                            const std::vector<Material>& materials) {
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   if (light.irradiance.size() != patches || light.exitance.size() != patches) {
     throw InputError("the first shot belongs to another scene: the number of patches differs");
   }

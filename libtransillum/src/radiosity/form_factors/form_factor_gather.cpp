@@ -114,7 +114,7 @@ struct Gathering {
         embree(gathered, cancellation),
         lattice(make_lattice(options.rays_per_patch)),
         seed(options.seed),
-        pieces_of(static_cast<std::size_t>(gathered.patch_count())) {
+        pieces_of(gathered.patches().size()) {
     for (std::size_t p = 0; p < scene.pieces().size(); ++p) {
       at(pieces_of, scene.pieces()[p].patch).push_back(static_cast<std::uint32_t>(p));
     }
@@ -124,8 +124,7 @@ struct Gathering {
 /// Computes rows of the matrix; one object per thread.
 class RowGatherer {
  public:
-  explicit RowGatherer(const Gathering& all)
-      : all_(all), counts_(static_cast<std::size_t>(all.scene.patch_count())) {}
+  explicit RowGatherer(const Gathering& all) : all_(all), counts_(all.scene.patches().size()) {}
 
   FormFactorRow gather(PatchId i) {
     patch_ = i;

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -31,19 +28,15 @@ template <class MakeWorker>
 FormFactors gather_rows(PatchId patches, int threads, PatchId batch, std::uint64_t memory,
                         MakeWorker make_worker, const Cancellation& cancellation,
                         const std::function<void(double)>& progress) {
-  if (threads == 0) {
-    threads = oneapi::tbb::info::default_concurrency();
-  }
-  const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
-                                               static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
+  threads = thread_count(threads);
+  WorkerThreads worker_threads(threads);
   oneapi::tbb::enumerable_thread_specific<decltype(make_worker())> workers(make_worker);
   FormFactors form_factors;
   form_factors.row_begin.push_back(0);
   std::vector<FormFactorRow> rows(static_cast<std::size_t>(batch * threads));
   for (PatchId first = 0; first < patches; first += batch * threads) {
     const PatchId end = std::min(first + batch * threads, patches);
-    for_each_index(arena, first, end, [&](PatchId i) {
+    for_each_index(worker_threads, first, end, [&](PatchId i) {
       cancellation.throw_if_canceled();
       at(rows, i - first) = workers.local().gather(i);
     });

@@ -1,8 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -37,7 +33,7 @@ JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_fac
     : scene_(scene),
       form_factors_(form_factors),
       materials_(materials),
-      threads_(threads > 0 ? threads : oneapi::tbb::info::default_concurrency()) {
+      threads_(thread_count(threads)) {
   for (const Patch& patch : scene.patches()) {
     b.push_back(at(materials, patch.material).exitance);
   }
@@ -46,10 +42,8 @@ JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_fac
 
 template <class Visit>
 void JacobiIteration::for_each_row(const Cancellation& cancellation, Visit visit) const {
-  const oneapi::tbb::global_control permission(oneapi::tbb::global_control::max_allowed_parallelism,
-                                               static_cast<std::size_t>(threads_));
-  oneapi::tbb::task_arena arena(threads_);
-  for_each_index(arena, std::size_t{0}, b.size(), [&](std::size_t i) {
+  WorkerThreads workers(threads_);
+  for_each_index(workers, std::size_t{0}, b.size(), [&](std::size_t i) {
     cancellation.throw_if_canceled();
     visit(i);
   });

@@ -61,7 +61,7 @@ struct HemicubeScene {
     std::stable_sort(pieces.begin(), pieces.end(), [this](const auto& a, const auto& b) {
       return rank(a.patch) < rank(b.patch);
     });
-    std::vector<double> largest(static_cast<std::size_t>(scene.patch_count()));
+    std::vector<double> largest(scene.patches().size());
     largest_piece.resize(largest.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       const auto i = static_cast<std::size_t>(pieces[p].patch);
@@ -121,9 +121,7 @@ struct HemicubeScene {
 class HemicubeRows {
  public:
   explicit HemicubeRows(const HemicubeScene& shared)
-      : shared_(shared),
-        cube_(shared.resolution),
-        sums_(static_cast<std::size_t>(shared.scene.patch_count())) {}
+      : shared_(shared), cube_(shared.resolution), sums_(shared.scene.patches().size()) {}
 
   FormFactorRow gather(PatchId i) {
     set_frame(i);
@@ -243,7 +241,7 @@ HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
   const HemicubeScene shared(scene, tree, options.resolution, cancellation);
   HemicubeRows rows(shared);
   HemicubeImage image{eye, options.resolution, {}, {}, {}};
-  image.form_factors.resize(static_cast<std::size_t>(scene->patch_count()));
+  image.form_factors.resize(scene->patches().size());
   for (const auto& [j, value] : rows.gather(eye)) {
     at(image.form_factors, j) = value;
   }

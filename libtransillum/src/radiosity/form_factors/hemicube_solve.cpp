@@ -1,6 +1,4 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include <oneapi/tbb/info.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "base/seconds_since.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/ratio.h"
+#include "radiosity/worker_threads.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube.h"
 
@@ -85,8 +84,7 @@ Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptio
   statistics.passes = scene->patch_count();
   statistics.passes_made = statistics.hemicubes = scene->patch_count();
   statistics.iterations = static_cast<int>(iteration.records.size());
-  statistics.threads =
-      hemicubes.threads > 0 ? hemicubes.threads : oneapi::tbb::info::default_concurrency();
+  statistics.threads = thread_count(hemicubes.threads);
   statistics.form_factors = static_cast<std::int64_t>(form_factors.size());
   statistics.kept_form_factors = true;
   statistics.converged = iteration.converged;

@@ -11,7 +11,7 @@ namespace {
 
 void check(const Scene& scene, const FormFactors& form_factors,
            const std::vector<Material>& materials, std::span<const Rgb> start) {
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   if (form_factors.row_begin.size() != patches + 1) {
     throw InputError("the form factors belong to another scene: the number of patches differs");
   }

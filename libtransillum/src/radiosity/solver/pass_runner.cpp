@@ -1,15 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "radiosity/solver/pass_runner.h"
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <utility>
 #include <vector>
 
 #include "radiosity/tsan_scope.h"
+#include "radiosity/worker_threads.h"
 
 namespace transillum {
 namespace {
@@ -120,11 +119,9 @@ void PassRunner::run(int first, int last, const std::function<Pass(int)>& make,
       tbb::make_filter<void, int>(serial_in_order, order.source(next_pass, last)) &
       tbb::make_filter<int, int>(parallel, order.parallel(make_pass)) &
       tbb::make_filter<int, void>(serial_in_order, order.sink(add_pass));
-  // TBB limits itself to the number of cores unless more threads are permitted.
-  const tbb::global_control permission(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<std::size_t>(threads_));
-  tbb::task_arena arena(threads_);
-  order.around([&] { arena.execute([&] { tbb::parallel_pipeline(slots.count(), pipeline); }); });
+  WorkerThreads workers(threads_);
+  order.around(
+      [&] { workers.arena().execute([&] { tbb::parallel_pipeline(slots.count(), pipeline); }); });
 }
 
 }  // namespace transillum

@@ -31,7 +31,7 @@ RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& optio
       two_way_(options.two_way),
       normalization_(options.normalize),
       h_(shot.irradiance) {
-  const auto patches = static_cast<std::size_t>(scene.patch_count());
+  const auto patches = scene.patches().size();
   b_.resize(patches);
   unshot_.resize(patches);
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -201,7 +201,7 @@ double RadiosityIterate::finish() {
 void RadiosityIterate::leap(const KeptSums& sums, double tolerance,
                             const Cancellation& cancellation) {
   const double unit = 4.0 / (kept_passes_ * 2);
-  const auto patches = static_cast<std::size_t>(scene_.patch_count());
+  const auto patches = scene_.patches().size();
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
   std::vector<Rgb> result(patches);
   const auto channel = [&](auto rho_of) {

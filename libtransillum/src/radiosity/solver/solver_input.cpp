@@ -1,12 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "radiosity/solver/solver_input.h"
 
-#include <oneapi/tbb/info.h>
-
 #include <utility>
 #include <vector>
 
 #include "base/seconds_since.h"
+#include "radiosity/worker_threads.h"
 
 namespace transillum {
 namespace {
@@ -28,7 +27,7 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
       cancellation(solve_cancellation),
-      threads(options.threads > 0 ? options.threads : tbb::info::default_concurrency()),
+      threads(thread_count(options.threads)),
       shot(std::move(ready_shot)),
       tree(std::move(ready_tree)) {
   if (!shot) {
