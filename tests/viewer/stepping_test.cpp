@@ -72,12 +72,12 @@ class SteppingTest : public QObject {
     QCOMPARE(s.focus.position().step, -1);
     QVERIFY(!s.focus.following());
     QVERIFY(s.settles());
-    QCOMPARE(s.map_view->canvas()->fragment_count(), std::size_t{0});
+    QCOMPARE(s.map_view->canvas()->polygon_count(), std::size_t{0});
     for (const int k : {1, 3, count - 1, 2}) {
       s.drag_to(s.place(Lane::steps, k, count));
       QCOMPARE(s.focus.position().step, k - 1);
       QVERIFY(s.settles());
-      QCOMPARE(s.map_view->canvas()->fragment_count(),
+      QCOMPARE(s.map_view->canvas()->polygon_count(),
                s.focus.map()->record().map_after(k - 1).size());
     }
     QTest::mouseRelease(s.lanes, Qt::LeftButton, {}, s.place(Lane::steps, 2, count));

@@ -33,16 +33,17 @@ class MapCanvas : public QWidget {
     std::shared_ptr<const RecordedMap> map;
     std::int32_t step = 0;
     Phase phase = Phase::after;
-    bool step_shown = false;
-    bool labels = false;
+    bool step_shown = false;  ///< mark the changes of the step
+    bool labels = false;      ///< patch numbers on polygons
     PixelChoice pixels;
-    std::optional<Vec2> probe;
+    std::optional<Vec2> probe;  ///< marked by crosshairs, meters on the plane
     std::shared_ptr<const std::vector<Color8>> patch_colors;
   };
   void show_map(Content content);
   void clear();
   /// Highlights a region of the map shown; nullopt removes the highlight.
   void mark_region(const std::optional<MapRegion>& region);
+  /// Shows the whole map.
   void fit();
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
   struct View {
@@ -64,7 +65,8 @@ class MapCanvas : public QWidget {
   std::optional<Vec2> point_at(const QPointF& position) const;
   /// The other engine's map that is drawn; null if V is drawn exactly.
   std::shared_ptr<const PixelView> pixels() const { return picture_ ? picture_->pixels : nullptr; }
-  std::size_t fragment_count() const { return picture_ ? picture_->rows.size() : 0; }
+  /// Number of polygons drawn.
+  std::size_t polygon_count() const { return picture_ ? picture_->rows.size() : 0; }
 
   QSize sizeHint() const override { return {420, height_hint_}; }
   void set_height_hint(int pixels) { height_hint_ = pixels; }

@@ -249,7 +249,7 @@ void MapView::show_title() {
   const std::int32_t after = focus_.position().step + (focus_.phase() == Phase::before ? 0 : 1);
   step_text_->setText(tr("V after %1 of %2 steps: %3 polygons")
                           .arg(count_text(after), count_text(map->history.step_count()),
-                               count_text(static_cast<std::int64_t>(canvas_->fragment_count()))));
+                               count_text(static_cast<std::int64_t>(canvas_->polygon_count()))));
 }
 
 QString MapView::pixel_text() const {

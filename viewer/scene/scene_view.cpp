@@ -93,10 +93,10 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
     show_selection();
     render();
   });
-  rest_ = new QTimer(this);
-  rest_->setSingleShot(true);
-  rest_->setInterval(rest_ms);
-  connect(rest_, &QTimer::timeout, this, &SceneView::render);
+  rest_timer_ = new QTimer(this);
+  rest_timer_->setSingleShot(true);
+  rest_timer_->setInterval(rest_ms);
+  connect(rest_timer_, &QTimer::timeout, this, &SceneView::render);
   connect(&focus_, &Focus::moved, this, &SceneView::show_step);
   connect(&colors_, &ColorChoice::changed, this, [this] {
     recolor();
@@ -192,11 +192,11 @@ void SceneView::show_surface() {
   }
 }
 
-void SceneView::set_smooth(bool smooth) {
-  if (smooth == smooth_) {
+void SceneView::set_antialiased(bool antialiased) {
+  if (antialiased == antialiased_) {
     return;
   }
-  smooth_ = smooth;
+  antialiased_ = antialiased;
   render();
 }
 
@@ -207,7 +207,7 @@ void SceneView::reset_view() {
   const ViewPoint view = initial_view(*loaded_->scene, aspect());
   focus_point_ = view.target;
   radius_ = view.radius;
-  place_camera(view);
+  set_camera(view);
   initial_view_point_ = view_point();
 }
 
@@ -217,20 +217,20 @@ double SceneView::aspect() const {
 
 void SceneView::fit_all() {
   if (loaded_) {
-    place_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
+    set_camera(fitting_view(*loaded_->scene, view_point(), aspect()));
   }
 }
 
 void SceneView::fit_selected() {
   const PatchId patch = selection_.patch();
   if (loaded_ && patch >= 0 && patch < loaded_->scene->patch_count()) {
-    place_camera(patch_view(*loaded_->scene, patch, view_point()));
+    set_camera(patch_view(*loaded_->scene, patch, view_point()));
   }
 }
 
 void SceneView::view_from_side(Side side) {
   if (loaded_) {
-    place_camera(standard_view(*loaded_->scene, side, aspect()));
+    set_camera(standard_view(*loaded_->scene, side, aspect()));
   }
 }
 
@@ -242,11 +242,11 @@ ViewPoint SceneView::view_point() const {
 
 void SceneView::set_view_point(const ViewPoint& view) {
   if (loaded_) {
-    place_camera(view);
+    set_camera(view);
   }
 }
 
-void SceneView::place_camera(const ViewPoint& view) {
+void SceneView::set_camera(const ViewPoint& view) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
   camera->SetFocalPoint(view.target.x, view.target.y, view.target.z);
@@ -281,7 +281,7 @@ void SceneView::show_step() {
     return;  // a newer direction arrives with its snapshot
   }
   stepped_ = steps;
-  rest_->start();
+  rest_timer_->start();
   recolor();
   show_direction();
   render();
@@ -346,7 +346,7 @@ void SceneView::render() {
   step_glyph_->set_line_width(2.5 * scale);
   overlays_->set_line_width(1.2 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
-  renderer_->SetUseFXAA(smooth_ && !pressed_ && !rest_->isActive());
+  renderer_->SetUseFXAA(antialiased_ && !pressed_ && !rest_timer_->isActive());
   renderer_->ResetCameraClippingRange();
   if (canvas_->isVisible()) {
     window_->Render();

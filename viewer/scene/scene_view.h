@@ -53,8 +53,10 @@ class SceneView : public QWidget {
   /// Interpolates colors across patches, instead of one color per patch.
   void set_smooth_shading(bool smooth);
   /// Antialiases edges while the scene is at rest; doubles the time per picture without a GPU.
-  void set_smooth(bool smooth);
+  void set_antialiased(bool antialiased);
+  /// Goes back to the scene's initial view.
   void reset_view();
+  /// Keeps the viewing direction and fits the whole scene.
   void fit_all();
   void fit_selected();
   void view_from_side(Side side);
@@ -73,7 +75,7 @@ class SceneView : public QWidget {
 
  private:
   void make_surface();
-  void place_camera(const ViewPoint& view);
+  void set_camera(const ViewPoint& view);
   double aspect() const;
   void show_surface();
   void recolor();
@@ -93,13 +95,13 @@ class SceneView : public QWidget {
   std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when first shown
   bool smooth_shading_ = false;
   std::vector<Color8> patch_colors_;
-  Vec3 focus_point_;
-  double radius_ = 1;
+  Vec3 focus_point_;              ///< center of the part of interest, meters
+  double radius_ = 1;             ///< its radius, meters
   ViewPoint initial_view_point_;  ///< set by reset_view()
   bool direction_shown_ = true;
-  bool smooth_ = true;
+  bool antialiased_ = true;
   bool stepped_ = false;  ///< a step is drawn
-  QTimer* rest_;          ///< runs while steps follow each other quickly
+  QTimer* rest_timer_;    ///< runs while steps follow each other quickly
   QPoint press_position_;
   bool pressed_ = false;
 

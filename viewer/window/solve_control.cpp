@@ -60,7 +60,7 @@ void SolveControl::solve_with_replicas() {
 
 void SolveControl::show_state(RunState state) {
   actions_.show_state(state, parts_.scene.at_start());
-  parts_.page.scene_view()->set_smooth(state != RunState::running);
+  parts_.page.scene_view()->set_antialiased(state != RunState::running);
   parts_.settings.set_restart_enabled(parts_.scene.loaded() && state != RunState::loading);
 }
 
