@@ -18,7 +18,8 @@ BoxTree::BoxTree(const std::vector<Bounds>& boxes) {
   }
 }
 
-/// Halves the items along the longest side of their middles' box: depth is log2 of their number.
+/// Splits the items at the median of their centers along the longest extent of the centers, so that
+/// the depth is log2 of their number.
 std::int32_t BoxTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
   Bounds all, middles;
   for (std::size_t k = begin; k < end; ++k) {

@@ -10,25 +10,28 @@
 
 namespace transillum {
 
-/// A box about its middle.
+/// An axis-parallel box by its center.
 struct CenteredBox {
-  Vec3 center, half;  ///< of its edges
+  Vec3 center;  ///< m
+  Vec3 half;    ///< half the lengths of the edges, m
 
-  /// The farthest that the box reaches along `direction`.
+  /// Largest dot(direction, p) over the points p of the box.
   double reach(const Vec3& direction) const {
     return dot(direction, center) + std::abs(direction.x) * half.x +
            std::abs(direction.y) * half.y + std::abs(direction.z) * half.z;
   }
 };
 
-/// Finds boxes by where they lie: a binary tree of boxes about boxes.
+/// Bounding volume hierarchy: finds those of many boxes that meet a condition.
 ///
 /// Threads: immutable once built.
 class BoxTree {
  public:
+  /// O(n log² n). Boxes are numbered by their order in `boxes`.
   explicit BoxTree(const std::vector<Bounds>& boxes);
 
-  /// visit(number) for the boxes that `reaches` accepts, as it must every box about them.
+  /// Calls visit(number) for every box that `reaches` accepts. `reaches` must accept every box that
+  /// contains an accepted one.
   template <class Reaches, class Visit>
   void for_each(Reaches&& reaches, Visit&& visit) const {
     std::array<std::int32_t, 64> open;
@@ -53,8 +56,8 @@ class BoxTree {
  private:
   struct Node {
     CenteredBox box;
-    std::int32_t first;   ///< node, or the box of a leaf
-    std::int32_t second;  ///< node; -1 in a leaf
+    std::int32_t first;   ///< first child; in a leaf the number of the box
+    std::int32_t second;  ///< second child; -1 in a leaf
   };
   struct Item {
     std::int32_t number;

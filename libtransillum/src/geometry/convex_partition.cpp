@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Convex partition of a face's outline, projected to its plane: a constrained Delaunay
+// triangulation (CGAL) of the corners, then diagonals are removed while the merged polygons stay
+// convex. All predicates are exact.
 #include "geometry/convex_partition.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -40,13 +44,13 @@ std::vector<Point> to_points(std::span<const PlanePoint> outline) {
   return points;
 }
 
-/// How often the outline runs along an edge of the triangulation: bridges are walked twice, and
-/// then there is no border between the inside and the outside.
+/// Counts how often the outline runs along each edge of the triangulation. An edge with an even
+/// count, as of a bridge to a hole, does not separate inside from outside.
 class EdgeWalks {
  public:
   void walk(const Triangulation& triangulation, Triangulation::Vertex_handle from,
             Triangulation::Vertex_handle to) {
-    // A constraint may pass through other corners: follow it from corner to corner.
+    // A constraint may pass through other corners: split it there.
     while (from != to) {
       const auto next = next_along(triangulation, from, to);
       ++count_[key(from, next)];
@@ -76,7 +80,7 @@ class EdgeWalks {
   std::map<Key, int> count_;
 };
 
-/// Gives each face the number of borders between it and the outside.
+/// Sets each triangle's info() to the number of borders between it and the outside.
 void count_borders(Triangulation& triangulation, const EdgeWalks& walks) {
   for (auto face : triangulation.all_face_handles()) {
     face->info() = unreached;
@@ -100,9 +104,9 @@ void count_borders(Triangulation& triangulation, const EdgeWalks& walks) {
   }
 }
 
-/// The corners' vertices; corners at one place share theirs, which has the first one's number.
-/// All at once, in an order along a space-filling curve: one by one would take quadratic time on
-/// outlines that run to and fro.
+/// Inserts the corners and returns their vertices. Coincident corners share a vertex, whose info()
+/// is the number of the first. They are inserted together, which CGAL does along a space-filling
+/// curve; one by one would take quadratic time for zigzag outlines.
 std::vector<Triangulation::Vertex_handle> insert_corners(Triangulation& triangulation,
                                                          std::span<const PlanePoint> outline) {
   const auto n = static_cast<std::uint32_t>(outline.size());
@@ -131,8 +135,8 @@ std::vector<Triangulation::Vertex_handle> insert_corners(Triangulation& triangul
   return corners;
 }
 
-/// Hertel and Mehlhorn's partition: diagonals of a triangulation are taken away as long as the
-/// polygons they part stay convex together.
+/// Hertel and Mehlhorn's partition: removes every diagonal of a triangulation whose two polygons
+/// merge to a convex one.
 class TriangleMerge {
  public:
   TriangleMerge(std::span<const PlanePoint> outline,
@@ -148,21 +152,21 @@ class TriangleMerge {
 
   std::vector<CornerList> merged() {
     const std::vector<Twins> diagonals = twins();
-    // First where a real corner stays; what leaves a straight one may be better kept, as the
-    // diagonal through the notch of an L.
+    // First pass: only diagonals whose removal leaves strictly convex corners. One that leaves a
+    // straight corner may be better kept, such as the diagonal through the notch of an L.
     for (const int least_turn : {1, 0}) {
       for (const auto& [a, b] : diagonals) {
-        if (edges_[a].gone) {
+        if (edges_[a].removed) {
           continue;
         }
         if (stays_convex(a, b, least_turn) && stays_convex(b, a, least_turn)) {
-          take_away(a, b);
+          remove(a, b);
         }
       }
     }
     std::vector<CornerList> polygons;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-      if (!edges_[e].gone) {
+      if (!edges_[e].removed) {
         polygons.push_back(take_polygon(e));
       }
     }
@@ -173,13 +177,13 @@ class TriangleMerge {
   struct Edge {
     std::uint32_t from;
     std::uint32_t next, previous;  // around its polygon
-    bool gone = false;
+    bool removed = false;
   };
   using Twins = std::pair<std::uint32_t, std::uint32_t>;
 
   std::uint32_t to(const Edge& e) const { return edges_[e.next].from; }
 
-  /// The two sides of every diagonal, in an order that hangs on the corners' numbers only.
+  /// The two directed edges of every diagonal, sorted by the corners' numbers.
   std::vector<Twins> twins() const {
     std::vector<std::array<std::uint32_t, 3>> keyed;  // lower corner, higher corner, edge
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -198,22 +202,22 @@ class TriangleMerge {
     return pairs;
   }
 
-  /// Whether the corner where `edge` starts is convex once `edge` and `twin` are gone.
+  /// Whether the corner where `edge` starts is convex after removal of `edge` and `twin`.
   bool stays_convex(std::uint32_t edge, std::uint32_t twin, int least_turn) const {
     const PlanePoint& before = outline_[edges_[edges_[edge].previous].from];
     const PlanePoint& corner = outline_[edges_[edge].from];
     const PlanePoint& after = outline_[to(edges_[edges_[twin].next])];
     const int turn = exact_turn(before, corner, after);
-    // Straight on is convex, straight back is not.
+    // A corner of 180° is convex, one of 0° or 360° is not.
     return turn >= least_turn && (turn != 0 || (before < corner) == (corner < after));
   }
 
-  void take_away(std::uint32_t a, std::uint32_t b) {
-    for (const auto& [gone, other] : {Twins{a, b}, Twins{b, a}}) {
-      const std::uint32_t before = edges_[gone].previous, after = edges_[other].next;
+  void remove(std::uint32_t a, std::uint32_t b) {
+    for (const auto& [removed, other] : {Twins{a, b}, Twins{b, a}}) {
+      const std::uint32_t before = edges_[removed].previous, after = edges_[other].next;
       edges_[before].next = after;
       edges_[after].previous = before;
-      edges_[gone].gone = true;
+      edges_[removed].removed = true;
     }
   }
 
@@ -222,7 +226,7 @@ class TriangleMerge {
     std::uint32_t e = first;
     do {
       corners.push_back(edges_[e].from);
-      edges_[e].gone = true;
+      edges_[e].removed = true;
       e = edges_[e].next;
     } while (e != first);
     return corners;
@@ -254,7 +258,8 @@ bool is_convex(std::span<const PlanePoint> outline) {
       return false;
     }
     any_turn |= turn > 0;
-    // Seen along one axis a convex outline goes forth once and back once; a star, more often.
+    // In lexicographic order a convex outline ascends once and descends once; a star polygon does
+    // so more often.
     const bool reversal = (a < b) != (b < c);
     if (reversal && turn == 0) {
       return false;
@@ -301,7 +306,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const PlanePoint
           {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     }
   }
-  // The triangulation's own order hangs on how it allocates; ours shall not.
+  // The triangulation's order depends on memory allocation; sorting makes it deterministic.
   for (auto& t : triangles) {
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }

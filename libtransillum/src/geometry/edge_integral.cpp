@@ -1,7 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Along the edges a and b run s and t, from the points where their lines are nearest:
-//   r² = h² + s² + t² - 2 s t cos, h the distance of the lines.
+// The inner integral of polygon_exchange() (form_factor.h): ln r along two edges, in closed form
+// where one exists (decisions/0020-exact-form-factors.md).
+//
+// Notation: s and t are the coordinates along the lines of edges a and b, measured from the points
+// where the lines are nearest; h is the distance of the lines; then
+//   r² = h² + s² + t² - 2 s t cos.
 #include "geometry/edge_integral.h"
 
 #include <algorithm>
@@ -23,7 +27,7 @@ double log_integral(double u0, double u1, double h) {
   return primitive(u1) - primitive(u0);
 }
 
-/// Of ln r along the edge b from a point.
+/// The integral of ln r along edge b, r measured from a point.
 double log_integral(const Vec3& point, const Edge& b) {
   const Vec3 to = b.begin - point;
   const double u = dot(to, b.direction);
@@ -40,7 +44,7 @@ double second_log_integral(double u, double h) {
          (h > 0 ? h * u * std::atan(u / h) : 0.0);
 }
 
-/// b runs along a.
+/// For parallel edges of the same direction.
 double along_parallel(const Edge& a, const Edge& b) {
   const Vec3 to = b.begin - a.begin;
   const double u = dot(to, a.direction), h = norm(cross(to, a.direction));
@@ -48,7 +52,7 @@ double along_parallel(const Edge& a, const Edge& b) {
          second_log_integral(u, h) + second_log_integral(u - a.length, h);
 }
 
-/// How two lines that are not parallel lie to each other.
+/// The relative position of two edges that are not parallel.
 struct Crossing {
   Crossing(const Edge& a, const Edge& b, double cosine_of, double sine_of)
       : cosine(cosine_of), sine(sine_of) {
@@ -62,12 +66,13 @@ struct Crossing {
   }
 
   double cosine, sine;
-  double s0, s1, t0, t1;  ///< where the edges begin and end
-  double h;
+  double s0, s1;  ///< ends of a
+  double t0, t1;  ///< ends of b
+  double h;       ///< distance of the lines
 };
 
-/// For lines that meet. With ln r, div (s, t) ln r = 2 ln r + 1, so that twice the integral is one
-/// around the border of the rectangle of s and t, less its area.
+/// For lines that intersect. As div((s, t) ln r) = 2 ln r + 1, twice the integral is an integral
+/// along the border of the rectangle of s and t minus the rectangle's area.
 double along_meeting(const Crossing& c) {
   const auto side = [&](double at, double from, double to) {
     const double foot = at * c.cosine;
@@ -78,8 +83,9 @@ double along_meeting(const Crossing& c) {
   return 0.5 * (border - (c.s1 - c.s0) * (c.t1 - c.t0));
 }
 
-/// The inner integral is singular, for complex s too, where r is 0 at an end of b, and at
-/// s = +- i h / sine. Steps are a little more than half as long as it is to the nearest of these.
+/// For skew lines: Gauss' rule for the outer integral. The inner integral has singularities in the
+/// complex s plane, where r is 0 at an end of b and at s = ± i h / sine. Half the length of an
+/// interval is at most `reach` times the distance to the nearest of them.
 double along_skew(const Edge& a, const Edge& b, const Crossing& c, double from, double to) {
   constexpr double reach = 0.6, least = 1e-13;
   using Rule = boost::math::quadrature::gauss<double, 16>;
@@ -114,7 +120,7 @@ double edge_pair_integral(const Edge& a, const Edge& b) {
     return cosine * along_parallel(a, cosine > 0 ? b : Edge(b.end, b.begin));
   }
   const Crossing c(a, b, cosine, sine);
-  // Far from where the lines meet the border's parts cancel.
+  // Far from the intersection, the parts of the border integral cancel.
   constexpr double loss = 1e3;
   const double area = a.length * b.length;
   const double s = std::max(std::abs(c.s0), std::abs(c.s1));

@@ -5,20 +5,22 @@
 
 namespace transillum {
 
-/// A segment from `begin`, `length` along `direction`.
+/// A directed line segment.
 struct Edge {
   Edge(const Vec3& from, const Vec3& to)
       : begin(from), end(to), length(norm(to - from)), direction((to - from) / length) {}
 
+  /// The point at distance s from `begin`.
   Vec3 at(double s) const { return begin + s * direction; }
 
-  Vec3 begin, end;
-  double length;
+  Vec3 begin;      ///< m
+  Vec3 end;        ///< m
+  double length;   ///< m
   Vec3 direction;  ///< unit; not finite where the length is 0
 };
 
-/// The cosine between two edges times the integral of ln r along both, r the distance of their
-/// points; 0 for an edge without length. They may touch, cross or coincide.
+/// The cosine between two edges times the double integral of ln r along both, where r is the
+/// distance of their points; 0 for an edge of length 0. The edges may touch, cross or coincide.
 double edge_pair_integral(const Edge& a, const Edge& b);
 
 }  // namespace transillum

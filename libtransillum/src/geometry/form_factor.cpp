@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// See form_factor.h. p and q are the two polygons.
 #include "geometry/form_factor.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// No point of the polygon is nearer to x.
+/// A lower bound of the distance from x to the polygon.
 double distance_bound(const Vec3& x, Outline polygon, const HalfSpace& before) {
   Bounds box;
   for (const Vec3& corner : polygon) {
@@ -27,7 +29,7 @@ double distance_bound(const Vec3& x, Outline polygon, const HalfSpace& before) {
   return std::max(norm(gap), std::abs(before.distance(x)));
 }
 
-/// Sums a function of the unit interval by Gauss' rule: visit(abscissa, weight).
+/// Gauss' rule on the unit interval: calls visit(abscissa, weight).
 template <class Visit>
 void for_gauss_points(Visit&& visit) {
   using Rule = boost::math::quadrature::gauss<double, 5>;
@@ -40,7 +42,7 @@ void for_gauss_points(Visit&& visit) {
   }
 }
 
-/// What rounding of the coordinates may do to distances.
+/// Upper bound of the error of distances due to the rounding of coordinates.
 double rounding_of(Outline p, Outline q) {
   double largest = 0;
   for (const Outline polygon : {p, q}) {
@@ -51,7 +53,8 @@ double rounding_of(Outline p, Outline q) {
   return 1e-14 * largest;
 }
 
-/// The point form factor integrated over the small polygon p, by triangles about its first corner.
+/// For a p that is small against its distance from q: the point form factor integrated over the
+/// triangles of p from its first corner.
 double exchange_of_small(Outline p, const Vec3& normal, Outline q) {
   double sum = 0;
   for (std::size_t k = 1; k + 1 < p.size(); ++k) {
@@ -151,7 +154,7 @@ double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon) {
     const Vec3 &a = above[k], &b = above[k + 1 < above.size() ? k + 1 : 0];
     const Vec3 across = cross(a, b);
     const double sine = norm(across);
-    // Seen from x the edges of the lit side run clockwise.
+    // Seen from the receiving area the polygon's corners run clockwise.
     if (sine > 0) {
       sum -= std::atan2(sine, dot(a, b)) * dot(normal, across) / sine;
     }
@@ -180,15 +183,15 @@ double polygon_exchange(const FacingPolygons& facing) {
   if (facing.empty()) {
     return 0;
   }
-  const auto looks_small = [](Outline a, Outline b, const HalfSpace& before_b) {
+  const auto is_small = [](Outline a, Outline b, const HalfSpace& before_b) {
     const Vec3 center = middle_of(a);
     return radius_about(center, a) <= small * distance_bound(center, b, before_b);
   };
   const auto& [before_p, before_q, p, q] = facing;
-  if (looks_small(p, q, before_q)) {
+  if (is_small(p, q, before_q)) {
     return exchange_of_small(p, before_p.normal, q);
   }
-  if (looks_small(q, p, before_p)) {
+  if (is_small(q, p, before_p)) {
     return exchange_of_small(q, before_q.normal, p);
   }
   return std::max(0.0, exchange_by_edges(p, q));

@@ -35,7 +35,7 @@ bool PlaneRegion::is_outside(const Part& part, const Side& side) const {
                      [&](const Point& p) { return side.distance(p) <= tolerance_; });
 }
 
-/// What is outside the first side is left; of the rest, what is outside the second; and so on.
+/// The part outside the first side remains; of the rest, the part outside the second; and so on.
 void PlaneRegion::subtract_from(Part part, std::span<const Side> sides) {
   if (std::any_of(sides.begin(), sides.end(),
                   [&](const Side& side) { return is_outside(part, side); })) {
@@ -55,7 +55,7 @@ void PlaneRegion::subtract_from(Part part, std::span<const Side> sides) {
   }
 }
 
-/// The part inside a side that cuts it.
+/// The part of `part` inside a side that cuts it.
 PlaneRegion::Part PlaneRegion::kept(const Part& part, const Side& side) {
   Part inside{static_cast<std::uint32_t>(corners_.size()), 0, {}};
   const auto keep = [&](const Point& p) {

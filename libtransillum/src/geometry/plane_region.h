@@ -10,25 +10,27 @@
 
 namespace transillum {
 
-/// What is left of convex polygons of a plane where others are taken away.
+/// The difference of a convex polygon and other convex polygons of the same plane, as a set of
+/// convex parts.
 ///
-/// The lines of those come from the caller and are not recomputed from the ends of edges: an edge
-/// that cuts have left nearly without length does no harm.
+/// The lines of the subtracted polygons come from the caller and are not recomputed from the ends
+/// of edges, so that edges made very short by cuts cause no error.
 class PlaneRegion {
  public:
   /// A point of a plane.
   struct Point {
-    double u = 0, v = 0;
+    double u = 0;  ///< first coordinate
+    double v = 0;  ///< second coordinate
   };
 
-  /// Points with a u + b v + c > 0, where a² + b² = 1, are inside.
+  /// A half-plane: points with a u + b v + c > 0 are inside; a² + b² = 1.
   struct Side {
     double a = 0, b = 0, c = 0;
 
     double distance(const Point& p) const { return a * p.u + b * p.v + c; }
   };
 
-  /// A rectangle about points; empty until one is added.
+  /// An axis-parallel rectangle; empty until a point is added.
   struct Box {
     Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
 
@@ -42,14 +44,15 @@ class PlaneRegion {
     }
   };
 
-  /// The rest is one convex polygon, of either sense of rotation, which its parts keep.
+  /// Starts with one convex polygon, of either orientation; the parts have the same.
   void assign(std::span<const Point> polygon);
-  /// Takes away what is inside all `sides`, at least one, and in `box`.
+  /// Subtracts the convex polygon inside all `sides`, of which there is at least one.
+  /// @param box contains the polygon.
   void subtract(std::span<const Side> sides, const Box& box);
 
   bool empty() const { return parts_.empty(); }
   std::size_t size() const { return parts_.size(); }  ///< convex parts
-  /// visit(corners) for the convex parts that are left; they do not overlap.
+  /// Calls visit(corners) for each remaining convex part; they do not overlap.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const Part& part : parts_) {

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Spherical-cap discrepancy. Notation: a cap is {omega: n·omega >= height} with unit center n; its
+// area is (1 - height)/2 of the sphere, its excess its share of the directions minus that area.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,16 +14,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t most_centers = 2048, fewest_centers = 32;
-/// Directions times centers looked at, where that is between the most and the fewest centers.
-constexpr std::size_t looks = std::size_t{1} << 22;
-/// Directions this near a rim, in radians, lie on it.
+/// Directions times centers examined, if that gives between the fewest and the most centers.
+constexpr std::size_t examined_pairs = std::size_t{1} << 22;
+/// Directions within this angle of the rim of a cap, in radians, count as on it.
 constexpr double on_rim = 1e-12;
 
-// A cap with too few directions is the outside of one with too many. So it is enough to look for
-// closed caps {omega: n·omega >= height}, area (1 - height)/2, with too many.
+// A cap with too few directions is the complement of one with too many. So it suffices to find the
+// largest excess of closed caps.
 
-/// The largest excess among caps round a center: those that end at a direction.
-double largest_excess_round(const Vec3& center, std::span<const DirectionSample> samples,
+/// The largest excess of all caps about a center; one with a direction on its rim reaches it.
+double largest_excess_about(const Vec3& center, std::span<const DirectionSample> samples,
                             std::vector<double>& heights) {
   heights.clear();
   for (const DirectionSample& s : samples) {
@@ -35,7 +38,7 @@ double largest_excess_round(const Vec3& center, std::span<const DirectionSample>
   return excess;
 }
 
-/// Caps with directions a and b on their rim: their centers lie on a great circle.
+/// The pencil of caps with directions a and b on their rim; their centers form a great circle.
 class Pencil {
  public:
   Pencil(const Vec3& a, const Vec3& b) {
@@ -48,8 +51,8 @@ class Pencil {
     height_ = opposite ? 0 : dot(a, x_);
   }
 
-  /// The largest excess of all these caps. Turning the center, each direction is inside for half a
-  /// turn; the share of area changes between.
+  /// The largest excess of these caps. As the center moves along the great circle, each direction
+  /// is inside for half a turn; the area changes in between.
   double largest_excess(std::span<const DirectionSample> samples, std::size_t first,
                         std::size_t second, std::vector<std::pair<double, int>>& events) const {
     events.clear();
@@ -79,7 +82,7 @@ class Pencil {
     const auto count = static_cast<double>(samples.size());
     double excess = 0;
     for (const auto& [angle, change] : events) {
-      // Before a direction leaves, after one enters: closed caps.
+      // The caps are closed: a direction counts from entering up to and including leaving.
       if (change > 0) {
         ++inside;
       }
@@ -100,7 +103,7 @@ class Pencil {
   }
 
   Vec3 x_, y_;
-  double height_;  ///< of the smallest cap, the one round x
+  double height_;  ///< of the smallest cap, whose center is x_
 };
 
 double largest_excess_of_pencils(std::span<const DirectionSample> samples,
@@ -129,21 +132,22 @@ CapDiscrepancy cap_discrepancy(std::span<const DirectionSample> samples,
     return result;
   }
   std::vector<double> heights;
-  const auto look_round = [&](const Vec3& center) {
+  const auto examine = [&](const Vec3& center) {
     cancellation.throw_if_canceled();
-    result.value = std::max(result.value, largest_excess_round(center, samples, heights));
+    result.value = std::max(result.value, largest_excess_about(center, samples, heights));
   };
-  const std::size_t centers = std::clamp(looks / samples.size(), fewest_centers, most_centers);
+  const std::size_t centers =
+      std::clamp(examined_pairs / samples.size(), fewest_centers, most_centers);
   for (std::size_t k = 0; k < std::min(samples.size(), centers); ++k) {
-    look_round(samples[k].direction);
-    look_round(-samples[k].direction);
+    examine(samples[k].direction);
+    examine(-samples[k].direction);
   }
   result.exact = samples.size() <= max_exact_cap_directions;
   if (result.exact) {
     result.value = std::max(result.value, largest_excess_of_pencils(samples, cancellation));
   } else {
     for (const Vec3& center : spread_normals(static_cast<int>(centers))) {
-      look_round(center);
+      examine(center);
     }
   }
   return result;

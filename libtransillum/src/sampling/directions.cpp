@@ -43,8 +43,8 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
     return order;
   }
   // Ranks of the radical inverses: the order in which van der Corput's points fill the interval,
-  // stretched over 0 … count-1 whatever the count. In a base in which nothing else is counted, or
-  // beginnings would lie in a corner of the square.
+  // scaled to 0 … count-1 for any count. The base differs from those of the sampling, else prefixes
+  // would cover only a corner of the square.
   const std::uint32_t base = sampling == Sampling::fibonacci ? 2 : 3;
   std::vector<std::pair<double, int>> keyed;
   keyed.reserve(order.size());

@@ -9,12 +9,13 @@ namespace transillum {
 namespace {
 
 struct Rotation {
-  Vec3 x, y, z;  ///< where the axes go
+  Vec3 x, y, z;  ///< images of the axes
 
   Vec3 operator()(const Vec3& a) const { return a.x * x + a.y * y + a.z * z; }
 };
 
-/// By a unit quaternion uniform on its sphere (Shoemake, "Uniform Random Rotations", 1992).
+/// The rotation of a unit quaternion that is uniform on its sphere (Shoemake, "Uniform Random
+/// Rotations", 1992).
 Rotation random_rotation(std::uint64_t seed) {
   const auto uniform = [seed](std::uint64_t k) {
     return static_cast<double>(mixed(seed + k * golden_step) >> 11) * 0x1p-53;

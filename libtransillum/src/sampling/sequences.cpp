@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The sequences of points that directions are made from (paper, section 4). Numbers of points are
+// 32-bit and wrap around.
 #include "sampling/sequences.h"
 
 #include <fmt/format.h>
@@ -31,7 +34,8 @@ std::uint32_t bit_reversed(std::uint32_t k) {
   return reversed;
 }
 
-/// A point given by the first 32 digits of its coordinates, each scrambled by a tree of its own.
+/// A point given by the first 32 binary digits of its coordinates, which are scrambled
+/// independently.
 DirectionSample scrambled(std::uint32_t u, std::uint32_t v, std::uint64_t seed) {
   const auto coordinate = [seed](std::uint32_t digits, std::uint64_t axis) {
     return (owen_scrambled(digits, mixed(seed + axis * golden_step)) + 0.5) * 0x1p-32;
@@ -39,14 +43,14 @@ DirectionSample scrambled(std::uint32_t u, std::uint32_t v, std::uint64_t seed) 
   return sample_at(coordinate(u, 1), coordinate(v, 2));
 }
 
-/// Sobol's points in the plane, from the number `k` on.
+/// Sobol's points in the plane, from number `k` on.
 class SobolDigits {
  public:
   explicit SobolDigits(std::uint32_t k) : next_(k), points_(2) { skip_to_next(); }
 
   std::pair<std::uint32_t, std::uint32_t> take() {
-    // Boost leaves out the origin, number 0. Scrambled it is a point like the others, and nets of
-    // 2^m points miss it.
+    // Boost omits the origin, number 0. Scrambled it is a point like any other, and nets of 2^m
+    // points require it.
     std::pair<std::uint32_t, std::uint32_t> digits{0, 0};
     if (next_ != 0) {
       digits.first = static_cast<std::uint32_t>(points_() >> 32);
@@ -151,8 +155,9 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int count, std::
 std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int end,
                                              std::uint64_t seed) {
   if (!is_extensible(sampling)) {
-    throw InputError(fmt::format("{}: all its points change with their number, so it cannot go on",
-                                 name_of(sampling)));
+    throw InputError(
+        fmt::format("{}: its points depend on their number, so the sequence cannot be continued",
+                    name_of(sampling)));
   }
   if (begin < 0 || end < begin || end > max_directions) {
     throw InputError(

@@ -11,11 +11,10 @@ namespace transillum {
 /// @throws InputError unless 1 <= count <= max_directions.
 void check_direction_count(int count);
 
-/// The digits of k in `base` mirrored at the point: van der Corput's sequence, in [0,1).
+/// The digits of k in `base` mirrored at the radix point: van der Corput's sequence, in [0,1).
 double radical_inverse(std::uint32_t k, std::uint32_t base);
 
-/// Points `begin` … `begin + count - 1` of an extensible sequence; their numbers go on from 0 after
-/// 2^32 - 1.
+/// Points `begin` … `begin + count - 1` of an extensible sequence; 2^32 - 1 is followed by 0.
 std::vector<DirectionSample> extensible_points(Sampling sampling, std::uint32_t begin, int count,
                                                std::uint64_t seed);
 

@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-/// Eq. 13: a point of the unit square with its direction, uniform to uniform.
+/// Eq. 13: maps a point of the unit square to a direction; uniform points give uniform directions.
 inline DirectionSample sample_at(double u, double v) {
   const double psi = 2 * std::numbers::pi * u;
   const double cos_theta = 1 - 2 * v;
@@ -17,11 +17,11 @@ inline DirectionSample sample_at(double u, double v) {
   return {u, v, {sin_theta * std::cos(psi), sin_theta * std::sin(psi), cos_theta}};
 }
 
-/// The other way: a unit vector with its point of the square.
+/// The inverse: maps a unit vector to its point of the unit square.
 inline DirectionSample sample_along(const Vec3& direction) {
   const double turns = std::atan2(direction.y, direction.x) / (2 * std::numbers::pi);
   const double u = turns < 0 ? turns + 1 : turns;
-  // Where a turn is less than the last bit of 1, it is none.
+  // turns + 1 may round to 1, which stands for u = 0.
   return {u < 1 ? u : 0, std::clamp((1 - direction.z) / 2, 0.0, 1.0), direction};
 }
 

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Star discrepancy by a sweep over u with one line per upper side v, in O(M^1.5).
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +9,14 @@
 namespace transillum {
 namespace {
 
-/// The largest of many lines over x, where the lines of a range can be lifted.
+/// The maximum of many lines at x, where ranges of lines can be raised.
 ///
-/// Lines are kept in blocks of about the square root of their number. A block knows the upper hull
-/// of its lines, those that are largest somewhere, and how far it was lifted as a whole; lifting a
-/// part of it makes its hull anew. Both questions so cost the square root of the number of lines.
+/// The lines are divided into blocks of about the square root of their number. A block stores the
+/// upper envelope of its lines and the height by which it was raised as a whole; raising a part of
+/// it rebuilds its envelope. Both operations therefore cost the square root of the number of lines.
 class LiftedLines {
  public:
-  /// Line k is slopes[k] x, for now. Slopes ascend.
+  /// Line k is initially slopes[k] x. Slopes must ascend.
   explicit LiftedLines(std::vector<double> slopes)
       : slope_(std::move(slopes)),
         height_(slope_.size(), 0),
@@ -42,14 +44,14 @@ class LiftedLines {
     }
   }
 
-  /// Of all lines at x; x must not fall from call to call.
+  /// The maximum of all lines at x; x must not decrease from call to call.
   double max_at(double x) {
     double highest = -HUGE_VAL;
     for (Block& block : blocks_) {
       const auto value = [&](std::size_t k) {
         return height_[block.hull[k]] + slope_[block.hull[k]] * x;
       };
-      // As x grows, the largest line becomes a steeper one.
+      // With increasing x, steeper lines become the largest.
       while (block.at + 1 < block.hull.size() && value(block.at + 1) >= value(block.at)) {
         ++block.at;
       }
@@ -63,7 +65,7 @@ class LiftedLines {
     std::size_t begin, end;
     double height;
     std::vector<std::size_t> hull;
-    std::size_t at;  ///< in the hull: the largest at the last x
+    std::size_t at;  ///< index in the hull of the largest line at the last x
   };
 
   void make_hull(Block& block) {
@@ -77,7 +79,7 @@ class LiftedLines {
     }
   }
 
-  /// Whether the hull's last line is nowhere above both its forerunner and the steeper line k.
+  /// Whether the hull's last line is nowhere above both its predecessor and the steeper line k.
   bool hides_last(const std::vector<std::size_t>& hull, std::size_t k) const {
     const std::size_t b = hull.back();
     if (slope_[k] == slope_[b]) {
@@ -112,16 +114,16 @@ double star_discrepancy(std::span<const DirectionSample> samples,
   const auto count = static_cast<double>(samples.size());
   std::vector<DirectionSample> points(samples.begin(), samples.end());
   std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
-  std::vector<double> tops;  // v where a box may end
+  std::vector<double> tops;  // possible upper sides v of a box
   for (const DirectionSample& p : points) {
     tops.push_back(p.v);
   }
   tops.push_back(1);
   tops = distinct_sorted(std::move(tops));
 
-  // With u swept to the right, a box that ends at v has (points in it) - M v u too many points, if
-  // its upper sides belong to it, or M v u - (points in it) too few, if they do not. Slopes must
-  // ascend, so the boxes with too many are counted from the highest down.
+  // At position u of the sweep, a box with upper side v has (points in it) - M v u too many points
+  // if its upper sides belong to it, or M v u - (points in it) too few if they do not. Slopes must
+  // ascend, so the lines of boxes with too many are stored from the highest v down.
   std::vector<double> few_slopes, many_slopes;
   for (const double v : tops) {
     few_slopes.push_back(count * v);
