@@ -159,7 +159,7 @@ class InspectTest : public QObject {
     shown.window->selection.select(light);
     QCOMPARE(shown.part<QComboBox>("material")->currentIndex(), scene.patch(light).material);
 
-    QSignalSpy snapshots(shown.window.get(), &OpenScene::snapshot_shown);
+    QSignalSpy snapshots(&shown.window->scene, &OpenScene::snapshot_shown);
     const auto* exposure = shown.part<QLabel>("material_exposure");
     QVERIFY(exposure->isHidden());
     slider->setValue(2 * slider->value());

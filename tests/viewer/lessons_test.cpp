@@ -174,7 +174,7 @@ class LessonsTest : public QObject {
     window.colors.set_logarithmic(true);
     window.files().open_lesson("2", 3);
     QVERIFY(taught.settles());
-    QVERIFY(window.map_view()->labels_shown() && !taught.focus().following());
+    QVERIFY(window.parts().map.labels_shown() && !taught.focus().following());
     // The lesson's scene and another one, each after the exposure was fixed.
     for (const std::string& scene : {window.scene.spec(), std::string("furnace")}) {
       window.colors.set_exposure(-3);
@@ -187,7 +187,7 @@ class LessonsTest : public QObject {
       QCOMPARE(window.snapshot()->options.directions, 32);
       QVERIFY(taught.focus().following());
       QVERIFY(window.colors.exposure_is_automatic() && window.colors.scale().logarithmic);
-      QVERIFY(!window.map_view()->labels_shown());
+      QVERIFY(!window.parts().map.labels_shown());
       const auto* view = window.findChild<SceneView*>();
       const ViewPoint shown = view->view_point();
       window.findChild<SceneView*>()->reset_view();

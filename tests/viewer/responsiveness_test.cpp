@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "window/inspection_panels.h"
 #include "window_support.h"
 
 using namespace transillum;
@@ -173,9 +172,7 @@ class ResponsivenessTest : public QObject {
       timings.measure([&] {
         edits.set(material, first.exitance, (1 - 0.05 * k) * first.reflectance);
         QVERIFY(wait_for(
-            [&] {
-              return window->inspection().up_to_date() && window->snapshot()->radiosity != before;
-            },
+            [&] { return !window->relighting.busy() && window->snapshot()->radiosity != before; },
             long_enough));
         window->repaint();
       });

@@ -92,7 +92,7 @@ class SessionFileTest : public QObject {
       window.breakpoints.set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
       change_appearance(window);
-      window.algorithm()->set_kind(MapKind::global);
+      window.parts().algorithm.set_kind(MapKind::global);
       camera = solved.scene_view->view_point();
       window.parts().page.bookmarks().add(camera, "the \"first\" one");
       camera.eye.x += 1;
@@ -115,7 +115,7 @@ class SessionFileTest : public QObject {
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
     check_appearance(*window);
-    QVERIFY(window->algorithm()->kind() == MapKind::global);
+    QVERIFY(window->parts().algorithm.kind() == MapKind::global);
     const auto& views = window->parts().page.bookmarks().all();
     QCOMPARE(views.size(), std::size_t{1});
     QCOMPARE(views[0].name, QString("the \"first\" one"));
@@ -240,7 +240,7 @@ class SessionFileTest : public QObject {
   void exports_pictures_charts_and_figures() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
-    const ExportActions& exports = solved.window->exports();
+    const ExportActions& exports = *solved.window->findChild<ExportActions*>();
     const QTemporaryDir folder;
     exports.write_scene(folder.filePath("scene.png"), 2);
     const QImage picture(folder.filePath("scene.png"));
@@ -268,7 +268,7 @@ class SessionFileTest : public QObject {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
-    ExportActions& exports = solved.window->exports();
+    ExportActions& exports = *solved.window->findChild<ExportActions*>();
     exports.begin_frames(folder.path());
     solved.trigger("one_direction");
     QVERIFY(wait_for([&] { return exports.frames() >= 2; }));

@@ -13,8 +13,8 @@
 
 #include "map/map_canvas.h"
 #include "map/map_view.h"
-#include "scene/scene_view.h"
 #include "scene/scene_page.h"
+#include "scene/scene_view.h"
 #include "solve/settings_panel.h"
 #include "widgets/banner.h"
 #include "widgets/theme.h"

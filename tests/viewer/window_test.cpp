@@ -80,7 +80,9 @@ class WindowTest : public QObject {
     scenes->trigger();
     QVERIFY(!scene_view->isVisible());
     window->findChild<QPushButton*>("begin_lesson")->click();
-    QVERIFY(wait_for([&] { return window->findChild<ViewStateApplier*>()->arrived() && scene_view->isVisible(); }));
+    QVERIFY(wait_for([&] {
+      return window->findChild<ViewStateApplier*>()->arrived() && scene_view->isVisible();
+    }));
   }
 
   void pictures_are_neither_blank_nor_of_one_color() {
