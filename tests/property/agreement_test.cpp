@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Oracle 7: the engines agree, whatever they are given, to 1e-10 of the patch's area.
+// ALGORITHM.md, oracle 7: the engines agree to 1e-10 of the patch's area on all scenes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -25,20 +25,20 @@ using testing::TransferDifference;
 
 constexpr double agreed = 1e-10;
 
-/// Those that promise the same numbers, and how many fragments each of them is asked to take here:
-/// the slow ones take seconds a direction where there are more.
-struct Contestant {
+/// An engine that must give the same numbers as the others, and the largest number of fragments
+/// with which it is tested: the slow ones take seconds per direction with more.
+struct TestedEngine {
   Engine engine;
-  std::size_t most_fragments;
+  std::size_t max_fragments;
 };
-constexpr std::array contestants{Contestant{Engine::local, SIZE_MAX},
-                                 Contestant{Engine::fast, SIZE_MAX},
-                                 Contestant{Engine::global, 400}, Contestant{Engine::exact, 200}};
+constexpr std::array tested_engines{
+    TestedEngine{Engine::local, SIZE_MAX}, TestedEngine{Engine::fast, SIZE_MAX},
+    TestedEngine{Engine::global, 400}, TestedEngine{Engine::exact, 200}};
 
-/// Largest differences of all that ran in this program, engine by engine.
+/// The largest differences found by this program, per pair of engines.
 class Table : public ::testing::Environment {
  public:
-  void take(Engine a, Engine b, const TransferDifference& found) {
+  void add(Engine a, Engine b, const TransferDifference& found) {
     Row& row = rows_[{a, b}];
     ++row.directions;
     if (!(found.share <= row.worst)) {
@@ -65,16 +65,16 @@ class Table : public ::testing::Environment {
 };
 auto* const table = static_cast<Table*>(::testing::AddGlobalTestEnvironment(new Table));
 
-/// All engines that take the scene, at work on it.
-class Contest {
+/// The engines that are tested on a scene.
+class EngineComparison {
  public:
-  explicit Contest(std::shared_ptr<const Scene> scene)
+  explicit EngineComparison(std::shared_ptr<const Scene> scene)
       : scene_(std::move(scene)), tree_(std::make_shared<const BspTree>(*scene_)) {
-    for (const Contestant& contestant : contestants) {
-      if (tree_->fragments().size() > contestant.most_fragments) {
+    for (const TestedEngine& tested : tested_engines) {
+      if (tree_->fragments().size() > tested.max_fragments) {
         continue;
       }
-      engines_.emplace_back(contestant.engine, make_engine(contestant.engine, scene_, tree_));
+      engines_.emplace_back(tested.engine, make_engine(tested.engine, scene_, tree_));
     }
   }
 
@@ -87,7 +87,7 @@ class Contest {
     for (std::size_t a = 0; a < results.size(); ++a) {
       for (std::size_t b = a + 1; b < results.size(); ++b) {
         const TransferDifference found = testing::difference(*scene_, results[a], results[b]);
-        table->take(engines_[a].first, engines_[b].first, found);
+        table->add(engines_[a].first, engines_[b].first, found);
         EXPECT_LE(found.share, agreed)
             << name_of(engines_[a].first) << " and " << name_of(engines_[b].first) << ", "
             << scene_->name() << ", direction "
@@ -107,9 +107,9 @@ class AgreementBuiltIn : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AgreementBuiltIn, InEveryDirection) {
   const auto scene = load_scene(GetParam());
-  const Contest contest(scene);
+  const EngineComparison comparison(scene);
   for (const Vec3& omega : testing::test_directions(scene->patch_count() > 100 ? 9 : 15, 21)) {
-    contest.expect_agreement(omega);
+    comparison.expect_agreement(omega);
   }
 }
 
@@ -137,17 +137,17 @@ class AgreementCorpus : public ::testing::TestWithParam<std::string> {};
 TEST_P(AgreementCorpus, InEveryDirection) {
   for (const bool two_sided : {false, true}) {
     const auto scene = load_scene(GetParam(), {.two_sided = two_sided});
-    const Contest contest(scene);
+    const EngineComparison comparison(scene);
     for (const Vec3& omega : testing::test_directions(15, 22)) {
-      contest.expect_agreement(omega);
+      comparison.expect_agreement(omega);
     }
     // Faces seen edge-on, along an edge and in their plane.
     for (PatchId i = 0; i < scene->patch_count(); i += 1 + scene->patch_count() / 8) {
       const auto outline = scene->outline(i);
       const Vec3 edge = scene->point(outline[1]) - scene->point(outline[0]);
       const Vec3 other = scene->point(outline.back()) - scene->point(outline[0]);
-      contest.expect_agreement(normalized(edge));
-      contest.expect_agreement(normalized(normalized(edge) + 0.7 * normalized(other)));
+      comparison.expect_agreement(normalized(edge));
+      comparison.expect_agreement(normalized(normalized(edge) + 0.7 * normalized(other)));
     }
   }
 }
@@ -167,18 +167,18 @@ TEST(MapOnFailure, IsDrawnAndNamed) {
   std::filesystem::remove(path);
 }
 
-/// Where the engines do not agree on a random scene, it is left as an .obj file.
+/// If the engines disagree on a random scene, writes it to an .obj file.
 void expect_agreement_on(std::uint64_t seed) {
   const testing::RandomScene random = testing::random_scene(seed);
   const auto scene = std::make_shared<const Scene>(random.description, random.options);
   SCOPED_TRACE(fmt::format("{}{}", scene->name(), random.options.two_sided ? ", two-sided" : ""));
-  const Contest contest(scene);
+  const EngineComparison comparison(scene);
   for (const Vec3& omega : random.directions) {
-    contest.expect_agreement(omega);
+    comparison.expect_agreement(omega);
     if (!random.closed) {
       continue;
     }
-    const ClosureDefect defect = closure_defect(contest.local(omega), *scene);
+    const ClosureDefect defect = closure_defect(comparison.local(omega), *scene);
     EXPECT_LE(defect.relative, 1e-10)
         << "patch " << defect.worst
         << fmt::format(", direction {},{},{}", omega.x, omega.y, omega.z);
@@ -201,23 +201,23 @@ void expect_agreement_on(std::uint64_t first, std::uint64_t count) {
   }
 }
 
-/// Ten scenes each, so that ctest can run them side by side.
+/// Ten scenes each, so that ctest can run them in parallel.
 class AgreementRandom : public ::testing::TestWithParam<int> {};
-TEST_P(AgreementRandom, OnScenesMadeToBeNasty) {
+TEST_P(AgreementRandom, OnDegenerateScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 10, 10);
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementRandom, ::testing::Range(0, 20));
 
-/// Scenes on which engines have not agreed.
-class AgreementFound : public ::testing::TestWithParam<int> {};
-TEST_P(AgreementFound, OnScenesMadeToBeNasty) {
+/// Scenes on which engines once disagreed.
+class AgreementRegression : public ::testing::TestWithParam<int> {};
+TEST_P(AgreementRegression, OnDegenerateScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()));
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, AgreementFound,
+INSTANTIATE_TEST_SUITE_P(Seeds, AgreementRegression,
                          ::testing::Values(1164, 2314, 5846, 6224, 6369, 8796, 8994, 9809, 10317));
 
 class NightlyAgreementRandom : public ::testing::TestWithParam<int> {};
-TEST_P(NightlyAgreementRandom, OnScenesMadeToBeNasty) {
+TEST_P(NightlyAgreementRandom, OnDegenerateScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 500, 500);
 }
 INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyAgreementRandom, ::testing::Range(1, 21));

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Oracles 1 and 2 of the method: what a closed scene's transfers must add up to.
+// ALGORITHM.md, oracles 1 and 2: sums of the transfers of closed scenes.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::test_directions;
 
-/// What all passes through a scene without open sides keep.
+/// Properties of all passes through a scene without open sides.
 void expect_closure(const std::shared_ptr<const Scene>& scene, Engine by, int directions) {
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine engine = make_engine(by, scene, tree);
@@ -27,7 +27,7 @@ void expect_closure(const std::shared_ptr<const Scene>& scene, Engine by, int di
     ASSERT_LE(defect.relative, 1e-10)
         << "patch " << defect.worst << ", omega " << omega.x << ", " << omega.y << ", " << omega.z;
     ASSERT_LE(defect.grazing, 1e-12);
-    // Something is seen at all, and no more than there is.
+    // The exchanged area is a large part of the projected area, and no more.
     double projected = 0, exchanged = 0;
     for (const Coverage& c : transfers.forward) {
       projected += c.projected;
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
       return std::to_string(test.index / 2) + name_of(std::get<Engine>(test.param));
     });
 
-/// Closed surfaces that stick in one another: backs are looked at, and nothing is left open still.
+/// Interpenetrating closed surfaces: back sides are seen, and closure still holds.
 class ClosureInterpenetrating : public ::testing::TestWithParam<Engine> {};
 
 TEST_P(ClosureInterpenetrating, ReceivedAreasAddUpTo200Projections) {
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, ClosureInterpenetrating,
                          ::testing::Values(Engine::local, Engine::fast),
                          [](const auto& test) { return name_of(test.param); });
 
-/// Projected areas against the normals, an independent road.
+/// Projected areas against those computed from the normals.
 TEST(Projection, AreasFollowTheCosine) {
   const auto scene = load_scene("rooms");
   const auto tree = std::make_shared<const BspTree>(*scene);

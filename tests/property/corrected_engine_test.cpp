@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// What the engine without cutting promises, and what it loses.
+// What engine corrected guarantees, and its error.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Engines {
   }
 };
 
-TEST(TransferComparison, CountsWhatIsBetweenTheWrongPatches) {
+TEST(TransferComparison, MeasuresExchangesBetweenTheWrongPatches) {
   Transfers a, b;
   a.forward.resize(4);
   a.exchanges = {{0, 1, 3}, {0, 2, 1}, {3, 1, 4}};
@@ -57,7 +57,7 @@ TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
   }
 }
 
-TEST(CorrectedEngine, SeesNothingBehindWhatHidesItWholly) {
+TEST(CorrectedEngine, SeesNothingBehindAFaceThatHidesAll) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   const auto square = [](double half, double z, bool up) {
@@ -78,8 +78,8 @@ TEST(CorrectedEngine, SeesNothingBehindWhatHidesItWholly) {
   EXPECT_NEAR(transfers.exchanges[0].area, 4, 1e-12);
 }
 
-/// A shade over a corner of the floor: the lamp's share of the rest is right.
-TEST(CorrectedEngine, GivesTheRestToWhatIsBehind) {
+/// A shade hides a corner of the floor; the lamp covers the rest.
+TEST(CorrectedEngine, GivesTheRestToTheFaceBehind) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, gray);
@@ -93,7 +93,7 @@ TEST(CorrectedEngine, GivesTheRestToWhatIsBehind) {
 
 class CorrectedPower : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(CorrectedPower, ReceivedIsWhatIsProjectedAndMisplacedIsLittle) {
+TEST_P(CorrectedPower, ReceivedEqualsProjectedAndLittleIsMisplaced) {
   const Engines engines(load_scene(GetParam()));
   double most = 0;
   for (const Vec3& omega : test_directions(20, 7)) {
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(ClosedScenes, CorrectedPower,
                          ::testing::Values("furnace", "cornell-box", "sphere-flake:levels=1"),
                          [](const auto& test) { return "scene" + std::to_string(test.index); });
 
-TEST(CorrectedEngine, LosesLittleOfTheAnswer) {
+TEST(CorrectedEngine, SolvesWithSmallError) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.02});
   SolveOptions options{.directions = 128, .threads = 2};
   const Solution exact = solve(scene, options);
@@ -137,15 +137,15 @@ TEST(CorrectedEngine, LosesLittleOfTheAnswer) {
   EXPECT_TRUE(solve(scene, options).radiosity == corrected.radiosity);
 }
 
-TEST(CorrectedEngine, StopsWhenAsked) {
+TEST(CorrectedEngine, StopsWhenCanceled) {
   const Engines engines(load_scene("rooms"));
   Cancellation cancellation;
   cancellation.cancel();
   EXPECT_THROW(engines.corrected(normalized(Vec3{1, 2, 3}), cancellation), Canceled);
 }
 
-/// The map is the engine's own account: what it does not count as open it has given to somebody.
-TEST(CorrectedMap, IsWhatTheEngineBooks) {
+/// The map agrees with the engine's transfers: area that is not open has been transferred.
+TEST(CorrectedMap, AgreesWithTheEnginesSums) {
   for (const char* spec : {"cornell-box", "rooms", "boards", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec);
     const auto tree = std::make_shared<const BspTree>(*scene);
@@ -154,8 +154,8 @@ TEST(CorrectedMap, IsWhatTheEngineBooks) {
       const RecordedDirection direction = record_local_map(*scene, *tree, omega);
       const MapRecord& record = direction.record;
       const CorrectedMap map = corrected_map_after(scene, tree, record, record.step_count() - 1);
-      const Transfers booked = engine(omega, {});
-      std::vector<double> given(booked.backward.size()), open(given.size());
+      const Transfers transfers = engine(omega, {});
+      std::vector<double> given(transfers.backward.size()), open(given.size());
       double area = 0;
       for (const CorrectedMap::Part& part : map.parts) {
         area += part.area;
@@ -166,10 +166,10 @@ TEST(CorrectedMap, IsWhatTheEngineBooks) {
         at(open, part.patch) += part.exact;
       }
       for (std::size_t i = 0; i < given.size(); ++i) {
-        ASSERT_NEAR(given[i], booked.backward[i].covered, 1e-9 * area) << spec << " " << i;
+        ASSERT_NEAR(given[i], transfers.backward[i].covered, 1e-9 * area) << spec << " " << i;
         const Coverage& truly = direction.transfers.backward[i];
         if (std::string(spec) == "boards") {
-          continue;  // backs cover there, which no receiver books
+          continue;  // back sides cover patches there, which is not counted as a transfer
         }
         ASSERT_NEAR(open[i], truly.projected - truly.covered, 1e-9 * area) << spec << " " << i;
       }
@@ -177,11 +177,11 @@ TEST(CorrectedMap, IsWhatTheEngineBooks) {
   }
 }
 
-TEST(CorrectedMap, TellsWhatIsTakenWrongly) {
+TEST(CorrectedMap, ShowsTheEnginesErrors) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
-  // Over a wide receiver a light, and half over that another one: between their parts is a gap that
-  // only shapes could tell of.
+  // A wide receiver below a face that half overlaps another one: only the shapes show the gap
+  // between the visible parts.
   sketch.face({{0, 0, 3}, {0, 1, 3}, {2, 1, 3}, {2, 0, 3}}, gray);
   sketch.face({{1, 0, 2}, {1, 1, 2}, {3, 1, 2}, {3, 0, 2}}, gray);
   sketch.face({{0.5, 0, 1}, {3.5, 0, 1}, {3.5, 1, 1}, {0.5, 1, 1}}, gray);
@@ -196,7 +196,7 @@ TEST(CorrectedMap, TellsWhatIsTakenWrongly) {
   const CorrectedMap last = corrected_map_after(scene, tree, record, 2);
   ASSERT_EQ(last.parts.size(), 3U);
   EXPECT_NEAR(last.parts[0].exact, 0.5, 1e-9);
-  EXPECT_NEAR(last.parts[0].open, 0, 1e-6);  // the receiver must be covered, so it takes all of it
+  EXPECT_NEAR(last.parts[0].open, 0, 1e-6);  // the receiver must be covered, so it gets all of it
   EXPECT_NEAR(last.parts[1].exact, 0, 1e-9);
   EXPECT_NEAR(last.parts[1].open, 0, 1e-6);
   EXPECT_NEAR(last.wrong_share(), 1, 1e-5);

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The engines in exact numbers: against answers known by hand, and all maps against one another
-// (method, oracle 7).
+// The engines with exact numbers, against known answers, and all maps against each other
+// (ALGORITHM.md, oracle 7).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class ExactEngines : public ::testing::TestWithParam<Engine> {
   }
 };
 
-/// Faces up, respectively down, at height z.
+/// The outline at height z, facing up or down.
 std::vector<Vec3> up(std::vector<Vec3> outline, double z) {
   for (Vec3& p : outline) {
     p.z = z;
@@ -57,7 +57,7 @@ std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
 TEST_P(ExactEngines, SquaresGiveTheRoundedTruth) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
-  // 1 - 0.1 and the like are the roundings of what the doubles' own values give.
+  // 1 - 0.1 is the exact result for the doubles' values, rounded once.
   sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
   sketch.face(down(rectangle(0.1, -1, 3, 2), 1), gray);
   EXPECT_EQ(only_area(sketch), 1 - 0.1);
@@ -71,12 +71,12 @@ TEST_P(ExactEngines, ThirdsAreRoundedOnce) {
   EXPECT_EQ(only_area(sketch), 1.0 / 6);
 }
 
-TEST_P(ExactEngines, PartsRoundABlockerAddUpToTheRoundedTruth) {
+TEST_P(ExactEngines, PartsAroundABlockerSumToTheRoundedTruth) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
   sketch.face(down(rectangle(-1, -1, 2, 2), 2), gray);
-  // In the way, its back to the receiver: in the square it is 3/4 long and rises to 9/28.
+  // A blocker with its back to the receiver: within the square it is 3/4 long and up to 9/28 high.
   sketch.face(up({{0.25, 0.25, 0}, {7.25, 0.25, 0}, {7.25, 3.25, 0}}, 1), gray);
   const Transfers transfers = transfers_of(GetParam(), sketch.scene(), {0, 0, 1});
   const double hidden = 27.0 / 224;
@@ -98,21 +98,21 @@ TEST_P(ExactEngines, StopAtOnceWhenCanceled) {
   EXPECT_THROW(engine({0, 0, 1}, cancellation), Canceled);
 }
 
-TEST_P(ExactEngines, StopSoonWhenCanceledUnderWay) {
+TEST_P(ExactEngines, StopSoonWhenCanceledDuringAPass) {
   const auto scene = load_scene("sphere-flake:levels=2,slices=10,stacks=6");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
   using Clock = std::chrono::steady_clock;
   const Cancellation cancellation;
   Clock::time_point canceled;
-  std::thread canceller([&] {
+  std::thread canceler([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     canceled = Clock::now();
     cancellation.cancel();
   });
   EXPECT_THROW(engine(normalized({1, 2, 3}), cancellation), Canceled);
-  canceller.join();
-  // 50 ms are promised; machines may be busy.
+  canceler.join();
+  // The limit is 50 ms; the machine may be busy.
   EXPECT_LT(Clock::now() - canceled, std::chrono::milliseconds(500));
 }
 
@@ -150,7 +150,7 @@ std::map<Pair, double> by_pair(const Transfers& transfers) {
   return areas;
 }
 
-/// Largest difference over the patch's area; a pair has the smaller of its patches' areas.
+/// Largest difference relative to the patch's area; for a pair, to the smaller area of the two.
 double difference(const Scene& scene, const Transfers& a, const Transfers& b) {
   double largest = 0;
   const auto compare = [&](PatchId i, double one, double other) {

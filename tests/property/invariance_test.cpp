@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Oracle 5: what must not change the answer.
+// ALGORITHM.md, oracle 5: changes of the input that must not change the results.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::Sketch;
 
-/// sum of A(i,j) of scene `a` against scene `b`, patch by patch, for directions that correspond.
+/// Compares A(i,j) of scenes `a` and `b`, patch by patch, for corresponding directions.
 void expect_same_transfers(std::shared_ptr<const Scene> a, std::shared_ptr<const Scene> b,
                            const std::function<Vec3(const Vec3&)>& turn, double scale,
                            const std::vector<int>& patch_in_b) {
@@ -38,7 +38,7 @@ void expect_same_transfers(std::shared_ptr<const Scene> a, std::shared_ptr<const
     }
     for (std::size_t k = 0; k < difference.size(); ++k) {
       const double area = b->patch(static_cast<PatchId>(k / n)).area;
-      // A turned scene is a rounded one: a patch at grazing angle moves by its own rounding.
+      // Rotating a scene rounds it: a patch at a grazing angle changes by that rounding.
       ASSERT_NEAR(difference[k], 0, 1e-12 * scale * scale + 1e-11 * area);
     }
   }
@@ -94,8 +94,8 @@ TEST(Invariance, OrderOfFaces) {
   }
 }
 
-/// A patch cut in two by hand: its halves' areas add up to the whole's.
-TEST(Invariance, PatchCutByHand) {
+/// A patch split into two triangles: their areas add up to that of the whole.
+TEST(Invariance, PatchSplitInTwo) {
   const auto room = [](bool cut) {
     Sketch sketch;
     const int gray = sketch.material(0.5, 1);

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The inner loop of the fast engine: known cuts, and all backends give the same bits.
+// The inner loop of engine fast: known cuts, and all backends give the same bits.
 #include "visibility/fast/boundary_cut.h"
 #include "visibility/fast/simd_backend.h"
 
@@ -26,7 +26,7 @@ void add(BoundarySegments& outline, const Points& polygon) {
   }
 }
 
-/// From points of whole numbers.
+/// A cutter with integer corners.
 Cutter cutter_of(const SimdBackend& backend, const Points& polygon, double tolerance = 0) {
   std::vector<GridPoint> corners;
   for (const auto& [x, y] : polygon) {
@@ -54,7 +54,6 @@ Points square(double x, double y, double size) {
 
 class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
  protected:
-  /// Cuts, and checks what does not depend on the case.
   bool cut(const BoundarySegments& outline, const Cutter& cutter) {
     return GetParam().cut(outline, cutter, cut_, outside_);
   }
@@ -69,14 +68,15 @@ class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
   BoundarySegments outside_;
 };
 
-/// The cutter sticks into the square from its right: two segments of its outline stay, one falls
-/// into three.
-TEST_P(OutlineCutWays, TheMiddleOfASide) {
+/// The cutter overlaps the square's right side: three segments remain whole, the fourth becomes two
+/// outside parts and one inside part.
+TEST_P(OutlineCutWays, ACutterAcrossASide) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   const Cutter cutter = cutter_of(GetParam(), {{3, 1}, {6, 1}, {6, 2}, {3, 2}});
   ASSERT_TRUE(cut(outline, cutter));
-  // Segment 1 goes up along x = 4: in over the lower edge, out over the upper one.
+  // Segment 1 goes up along x = 4: it enters through the lower edge and leaves through the upper
+  // one.
   EXPECT_THAT(std::vector(cut_.enters.begin(), cut_.enters.begin() + 4),
               ::testing::ElementsAre(2, 0, 0, 0));
   EXPECT_THAT(std::vector(cut_.leaves.begin(), cut_.leaves.begin() + 4),
@@ -85,7 +85,7 @@ TEST_P(OutlineCutWays, TheMiddleOfASide) {
   EXPECT_EQ(cut_.in_y[1], 1);
   EXPECT_EQ(cut_.out_x[1], 4);
   EXPECT_EQ(cut_.out_y[1], 2);
-  // Its left corners are in the square, and its right ones are not.
+  // The cutter's left corners are in the square, its right ones are not.
   EXPECT_THAT(std::vector(cut_.winding.begin(), cut_.winding.begin() + 4),
               ::testing::ElementsAre(1, 0, 0, 1));
   EXPECT_EQ(cut_.twice_area, 4);  // about (0, 0): from (4, 1) to (4, 2)
@@ -93,7 +93,7 @@ TEST_P(OutlineCutWays, TheMiddleOfASide) {
   EXPECT_EQ(GetParam().extent(outside_), (Extent{4, 4, 8, 4, 0, 0, 0, 4}));
 }
 
-TEST_P(OutlineCutWays, ACutterWithin) {
+TEST_P(OutlineCutWays, ACutterInsideTheRegion) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(1, 1, 1))));
@@ -104,7 +104,7 @@ TEST_P(OutlineCutWays, ACutterWithin) {
   EXPECT_EQ(outside_.count, 4U);
 }
 
-TEST_P(OutlineCutWays, AnOutlineWithin) {
+TEST_P(OutlineCutWays, ARegionInsideTheCutter) {
   BoundarySegments outline;
   add(outline, square(1, 1, 1));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(0, 0, 4))));
@@ -115,11 +115,11 @@ TEST_P(OutlineCutWays, AnOutlineWithin) {
   EXPECT_EQ(outside_.count, 0U);
 }
 
-TEST_P(OutlineCutWays, NothingInCommon) {
+TEST_P(OutlineCutWays, NoCommonArea) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   EXPECT_FALSE(cut(outline, cutter_of(GetParam(), square(5, 0, 4))));
-  // No line of the cutter tells them apart.
+  // No line of the cutter separates them.
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), {{5, 2}, {20, 1}, {20, 3}})));
   EXPECT_EQ(all_in(), 0U);
   for (std::size_t m = 0; m < 3; ++m) {
@@ -127,7 +127,8 @@ TEST_P(OutlineCutWays, NothingInCommon) {
   }
 }
 
-/// What is within the tolerance of a line is on its inner side, and is cut where it ends.
+/// Points within the tolerance of a line count as on its inner side; segments are cut at such end
+/// points.
 TEST_P(OutlineCutWays, PointsOnLines) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
@@ -211,8 +212,9 @@ void expect_same(const Result& a, const Result& b) {
   }
 }
 
-/// Polygons of up to 64 segments; every other time of small numbers, so that points lie on lines.
-TEST(BoundaryCut, AllWaysGiveTheSameBits) {
+/// Polygons of up to 64 segments; in every other round with small integers, so that points lie on
+/// lines.
+TEST(BoundaryCut, AllBackendsGiveTheSameBits) {
   const auto backends = simd_backends();
   EXPECT_STREQ(backends.back().name, "scalar");
   std::mt19937 random(3);
@@ -246,7 +248,7 @@ TEST(BoundaryCut, AllWaysGiveTheSameBits) {
   EXPECT_GT(cuts, 10000);
 }
 
-/// A line through far points is as exact where it passes near as one through near points.
+/// Near the region, a line through far points is as accurate as one through near points.
 TEST(BoundaryCut, FarLines) {
   constexpr std::int64_t far = std::int64_t{1} << 56;
   const std::vector<GridPoint> corners{{-far - 1, -far + 2}, {far - 3, far + 1}, {-far, far}};

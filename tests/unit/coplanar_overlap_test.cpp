@@ -19,8 +19,8 @@ std::vector<CoplanarOverlap> overlaps_in(Sketch& sketch, std::size_t most = 100)
   return coplanar_overlaps(*scene, BspTree(*scene), most);
 }
 
-/// The lamp lies over the floor; a tile beside it touches, one turned over is another side.
-TEST(CoplanarOverlaps, AreWhatTwoFacesCoverOnOneSide) {
+/// A lamp overlaps the floor; a tile beside it only touches, and a reversed one is another side.
+TEST(CoplanarOverlaps, AreTheCommonAreasOfFacesWithTheSameNormal) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
   std::vector<Vec3> turned = rectangle(0, 0, 4, 4);
@@ -36,7 +36,7 @@ TEST(CoplanarOverlaps, AreWhatTwoFacesCoverOnOneSide) {
   EXPECT_NEAR(overlaps[0].area, 1, 1e-12);
 }
 
-/// A wall of many panels through both: cheaper to cut the two than the panels.
+/// A wall of many panels through both faces: the tree cuts the two faces rather than the panels.
 TEST(CoplanarOverlaps, AddUpOverFragments) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
@@ -50,13 +50,13 @@ TEST(CoplanarOverlaps, AddUpOverFragments) {
   const BspTree tree(*scene);
   const auto overlaps = coplanar_overlaps(*scene, tree, 100);
   ASSERT_EQ(overlaps.size(), 1U);
-  // Each cut costs a strip on either side of it.
+  // Each cut loses a strip on both its sides.
   EXPECT_NEAR(overlaps[0].area, 4, 24 * BspTree::thickness(*scene));
   EXPECT_EQ(tree.fragments().size(), 14U);
 }
 
-/// Copies of one face, without end: no more pairs are kept than are asked for.
-TEST(CoplanarOverlaps, AreNoMoreThanAskedFor) {
+/// Many copies of one face: no more pairs are returned than requested.
+TEST(CoplanarOverlaps, AreNoMoreThanRequested) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
   for (int k = 0; k < 40; ++k) {
@@ -66,7 +66,7 @@ TEST(CoplanarOverlaps, AreNoMoreThanAskedFor) {
   EXPECT_EQ(overlaps_in(sketch, 100).size(), 100U);
 }
 
-TEST(CoplanarOverlaps, AreNotInScenesOfOurs) {
+TEST(CoplanarOverlaps, DoNotOccurInBuiltInScenes) {
   for (const char* name : {"cornell-box", "rooms", "boards", "furnace"}) {
     const auto scene = load_scene(name);
     EXPECT_THAT(coplanar_overlaps(*scene, BspTree(*scene), 10), ::testing::IsEmpty()) << name;

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Sides of lines and meetings of lines on the grid, against fractions of whole numbers.
+// Sides of lines and meetings of lines on the grid, against exact fractions.
 #include "visibility/fast/exact_side.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ bool are_parallel(const GridLine& p, const GridLine& q) {
   return cross(exact(p.b) - exact(p.a), exact(q.b) - exact(q.a)) == 0;
 }
 
-/// From p.a along p as far as it takes to be on q.
+/// The point on p where it meets q.
 FractionPoint true_meeting(const GridLine& p, const GridLine& q) {
   const FractionPoint along = exact(p.b) - exact(p.a), across = exact(q.b) - exact(q.a);
   const Fraction t = cross(exact(q.a) - exact(p.a), across) / cross(along, across);
@@ -48,8 +48,8 @@ void expect_rounded(long double found, const Fraction& truth) {
   ASSERT_LE(abs(Digits(found) - expected), 1e-15 * abs(expected)) << found;
 }
 
-/// Points and lines of the grid, of all sizes and most of them nearly degenerate.
-class GridGame {
+/// Random points and lines on the grid, of all sizes, most of them nearly degenerate.
+class RandomGrid {
  public:
   std::int64_t number(int bits) {
     const auto size = std::int64_t{1} << bits;
@@ -60,7 +60,7 @@ class GridGame {
     return {x, y};
   }
   int size() { return std::uniform_int_distribution<int>(1, 59)(generator_); }
-  /// The point moved by a step or so, or not.
+  /// The point, or one at most a grid unit away in x and y.
   GridPoint near(const GridPoint& p) { return clamped(p.x + number(1), p.y + number(1)); }
   GridLine line() {
     for (;;) {
@@ -71,7 +71,7 @@ class GridGame {
       }
     }
   }
-  /// Next to `p`'s line: off it by what the grid cannot tell.
+  /// A point on p's line, up to the grid's resolution.
   GridPoint beside(const GridLine& p) {
     const long double t = 3 * static_cast<long double>(number(30)) * 0x1p-30L;
     const auto at = [t](std::int64_t a, std::int64_t b) {
@@ -80,7 +80,7 @@ class GridGame {
     };
     return near(clamped(at(p.a.x, p.b.x), at(p.a.y, p.b.y)));
   }
-  /// Through points beside `p`.
+  /// A line through two such points: nearly the same line as p.
   GridLine along(const GridLine& p) {
     for (;;) {
       const GridLine made{beside(p), beside(p)};
@@ -89,7 +89,7 @@ class GridGame {
       }
     }
   }
-  /// Through a point where it is asked for: a line of three that meet there.
+  /// A line exactly through a point.
   GridLine through(const GridPoint& p) {
     for (;;) {
       const std::int64_t dx = number(28), dy = number(28), back = number(29), on = number(29);
@@ -110,13 +110,13 @@ class GridGame {
 
 constexpr int rounds = 4000;
 
-TEST(ExactSide, TellsTheSideOfPoints) {
-  GridGame game;
+TEST(ExactSide, IsCorrectForPoints) {
+  RandomGrid random;
   int on_line = 0;
   for (int round = 0; round < rounds; ++round) {
-    const GridLine line = game.line();
+    const GridLine line = random.line();
     for (const GridPoint& p :
-         {game.point(game.size()), game.beside(line), game.near(line.a), line.b}) {
+         {random.point(random.size()), random.beside(line), random.near(line.a), line.b}) {
       const Fraction truth = true_side(line, exact(p));
       expect_rounded(exact_side(line, p), truth);
       on_line += truth == 0;
@@ -133,31 +133,31 @@ void expect_side_of_meeting(const GridLine& line, const GridLine& p, const GridL
   }
 }
 
-TEST(ExactSide, TellsTheSideOfMeetings) {
-  GridGame game;
+TEST(ExactSide, IsCorrectForMeetingsOfLines) {
+  RandomGrid random;
   for (int round = 0; round < rounds; ++round) {
-    const GridLine line = game.line(), p = game.line(), q = game.line();
+    const GridLine line = random.line(), p = random.line(), q = random.line();
     expect_side_of_meeting(line, p, q);
-    // Flat angles, between two of them and among all three.
-    expect_side_of_meeting(line, p, game.along(p));
-    expect_side_of_meeting(line, p, game.along(line));
-    expect_side_of_meeting(line, game.along(line), game.along(line));
+    // Small angles, between two of the lines and among all three.
+    expect_side_of_meeting(line, p, random.along(p));
+    expect_side_of_meeting(line, p, random.along(line));
+    expect_side_of_meeting(line, random.along(line), random.along(line));
   }
 }
 
 TEST(ExactSide, IsZeroWhereThreeLinesMeet) {
-  GridGame game;
+  RandomGrid random;
   for (int round = 0; round < rounds; ++round) {
-    const GridPoint at = game.point(58);
-    const GridLine line = game.through(at), p = game.through(at), q = game.through(at);
+    const GridPoint at = random.point(58);
+    const GridLine line = random.through(at), p = random.through(at), q = random.through(at);
     ASSERT_EQ(exact_side(line, p, q), 0);
-    // A step beside, the side is told again.
-    const GridPoint beside = game.near(at);
-    expect_side_of_meeting(game.through(beside), p, q);
+    // One grid unit off, the side is decided again.
+    const GridPoint beside = random.near(at);
+    expect_side_of_meeting(random.through(beside), p, q);
   }
 }
 
-TEST(ExactSide, TakesTheFarthestCornersOfTheGrid) {
+TEST(ExactSide, IsCorrectAtTheCornersOfTheGrid) {
   constexpr auto far = std::int64_t{1} << 59;
   const GridLine diagonal{{-far, -far}, {far, far}}, other{{-far, far}, {far, -far}};
   const GridLine nearly{{-far, -far}, {far, far - 1}}, top{{far, far}, {-far, far}};
@@ -184,30 +184,30 @@ void expect_meeting(const GridLine& p, const GridLine& q, const GridPoint& origi
   expect_rounded(found.y, truth.y);
 }
 
-TEST(ExactMeeting, IsFoundHoweverFlatTheAngle) {
-  GridGame game;
+TEST(ExactMeeting, IsCorrectForAnyAngle) {
+  RandomGrid random;
   for (int round = 0; round < rounds; ++round) {
-    const GridLine p = game.line();
-    for (const GridLine& q : {game.line(), game.along(p), GridLine{p.a, game.near(p.b)}}) {
+    const GridLine p = random.line();
+    for (const GridLine& q : {random.line(), random.along(p), GridLine{p.a, random.near(p.b)}}) {
       if (q.a.x == q.b.x && q.a.y == q.b.y) {
         continue;
       }
-      expect_meeting(p, q, game.point(game.size()));
+      expect_meeting(p, q, random.point(random.size()));
       expect_meeting(p, q, p.a);
     }
   }
 }
 
-TEST(ExactMeeting, KnowsParallelLines) {
-  GridGame game;
+TEST(ExactMeeting, DetectsParallelLines) {
+  RandomGrid random;
   for (int round = 0; round < rounds; ++round) {
-    const GridPoint origin = game.point(58), d = game.point(27);
+    const GridPoint origin = random.point(58), d = random.point(27);
     if (d.x == 0 && d.y == 0) {
       continue;
     }
     const auto made = [&] {
-      const GridPoint a = game.point(58);
-      const std::int64_t far = 1 + std::abs(game.number(30));
+      const GridPoint a = random.point(58);
+      const std::int64_t far = 1 + std::abs(random.number(30));
       return GridLine{a, {a.x + far * d.x, a.y + far * d.y}};
     };
     const GridLine p = made(), q = made();
@@ -215,7 +215,7 @@ TEST(ExactMeeting, KnowsParallelLines) {
     EXPECT_TRUE(exact_meeting(p, {q.b, q.a}, origin).parallel);
     EXPECT_TRUE(exact_meeting(p, p, origin).parallel);
     EXPECT_EQ(exact_side(made(), p, q), 0);
-    // One step turns it.
+    // One grid unit changes the direction.
     EXPECT_FALSE(
         exact_meeting(p, {q.a, {q.b.x + (d.y != 0), q.b.y + (d.y == 0)}}, origin).parallel);
   }

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The fast engine where its short cuts might fail: against the local map and known answers.
+// Engine fast in cases where its shortcuts might fail, against the local map and known answers.
 #include <gmock/gmock.h>
 #include <pthread.h>
 
@@ -25,7 +25,7 @@ using testing::Sketch;
 
 constexpr double agreed = 1e-10;
 
-/// A scene, its tree and the fast engine at work on it.
+/// A scene, its tree, and engine fast for it.
 struct Fast {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const BspTree> tree;
@@ -62,8 +62,8 @@ double area_of(const Transfers& transfers, PatchId receiver, PatchId source) {
   return 0;
 }
 
-/// Some lit side looks at a back, so that backs have to look for themselves.
-bool is_in_air(const Fast& fast) {
+/// Whether no front side sees a back side in a number of directions.
+bool sees_no_backs(const Fast& fast) {
   for (const Vec3& omega : testing::test_directions(20, 32)) {
     for (const double seen : fast.run(omega, {}).back_seen) {
       if (seen > 1e-6) {
@@ -74,12 +74,12 @@ bool is_in_air(const Fast& fast) {
   return true;
 }
 
-// Closed surfaces, of which the engine decides by one pass whether they are in air.
+// Closed surfaces: the engine decides by one pass whether front sides see back sides.
 
-void expect_closed(const Sketch& sketch, bool in_air, const SceneOptions& options = {}) {
+void expect_closed(const Sketch& sketch, bool backs_hidden, const SceneOptions& options = {}) {
   const Fast fast(sketch.scene(options));
   EXPECT_TRUE(is_closed_surface(*fast.scene));
-  EXPECT_EQ(is_in_air(fast), in_air);
+  EXPECT_EQ(sees_no_backs(fast), backs_hidden);
   expect_as_local(fast.scene);
 }
 
@@ -116,7 +116,7 @@ TEST(FastEngineClosed, NestedBoxes) {
   expect_closed(nested(true, true), false);    // a room in a room
 }
 
-TEST(FastEngineClosed, ASheetOfTwoSidesInABox) {
+TEST(FastEngineClosed, ATwoSidedSheetInABox) {
   for (const bool inward : {true, false}) {
     Sketch sketch;
     const int gray = sketch.material(0.5, 1);
@@ -127,14 +127,14 @@ TEST(FastEngineClosed, ASheetOfTwoSidesInABox) {
   }
 }
 
-TEST(FastEngineClosed, EverythingFromBothSides) {
+TEST(FastEngineClosed, TwoSidedFaces) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.box({0, 0, 0}, {1, 1, 1}, false, gray).triangles(12, 1.5, 3, gray);
   expect_closed(sketch, true, {.two_sided = true});
 }
 
-/// Of one block standing on another, coincident opposite faces hide each other.
+/// Where one block stands on another, coincident opposite faces hide each other.
 TEST(FastEngineClosed, ABoxStandingExactlyOnAFloor) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -143,11 +143,12 @@ TEST(FastEngineClosed, ABoxStandingExactlyOnAFloor) {
   const auto scene = sketch.scene();
   EXPECT_TRUE(is_closed_surface(*scene));
   expect_as_local(scene);
-  // Of the floor, patch 0, what the boxes do not stand on looks at the ceiling, patch 1.
+  // The part of the floor (patch 0) without boxes sees the ceiling (patch 1).
   EXPECT_NEAR(area_of(Fast(scene).run({0, 0, 1}, {}), 0, 1), 16 - 3, 1e-12);
 }
 
-// Polygons of many corners: faces are cut into parts of 16, pieces of more than 24 in half.
+// Polygons with many corners: fragments are cut into parts of 16, ExactView's polygons with more
+// than 24 in half.
 
 std::vector<Vec3> regular(int corners, double radius, const Vec3& center) {
   std::vector<Vec3> outline;
@@ -176,7 +177,7 @@ TEST(FastEngineCorners, PolygonsOf3To100) {
     sketch.face(regular(corners, 1, {}), gray);
     sketch.face(turned_over(regular(corners, 1, apart)), gray);
     const Fast fast(sketch.scene());
-    // Along what sets them apart they are one behind the other.
+    // Along the vector between them, one is exactly behind the other.
     const Vec3 along = normalized(apart);
     EXPECT_NEAR(area_of(fast.run(along, {}), 0, 1), along.z * area_of_regular(corners), 1e-13);
     EXPECT_NEAR(area_of(fast.run(-along, {}), 1, 0), along.z * area_of_regular(corners), 1e-13);
@@ -201,8 +202,8 @@ TEST(FastEngineCorners, StacksOfPolygons) {
   }
 }
 
-/// Cuts a square's corners off until a regular polygon round the unit circle is left open: 4, 8,
-/// 16 … corners, the later half of them cut by lines that cut nothing but them.
+/// A square below triangles that hide its corners, so that a regular polygon around the unit circle
+/// of 4, 8, 16 … corners stays visible; each triangle cuts off one corner of the polygon so far.
 Sketch polished_square(int corners) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -220,25 +221,26 @@ Sketch polished_square(int corners) {
   return sketch;
 }
 
-TEST(FastEngineCorners, PiecesGetAsManyAsTheyLike) {
+TEST(FastEngineCorners, PolygonsOfUpTo128Corners) {
   for (int corners = 8; corners <= 128; corners *= 2) {
     const Sketch sketch = polished_square(corners);
     const double expected = corners * std::tan(std::numbers::pi / corners);
     const Transfers transfers = Fast(sketch.scene()).run({0, 0, 1}, {});
     EXPECT_NEAR(area_of(transfers, 0, 1), expected, 1e-13);
     EXPECT_NEAR(transfers.forward[0].covered, 4, 1e-13);
-    // And where nothing is a power of two.
+    // And rotated, so that no coordinate is a power of two.
     const auto turn = testing::random_rotation(static_cast<std::uint64_t>(corners));
     const Fast turned(std::make_shared<const Scene>(testing::moved(sketch.description(), turn)));
     EXPECT_NEAR(area_of(turned.run(turn({0, 0, 1}), {}), 0, 1), expected, 1e-12);
   }
 }
 
-// Large faces and small ones: bins.
+// Bins: large faces with small ones.
 
 constexpr int tiles_across = 40;
 
-/// A floor of small squares, up, or a ceiling of them, down; patches 0 … tiles_across² - 1.
+/// A floor of small squares that face up, or a ceiling of squares that face down; patches 0 …
+/// tiles_across² - 1.
 Sketch tiles(bool up) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
@@ -280,8 +282,7 @@ TEST(FastEngineBins, ManySmallFacesOverALargeOne) {
   }
 }
 
-/// A strip across all tiles: from bin to bin along a diagonal, and beside most of those that its
-/// box covers.
+/// A diagonal strip across all tiles: it passes through few of the bins that its box covers.
 TEST(FastEngineBins, ALongThinDiagonalFace) {
   for (const double width : {0.3, 1e-3, 1e-7}) {
     for (const bool above : {true, false}) {
@@ -297,7 +298,7 @@ TEST(FastEngineBins, ALongThinDiagonalFace) {
       for (const Transfer& t : transfers.exchanges) {
         seen += t.area;
       }
-      // The difference of what lies beyond its two long sides: triangles in the tiles' corner.
+      // The difference of the two triangles beyond its long sides.
       const double outer = far - 0.25, inner = outer - std::numbers::sqrt2 * width;
       EXPECT_NEAR(seen, 0.5 * (outer * outer - inner * inner), 1e-11);
       EXPECT_GT(transfers.exchanges.size(), static_cast<std::size_t>(2 * tiles_across - 2));
@@ -308,7 +309,7 @@ TEST(FastEngineBins, ALongThinDiagonalFace) {
   }
 }
 
-// What holds whatever the scene.
+// Properties of all scenes.
 
 TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
   std::vector<std::shared_ptr<const Scene>> scenes;
@@ -329,7 +330,7 @@ TEST(FastEngine, OppositeDirectionsGiveTheSameAreas) {
   }
 }
 
-/// Of all patches and directions, both ways.
+/// Over all patches and directions, for omega and -omega.
 double worst_closure(const Fast& fast, const std::vector<Vec3>& directions) {
   double worst = 0;
   for (const Vec3& omega : directions) {
@@ -338,14 +339,14 @@ double worst_closure(const Fast& fast, const std::vector<Vec3>& directions) {
   return worst;
 }
 
-TEST(FastEngine, LeavesNothingOpenWhereRoundingIsWorst) {
-  // Of 1,024 and of 4,096 directions those that were worst, and why.
+TEST(FastEngine, HasSmallClosureDefectsWhereRoundingIsWorst) {
+  // The worst of 1,024 and of 4,096 directions, and why.
   const auto few = make_directions(Sampling::fibonacci, 1024, 1);
   const auto many = make_directions(Sampling::fibonacci, 4096, 1);
   const std::vector<Vec3> directions{
       few[380].direction,    // a bin's edge runs through a sphere's pole, flat to a meridian
       few[467].direction,    // small triangles on a large wall
-      few[492].direction,    // a wall that is done with leaves out a sliver of a small face
+      few[492].direction,    // a wall's query ends before a sliver of a small face
       few[991].direction,    // the same
       many[4031].direction,  // the same: 1.0e-10
       many[488].direction    // a needle that the tree has cut
@@ -353,19 +354,19 @@ TEST(FastEngine, LeavesNothingOpenWhereRoundingIsWorst) {
   EXPECT_LT(worst_closure(Fast(load_scene("sphere-flake")), directions), 4e-12);
 }
 
-TEST(FastEngine, SeesSmallFacesWholeFromAHugeOne) {
+TEST(FastEngine, SeesAllOfSmallFacesFromAHugeOne) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.tetrahedra(20, 0.1, 23, gray).box({-50, -50, -50}, {50, 50, 50}, true, gray);
   EXPECT_LT(worst_closure(Fast(sketch.scene()), testing::test_directions(50, 16)), 1e-11);
 }
 
-/// Share of the patches from which outlines in doubles did not do, over some random directions.
+/// Share of the patches whose queries required exact signs, over some random directions.
 double exact_share(const char* spec) {
   const Fast fast(load_scene(spec));
   PassCounts counts;
   std::vector<Vec3> directions = testing::test_directions(27, 14);
-  directions.erase(directions.begin(), directions.begin() + 7);  // those that see edges end-on
+  directions.erase(directions.begin(), directions.begin() + 7);  // those along edges
   for (const Vec3& omega : directions) {
     counts += fast.run(omega, {}).counts;
   }
@@ -377,47 +378,47 @@ double exact_share(const char* spec) {
          static_cast<double>(fast.scene->patch_count() * directions.size());
 }
 
-TEST(FastEngine, SeldomNeedsExactSigns) {
+TEST(FastEngine, RarelyNeedsExactSigns) {
   EXPECT_LT(exact_share("sphere-flake"), 0.005);
-  // Where walls and blocks share planes and lines, points on lines are common.
+  // Points on lines are common here: walls and blocks share planes and lines.
   EXPECT_LT(exact_share("rooms"), 0.005);
   EXPECT_LT(exact_share("cornell-box"), 0.005);
 }
 
-/// Faces thinner than doubles can measure, and 10^4 times as small as what they hang above.
-TEST(FastEngine, LooksByExactSignsWhereThereAreNeedlesAndSpecks) {
-  const auto looks = [](const Fast& fast) {
-    std::int64_t exact = 0;
+/// Faces thinner than doubles can resolve, and faces 10^4 times smaller than those behind them.
+TEST(FastEngine, UsesExactSignsForNeedlesAndSpecks) {
+  const auto exact_queries = [](const Fast& fast) {
+    std::int64_t count = 0;
     for (const Vec3& omega : testing::test_directions(10, 15)) {
       expect_as_local(fast, omega);
-      exact += fast.run(omega, {}).counts.exact_queries;
+      count += fast.run(omega, {}).counts.exact_queries;
     }
-    return exact;
+    return count;
   };
   Sketch needles, specks;
   const int gray = needles.material(0.5, 1);
   specks.material(0.5, 1);
   needles.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1, 1e-5, 1}, false, gray);
   specks.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, gray);
-  EXPECT_GT(looks(Fast(needles.scene())), 0);
-  EXPECT_GT(looks(Fast(specks.scene())), 0);
+  EXPECT_GT(exact_queries(Fast(needles.scene())), 0);
+  EXPECT_GT(exact_queries(Fast(specks.scene())), 0);
 }
 
-TEST(FastEngine, IsLeftWhenCanceled) {
+TEST(FastEngine, ThrowsWhenCanceled) {
   const Fast fast(load_scene("sphere-flake"));
   const Cancellation cancellation;
   cancellation.cancel();
   EXPECT_THROW(fast.run({0, 0, 1}, cancellation), Canceled);
 }
 
-/// Of one thread, so that it does not matter what else a machine does.
+/// CPU time of one thread, independent of the machine's load.
 double cpu_seconds(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(FastEngine, IsLeftSoonWhenCanceledMeanwhile) {
+TEST(FastEngine, StopsSoonWhenCanceledDuringAPass) {
   const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
   const Vec3 omega = normalized({1, 2, 3});
   clockid_t clock{};
@@ -429,7 +430,7 @@ TEST(FastEngine, IsLeftSoonWhenCanceledMeanwhile) {
     const Cancellation cancellation;
     const double start = cpu_seconds(clock);
     double canceled = 0;
-    std::thread canceller([&] {
+    std::thread canceler([&] {
       while (cpu_seconds(clock) < start + share * pass) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
@@ -438,8 +439,8 @@ TEST(FastEngine, IsLeftSoonWhenCanceledMeanwhile) {
     });
     EXPECT_THROW(fast.run(omega, cancellation), Canceled);
     const double stopped = cpu_seconds(clock);
-    canceller.join();
-    // 50 ms are promised; where sanitizers slow all down, in proportion.
+    canceler.join();
+    // The limit is 50 ms; sanitizers slow everything down in proportion.
     EXPECT_LT(stopped - canceled, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
   }
 }
@@ -458,11 +459,11 @@ bool same(const Transfers& a, const Transfers& b) {
          same(a.forward, b.forward) && same(a.backward, b.backward) && a.back_seen == b.back_seen;
 }
 
-TEST(FastEngine, GivesTheSameBitsAgainAndFromManyThreads) {
+TEST(FastEngine, GivesTheSameBitsAgainAndInManyThreads) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
-  const auto nasty = sketch.tetrahedra(15, 0.7, 9, gray).triangles(15, 1, 2, gray).scene();
-  for (const auto& scene : {load_scene("sphere-flake:levels=1"), load_scene("rooms"), nasty}) {
+  const auto degenerate = sketch.tetrahedra(15, 0.7, 9, gray).triangles(15, 1, 2, gray).scene();
+  for (const auto& scene : {load_scene("sphere-flake:levels=1"), load_scene("rooms"), degenerate}) {
     const Fast fast(scene), made_again(scene);
     const auto directions = testing::test_directions(12, 15);
     std::vector<Transfers> first;

@@ -32,7 +32,7 @@ TEST(MergedPieces, OfARefinedBoxAreItsSides) {
   }
 }
 
-TEST(MergedPieces, OfWhatIsNotConvexOrNotFlatAreThePieces) {
+TEST(MergedPieces, OfConcaveAndNonplanarFacesAreTheirPieces) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
   sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}}, gray);
@@ -43,7 +43,7 @@ TEST(MergedPieces, OfWhatIsNotConvexOrNotFlatAreThePieces) {
   }
 }
 
-TEST(MergedPieces, CoverWhatThePatchesDo) {
+TEST(MergedPieces, CoverTheSameAreaAsThePatches) {
   for (const char* spec : {"cornell-box", "rooms", "stars", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec, {.max_patch_area = 0.05});
     double patches = 0;

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Engines that look at one patch only, against whole passes.
+// Engines restricted to one patch, against whole passes.
 #include "transillum/patch_engine.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<Transfer> of_patch(const Transfers& transfers, PatchId patch) {
   return own;
 }
 
-/// The same pairs, but for slivers, and their areas to rounding.
+/// The same pairs, except slivers, with the same areas up to rounding.
 void expect_same(const std::vector<Transfer>& found, const std::vector<Transfer>& expected,
                  double rounding) {
   const auto area_in = [](const std::vector<Transfer>& list, const Transfer& wanted) {
@@ -44,7 +44,7 @@ void expect_same(const std::vector<Transfer>& found, const std::vector<Transfer>
 
 class PatchEngine : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(PatchEngine, FindsWhatAWholePassDoes) {
+TEST_P(PatchEngine, FindsTheSameAsAWholePass) {
   const auto scene = load_scene(GetParam(), {.max_patch_area = 0.2});
   const auto tree = std::make_shared<const BspTree>(*scene);
   const TransferEngine whole = make_engine(Engine::fast, scene, tree);
@@ -64,7 +64,7 @@ TEST_P(PatchEngine, FindsWhatAWholePassDoes) {
 INSTANTIATE_TEST_SUITE_P(Scenes, PatchEngine,
                          ::testing::Values("cornell-box", "boards", "furnace", "stars"));
 
-TEST(PatchShaft, LeavesOutMostOfALargeScene) {
+TEST(PatchShaft, ExcludesMostOfALargeScene) {
   const auto scene = load_scene("sphere-flake");
   const BspTree tree(*scene);
   const PatchShaft shaft(*scene, tree, 9000);
@@ -79,7 +79,7 @@ TEST(PatchShaft, LeavesOutMostOfALargeScene) {
   }
 }
 
-TEST(PatchEngine, OthersTellOfThePatchOnly) {
+TEST(PatchEngine, OtherEnginesAreRestrictedToThePatch) {
   const auto scene = load_scene("cornell-box");
   const auto tree = std::make_shared<const BspTree>(*scene);
   const Vec3 omega = testing::test_directions(1, 3).front();

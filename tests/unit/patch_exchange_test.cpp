@@ -23,7 +23,7 @@ std::vector<Vec3> level_square(double z, bool up) {
 
 constexpr double parallel_unit_squares = 0.1998248957;  // at distance 1
 
-TEST(PatchExchange, InAConvexRoomAllIsSeenWhole) {
+TEST(PatchExchange, IsCompleteInAConvexRoom) {
   Sketch sketch;
   sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.5, 1));
   const auto scene = sketch.scene({.max_patch_area = 0.08});
@@ -39,11 +39,11 @@ TEST(PatchExchange, InAConvexRoomAllIsSeenWhole) {
   }
 }
 
-TEST(PatchExchange, WhatTouchesTheShaftDoesNotBlock) {
+TEST(PatchExchange, PolygonsThatTouchTheShaftDoNotBlock) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
   sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
-  // Beside, beneath, behind; with an edge or a corner in common.
+  // Beside, coplanar, and behind; with a common edge or corner.
   sketch.face({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, gray);
   sketch.face({{1, 1, 1}, {2, 1, 0.5}, {1, 2, 0.5}}, gray);
   sketch.face({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}, gray);
@@ -54,11 +54,11 @@ TEST(PatchExchange, WhatTouchesTheShaftDoesNotBlock) {
   EXPECT_NEAR(e.area, parallel_unit_squares, 1e-10);
 }
 
-TEST(PatchExchange, AHiddenPatchGivesNothing) {
+TEST(PatchExchange, IsZeroForAHiddenPatch) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);
   sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
-  // Two halves that share an edge; one looks up and one down.
+  // Two halves that share an edge; one faces up and one down.
   sketch.face({{-9, -9, .5}, {9, -9, .5}, {9, .3, .5}, {-9, .3, .5}}, gray);
   sketch.face({{-9, 9, .5}, {9, 9, .5}, {9, .3, .5}, {-9, .3, .5}}, gray);
   const PatchExchange e = ExchangeFinder(*sketch.scene())(0, 1);
@@ -66,8 +66,8 @@ TEST(PatchExchange, AHiddenPatchGivesNothing) {
   EXPECT_NEAR(e.area, 0, 1e-14);
 }
 
-/// A partition parts floor and ceiling, so that halves see halves. The points are dealt out without
-/// regard to where it stands.
+/// A partition divides floor and ceiling, so that each part sees one part. The points are placed
+/// independently of the partition.
 TEST(PatchExchange, BehindAPartitionConverges) {
   Sketch parted;
   const int gray = parted.material(0.5, 0);
@@ -88,8 +88,8 @@ TEST(PatchExchange, BehindAPartitionConverges) {
   }
 }
 
-/// A plate floats in a room. What the floor does not see of the ceiling, it sees of the plate.
-TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistance) {
+/// A plate floats in a room. Where the floor does not see the ceiling, it sees the plate.
+TEST(PatchExchange, BehindAFloatingBlockerConvergesQuadratically) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.box({0, 0, 0}, {1, 1, 1}, true, gray);
@@ -111,8 +111,8 @@ TEST(PatchExchange, BehindAFloatingBlockerConvergesAsTheSquareOfThePointsDistanc
   }
 }
 
-/// A lamp that lies in its ceiling, the same way up, covers it.
-TEST(PatchExchange, OfCoincidentPatchesTheBrighterIsSeen) {
+/// A lamp in the plane of its ceiling, with the same normal, covers it.
+TEST(PatchExchange, TheBrighterOfCoincidentPatchesIsVisible) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 9);
   sketch.face(level_square(0, true), gray).face(level_square(1, false), gray);
@@ -123,7 +123,7 @@ TEST(PatchExchange, OfCoincidentPatchesTheBrighterIsSeen) {
   EXPECT_TRUE(exchange(0, 1).whole);
 }
 
-/// Whatever sticks in whatever: against rays.
+/// Interpenetrating triangles, against ray casting.
 TEST(PatchExchange, AgreesWithRays) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Sketch sketch;
@@ -145,7 +145,7 @@ TEST(PatchExchange, AgreesWithRays) {
       for (PatchId j = 0; j < scene->patch_count(); ++j) {
         const PatchExchange e = exchange(i, j);
         const double f = e.area / scene->patch(i).area;
-        // Four deviations of a count, and the quadrature's error where a blocker stands close.
+        // Four standard deviations of a count, and the quadrature's error near a blocker.
         const double deviation = std::sqrt(f * (1 - std::min(f, 1.0)) / rays) + 1.0 / rays;
         EXPECT_NEAR(at(row, j), f, 4 * deviation + (e.whole ? 0 : 2e-3))
             << seed << ": " << i << " " << j;

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The parts of the engine by themselves.
+// Parts of the engines: plane index, BSP tree and sums of exchanges.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,13 +23,13 @@ double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-53;
 }
 
-TEST(PlaneIndex, FindsWhatOverlapsWhileThingsComeAndGo) {
+TEST(PlaneIndex, FindsOverlapsWhileBoxesAreInsertedAndErased) {
   std::mt19937_64 generator(1);
   PlaneIndex index({-1, -1, 1, 1}, 300);
   std::vector<PlaneBox> boxes(400);
   std::vector<bool> present(400, false);
   const auto random_box = [&] {
-    // Sizes over four decades: specks and sheets.
+    // Sizes over four decades.
     const double size = std::pow(10, -4 * uniform(generator));
     const double x = 2 * uniform(generator) - 1, y = 2 * uniform(generator) - 1;
     return PlaneBox{x, y, x + size * uniform(generator), y + size * uniform(generator)};
@@ -59,7 +59,7 @@ TEST(PlaneIndex, FindsWhatOverlapsWhileThingsComeAndGo) {
   }
 }
 
-/// Area of a fragment in space.
+/// Area of a fragment in space, m².
 double area_of(const BspTree& tree, const BspTree::Fragment& fragment) {
   const auto corners = tree.corners(fragment);
   const auto place = [&](std::size_t k) { return at(tree.points(), corners[k].point); };
@@ -70,12 +70,12 @@ double area_of(const BspTree& tree, const BspTree::Fragment& fragment) {
   return norm(twice) / 2;
 }
 
-void expect_sound(const Scene& scene, const BspTree& tree) {
+void expect_consistent(const Scene& scene, const BspTree& tree) {
   std::vector<double> areas(static_cast<std::size_t>(scene.patch_count()), 0.0);
   for (const auto& fragment : tree.fragments()) {
     at(areas, fragment.patch) += area_of(tree, fragment);
     for (const auto& corner : tree.corners(fragment)) {
-      // Every edge keeps a line that goes through both its ends.
+      // Every edge lies on its line.
       const auto& line = at(tree.lines(), corner.line);
       const Vec3& a = at(tree.points(), line.a);
       const Vec3& b = at(tree.points(), line.b);
@@ -86,7 +86,7 @@ void expect_sound(const Scene& scene, const BspTree& tree) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     EXPECT_NEAR(at(areas, i), scene.patch(i).area, 1e-12 * scene.patch(i).area);
   }
-  // Each fragment comes once, from anywhere.
+  // Each fragment occurs once in every order.
   for (const Vec3& omega : testing::test_directions(10, 1)) {
     auto order = tree.order(omega);
     std::sort(order.begin(), order.end());
@@ -97,11 +97,11 @@ void expect_sound(const Scene& scene, const BspTree& tree) {
   }
 }
 
-TEST(BspTree, FragmentsMakeUpThePatches) {
+TEST(BspTree, FragmentsAddUpToThePatches) {
   for (const char* spec :
        {"cornell-box", "boards", "rooms", "stars", "furnace", "sphere-flake:levels=1"}) {
     const auto scene = load_scene(spec);
-    expect_sound(*scene, BspTree(*scene));
+    expect_consistent(*scene, BspTree(*scene));
   }
 }
 
@@ -110,11 +110,11 @@ TEST(BspTree, CutsInterpenetratingTriangles) {
   const auto scene = sketch.triangles(60, 1.5, 2, sketch.material(0.5, 1)).scene();
   const BspTree tree(*scene);
   EXPECT_GT(tree.fragments().size(), scene->pieces().size());
-  expect_sound(*scene, tree);
+  expect_consistent(*scene, tree);
 }
 
-/// Triangles whose planes nearly coincide: whole stretches of an outline count as on the plane,
-/// and must not go to both sides.
+/// Triangles whose planes nearly coincide: several successive corners of an outline count as on the
+/// plane, and must not be assigned to both sides.
 TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
   std::mt19937_64 generator(3);
   for (const double spread : {1e-13, 1e-12, 1e-11, 1e-9}) {
@@ -145,13 +145,13 @@ TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
   }
 }
 
-TEST(BspTree, HardlySplitsTheSphereFlake) {
+TEST(BspTree, SplitsFewFacesOfTheSphereFlake) {
   const auto scene = load_scene("sphere-flake");
   const BspTree tree(*scene);
   EXPECT_LE(static_cast<double>(tree.fragments().size()), 1.15 * scene->patch_count());
 }
 
-TEST(BspTree, IsLeftWhenCanceled) {
+TEST(BspTree, ThrowsWhenCanceled) {
   const auto scene = load_scene("furnace");
   const Cancellation cancellation;
   cancellation.cancel();
@@ -159,7 +159,7 @@ TEST(BspTree, IsLeftWhenCanceled) {
   EXPECT_THROW(BspTree(*scene).order({0, 0, 1}, cancellation), Canceled);
 }
 
-/// Of coincident faces, the receiving comes first in the light's way; a lamp covers its ceiling.
+/// Among coincident faces, receiving ones come before emitting ones; a lamp covers its ceiling.
 TEST(BspTree, OrdersCoincidentFaces) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), lamp = sketch.material(0, 1);
@@ -172,17 +172,18 @@ TEST(BspTree, OrdersCoincidentFaces) {
   for (const FragmentId f : tree.order({0, 0, 1})) {
     patches.push_back(tree.fragment(f).patch);
   }
-  // From above: the upward face receives; then ceiling, then lamp emit downward, the lamp last.
+  // Toward +z: first the upward face, which receives; then ceiling and lamp, which emit downward,
+  // the lamp last.
   EXPECT_THAT(patches, ::testing::ElementsAre(2, 0, 1));
   patches.clear();
   for (const FragmentId f : tree.order({0, 0, -1})) {
     patches.push_back(tree.fragment(f).patch);
   }
-  // Light from below: the lamp meets it first.
+  // Toward -z: the lamp comes first, so it receives.
   EXPECT_THAT(patches, ::testing::ElementsAre(1, 0, 2));
 }
 
-TEST(ExchangeSums, AddUpAndGatherBothWays) {
+TEST(ExchangeSums, AddUpAndGatherInBothDirections) {
   std::mt19937_64 generator(8);
   for (const bool two_way : {false, true}) {
     constexpr std::size_t n = 12;
@@ -223,7 +224,7 @@ TEST(ExchangeSums, AddUpAndGatherBothWays) {
   }
 }
 
-TEST(ExchangeSums, LetGoOfEverythingBeyondTheBudget) {
+TEST(ExchangeSums, DropEverythingBeyondTheMemoryLimit) {
   ExchangeSums sums(7, true, 10 * sizeof(Transfer), {});
   sums.add({{0, 1, 1.0}, {0, 2, 1.0}});
   EXPECT_FALSE(sums.overrun());
@@ -234,7 +235,7 @@ TEST(ExchangeSums, LetGoOfEverythingBeyondTheBudget) {
   sums.for_each([](PatchId, PatchId, double) { ADD_FAILURE(); });
 }
 
-TEST(ExchangeSums, AreTheSameBitsWheneverTheyAreMerged) {
+TEST(ExchangeSums, HaveTheSameBitsWheneverTheyAreMerged) {
   constexpr PatchId n = 40;
   constexpr std::uint64_t pairs = n * (n - 1) / 2;
   ExchangeSums roomy(n, true, 1 << 30, {}), crowded(n, true, 3 * pairs * sizeof(Transfer), {});
