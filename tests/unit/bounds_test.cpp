@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The bounds against the paper's tables and formulas, and measured direction sets.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Finding small sources and shooting them, against closed forms and conservation of power.
 #include "transillum/first_shot.h"
 
 #include <gmock/gmock.h>

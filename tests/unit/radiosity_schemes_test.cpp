@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Schemes, normalizations and replicas of RadiositySolver on small scenes.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// RadiositySolver and solve(): stepping, pausing, cancellation, convergence, options.
 #include <gmock/gmock.h>
 
 #include <chrono>

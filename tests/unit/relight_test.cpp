@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// relight() against solves with the other materials.
 #include "transillum/relight.h"
 
 #include <gmock/gmock.h>

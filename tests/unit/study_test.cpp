@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Studies, their reference cache and their plots.
 #include "transillum/study.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Studies: the error of B against the number of passes, for several series of options. Input: a
+// Scene, its BspTree, StudyOptions and a reference solution.
 #include "transillum/study.h"
 
 #include <fmt/format.h>

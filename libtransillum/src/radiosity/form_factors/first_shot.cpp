@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The first shot (section 5.2): finds small bright sources of a Scene and computes the irradiance
+// that they cause directly, by exact form factors.
 #include "transillum/first_shot.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Jacobi iteration with a given matrix F, for hemicubes, relighting and solve_radiosity().
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Solves with form factors by hemicubes and fills in the statistics of a Solution.
 #include <algorithm>
 #include <cmath>
 #include <utility>

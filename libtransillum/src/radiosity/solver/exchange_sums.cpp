@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Sums of exchanged areas in compressed rows. Passes wait in lists and are merged when as many
+// exchanges wait as there are sums. Input: the exchanges of each pass, from make_run().
 #include "radiosity/solver/exchange_sums.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A TBB pipeline of three filters: number the passes, make them in parallel, add them in order.
 #include "radiosity/solver/pass_runner.h"
 
 #include <oneapi/tbb/parallel_pipeline.h>

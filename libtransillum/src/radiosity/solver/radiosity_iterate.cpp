@@ -1,4 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// One iterate B(n) of eq. 11: gathers along passes or from kept sums, normalizes, and ends
+// iterations.
+//
+// Notation: M passes; S_ij the kept sum of areas of receiver i and source j; d the scales of the
+// symmetric normalization; a `row` is a receiver; `unshot` is B without the exitance of the first
+// shot.
 #include "radiosity/solver/radiosity_iterate.h"
 
 #include <algorithm>
@@ -198,8 +205,8 @@ double RadiosityIterate::finish() {
   return change;
 }
 
-void RadiosityIterate::leap(const KeptSums& sums, double tolerance,
-                            const Cancellation& cancellation) {
+void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
+                                    const Cancellation& cancellation) {
   const double unit = 4.0 / (kept_passes_ * 2);
   const auto patches = scene_.patches().size();
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);

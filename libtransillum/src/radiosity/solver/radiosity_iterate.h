@@ -55,7 +55,7 @@ class RadiosityIterate {
   /// Sets B to the limit of the iteration, by conjugate gradients on the symmetric form.
   /// @param tolerance of the residual, relative
   /// @throws Canceled, NotConvergent
-  void leap(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
+  void set_to_limit(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
 
  private:
   /// H_i from what is gathered, and B_i from H_i.

@@ -38,7 +38,7 @@ void RadiositySolver::Impl::begin_iteration() {
   const bool from_sums = kept.available() && statistics.areas().passes > 0;
   if (from_sums && input.options.scheme == Scheme::conjugate_gradients && history.size() == 1) {
     for_each_iterate([&](RadiosityIterate& iterate, const KeptSums& sums) {
-      iterate.leap(sums, 0.1 * input.options.tolerance, input.cancellation);
+      iterate.set_to_limit(sums, 0.1 * input.options.tolerance, input.cancellation);
     });
   }
   for_each_iterate([&](RadiosityIterate& iterate, const KeptSums& sums) {
