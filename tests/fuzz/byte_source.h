@@ -6,7 +6,7 @@
 
 namespace transillum::fuzz {
 
-/// Takes an input apart, byte by byte; zeros when it is used up.
+/// Reads an input byte by byte; zeros after its end.
 class ByteSource {
  public:
   ByteSource(const std::uint8_t* data, std::size_t size) : bytes_(data, size) {}
@@ -16,8 +16,8 @@ class ByteSource {
   /// A whole number from 0 to count - 1, count <= 256.
   unsigned below(unsigned count) { return byte() % count; }
   bool flag() { return (byte() & 1u) != 0; }
-  /// In [0,1), with 32 bits; most are no sum of a few powers of two, so that what is computed with
-  /// them is rounded.
+  /// In [0,1), with 32 bits. Most values are not sums of few powers of two, so results computed
+  /// from them are rounded.
   double fraction() {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) {

@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Fuzz target: the convex clipper. An input makes a subject and some windows on a small grid, so
-// that shared edges, touching corners and straight corners are frequent; one window after the
-// other is cut out of the subject, as a direction does, and all is compared with exact numbers.
+// Fuzz target: the convex clipper. An input defines a subject and some windows on a small grid, so
+// that shared edges, touching corners and straight corners are frequent. The windows are subtracted
+// from the subject one after the other, as the engines do, and the areas are compared with exact
+// ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,13 +29,13 @@ struct GridPoint {
 using GridPolygon = std::vector<GridPoint>;
 
 constexpr unsigned grid_size = 16;
-constexpr unsigned most_windows = 5;
+constexpr unsigned max_windows = 5;
 
 int turn(const GridPoint& a, const GridPoint& b, const GridPoint& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// One side of the hull of sorted points, with those that lie straight on it.
+/// The lower side of the convex hull of sorted points, with collinear points on it.
 GridPolygon chain(const GridPolygon& points) {
   GridPolygon chain;
   for (const GridPoint& p : points) {
@@ -46,7 +47,7 @@ GridPolygon chain(const GridPolygon& points) {
   return chain;
 }
 
-/// The hull of up to eight points, with its straight corners; empty where it has no area.
+/// The convex hull of up to eight points, with collinear corners; empty if it has no area.
 GridPolygon take_polygon(ByteSource& bytes) {
   GridPolygon points(3 + bytes.below(6));
   for (GridPoint& p : points) {
@@ -76,16 +77,16 @@ ExactPolygon exact(const GridPolygon& polygon) {
   return result;
 }
 
-/// What an input says: polygons, first the subject, and how they are looked at.
+/// The content of an input: polygons, the subject first, and the direction of projection.
 struct Case {
   std::vector<GridPolygon> polygons;
-  /// Toward which they are looked at; whole numbers, not a unit vector.
+  /// Direction of projection; integers, not a unit vector.
   Vec3 along{0, 0, 1};
-  /// Whether each polygon lies higher than the one before, just so that it shares no points and
-  /// lines with it but still the places of both.
+  /// Whether each polygon is moved along the direction, so that it shares no points and lines with
+  /// the previous one, but projects to the same positions.
   bool lifted = false;
 
-  /// Projection is exact, so what merely touches must be seen to share nothing.
+  /// Whether the projection is exact; then polygons that only touch must not overlap.
   bool is_exact() const { return along.x == 0 && along.y == 0; }
   Vec3 omega() const { return normalized(along); }
 };
@@ -97,7 +98,7 @@ Case take_case(ByteSource& bytes) {
     const double x = bytes.below(16) - 7.0, y = bytes.below(16) - 7.0, z = bytes.below(8) + 1.0;
     made.along = {x, y, z};
   }
-  const std::size_t count = 2 + bytes.below(most_windows);
+  const std::size_t count = 2 + bytes.below(max_windows);
   for (std::size_t k = 0; k < count; ++k) {
     GridPolygon polygon = take_polygon(bytes);
     if (!polygon.empty()) {
@@ -127,8 +128,8 @@ std::shared_ptr<const Scene> scene_of(const Case& from) {
   return std::make_shared<const Scene>(description);
 }
 
-/// The polygons as the engine gets them, whole: the tree may have cut them, and keeps the lines of
-/// their edges.
+/// The projected polygons as an engine gets them, but whole: the tree may have split them, and it
+/// has the lines of their edges.
 std::vector<MapPolygon> projected(const Scene& scene, const BspTree& tree,
                                   const Projection& projection) {
   std::map<std::pair<PointId, PointId>, LineId> line_between;
@@ -148,14 +149,14 @@ std::vector<MapPolygon> projected(const Scene& scene, const BspTree& tree,
   return polygons;
 }
 
-/// What a clipper makes of a subject and a window.
+/// The result of clipping a subject by a window.
 struct Cut {
   bool overlap = false;
   Real inside_area = 0;
   std::vector<MapPolygon> outside;
 };
 
-/// The clippers that are put to the test.
+/// A clipper under test.
 struct Clipper {
   const char* name;
   Cut (*clip)(const Projection&, const MapPolygon& subject, const MapPolygon& window);
@@ -178,7 +179,7 @@ Cut clip_for_map(const Projection& projection, const MapPolygon& subject,
 
 constexpr std::array<Clipper, 1> clippers{{{"map", clip_for_map}}};
 
-/// What is left of the subject, and what the windows took.
+/// Subtracts all windows from the subject, with the clipper and exactly, and compares the areas.
 class Trial {
  public:
   Trial(const Clipper& clipper, const Case& from, const Projection& projection,
@@ -187,37 +188,38 @@ class Trial {
         case_(from),
         projection_(projection),
         polygons_(polygons),
-        left_{polygons[0]},
-        exactly_left_{exact(from.polygons[0])} {
-    // Looked at obliquely, the axes of the plane are rounded to doubles.
+        remaining_{polygons[0]},
+        exactly_remaining_{exact(from.polygons[0])} {
+    // Otherwise the axes of the plane are rounded to doubles.
     if (!case_.is_exact()) {
       tolerance_to_exact_ = 1e-11L;
     }
   }
 
   void run() {
-    const Real whole = area_of(left_[0]);
-    require_near(whole, area_of(exactly_left_[0]), "the subject's area");
-    Real taken = 0;
+    const Real whole = area_of(remaining_[0]);
+    require_near(whole, area_of(exactly_remaining_[0]), "the subject's area");
+    Real total = 0;
     for (std::size_t k = 1; k < polygons_.size(); ++k) {
       check_symmetry(k);
       const Real inside = cut_out(polygons_[k]);
       require_near(inside, cut_out_exactly(exact(case_.polygons[k])), "the area inside");
-      taken += inside;
+      total += inside;
     }
-    for (const MapPolygon& part : left_) {
-      taken += area_of(part);
+    for (const MapPolygon& part : remaining_) {
+      total += area_of(part);
     }
-    require(std::abs(taken - whole) <= tolerance_, named("inside and outside make up the subject"));
+    require(std::abs(total - whole) <= tolerance_,
+            named("the parts inside and outside cover the subject"));
   }
 
  private:
-  /// Of the subject as it was at first.
+  /// Checks that subject and window may be exchanged, with the whole subject.
   void check_symmetry(std::size_t k) {
     const Cut one = clipper_.clip(projection_, polygons_[0], polygons_[k]);
     const Cut other = clipper_.clip(projection_, polygons_[k], polygons_[0]);
     require(std::abs(one.inside_area - other.inside_area) <= tolerance_,
-            named("subject and window may change places"));
+            named("subject and window may be exchanged"));
     if (!case_.is_exact()) {
       return;
     }
@@ -225,46 +227,46 @@ class Trial {
     const bool overlap =
         area_of(clip(exact(case_.polygons[0]), exact(case_.polygons[k]), outside)) > 0;
     require(one.overlap == overlap && other.overlap == overlap,
-            named("what touches shares no area, what overlaps does"));
+            named("only polygons with a common area overlap"));
   }
 
   Real cut_out(const MapPolygon& window) {
-    std::vector<MapPolygon> left;
+    std::vector<MapPolygon> remaining;
     Real inside = 0;
-    for (MapPolygon& part : left_) {
+    for (MapPolygon& part : remaining_) {
       Cut cut = clipper_.clip(projection_, part, window);
       if (!cut.overlap) {
-        left.push_back(std::move(part));
+        remaining.push_back(std::move(part));
         continue;
       }
       require(cut.inside_area > 0, named("an overlap has an area"));
       inside += cut.inside_area;
       for (MapPolygon& outside : cut.outside) {
         if (!(area_of(outside) > 0)) {
-          continue;  // as the engine does
+          continue;  // as the engines do
         }
         require_left_turns(outside);
-        left.push_back(std::move(outside));
+        remaining.push_back(std::move(outside));
       }
     }
-    left_ = std::move(left);
+    remaining_ = std::move(remaining);
     return inside;
   }
 
   Real cut_out_exactly(const ExactPolygon& window) {
-    std::vector<ExactPolygon> left;
+    std::vector<ExactPolygon> remaining;
     Real inside = 0;
-    for (ExactPolygon& part : exactly_left_) {
+    for (ExactPolygon& part : exactly_remaining_) {
       std::vector<ExactPolygon> outside;
       const Real area = area_of(clip(part, window, outside));
       inside += area;
       if (area > 0) {
-        left.insert(left.end(), outside.begin(), outside.end());
+        remaining.insert(remaining.end(), outside.begin(), outside.end());
       } else {
-        left.push_back(std::move(part));
+        remaining.push_back(std::move(part));
       }
     }
-    exactly_left_ = std::move(left);
+    exactly_remaining_ = std::move(remaining);
     return inside;
   }
 
@@ -273,14 +275,14 @@ class Trial {
     for (std::size_t k = 0; k < count; ++k) {
       const PlanePoint& at = polygon[(k + 1) % count].at;
       const Real turn = cross(at - polygon[k].at, polygon[(k + 2) % count].at - at);
-      require(turn >= -tolerance_, named("what is left is convex"));
+      require(turn >= -tolerance_, named("the remaining parts are convex"));
     }
   }
 
   void require_near(Real area, Real exact_area, const char* what) {
     const Real expected = exact_area * case_.omega().z;
     require(std::abs(area - expected) <= tolerance_to_exact_,
-            named(fmt::format("{} is {}, should be {}", what, static_cast<double>(area),
+            named(fmt::format("{} is {}, expected {}", what, static_cast<double>(area),
                               static_cast<double>(expected))));
   }
   std::string named(const std::string& what) const {
@@ -291,8 +293,8 @@ class Trial {
   const Case& case_;
   const Projection& projection_;
   const std::vector<MapPolygon>& polygons_;
-  std::vector<MapPolygon> left_;
-  std::vector<ExactPolygon> exactly_left_;
+  std::vector<MapPolygon> remaining_;
+  std::vector<ExactPolygon> exactly_remaining_;
   Real tolerance_ = 1e-15L * grid_size * grid_size;
   Real tolerance_to_exact_ = tolerance_;
 };

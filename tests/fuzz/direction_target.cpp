@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Fuzz target: one whole direction. An input makes a scene of a few polygons, most of them on a
-// coarse grid, and a direction; the engines must agree and keep what holds for every scene.
+// Fuzz target: one direction with all exact engines. An input defines a scene of a few polygons,
+// most of them on a coarse grid, and a direction. The engines must agree, and their transfers must
+// have the properties that hold for every scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,18 +23,18 @@
 namespace transillum::fuzz {
 namespace {
 
-constexpr unsigned most_polygons = 12;
+constexpr unsigned max_polygons = 12;
 constexpr unsigned grid_size = 8;
-/// Of the patch's area; what every engine promises (method, oracle 7).
+/// Relative to the patch's area; guaranteed by every engine (ALGORITHM.md, oracle 7).
 constexpr double tolerance = 1e-10;
-/// Beyond this the exact engine takes too long for a fuzz target.
-constexpr std::size_t most_fragments_exactly = 10;
+/// With more fragments the engine exact is too slow for a fuzz target.
+constexpr std::size_t max_fragments_of_exact = 10;
 
 /// A scene and a direction.
 struct Case {
   std::shared_ptr<const Scene> scene;
   Vec3 omega;
-  /// Whether a box round everything faces inward: then all that is seen is something.
+  /// Whether an inward-facing box encloses the scene, so that every line of sight ends at a patch.
   bool closed = false;
 };
 
@@ -49,7 +50,7 @@ Vec3 free_point(ByteSource& bytes) {
   return (grid_size - 1) * Vec3{x, y, z};
 }
 
-/// A rectangle across an axis.
+/// A rectangle perpendicular to an axis.
 std::vector<Vec3> take_rectangle(ByteSource& bytes) {
   const unsigned axis = bytes.below(3);
   const double level = grid_value(bytes);
@@ -64,7 +65,7 @@ std::vector<Vec3> take_rectangle(ByteSource& bytes) {
   return outline;
 }
 
-/// A level polygon of many corners.
+/// A horizontal polygon with many corners.
 std::vector<Vec3> take_disc(ByteSource& bytes) {
   const Vec3 center = grid_point(bytes);
   const double radius = 1 + grid_value(bytes) / 2;
@@ -77,7 +78,7 @@ std::vector<Vec3> take_disc(ByteSource& bytes) {
   return outline;
 }
 
-/// One more outline; `before` are the others.
+/// One more outline; `before` contains the previous ones.
 std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<Vec3>>& before) {
   std::vector<Vec3> outline;
   switch (bytes.below(8)) {
@@ -97,7 +98,7 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
         outline.push_back(free_point(bytes));
       }
       return outline;
-    case 4: {  // concave, in the plane of three grid points, with straight corners at times
+    case 4: {  // possibly concave or with straight corners, in the plane of three grid points
       const Vec3 o = grid_point(bytes), u = grid_point(bytes) - o, v = grid_point(bytes) - o;
       const unsigned count = 4 + bytes.below(5);
       for (unsigned k = 0; k < count; ++k) {
@@ -108,7 +109,7 @@ std::vector<Vec3> take_outline(ByteSource& bytes, const std::vector<std::vector<
     }
     case 5:
       return take_disc(bytes);
-    default:  // an earlier one again, where it was, or moved far or by very little
+    default:  // a previous one again, in place or moved by a large or very small distance
       if (before.empty()) {
         return take_rectangle(bytes);
       }
@@ -139,7 +140,7 @@ Vec3 take_direction(ByteSource& bytes) {
   return norm(omega) > 0 ? normalized(omega) : Vec3{0, 0, 1};
 }
 
-/// @throws InputError, as of an outline that crosses itself
+/// @throws InputError for invalid scenes, such as with an outline that crosses itself
 Case take_case(ByteSource& bytes) {
   Case made;
   made.omega = take_direction(bytes);
@@ -149,16 +150,17 @@ Case take_case(ByteSource& bytes) {
   testing::Sketch sketch("case");
   const std::array materials{sketch.material(0.5, 0), sketch.material(0, 1)};
   std::vector<std::vector<Vec3>> outlines;
-  for (unsigned left = 1 + bytes.below(most_polygons); left > 0 && !bytes.empty(); --left) {
-    const unsigned how = bytes.byte();
+  for (unsigned remaining = 1 + bytes.below(max_polygons); remaining > 0 && !bytes.empty();
+       --remaining) {
+    const unsigned variant = bytes.byte();
     std::vector<Vec3> outline = take_outline(bytes, outlines);
-    if ((how & 1u) != 0) {
+    if ((variant & 1u) != 0) {
       std::reverse(outline.begin(), outline.end());
     }
-    sketch.face(outline, materials[how >> 1 & 1u]);
+    sketch.face(outline, materials[variant >> 1 & 1u]);
     outlines.push_back(std::move(outline));
   }
-  // Parallelograms may reach three grids far, and so may those that are moved.
+  // Parallelograms and moved polygons may extend to three times the grid size.
   if (made.closed) {
     sketch.box({-100, -100, -100}, {100, 100, 100}, true, materials[0]);
   }
@@ -175,8 +177,8 @@ Areas areas_of(const Transfers& transfers) {
   return areas;
 }
 
-/// How far engines may be off at patch i, m²: what they promise, and what no double tells of the
-/// area of a needle across the scene.
+/// Tolerance for areas at patch i, m²: the guarantee of the engines, plus the rounding of
+/// coordinates, which matters for needles across the scene.
 double slack_of(const Scene& scene, PatchId i) {
   Bounds box;
   for (const PointId p : scene.outline(i)) {
@@ -186,18 +188,18 @@ double slack_of(const Scene& scene, PatchId i) {
   return tolerance * scene.patch(i).area + 16 * 0x1p-52 * farthest * box.diagonal();
 }
 
-/// What holds for each engine's transfers by themselves.
+/// Checks the properties that the transfers of each engine must have.
 void check(const Case& from, const Transfers& transfers, const std::string& engine) {
   const Scene& scene = *from.scene;
   const auto patches = static_cast<std::size_t>(scene.patch_count());
   require(transfers.forward.size() == patches && transfers.backward.size() == patches &&
               transfers.back_seen.size() == patches,
-          engine + ": an entry a patch");
+          engine + ": one entry per patch");
   std::vector<double> received(patches), sent(patches);
   std::pair<PatchId, PatchId> last{no_patch, no_patch};
   for (const Transfer& t : transfers.exchanges) {
     require(std::isfinite(t.area) && t.area > 0, engine + ": areas are finite and > 0");
-    require(last < std::pair(t.receiver, t.source), engine + ": sorted, one entry a pair");
+    require(last < std::pair(t.receiver, t.source), engine + ": sorted, one entry per pair");
     last = {t.receiver, t.source};
     at(received, t.receiver) += t.area;
     at(sent, t.source) += t.area;
@@ -207,26 +209,27 @@ void check(const Case& from, const Transfers& transfers, const std::string& engi
     const double cosine = dot(scene.patches()[i].normal, from.omega);
     const double slack = slack_of(scene, static_cast<PatchId>(i));
     const auto check_side = [&](const Coverage& side, double exchanged, double toward) {
-      const std::string who = fmt::format(
+      const std::string context = fmt::format(
           "{}: patch {} of {} m2, cosine {}: projected {}, covered {}, exchanged {}: ", engine, i,
           area, cosine, side.projected, side.covered, exchanged);
       require(std::abs(side.projected - std::max(0.0, toward) * area) <= slack,
-              who + "the projection follows the cosine");
-      require(side.covered <= side.projected + slack, who + "nothing is covered twice");
-      require(exchanged <= side.covered + slack, who + "what is exchanged is covered");
+              context + "the projection follows the cosine");
+      require(side.covered <= side.projected + slack, context + "nothing is covered twice");
+      require(exchanged <= side.covered + slack, context + "exchanged areas are covered");
       if (from.closed) {
-        require(side.covered >= side.projected - slack, who + "all is covered in a closed scene");
+        require(side.covered >= side.projected - slack,
+                context + "everything is covered in a closed scene");
       }
     };
     check_side(transfers.forward[i], received[i], cosine);
     check_side(transfers.backward[i], sent[i], -cosine);
     require(std::isfinite(transfers.back_seen[i]) && transfers.back_seen[i] >= 0 &&
                 transfers.back_seen[i] <= area + slack,
-            engine + ": no more of a back is seen than there is");
+            engine + ": at most the whole back is seen");
   }
 }
 
-/// The same areas; where one has an entry that the other has not, it is next to nothing.
+/// Checks that areas are equal within the tolerance; a missing entry counts as 0.
 void require_equal(const Scene& scene, Areas expected, const Areas& found,
                    const std::string& what) {
   for (const auto& [pair, area] : found) {
@@ -241,7 +244,7 @@ void require_equal(const Scene& scene, Areas expected, const Areas& found,
   }
 }
 
-/// Looked at from the other end, receiver and source change places.
+/// Areas with receiver and source exchanged, as along the opposite direction.
 Areas transposed(const Areas& areas) {
   Areas result;
   for (const auto& [pair, area] : areas) {
@@ -259,9 +262,9 @@ void run(const Case& from) {
   };
   const Areas local = transfers_by(Engine::local);
   const Transfers back = make_engine(Engine::local, from.scene, tree)(-from.omega, {});
-  require_equal(*from.scene, local, transposed(areas_of(back)), "local, from both ends");
+  require_equal(*from.scene, local, transposed(areas_of(back)), "local, along omega and -omega");
   require_equal(*from.scene, local, transfers_by(Engine::fast), "local and fast");
-  if (tree->fragments().size() > most_fragments_exactly) {
+  if (tree->fragments().size() > max_fragments_of_exact) {
     return;
   }
   require_equal(*from.scene, local, transfers_by(Engine::exact), "local and exact");

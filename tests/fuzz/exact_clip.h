@@ -7,14 +7,14 @@
 
 namespace transillum::fuzz {
 
-/// Every corner that clipping makes is where two input edges' lines meet, so on a small grid 64
-/// bits hold its fractions (and UBSan would say so if they did not).
+/// Every corner made by clipping is the intersection of the lines of two input edges, so on a small
+/// grid its fractions fit into 64 bits (UBSan would report an overflow).
 using Rational = boost::rational<std::int64_t>;
 
 struct ExactPoint {
   Rational x, y;
 };
-/// Convex, counter-clockwise.
+/// A convex polygon, counter-clockwise.
 using ExactPolygon = std::vector<ExactPoint>;
 
 /// Twice the signed area of a, b, p.
@@ -22,7 +22,7 @@ inline Rational turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint&
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// The parts of `polygon` on both sides of a line. May have fewer than three corners.
+/// The parts of a polygon on both sides of a line. They may have fewer than three corners.
 struct ExactHalves {
   ExactPolygon left, right;
 };
@@ -47,7 +47,8 @@ inline ExactHalves halves(const ExactPolygon& polygon, const ExactPoint& a, cons
   return result;
 }
 
-/// Each triangle of the fan is exact and rounded once: their sum's denominator could be anything.
+/// Each triangle of the fan is computed exactly and rounded once, since the denominator of their
+/// exact sum could overflow.
 inline long double area_of(const ExactPolygon& polygon) {
   long double twice = 0;
   for (std::size_t k = 2; k < polygon.size(); ++k) {
@@ -56,7 +57,8 @@ inline long double area_of(const ExactPolygon& polygon) {
   return twice / 2;
 }
 
-/// `polygon` within `window` by Sutherland and Hodgman; what lies outside is added to `outside`.
+/// The part of `polygon` inside `window`, by Sutherland and Hodgman; parts outside are added to
+/// `outside`.
 inline ExactPolygon clip(ExactPolygon polygon, const ExactPolygon& window,
                          std::vector<ExactPolygon>& outside) {
   for (std::size_t k = 0; k < window.size() && !polygon.empty(); ++k) {

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Fuzz target: the reader, and the way from faces to patches. An input is an OBJ file; what
-// follows a line `%mtl` is the MTL file that it may name as `m.mtl`.
+// Fuzz target: the OBJ reader, and the construction of patches from faces. An input is an OBJ file;
+// the text after a line `%mtl` is the MTL file that it may use as `m.mtl`.
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view separator = "\n%mtl\n";
 
-/// Newell's vector of an outline: twice its area along its normal.
+/// Newell vector of an outline: its normal times twice its area.
 Vec3 doubled_area(const Scene& scene, std::span<const PointId> outline) {
   Vec3 sum;
   const Vec3 origin = scene.point(outline[0]);
@@ -36,7 +36,7 @@ double area_of(const Scene& scene) {
   return sum;
 }
 
-/// What the coordinates' own rounding may do to an area in the scene.
+/// Largest effect of the rounding of coordinates on an area in the scene, m².
 double rounding_of_areas(const Scene& scene) {
   double largest = 0;
   for (const Vec3& p : scene.points()) {
@@ -45,9 +45,9 @@ double rounding_of_areas(const Scene& scene) {
   return 256 * 0x1p-52 * largest * scene.bounds().diagonal();
 }
 
-/// A corner that is straight where an axis is left out, but not along the normal, is in no
-/// triangle: of a face that is bent, as far as it may be and still count as planar, so much of the
-/// area is anybody's.
+/// Uncertainty of the area of a slightly bent patch that counts as planar, m²: a corner that is
+/// straight in the projection along an axis, but not in the projection along the normal, is in no
+/// triangle.
 double bend_of(const Scene& scene, PatchId i) {
   const Patch& patch = scene.patch(i);
   Bounds box;
@@ -75,7 +75,7 @@ void check(const Scene& scene) {
     require(is_finite(patch.center), "a patch has a center");
     require(std::abs(at(piece_area, i) - patch.area) <=
                 1e-9 * patch.area + bend_of(scene, i) + rounding,
-            "the pieces make up the patch");
+            "the pieces cover the patch");
     const Rgb &rho = scene.reflectance(i), &e = scene.exitance(i);
     for (const double channel : {rho.r, rho.g, rho.b}) {
       require(channel >= 0 && channel < 1, "0 <= rho < 1");
@@ -86,7 +86,7 @@ void check(const Scene& scene) {
   }
 }
 
-/// Numbers are written so that they read back bit for bit.
+/// Checks that a written scene reads back bit for bit.
 void check_written(const test::TemporaryFolder& folder, const SceneDescription& description) {
   const std::filesystem::path path = folder.path() / "written.obj";
   write_obj(path, description);
@@ -107,14 +107,14 @@ void check_file(const test::TemporaryFolder& folder, const std::string& path) {
   const Scene scene(description);
   check(scene);
   check_written(folder, description);
-  // Some hundred patches, from however large a face.
+  // Some hundred patches, however large the faces are.
   const double area = area_of(scene);
   if (!(area > 0 && std::isfinite(area))) {
     return;
   }
   const Scene fine(description, {.two_sided = true, .max_patch_area = area / 100});
   check(fine);
-  // A face that is a thousandth of its width off its plane is measured anew in parts.
+  // Parts of a face that deviates from its plane by a thousandth of its width have other planes.
   require(std::abs(area_of(fine) - 2 * area) <=
               1e-5 * area + rounding_of_areas(scene) * fine.patch_count(),
           "refined, both sides have the same area");
@@ -134,7 +134,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     fuzz::check_file(folder, path);
   } catch (const InputError& error) {
-    // Only a sentence for the user may come out.
     fuzz::require(std::string_view(error.what()).find('\n') == std::string_view::npos,
                   "an error is one line");
   }

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The main program of a fuzz target where there is no libFuzzer: runs the target on every file of
-// the folders that are named. Arguments that begin with a dash are libFuzzer's, and passed over.
+// Main program of a fuzz target without libFuzzer: runs the target on every file of the given
+// folders. Ignores arguments that begin with a dash, which are options of libFuzzer.
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -26,9 +26,9 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
   return files;
 }
 
-/// Returns whether the target took it.
+/// Runs the target on one file; returns whether it passed.
 bool replay(const std::filesystem::path& path) {
-  // Said first, and written out, so that it is known where a sanitizer ends the program.
+  // Printed and flushed first, so the file is known if a sanitizer ends the program.
   std::cout << path.string() << std::endl;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -57,6 +57,6 @@ int main(int argc, char** argv) {
     }
   }
   std::cout << replayed << " files, " << failed << " failed\n";
-  // An empty corpus tests nothing.
+  // An empty corpus is an error.
   return replayed > 0 && failed == 0 ? 0 : 1;
 }

@@ -6,7 +6,7 @@
 
 namespace transillum::fuzz {
 
-/// A property that did not hold: an exception that no target catches, so a crash to libFuzzer.
+/// A violated property. No target catches this exception, so libFuzzer reports a crash.
 class PropertyError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
