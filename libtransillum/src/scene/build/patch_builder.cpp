@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/invariant.h"
+#include "geometry/polygon_area.h"
 #include "scene/build/coincidence.h"
 #include "scene/build/description_check.h"
 #include "scene/build/refinement.h"
@@ -29,14 +30,13 @@ CornerList all_corners(std::size_t n) {
 }
 
 double signed_area(const std::vector<PlanePoint>& plane, std::span<const std::uint32_t> corners) {
-  const PlanePoint& o = plane[corners[0]];
-  double doubled = 0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const PlanePoint& a = plane[corners[i]];
-    const PlanePoint& b = plane[corners[i + 1]];
-    doubled += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-  }
-  return 0.5 * doubled;
+  struct Corner {
+    double x, y;
+  };
+  return polygon_area(corners.size(), [&](std::size_t k) {
+    const PlanePoint& p = plane[corners[k]];
+    return Corner{p[0], p[1]};
+  });
 }
 
 /// Whether the parts have the outline's area. They do not if an outline that touches itself has

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/polygon_area.h"
+
 namespace transillum {
 
 void ConvexOverlap::set_subject(const ProjectedFragments::Fragment& fragment) {
@@ -31,12 +33,9 @@ double ConvexOverlap::area_with(const ProjectedFragments::Fragment& other) const
     }
     std::swap(polygon, left);
   }
-  double twice_area = 0;
-  for (std::size_t k = 2; k < count; ++k) {
-    const Point &o = polygon[0], &a = polygon[k - 1], &b = polygon[k];
-    twice_area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-  }
-  return std::clamp(0.5 * twice_area, 0.0, std::min(area_, other.area));
+  const double area =
+      polygon_area(count, [&](std::size_t k) -> const Point& { return polygon[k]; });
+  return std::clamp(area, 0.0, std::min(area_, other.area));
 }
 
 /// Clips a polygon of `count` corners to the left side of an edge; returns the number of corners in

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/polygon_area.h"
 #include "transillum/at.h"
 #include "transillum/visibility_map.h"
 
@@ -9,12 +10,7 @@ namespace transillum {
 
 double MapRecord::area(const Row& row) const {
   const auto corner = outline(row);
-  double twice = 0;
-  for (std::size_t k = 2; k < corner.size(); ++k) {
-    const Vec2 &a = corner[0], &b = corner[k - 1], &c = corner[k];
-    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-  return twice / 2;
+  return polygon_area(corner.size(), [&](std::size_t k) -> const Vec2& { return corner[k]; });
 }
 
 bool MapRecord::covers(const Row& row, const Vec2& p) const {

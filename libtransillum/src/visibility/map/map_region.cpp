@@ -13,6 +13,7 @@
 //      |f f f f| c |
 //      +-------+---+
 #include "transillum/map_region.h"
+#include "geometry/polygon_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,12 +32,9 @@ constexpr std::size_t max_pieces = 2000;
 constexpr double rounding = 1e-9;
 
 double area_of(const Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const Point &a = polygon[0], &b = polygon[k - 1], &c = polygon[k];
-    twice += (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-  }
-  return std::abs(twice) / 2;
+  return std::abs(polygon_area(polygon.size(), [&](std::size_t k) {
+    return Vec2{polygon[k].u, polygon[k].v};
+  }));
 }
 
 PlaneRegion::Box box_of(const Polygon& polygon) {

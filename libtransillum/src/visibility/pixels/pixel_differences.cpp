@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "geometry/plane_region.h"
+#include "geometry/polygon_area.h"
 #include "transillum/at.h"
 #include "transillum/pixel_map.h"
 
@@ -17,12 +18,7 @@ namespace {
 using Outline = std::vector<Vec2>;
 
 double area_of(const Outline& outline) {
-  double twice = 0;
-  for (std::size_t k = 2; k < outline.size(); ++k) {
-    const Vec2 &a = outline[0], &b = outline[k - 1], &c = outline[k];
-    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-  return twice / 2;
+  return polygon_area(outline.size(), [&](std::size_t k) -> const Vec2& { return outline[k]; });
 }
 
 /// Clips a convex outline to low <= `axis` <= high. `spare` is scratch space.

@@ -1,9 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Convex polygons of the transillumination plane and their clipping, shared by the visibility maps
+// in long double and in exact numbers. Edges refer to lines of the BSP tree, so that both sides of
+// a cut are clipped by the same line.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "geometry/polygon_area.h"
 #include "visibility/plane/projection.h"
 
 namespace transillum {
@@ -27,11 +32,7 @@ using MapPolygon = BasicMapPolygon<Real>;
 /// origin keep their digits.
 template <class Number>
 Number area_of(const std::vector<BasicMapCorner<Number>>& polygon) {
-  Number twice = 0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    twice += cross(polygon[k - 1].at - polygon[0].at, polygon[k].at - polygon[0].at);
-  }
-  return twice / 2;
+  return polygon_area(polygon.size(), [&](std::size_t k) -> const auto& { return polygon[k].at; });
 }
 
 /// Clips convex polygons against each other by the lines of their edges.
