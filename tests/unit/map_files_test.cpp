@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Maps of a small scene with known areas: their polygons, and the files written from them (SVG,
+// PNG, VTP, JSON).
 #include "transillum/map_files.h"
 
 #include <gmock/gmock.h>

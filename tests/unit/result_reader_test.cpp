@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Reading .vtp results: everything written is read back, and damaged files give error messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkCellArray.h>

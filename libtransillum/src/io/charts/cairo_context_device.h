@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A VTK 2-D context device that draws on Cairo; chart_painter.cpp passes it to VTK's chart.
 #pragma once
 
 #include <cairo.h>

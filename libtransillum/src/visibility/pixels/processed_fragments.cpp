@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// For maps of a direction after some of its steps: which part of each patch has been processed, and
+// from which piece of the scene a fragment was cut.
 #include "visibility/pixels/processed_fragments.h"
 
 #include <algorithm>

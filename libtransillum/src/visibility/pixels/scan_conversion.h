@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Scan conversion of polygons with corners in grid units (PixelGrid), for the engines zbuffer and
+// painter.
 #pragma once
 
 #include <algorithm>
