@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Finds pairs of coplanar patches that overlap, which input files usually contain by mistake.
+// Input: the nodes of a BSP tree, whose fragments in one plane are compared pairwise by bounding
+// boxes, then by clipping.
 #include "transillum/coplanar_overlap.h"
 
 #include <map>

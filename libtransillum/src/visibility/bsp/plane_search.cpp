@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Choice of a splitting plane for BspBuilder: collects candidate normals, and sweeps over the
+// offsets along each. The cost of a plane is the number of polygons it cuts per bit of order gained
+// (decisions/0004-choice-of-planes.md).
 #include "visibility/bsp/plane_search.h"
 
 #include <algorithm>

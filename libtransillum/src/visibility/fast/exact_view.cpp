@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Visibility queries with exact signs. States and notation are described in exact_view.h. Order of
+// the file: loading fragments, sides of lines, subtracting and splitting.
 #include "visibility/fast/exact_view.h"
 
 #include <algorithm>

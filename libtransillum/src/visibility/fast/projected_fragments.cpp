@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Projection of the BSP tree's fragments for one direction: corners come from GridProjection, the
+// order from BspTree::order(). Fragments that are too thin for the grid are left out; needles cut
+// by the tree get their areas from their lines instead of their rounded corners.
 #include "visibility/fast/projected_fragments.h"
 
 #include <algorithm>

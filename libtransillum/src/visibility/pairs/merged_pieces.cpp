@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Merges the patches of refined faces back into one polygon where that is convex, so that fewer
+// blockers have to be tested (ExchangeFinder). Input: the patches and pieces of a scene.
 #include "visibility/pairs/merged_pieces.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Visible parts of a polygon, as regions of the plane: PointView subtracts the projections of
+// blockers from a point, uncovered() subtracts coplanar polygons.
 #include "visibility/pairs/point_view.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A loose quadtree over the plane: cells are stored in one array, the entries of a cell in a linked
+// list.
 #include "visibility/plane/plane_index.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Sums of transfers, shared by the engines that process fragments one by one (local, exact, global
+// and corrected). Input: projected and visible areas in the engine's number type.
 #pragma once
 
 #include <algorithm>
