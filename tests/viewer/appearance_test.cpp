@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Appearance of the window: projector mode, dark mode, full screen, layouts, and keys.
 #include <QAction>
 #include <QApplication>
 #include <QDialog>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Quantities of the patches, and the colors and ranges chosen for them. Snapshots come from
+// solved_snapshot(), without a window.
 #include "colors/color_choice.h"
 
 #include <QSignalSpy>

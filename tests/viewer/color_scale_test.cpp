@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Color maps, ranges, ticks and exposure of ColorScale; decades of charts; numbers as text.
 #include "colors/color_scale.h"
 
 #include <QTest>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Options of the program transillum-viewer.
 #include "window/command_line.h"
 
 #include <QTest>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// RequestWorker: exceptions of jobs become messages, the newest request wins, pauses between jobs.
 #include "support/request_worker.h"
 
 #include <QtTest>

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// How long the UI thread is blocked while the solver runs, and how long seeks and sliders take.
+// Prints the measured times; the bounds are generous, for slow machines.
 #include <QElapsedTimer>
 #include <QTimer>
 #include <algorithm>
@@ -48,7 +51,6 @@ struct Timings {
 
 }  // namespace
 
-// Measures how long the UI thread is blocked while the solver uses all cores.
 class ResponsivenessTest : public QObject {
   Q_OBJECT
 

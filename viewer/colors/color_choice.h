@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The choice of quantity, color map, range and exposure that all views share.
 #pragma once
 
 #include <QObject>

@@ -57,7 +57,7 @@ QWidget* ScaleMenu::make_panel() {
   };
   add_rule(RangeRule::automatic, tr("Automatic: fit each picture"),
            tr("The meaning of a color changes from picture to picture"));
-  add_rule(RangeRule::widening, tr("Widening: never narrower"),
+  add_rule(RangeRule::widening, tr("Locked over time: only widens"),
            tr("Pictures of one solve run can be compared"));
   add_rule(RangeRule::fixed, tr("Fixed:"), tr("From and to the values below"));
   const auto add_end = [&](const char* name, const QString& text) {
@@ -97,7 +97,7 @@ void ScaleMenu::show_choice() {
       setText(tr("Range: automatic "));
       break;
     case RangeRule::widening:
-      setText(tr("Range: widening "));
+      setText(tr("Range: locked "));
       break;
     case RangeRule::fixed:
       setText(tr("Range: fixed "));

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Computes what one patch sees along each direction, with the engine of the solve run, and delivers
+// results in batches while it computes.
 #include "model/per_direction_visibility.h"
 
 #include <QMetaObject>

@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The solver of the window: loads scenes, makes solve runs on a worker thread, and posts snapshots.
 #pragma once
 
 #include <QElapsedTimer>

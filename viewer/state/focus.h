@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The position in the solve run (iteration, direction, step, phase) that all views share.
 #pragma once
 
 #include <QObject>

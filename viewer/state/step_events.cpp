@@ -1,4 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Events of steps, derived from the recorded history of a direction's visibility map.
 #include "state/step_events.h"
 
 #include <QCoreApplication>
