@@ -89,8 +89,7 @@ void add_bounds_options(CLI::App& command, BoundsOptions& options) {
 Run add_bounds_command(CLI::App& program) {
   auto call = std::make_shared<BoundsCall>();
   CLI::App& command = *program.add_subcommand(
-      "bounds",
-      "Prints how many directions guarantee an accuracy by the paper, and how many are estimated");
+      "bounds", "Prints how many directions an accuracy requires, guaranteed and estimated");
   command.add_option("SCENE", call->scene, "scene that defines the largest reflectance and R2/A")
       ->type_name("");
   add_bounds_options(command, call->options);

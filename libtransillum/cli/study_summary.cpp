@@ -43,22 +43,60 @@ std::string hemicubes_text(const std::string& name, std::size_t width,
                      time_text(point.seconds));
 }
 
-}  // namespace
+/// M and bound of every number of passes studied.
+using BoundsByPasses = std::map<std::int64_t, double>;
 
-std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
-                          ErrorMeasure error) {
-  const std::vector<std::string> names = names_of(options.series);
-  std::map<std::int64_t, double> bounds;
+BoundsByPasses bounds_by_passes(const StudyOptions& options, const Study& study) {
+  BoundsByPasses bounds;
   for (const StudyPoint& point : study.points) {
     if (takes_directions(options.series[point.series].engine)) {
       bounds[point.passes] = point.bound;
     }
   }
+  return bounds;
+}
 
-  std::size_t width = std::string("bound (eq. 37)").size();
+/// The columns of a series after its name: errors, slope, costs.
+std::string series_text(const std::vector<StudyPoint>& points, const BoundsByPasses& bounds,
+                        ErrorMeasure error) {
+  std::string text;
+  for (const auto& [passes, bound] : bounds) {
+    const auto found = std::find_if(points.begin(), points.end(),
+                                    [m = passes](auto& point) { return point.passes == m; });
+    text += fmt::format("{:>{}}", found == points.end() ? "" : percent_text(found->error(error)),
+                        column);
+  }
+  const auto law = fitted_power_law(points, error);
+  return text + fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-",
+                            column, cost_text(cost_of(points, 0.01, error)),
+                            cost_text(cost_of(points, 0.001, error)));
+}
+
+/// The error that `passes` directions guarantee in any environment.
+std::string guarantee_text(const Scene& scene, std::int64_t passes) {
+  const SceneMeasures measures = measure(scene);
+  const auto m = static_cast<double>(passes);
+  return fmt::format(
+      "\nGuaranteed error of {:.0f} directions in any environment (eq. 43; rho {:.3g}, R2/A "
+      "{:.3g}): "
+      "{:.2g} %\n",
+      m, measures.rho_max, measures.size_ratio,
+      100 * heterogeneous_error_bound(measures.rho_max, measures.size_ratio,
+                                      star_discrepancy_bound(m)));
+}
+
+}  // namespace
+
+std::string study_summary(const Scene& scene, const StudyOptions& options, const Study& study,
+                          ErrorMeasure error) {
+  const std::string bound_name = "bound (eq. 37)";
+  const std::vector<std::string> names = names_of(options.series);
+  const BoundsByPasses bounds = bounds_by_passes(options, study);
+  std::size_t width = bound_name.size();
   for (const std::string& name : names) {
     width = std::max(width, name.size());
   }
+
   std::string text = fmt::format("{} error of B in %{}, by number of passes\n{:<{}}",
                                  error == ErrorMeasure::rms ? "RMS" : "Largest",
                                  options.without_sources ? ", without sources" : "", "", width);
@@ -69,40 +107,16 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
 
   for (std::size_t series = 0; series < names.size(); ++series) {
     const auto points = points_of(study, series);
-    if (!takes_directions(options.series[series].engine)) {
-      text += hemicubes_text(names[series], width, points, error);
-      continue;
-    }
-    text += fmt::format("{:<{}}", names[series], width);
-    for (const auto& [passes, bound] : bounds) {
-      const auto at = std::find_if(points.begin(), points.end(),
-                                   [m = passes](auto& point) { return point.passes == m; });
-      text +=
-          fmt::format("{:>{}}", at == points.end() ? "" : percent_text(at->error(error)), column);
-    }
-    const auto law = fitted_power_law(points, error);
-    text += fmt::format("{:>{}}{:>16}{:>16}\n", law ? fmt::format("{:.2f}", law->slope) : "-",
-                        column, cost_text(cost_of(points, 0.01, error)),
-                        cost_text(cost_of(points, 0.001, error)));
+    text += takes_directions(options.series[series].engine)
+                ? fmt::format("{:<{}}", names[series], width) + series_text(points, bounds, error)
+                : hemicubes_text(names[series], width, points, error);
   }
-  text += fmt::format("{:<{}}", "bound (eq. 37)", width);
+
+  text += fmt::format("{:<{}}", bound_name, width);
   for (const auto& [passes, bound] : bounds) {
     text += fmt::format("{:>{}}", percent_text(bound), column);
   }
-
-  const SceneMeasures measures = measure(scene);
-  if (bounds.empty()) {
-    return text + '\n';
-  }
-  const auto most = static_cast<double>(bounds.rbegin()->first);
-  text += fmt::format(
-      "\nGuaranteed error of {2:.0f} directions in any environment (eq. 43; rho {0:.3g}, R2/A "
-      "{1:.3g}): "
-      "{3:.2g} %\n",
-      measures.rho_max, measures.size_ratio, most,
-      100 * heterogeneous_error_bound(measures.rho_max, measures.size_ratio,
-                                      star_discrepancy_bound(most)));
-  return text;
+  return text + (bounds.empty() ? "\n" : guarantee_text(scene, bounds.rbegin()->first));
 }
 
 }  // namespace transillum::cli

@@ -24,8 +24,7 @@ struct Row {
   std::vector<std::string> expected;  ///< parts of the message
 };
 
-std::vector<Row> rows() {
-  const std::string lib = "mtllib s.mtl\n";
+std::vector<Row> obj_rows() {
   return {
       {"Empty", "", "", {"s.obj: no vertices"}},
       {"OnlyComments", "# nothing\n\n", "", {"s.obj: no vertices"}},
@@ -86,6 +85,12 @@ std::vector<Row> rows() {
        square + "f 1\nf 1 2 1\n",
        "",
        {"s.obj:5: face 0: 1 corner, but at least 3 are required, and no other face has an area"}},
+  };
+}
+
+std::vector<Row> mtl_rows() {
+  const std::string lib = "mtllib s.mtl\n";
+  return {
       {"MissingMtl",
        "mtllib gone.mtl\n" + square + "f 1 2 3\n",
        "",
@@ -157,7 +162,9 @@ TEST_P(ObjErrors, NamePlaceAndReason) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, ObjErrors, testing::ValuesIn(rows()),
+INSTANTIATE_TEST_SUITE_P(Obj, ObjErrors, testing::ValuesIn(obj_rows()),
+                         [](const auto& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(Mtl, ObjErrors, testing::ValuesIn(mtl_rows()),
                          [](const auto& row) { return row.param.name; });
 
 TEST(ObjFile, MissingIsReported) {
