@@ -72,9 +72,9 @@ void print_size_and_light(const Scene& scene) {
 
 void print_repairs(const SceneReport& report) {
   const std::pair<const char*, std::int64_t> counts[] = {
-      {"removed, no area", report.removed_degenerate},
-      {"split, not planar", report.cut_non_planar},
-      {"divided, too large", report.refined},
+      {"no area, removed", report.removed_degenerate},
+      {"not planar, split", report.cut_non_planar},
+      {"too large, divided", report.refined},
       {"unused points", report.unused_points},
       {"coincident faces", report.coincident_faces}};
   for (const auto& [name, count] : counts) {
