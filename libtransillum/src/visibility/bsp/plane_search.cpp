@@ -117,7 +117,7 @@ void PlaneSearch::collect_intervals(const Vec3& normal) {
   ends_.clear();
   for (const std::int32_t p : sample_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::uint32_t c = at(begin_, p); c < begin_[static_cast<std::size_t>(p) + 1]; ++c) {
+    for (std::uint32_t c = at(begin_, p); c < at(begin_, p + 1); ++c) {
       const double along = dot(normal, points_[c]);
       low = std::min(low, along);
       high = std::max(high, along);

@@ -227,13 +227,13 @@ inline void BoundaryView::find_crossings(std::size_t m, EdgeCrossings& crossings
   };
   crossings.count = 0;
   for (std::uint64_t bits = cut_.enters[m]; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    const double x = cut_.in_x[k], y = cut_.in_y[k];
+    const int k = std::countr_zero(bits);
+    const double x = at(cut_.in_x, k), y = at(cut_.in_y, k);
     crossings.insert({along(x, y), x, y, -1});
   }
   for (std::uint64_t bits = cut_.leaves[m]; bits != 0; bits &= bits - 1) {
-    const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-    const double x = cut_.out_x[k], y = cut_.out_y[k];
+    const int k = std::countr_zero(bits);
+    const double x = at(cut_.out_x, k), y = at(cut_.out_y, k);
     crossings.insert({along(x, y), x, y, 1});
   }
 }

@@ -194,7 +194,9 @@ class FastPass {
     double area;  ///< square grid units
   };
 
-  /// Runs the queries bin by bin, for locality of memory accesses.
+  /// Runs the queries bin by bin, for locality of memory accesses. A fragment in few bins gets one
+  /// query with the candidates of all of them, in the bin of its first entry; a fragment in many
+  /// bins gets one query per bin, for its part in that bin.
   template <Toward toward>
   void run_queries(const Cancellation& cancellation) {
     std::int32_t queries = 0;
@@ -277,19 +279,18 @@ class FastPass {
     const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
     const ProjectedFragments::Fragment& other = at(projected_.fragments, visible.fragment);
     const double area = area_unit_ * visible.area;
-    const auto i = static_cast<std::size_t>(own.patch), j = static_cast<std::size_t>(other.patch);
     if (toward == Toward::source) {
-      transfers_.forward[i].covered += area;
+      at(transfers_.forward, own.patch).covered += area;
       if (other.front) {
-        transfers_.back_seen[j] += area;
+        at(transfers_.back_seen, other.patch) += area;
       } else {
-        transfers_.backward[j].covered += area;
+        at(transfers_.backward, other.patch).covered += area;
         at(seen_from_front_, visible.fragment) += visible.area;
         found_.push_back({own.patch, other.patch, area});
       }
     } else if (!other.front) {
-      transfers_.backward[i].covered += area;
-      transfers_.back_seen[j] += area;
+      at(transfers_.backward, own.patch).covered += area;
+      at(transfers_.back_seen, other.patch) += area;
     }
   }
 
