@@ -31,7 +31,7 @@ void Relighting::show_scene(const Scene& scene) {
   edits_.start_with(scene.materials());
 }
 
-QString Relighting::obstacle() const {
+QString Relighting::reason_unavailable() const {
   if (!snapshot_) {
     return tr("Open a scene to change its light.");
   }
@@ -43,7 +43,7 @@ QString Relighting::obstacle() const {
   return snapshot_->form_factors ? QString() : why_no_form_factors(*snapshot_);
 }
 
-QString Relighting::account() const {
+QString Relighting::method_note() const {
   if (!snapshot_) {
     return {};
   }
@@ -67,7 +67,7 @@ void Relighting::request_light() {
     emit changed();
     return;
   }
-  if (!obstacle().isEmpty()) {
+  if (!reason_unavailable().isEmpty()) {
     emit form_factors_requested();
     return;
   }

@@ -26,10 +26,10 @@ class Relighting : public QObject {
   /// light once it is computed.
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);
   /// The reason why materials cannot be edited now; empty if they can.
-  QString obstacle() const;
+  QString reason_unavailable() const;
   /// A sentence for the user on how the light of edited materials is computed; empty if it is only
   /// from the form factors of the solve run.
-  QString account() const;
+  QString method_note() const;
   /// Whether requested light has not been delivered yet.
   bool busy() const { return relighter_.busy(); }
 

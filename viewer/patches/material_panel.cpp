@@ -130,11 +130,11 @@ void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
 }
 
 void MaterialPanel::show_state() {
-  const QString obstacle = relighting_.obstacle();
-  sliders_->setEnabled(obstacle.isEmpty() && material() >= 0);
-  obstacle_->setText(obstacle);
-  obstacle_->setHidden(obstacle.isEmpty());
-  account_->setText(relighting_.account());
+  const QString reason = relighting_.reason_unavailable();
+  sliders_->setEnabled(reason.isEmpty() && material() >= 0);
+  obstacle_->setText(reason);
+  obstacle_->setHidden(reason.isEmpty());
+  account_->setText(relighting_.method_note());
   account_->setHidden(account_->text().isEmpty());
   exposure_->setVisible(exposure_hides_change());
 }

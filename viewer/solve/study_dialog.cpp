@@ -83,7 +83,7 @@ StudyDialog::StudyDialog(const std::filesystem::path& cache, QWidget* parent)
   resize(1180, 760);
   connect(&runner_, &StudyRunner::snapshot_ready, this, &StudyDialog::show_snapshot);
   connect(&runner_, &StudyRunner::failed, this,
-          [this](const QString& message) { banner_->say(Banner::Kind::error, message); });
+          [this](const QString& message) { banner_->show_message(Banner::Kind::error, message); });
   show_scene(nullptr);
 }
 
@@ -215,7 +215,7 @@ void StudyDialog::show_snapshot(std::shared_ptr<const StudySnapshot> snapshot) {
                          QString::fromStdString(point.failure) + remedy_hint(point.remedy));
   }
   if (!failures.isEmpty()) {
-    banner_->say(Banner::Kind::warning, failures.front(), failures.join('\n'));
+    banner_->show_message(Banner::Kind::warning, failures.front(), failures.join('\n'));
   }
 }
 
@@ -298,7 +298,7 @@ void StudyDialog::save(const QString& path) {
                                       snapshot_->study, measure())});
     }
   } catch (const std::exception& error) {
-    banner_->say(Banner::Kind::error, QString::fromUtf8(error.what()));
+    banner_->show_message(Banner::Kind::error, QString::fromUtf8(error.what()));
   }
 }
 

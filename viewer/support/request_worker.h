@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// A worker thread that computes the newest of its requests: base of all background jobs of the window
-// except the solver.
+// A worker thread that computes the newest of its requests: base of all background jobs of the
+// window except the solver.
 #pragma once
 
 #include <QString>

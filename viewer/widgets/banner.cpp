@@ -30,7 +30,7 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
   hide();
 }
 
-void Banner::say(Kind kind, const QString& text, const QString& details) {
+void Banner::show_message(Kind kind, const QString& text, const QString& details) {
   const bool error = kind == Kind::error;
   icon_->setPixmap(
       theme::icon(error ? theme::Icon::error : theme::Icon::warning).pixmap(QSize(20, 20)));

@@ -17,7 +17,7 @@ class Banner : public QFrame {
   explicit Banner(QWidget* parent = nullptr);
 
   /// Replaces the shown message. `details` is the tool tip.
-  void say(Kind kind, const QString& text, const QString& details = {});
+  void show_message(Kind kind, const QString& text, const QString& details = {});
   void dismiss();
   /// Empty while hidden.
   QString text() const;

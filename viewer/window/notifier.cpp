@@ -10,7 +10,9 @@ namespace transillum::viewer {
 Notifier::Notifier(Banner& banner, QStatusBar& status_bar)
     : banner_(banner), status_bar_(status_bar) {}
 
-void Notifier::show_failure(const QString& message) { banner_.say(Banner::Kind::error, message); }
+void Notifier::show_failure(const QString& message) {
+  banner_.show_message(Banner::Kind::error, message);
+}
 
 void Notifier::show_warnings(const QStringList& warnings) {
   if (warnings.isEmpty()) {
@@ -20,7 +22,7 @@ void Notifier::show_warnings(const QStringList& warnings) {
   const QString text = warnings.size() == 1
                            ? warnings.front()
                            : tr("%1 (and %2 more)").arg(warnings.front()).arg(warnings.size() - 1);
-  banner_.say(Banner::Kind::warning, text, warnings.join('\n'));
+  banner_.show_message(Banner::Kind::warning, text, warnings.join('\n'));
 }
 
 void Notifier::show_written(const QString& path) {
