@@ -20,7 +20,7 @@ namespace transillum::viewer {
 
 namespace {
 
-const QColor back_face{0x8c, 0x3a, 0x4a};
+const QColor back_side_color{0x8c, 0x3a, 0x4a};
 
 class Lines {
  public:
@@ -95,8 +95,8 @@ SceneOverlays::SceneOverlays(vtkRenderer& renderer) {
   };
   set_color(Kind::fragments, theme::outside);
   set_color(Kind::normals, theme::processed);
-  set_color(Kind::back_faces, back_face);
-  overlay(Kind::back_faces).actor->GetProperty()->FrontfaceCullingOn();
+  set_color(Kind::back_sides, back_side_color);
+  overlay(Kind::back_sides).actor->GetProperty()->FrontfaceCullingOn();
 }
 
 void SceneOverlays::show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface,
@@ -104,7 +104,7 @@ void SceneOverlays::show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPol
   loaded_ = std::move(loaded);
   surface_ = surface;
   lift_ = lift;
-  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_faces}) {
+  for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_sides}) {
     overlay(kind).made = false;
     update(kind);
   }
@@ -137,7 +137,7 @@ void SceneOverlays::update(Kind kind) {
     case Kind::normals:
       mapper->SetInputData(normal_lines(*loaded_->scene));
       break;
-    case Kind::back_faces:
+    case Kind::back_sides:
       mapper->SetInputData(surface_);
       break;
   }

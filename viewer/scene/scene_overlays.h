@@ -22,7 +22,7 @@ vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene);
 /// Geometry drawn in addition to the colored patches; computed when it is first shown.
 class SceneOverlays {
  public:
-  enum class Kind { fragments, normals, back_faces };
+  enum class Kind { fragments, normals, back_sides };
 
   explicit SceneOverlays(vtkRenderer& renderer);
 

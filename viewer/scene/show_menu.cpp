@@ -37,7 +37,7 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   };
   add_lines(Overlay::normals, SceneOverlays::Kind::normals, "show_normals", tr("Normals"),
             tr("Draw a line from each patch along its normal"));
-  add_lines(Overlay::back_sides, SceneOverlays::Kind::back_faces, "show_back_faces",
+  add_lines(Overlay::back_sides, SceneOverlays::Kind::back_sides, "show_back_faces",
             tr("Back sides"), tr("Draw the sides that neither emit nor receive"));
   add_lines(Overlay::cuts, SceneOverlays::Kind::fragments, "show_fragments",
             tr("Cuts of the BSP tree"),
