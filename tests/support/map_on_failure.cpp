@@ -46,7 +46,7 @@ MapOnFailure::~MapOnFailure() {
   if (failures_so_far() == failures_) {
     return;
   }
-  // A few tell as much as thousands.
+  // A few are enough.
   constexpr int most = 5;
   static std::map<std::string, int> written;
   const std::string test = current_test_name();

@@ -7,10 +7,9 @@
 
 namespace transillum::testing {
 
-/// Draws the visibility map of one direction where a test of engines fails: made before what is
-/// expected of the direction; when it goes and an expectation has failed meanwhile, the map is
-/// written as an SVG into failed-maps/ of the build folder, and its path is printed; at most five
-/// a test.
+/// Draws the visibility map of one direction if a test of engines fails: if an expectation fails
+/// during the lifetime of this object, its destructor writes the map as an SVG to failed-maps/ in
+/// the build folder and prints the path; at most five per test.
 class MapOnFailure {
  public:
   MapOnFailure(const Scene& scene, const BspTree& tree, const Vec3& omega);

@@ -11,6 +11,7 @@ namespace transillum::testing {
 /// A(i,j,omega) by receiver i and source j, m².
 using PairAreas = std::map<std::pair<PatchId, PatchId>, double>;
 
+/// The exchanges of one direction.
 inline PairAreas areas_of(const Transfers& transfers) {
   PairAreas areas;
   for (const Transfer& t : transfers.exchanges) {

@@ -7,7 +7,7 @@
 
 namespace transillum::test {
 
-/// The sentence an input is refused with; empty where it is taken.
+/// The message of the InputError that `action` throws; empty if it throws none.
 template <typename Action>
 std::string refusal(const Action& action) {
   try {

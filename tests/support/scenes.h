@@ -19,12 +19,12 @@ class Sketch {
   /// Materials are gray: reflectance and exitance.
   int material(double reflectance, double exitance);
   Sketch& face(const std::vector<Vec3>& outline, int material);
-  /// The box between two corners; seen from inside when `inward`.
+  /// The box between two corners; faces point inward if `inward`.
   Sketch& box(const Vec3& low, const Vec3& high, bool inward, int material);
-  /// `count` random triangles of about `size` in the unit cube, facing anywhere.
+  /// `count` random triangles of about `size` in the unit cube.
   Sketch& triangles(int count, double size, std::uint64_t seed, int material);
-  /// `count` random tetrahedra of about `size` in the unit cube, each seen from outside; they stick
-  /// in one another.
+  /// `count` random tetrahedra of about `size` in the unit cube, with faces pointing outward; they
+  /// may intersect.
   Sketch& tetrahedra(int count, double size, std::uint64_t seed, int material);
   const SceneDescription& description() const { return description_; }
   std::shared_ptr<const Scene> scene(const SceneOptions& options = {}) const {
@@ -35,16 +35,16 @@ class Sketch {
   SceneDescription description_;
 };
 
-/// The same faces with every point moved.
+/// The same faces with every point mapped by `move`.
 SceneDescription moved(const SceneDescription& description,
                        const std::function<Vec3(const Vec3&)>& move);
-/// The same faces in the order `order`.
+/// The same faces in another order.
 SceneDescription reordered(const SceneDescription& description, const std::vector<int>& order);
 
-/// A rotation by a random orthogonal matrix of determinant 1.
+/// A random rotation.
 std::function<Vec3(const Vec3&)> random_rotation(std::uint64_t seed);
 
-/// `count` unit vectors: the axes and diagonals, where scenes are seen edge-on, then random ones.
+/// `count` unit vectors: axes and diagonals, along which many faces are edge-on, then random ones.
 std::vector<Vec3> test_directions(int count, std::uint64_t seed);
 
 }  // namespace transillum::testing

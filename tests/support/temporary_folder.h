@@ -12,7 +12,7 @@
 
 namespace transillum::test {
 
-/// A folder of its own for one test, gone at its end.
+/// A temporary folder, deleted with its content by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -30,6 +30,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Writes a file into the folder and returns its path.
   std::string write(const std::string& name, std::string_view content) const {
     const std::filesystem::path file = path_ / name;
     std::ofstream(file, std::ios::binary) << content;

@@ -12,9 +12,9 @@
 namespace transillum::testing {
 namespace {
 
-/// What a needle's own coordinates leave open of its area, m²: as doubles they know the place of an
-/// edge to the last bit of the scene's extent only. 0 for all patches but the thinnest, narrower
-/// than 1e-9 of the scene.
+/// Uncertainty of a patch's area due to the rounding of its coordinates, m²: an edge's position is
+/// known to the last bit of the scene's extent. Only for needles narrower than 1e-9 of the scene; 0
+/// for all other patches.
 double rounding(const Scene& scene, PatchId i) {
   double perimeter = 0;
   const auto outline = scene.outline(i);
@@ -25,10 +25,11 @@ double rounding(const Scene& scene, PatchId i) {
   return scene.patch(i).area < 1e-9 * perimeter * extent ? 0x1p-53 * perimeter * extent : 0;
 }
 
-void take(TransferDifference& worst, double a, double b, double area, double rounding,
-          const std::string& what) {
+/// Replaces `worst` if the difference of a and b, over `area`, is larger.
+void update(TransferDifference& worst, double a, double b, double area, double rounding,
+            const std::string& what) {
   const double found = std::max(std::abs(a - b) - rounding, 0.0) / area;
-  // Also what is no number at all.
+  // Also true for NaN.
   if (!(found <= worst.share)) {
     worst = {found, fmt::format("{}: {} and {}", what, a, b)};
   }
@@ -48,14 +49,14 @@ TransferDifference difference(const Scene& scene, const Transfers& a, const Tran
   for (const auto& [pair, areas] : exchanges) {
     const auto [i, j] = pair;
     const PatchId smaller = scene.patch(i).area < scene.patch(j).area ? i : j;
-    take(worst, areas[0], areas[1], scene.patch(smaller).area, rounding(scene, smaller),
-         fmt::format("A({},{})", i, j));
+    update(worst, areas[0], areas[1], scene.patch(smaller).area, rounding(scene, smaller),
+           fmt::format("A({},{})", i, j));
   }
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const auto compare = [&](double in_a, double in_b, const char* what) {
-      take(worst, in_a, in_b, scene.patch(i).area, rounding(scene, i),
-           fmt::format("{}, {}", what, i));
+      update(worst, in_a, in_b, scene.patch(i).area, rounding(scene, i),
+             fmt::format("{}, {}", what, i));
     };
     compare(a.forward[k].projected, b.forward[k].projected, "projected for omega");
     compare(a.forward[k].covered, b.forward[k].covered, "covered for omega");
@@ -68,12 +69,12 @@ TransferDifference difference(const Scene& scene, const Transfers& a, const Tran
 
 TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
                                              const Transfers& back) {
-  Transfers turned = back;
-  for (Transfer& t : turned.exchanges) {
+  Transfers reversed = back;
+  for (Transfer& t : reversed.exchanges) {
     std::swap(t.receiver, t.source);
   }
-  std::swap(turned.forward, turned.backward);
-  return difference(scene, there, turned);
+  std::swap(reversed.forward, reversed.backward);
+  return difference(scene, there, reversed);
 }
 
 }  // namespace transillum::testing

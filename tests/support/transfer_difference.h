@@ -8,17 +8,17 @@
 
 namespace transillum::testing {
 
-/// The largest difference met, as a share of the patch's area; of an exchange, of the smaller
-/// patch's. What a needle's own coordinates leave open of its area is let go.
+/// The largest difference found. The uncertainty of a needle's area due to the rounding of its
+/// coordinates is subtracted.
 struct TransferDifference {
-  double share = 0;
-  std::string where;  ///< it was met
+  double share = 0;   ///< over the patch's area; for an exchange, over that of the smaller patch
+  std::string where;  ///< quantity, patches and values, for the message
 };
 
-/// Compares exchanges and coverages, both ways, of one direction by two engines.
+/// Compares exchanges and coverages of one direction, for omega and -omega, by two engines.
 TransferDifference difference(const Scene& scene, const Transfers& a, const Transfers& b);
 
-/// Compares what omega gives with what -omega gives: receiver and source change places.
+/// Compares the transfers of omega with those of -omega: receiver and source are exchanged.
 TransferDifference difference_from_both_ends(const Scene& scene, const Transfers& there,
                                              const Transfers& back);
 

@@ -12,7 +12,7 @@
 namespace transillum {
 namespace {
 
-/// RMS of 4 mean(max(n·omega, 0)) - 1 over normals: what the quadrature makes of a plain sky.
+/// RMS of 4 mean(max(n·omega, 0)) - 1 over normals: the error of irradiance under a uniform sky.
 double sky_error(Sampling sampling, int count) {
   const auto directions = make_directions(sampling, count, 1);
   const auto normals = make_directions(Sampling::random, 500, 99);
@@ -28,8 +28,8 @@ double sky_error(Sampling sampling, int count) {
   return std::sqrt(squares / static_cast<double>(normals.size()));
 }
 
-TEST(Directions, ErrorsAreThoseMeasuredElsewhere) {
-  // The table of the method, with a tenth for the choice of normals.
+TEST(Directions, ErrorsMatchReferenceValues) {
+  // Reference values from an independent implementation; a tenth for the choice of normals.
   EXPECT_NEAR(sky_error(Sampling::hammersley, 256), 4.7e-3, 5e-4);
   EXPECT_NEAR(sky_error(Sampling::hammersley, 1024), 1.2e-3, 1.2e-4);
   EXPECT_NEAR(sky_error(Sampling::centered_hammersley, 256), 1.3e-3, 1.3e-4);
@@ -42,7 +42,7 @@ TEST(Directions, ErrorsAreThoseMeasuredElsewhere) {
   EXPECT_LT(sky_error(Sampling::halton, 1024), 8e-3);
 }
 
-TEST(Directions, AreUnitVectorsOfTheirPoints) {
+TEST(Directions, AreUnitVectorsByEquation13) {
   for (const auto& name : sampling_names()) {
     for (const auto& d : make_directions(sampling_from_name(name), 777, 5)) {
       EXPECT_NEAR(norm(d.direction), 1, 1e-15);
@@ -73,7 +73,7 @@ TEST(Directions, HaltonIsBasesTwoAndThree) {
   }
 }
 
-TEST(Directions, SeededOnesFollowTheSeed) {
+TEST(Directions, DependOnTheSeedIfSeeded) {
   for (const auto& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     const auto a = make_directions(sampling, 10, 1);
@@ -86,7 +86,7 @@ TEST(Directions, SeededOnesFollowTheSeed) {
   }
 }
 
-TEST(Directions, ExtensibleOnesGoOnWhereTheyEnded) {
+TEST(Directions, ExtensibleSequencesContinue) {
   for (const auto& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     const auto few = make_directions(sampling, 100, 4), many = make_directions(sampling, 300, 4);
@@ -111,7 +111,7 @@ TEST(Directions, ExtensibleOnesGoOnWhereTheyEnded) {
 }
 
 /// Owen-scrambled nets: each of the 2^m boxes 2^-a x 2^-(m-a) holds one of 2^m points.
-TEST(Directions, ScrambledPointsFillEveryDyadicBoxOnce) {
+TEST(Directions, ScrambledPointsHaveOneInEachDyadicBox) {
   constexpr int m = 8;
   for (const Sampling sampling : {Sampling::scrambled_hammersley, Sampling::sobol}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -145,12 +145,12 @@ TEST(Directions, ScrambledPointsAreUniformOverSeeds) {
       EXPECT_NEAR(u, 1. / 2, five * 0.289);
       EXPECT_NEAR(v, 1. / 2, five * 0.289);
       EXPECT_NEAR(uu, 1. / 3, five * 0.298);
-      EXPECT_NEAR(uv, 1. / 4, five * 0.221) << "coordinates are scrambled alike";
+      EXPECT_NEAR(uv, 1. / 4, five * 0.221) << "coordinates are scrambled equally";
     }
   }
 }
 
-TEST(Directions, RotationsKeepAnglesAndFitTheirPoints) {
+TEST(Directions, RotationsPreserveAnglesAndMatchTheirPoints) {
   const auto before = make_directions(Sampling::halton, 40, 0);
   const auto after = rotated(before, 5);
   for (std::size_t a = 0; a < before.size(); ++a) {
@@ -170,8 +170,8 @@ TEST(Directions, RotationsKeepAnglesAndFitTheirPoints) {
   EXPECT_NEAR(volume(after), volume(before), 2e-15) << "a mirror image";
 }
 
-/// Uniform among rotations: where an axis goes has mean 0 and second moments 1/3, and the trace has
-/// mean 0 and variance 1, which angles uniform in [0, 2 pi) would not give.
+/// Uniform among rotations: the image of an axis has mean 0 and second moments 1/3, and the trace
+/// has mean 0 and variance 1, which rotation angles uniform in [0, 2 pi) would not give.
 TEST(Directions, RotationsAreUniform) {
   constexpr int seeds = 20000;
   const std::vector<DirectionSample> axes{
@@ -193,7 +193,7 @@ TEST(Directions, RotationsAreUniform) {
   EXPECT_NEAR(trace2, 1, five * 1.5);
 }
 
-TEST(Directions, ProgressiveOrderIsAPermutationWithFairBeginnings) {
+TEST(Directions, ProgressiveOrderIsAPermutationWithUniformPrefixes) {
   const auto normals = make_directions(Sampling::fibonacci, 50, 0);
   for (const auto& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
@@ -204,7 +204,7 @@ TEST(Directions, ProgressiveOrderIsAPermutationWithFairBeginnings) {
       EXPECT_EQ(*all.begin(), 0);
       EXPECT_EQ(*all.rbegin(), count - 1);
     }
-    // After any beginning, both ways, each normal has seen about its share of sky.
+    // After any prefix, two-way, the cosine integral of each normal is about correct.
     const auto samples = make_directions(sampling, 1024, 3);
     const auto order = progressive_order(sampling, 1024);
     for (const auto& n : normals) {
@@ -221,7 +221,8 @@ TEST(Directions, ProgressiveOrderIsAPermutationWithFairBeginnings) {
   }
 }
 
-/// P_n f for f = max(n·omega, 0) and a cap, over set n of a scheme; both means known.
+/// P_n f for f = max(n·omega, 0) and for the indicator of a cap, over set n of a scheme; the exact
+/// means of both are known.
 struct StepMeans {
   double cosine = 0, cap = 0;
 };
@@ -237,7 +238,8 @@ StepMeans means_over(const std::vector<DirectionSample>& set) {
   return means;
 }
 
-/// The left side of eq. 46 against its right one, for products of two and three neighboring steps.
+/// The relative difference of the sides of eq. 46, for products of two and three consecutive
+/// iterations.
 double eq_46_defect(const std::vector<StepMeans>& steps) {
   double two = 0, three = 0;
   const auto count = static_cast<double>(steps.size() - 2);
@@ -249,7 +251,7 @@ double eq_46_defect(const std::vector<StepMeans>& steps) {
                   std::abs(three / (cap_integral * cosine_integral * cap_integral) - 1));
 }
 
-TEST(DirectionsOfStep, MeetEquation46UnlessPlainHammersley) {
+TEST(DirectionsOfIteration, SatisfyEquation46UnlessPlainHammersley) {
   constexpr int count = 4, steps = 4096;
   for (const auto& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
@@ -267,9 +269,9 @@ TEST(DirectionsOfStep, MeetEquation46UnlessPlainHammersley) {
   }
 }
 
-/// The paper's own case: one Hammersley sequence dealt out to the steps in its order. And Sobol's
-/// points in their order, which are as uniform but know of each other.
-TEST(DirectionsOfStep, EquallyUniformPointsInTheirOrderFailEquation46) {
+/// The paper's example: consecutive parts of one Hammersley sequence. Also Sobol's points in their
+/// order, which are as uniform but not independent.
+TEST(DirectionsOfIteration, ConsecutivePartsOfASequenceViolateEquation46) {
   constexpr int count = 4, steps = 4096;
   for (const Sampling sampling : {Sampling::hammersley, Sampling::sobol}) {
     const auto all = make_directions(sampling, count * steps, 5);
@@ -282,23 +284,23 @@ TEST(DirectionsOfStep, EquallyUniformPointsInTheirOrderFailEquation46) {
   }
 }
 
-/// Sets of one sequence, in whatever order: the mean over steps errs by the number of all points.
-TEST(DirectionsOfStep, SetsOfOneSequenceTakeEveryPointOnce) {
+/// The mean over iterations then has the error of all points of the sequence together.
+TEST(DirectionsOfIteration, SetsOfOneSequenceUseEveryPointOnce) {
   for (const Sampling sampling : {Sampling::halton, Sampling::sobol}) {
-    std::set<std::pair<double, double>> taken, wanted;
+    std::set<std::pair<double, double>> used, expected;
     for (int step = 0; step < 64; ++step) {
       for (const auto& d : directions_of_iteration(sampling, 5, 9, step)) {
-        taken.emplace(d.u, d.v);
+        used.emplace(d.u, d.v);
       }
     }
     for (const auto& d : make_directions(sampling, 64 * 5, 9)) {
-      wanted.emplace(d.u, d.v);
+      expected.emplace(d.u, d.v);
     }
-    EXPECT_EQ(taken, wanted) << name_of(sampling);
+    EXPECT_EQ(used, expected) << name_of(sampling);
   }
 }
 
-TEST(Directions, RefusesWhatItCannotMake) {
+TEST(Directions, RejectsInvalidCountsAndNames) {
   for (const auto& name : sampling_names()) {
     const Sampling sampling = sampling_from_name(name);
     for (const int count : {0, -3, max_directions + 1}) {

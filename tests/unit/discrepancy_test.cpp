@@ -10,8 +10,8 @@
 namespace transillum {
 namespace {
 
-/// Every box that ends at a point or at 1, counted with and without its upper sides.
-double star_by_trying_all(const std::vector<DirectionSample>& points) {
+/// All boxes whose upper sides are at a point or at 1, with and without their upper sides.
+double star_by_exhaustive_search(const std::vector<DirectionSample>& points) {
   std::vector<double> us{1}, vs{1};
   for (const auto& p : points) {
     us.push_back(p.u);
@@ -32,16 +32,17 @@ double star_by_trying_all(const std::vector<DirectionSample>& points) {
   return largest;
 }
 
-TEST(StarDiscrepancy, IsThatOfTryingAllBoxes) {
+TEST(StarDiscrepancy, EqualsExhaustiveSearch) {
   for (const auto& name : sampling_names()) {
     for (const int count : {1, 2, 3, 10, 33, 64, 120}) {
       const auto points = make_directions(sampling_from_name(name), count, 7);
-      EXPECT_NEAR(star_discrepancy(points), star_by_trying_all(points), 1e-14) << name << count;
+      EXPECT_NEAR(star_discrepancy(points), star_by_exhaustive_search(points), 1e-14)
+          << name << count;
     }
   }
 }
 
-TEST(StarDiscrepancy, TakesPointsOnOneLineAndOnOneAnother) {
+TEST(StarDiscrepancy, HandlesCollinearAndCoincidentPoints) {
   auto points = make_directions(Sampling::random, 60, 3);
   for (std::size_t k = 0; k < points.size(); ++k) {
     points[k].u = std::floor(4 * points[k].u) / 4;
@@ -50,25 +51,25 @@ TEST(StarDiscrepancy, TakesPointsOnOneLineAndOnOneAnother) {
       points[k].v = 1;
     }
   }
-  EXPECT_NEAR(star_discrepancy(points), star_by_trying_all(points), 1e-14);
+  EXPECT_NEAR(star_discrepancy(points), star_by_exhaustive_search(points), 1e-14);
   const std::vector<DirectionSample> heap(9, {0.25, 0.5, {1, 0, 0}});
   EXPECT_NEAR(star_discrepancy(heap), 1 - 0.25 * 0.5, 1e-15);
   EXPECT_EQ(star_discrepancy({}), 0);
 }
 
-TEST(StarDiscrepancy, OfHammersleysPointsKeepsEquation20) {
+TEST(StarDiscrepancy, OfHammersleyPointsSatisfiesEquation20) {
   for (int count = 1; count <= 4096; count *= 2) {
     const double measured = star_discrepancy(make_directions(Sampling::hammersley, count, 0));
     EXPECT_LE(measured, (std::log2(count) + 7) / (2 * count)) << count;
     EXPECT_GE(measured, 1. / count) << count;
   }
-  // 10,000 points take 0.1 s; by trying all boxes, hours.
+  // 10,000 points take 0.1 s; an exhaustive search takes hours.
   const auto points = make_directions(Sampling::fibonacci, 10000, 0);
   EXPECT_LT(star_discrepancy(points), 6e-4);
 }
 
-/// Caps through all triples, and those round the middles of all pairs, both sides of each.
-double cap_by_trying_all(const std::vector<DirectionSample>& set) {
+/// Caps through all triples and about the midpoints of all pairs, both sides of each.
+double cap_by_exhaustive_search(const std::vector<DirectionSample>& set) {
   const auto count = static_cast<double>(set.size());
   double largest = 0;
   const auto try_rim = [&](const Vec3& center, double height) {
@@ -95,34 +96,34 @@ double cap_by_trying_all(const std::vector<DirectionSample>& set) {
   return largest;
 }
 
-TEST(CapDiscrepancy, OfFewDirectionsIsThatOfTryingAllCaps) {
+TEST(CapDiscrepancy, OfFewDirectionsEqualsExhaustiveSearch) {
   for (const auto& name : sampling_names()) {
     for (const int count : {1, 2, 3, 5, 20}) {
       const auto set = make_directions(sampling_from_name(name), count, 7);
       const CapDiscrepancy caps = cap_discrepancy(set);
       EXPECT_TRUE(caps.exact);
-      EXPECT_NEAR(caps.value, cap_by_trying_all(set), 1e-12) << name << count;
+      EXPECT_NEAR(caps.value, cap_by_exhaustive_search(set), 1e-12) << name << count;
     }
   }
 }
 
-TEST(CapDiscrepancy, TakesOppositeAndEqualDirections) {
+TEST(CapDiscrepancy, HandlesOppositeAndEqualDirections) {
   std::vector<DirectionSample> axes;
   for (const double s : {1.0, -1.0}) {
     for (const Vec3& d : {Vec3{s, 0, 0}, Vec3{0, s, 0}, Vec3{0, 0, s}}) {
       axes.push_back({0, 0, d});
     }
   }
-  // The closed hemisphere round an axis holds 5 of 6, half the sphere: 1/3. No cap is worse.
+  // The closed hemisphere about an axis contains 5 of 6 on half of the sphere: 1/3, the maximum.
   EXPECT_NEAR(cap_discrepancy(axes).value, 5. / 6 - 1. / 2, 1e-12);
   axes.insert(axes.end(), 4, axes[0]);
   EXPECT_NEAR(cap_discrepancy(axes).value, 9. / 10 - 1. / 2, 0.1 + 1e-12);
-  EXPECT_GE(cap_discrepancy(axes).value, 5. / 10);  // four more at one place, no area
+  EXPECT_GE(cap_discrepancy(axes).value, 5. / 10);  // five coincide, a cap of area 0
   EXPECT_EQ(cap_discrepancy({}).value, 0);
 }
 
-/// Of many directions it is a lower bound, and not a poor one.
-TEST(CapDiscrepancy, OfManyDirectionsIsNearTheExactOne) {
+/// Of many directions it is a lower bound, and a close one.
+TEST(CapDiscrepancy, OfManyDirectionsIsACloseLowerBound) {
   const auto few = make_directions(Sampling::sobol, max_exact_cap_directions, 2);
   // The same directions, each twice, have the same discrepancy.
   auto twice = few;
@@ -134,12 +135,13 @@ TEST(CapDiscrepancy, OfManyDirectionsIsNearTheExactOne) {
   EXPECT_GT(bound.value, 0.75 * exact.value);
 }
 
-TEST(QuadratureError, IsThatOfEquation17) {
+TEST(QuadratureError, MatchesEquation17) {
   const std::vector<DirectionSample> one{{0, 0, {0, 0, 1}}};
   EXPECT_DOUBLE_EQ(quadrature_error({0, 0, 1}, one, false), 3 * std::numbers::pi);
   EXPECT_DOUBLE_EQ(quadrature_error({0, 0, -1}, one, false), -std::numbers::pi);
   EXPECT_DOUBLE_EQ(quadrature_error({0, 0, -1}, one, true), std::numbers::pi);
-  // Bound of eq. 21: Hammersley's points, a patch that faces up the axis of eq. 13 as in eq. 19.
+  // Bound of eq. 21: Hammersley points and a patch whose normal is the axis of eq. 13, as in
+  // eq. 19.
   for (int count = 1; count <= 1 << 14; count *= 4) {
     const auto set = make_directions(Sampling::hammersley, count, 0);
     EXPECT_LE(std::abs(quadrature_error({0, 0, 1}, set, false)),

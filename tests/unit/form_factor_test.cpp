@@ -48,7 +48,7 @@ double perpendicular_rectangles(long double common, long double w, long double h
                                       hh * std::log(hh * (1 + ww + hh) / ((1 + hh) * (ww + hh))))));
 }
 
-/// Sum of the form factors from the first of some polygons that close a convex room.
+/// Sum of the form factors from the first polygon of a closed convex room to the others.
 double row_sum(const std::vector<Polygon>& room) {
   double sum = 0;
   for (std::size_t j = 1; j < room.size(); ++j) {
@@ -57,7 +57,7 @@ double row_sum(const std::vector<Polygon>& room) {
   return sum;
 }
 
-/// Cuts a polygon by a plane through its middle in two.
+/// Cuts a polygon in two by a plane through its middle.
 void split(std::vector<Polygon>& polygons, std::size_t k, const Vec3& normal) {
   const Polygon whole = polygons[k];
   Vec3 middle;
@@ -110,7 +110,7 @@ TEST(PointFormFactor, FromInsideAClosedBoxSumsToOneForAnyNormal) {
   }
 }
 
-TEST(PolygonExchange, MeetsTheCatalog) {
+TEST(PolygonExchange, MatchesTheCatalog) {
   const Polygon floor = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   EXPECT_NEAR(form_factor(floor, rectangle({0, 0, 1}, {0, 1, 0}, {1, 0, 0})), 0.1998248957, 5e-11);
   EXPECT_NEAR(form_factor(floor, rectangle({0, 0, 0}, {0, 1, 0}, {0, 0, 1})), 0.2000437761, 5e-11);
@@ -133,8 +133,8 @@ TEST(PolygonExchange, MeetsTheCatalog) {
   }
 }
 
-/// What a convex room's side sees of the others is all: through edges and corners in common and
-/// skew lines, whichever way the sides are cut.
+/// From inside a convex room everything visible belongs to it. Covers shared edges and corners and
+/// skew lines, for any subdivision of the sides.
 TEST(PolygonExchange, RowsOfConvexRoomsSumToOne) {
   const double w = 1 / std::sqrt(2.0);
   const Vec3 a{1, 0, -w}, b{-1, 0, -w}, c{0, 1, w}, d{0, -1, w};
@@ -157,18 +157,18 @@ TEST(PolygonExchange, RowsOfConvexRoomsSumToOne) {
             normalized({gauss(random), gauss(random), gauss(random)}));
     }
     std::swap(room[0], room[random() % room.size()]);
-    // What lies in one plane exchanges nothing.
+    // Coplanar parts exchange nothing.
     EXPECT_NEAR(row_sum(room), 1, 2e-12) << trial;
   }
 }
 
-/// Two sheets of a book that is all but shut or open, a common edge or a hinge with play.
+/// Two nearly parallel rectangles with a shared edge, or with a small gap between them.
 TEST(PolygonExchange, OfNearlyParallelNeighbors) {
   for (const double angle : {1e-9, 1e-6, 1e-3, 0.1, 3.0, 3.1415}) {
     const Vec3 leaf{std::cos(angle), 0, std::sin(angle)};
     const Polygon lying = rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     const Polygon other = rectangle({0, 0, 0}, {0, 1, 0}, leaf);
-    // The third side of the wedge, and its ends.
+    // The third side of the wedge and its two ends.
     const Vec3 tip{1, 0, 0}, y{0, 1, 0};
     const std::vector<Polygon> wedge{lying,
                                      other,
@@ -176,7 +176,7 @@ TEST(PolygonExchange, OfNearlyParallelNeighbors) {
                                      {{0, 0, 0}, leaf, tip},
                                      {y, tip + y, leaf + y}};
     EXPECT_NEAR(row_sum(wedge), 1, 1e-12) << angle;
-    // Over a gap, and turned in its plane, so that its edges are nearly parallel to the others.
+    // With a gap, and rotated in its plane, so that its edges are nearly parallel to the others.
     const double turn = 1e-4;
     const Vec3 along = std::cos(turn) * leaf + std::sin(turn) * y;
     const Vec3 aside = std::cos(turn) * y - std::sin(turn) * leaf;
@@ -193,13 +193,13 @@ TEST(PolygonExchange, OfNearlyParallelNeighbors) {
   }
 }
 
-TEST(PolygonExchange, AddsUpOverPartsAndIsReciprocal) {
+TEST(PolygonExchange, IsAdditiveAndReciprocal) {
   std::mt19937_64 random(15);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto point = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
   int seen = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    // Far, near and through one another.
+    // Distant, close and intersecting.
     const double apart = trial % 4 * trial % 7;
     const Polygon p{point(), point(), point()};
     const Vec3 off{apart, 0, 0};
@@ -220,7 +220,7 @@ TEST(PolygonExchange, AddsUpOverPartsAndIsReciprocal) {
   EXPECT_GT(seen, 80);
 }
 
-TEST(PolygonExchange, OfConcavePolygonsIsThatOfTheirParts) {
+TEST(PolygonExchange, OfConcavePolygonsIsTheSumOfTheirParts) {
   // A U, cut by the plane of the other polygon into two separate towers.
   const Polygon u{{0, 0, -1},  {5, 0, -1},  {5, 0, 2}, {4, 0, 2},
                   {4, 0, -.5}, {1, 0, -.5}, {1, 0, 2}, {0, 0, 2}};
@@ -231,7 +231,7 @@ TEST(PolygonExchange, OfConcavePolygonsIsThatOfTheirParts) {
   EXPECT_NEAR(polygon_exchange(floor, u), towers, 1e-13);
 }
 
-/// Skew edges, near and far, against Simpson's rule on a fine grid.
+/// Skew edges, close and distant, against Simpson's rule on a fine grid.
 TEST(EdgePairIntegral, IsTheDoubleIntegralOfTheLogarithm) {
   std::mt19937_64 random(16);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -9,7 +9,7 @@ namespace {
 
 using testing::Sketch;
 
-/// A square looking up at z = 0 and one looking down at z = 1.
+/// A square facing up at z = 0 and one facing down at z = 1.
 std::shared_ptr<const Scene> two_squares(double size, const Vec3& shift,
                                          const SceneOptions& options = {}) {
   Sketch sketch;
@@ -21,7 +21,7 @@ std::shared_ptr<const Scene> two_squares(double size, const Vec3& shift,
       options);
 }
 
-TEST(Picker, TellsPatchDistanceAndSide) {
+TEST(Picker, ReturnsPatchDistanceAndSide) {
   for (const auto& [size, shift] :
        {std::pair{1.0, Vec3{}}, {1e-6, Vec3{}}, {1e6, Vec3{}}, {1.0, Vec3{1e6, 0, -1e5}}}) {
     const Picker picker(two_squares(size, shift));
@@ -32,7 +32,7 @@ TEST(Picker, TellsPatchDistanceAndSide) {
     EXPECT_TRUE(down->lit_side);
     EXPECT_NEAR(down->distance, 0.5 * size, 1e-9 * size);
     EXPECT_NEAR(down->point.z, shift.z, 1e-9 * size);
-    // The length of the direction does not matter, and a slanting one meets the same plane.
+    // The length of the direction does not matter; an oblique one hits the same plane.
     const auto slanting = picker.first_hit(middle, {3e200, 4e200, 12e200});
     ASSERT_TRUE(slanting);
     EXPECT_EQ(slanting->patch, 1);
@@ -41,7 +41,7 @@ TEST(Picker, TellsPatchDistanceAndSide) {
   }
 }
 
-TEST(Picker, LooksThroughBacksWhenAsked) {
+TEST(Picker, FirstLitHitIgnoresBackSides) {
   const Picker picker(two_squares(1, {}));
   const Vec3 above{0.5, 0.5, 2};
   const auto first = picker.first_hit(above, {0, 0, -1});
@@ -56,7 +56,7 @@ TEST(Picker, LooksThroughBacksWhenAsked) {
   EXPECT_FALSE(picker.first_lit_hit(above, {0, 0, 1}));
 }
 
-TEST(Picker, MeetsTwoSidedFacesOnTheSideOfTheRay) {
+TEST(Picker, HitsTwoSidedFacesOnTheSideOfTheRay) {
   const Picker picker(two_squares(1, {}, {.two_sided = true}));
   for (const auto& [z, way, patch] :
        {std::tuple{2.0, -1.0, 3}, {0.5, 1.0, 2}, {0.5, -1.0, 0}, {-1.0, 1.0, 1}}) {
@@ -67,14 +67,14 @@ TEST(Picker, MeetsTwoSidedFacesOnTheSideOfTheRay) {
   }
 }
 
-TEST(Picker, IsLeftWhenCanceled) {
+TEST(Picker, CanBeCanceled) {
   const auto scene = load_scene("sphere-flake:levels=1");
   const Cancellation cancellation;
   cancellation.cancel();
   EXPECT_THROW(Picker(scene, cancellation), Canceled);
 }
 
-TEST(Picker, AimsFromFarAway) {
+TEST(Picker, IsAccurateFromFarAway) {
   const auto scene = load_scene("sphere-flake:levels=1");
   const Picker picker(scene);
   for (PatchId i = 0; i < scene->patch_count(); i += 7) {
@@ -84,7 +84,7 @@ TEST(Picker, AimsFromFarAway) {
     EXPECT_EQ(near->patch, i);
     const Vec3 way = normalized(patch.normal + 0.3 * Vec3{patch.normal.z, patch.normal.x, 0});
     const auto reach = picker.first_lit_hit(patch.center + 1e5 * way, -way);
-    ASSERT_TRUE(reach);  // that patch, or what hides it
+    ASSERT_TRUE(reach);  // that patch, or one that hides it
     if (reach->patch == i) {
       EXPECT_NEAR(reach->distance, 1e5, 1e-6);
     } else {

@@ -75,7 +75,7 @@ Polygon random_polygon(std::mt19937_64& random) {
   return polygon;
 }
 
-TEST(PlaneRegion, LosesWhatIsTakenAway) {
+TEST(PlaneRegion, HasTheRemainingArea) {
   PlaneRegion region;
   region.assign(rectangle(0, 0, 2, 1).corners);
   EXPECT_DOUBLE_EQ(area(region), 2);
@@ -95,7 +95,7 @@ TEST(PlaneRegion, LosesWhatIsTakenAway) {
   EXPECT_TRUE(region.empty());
 }
 
-TEST(PlaneRegion, HoldsThePointsThatNoneOfTheOthersHolds) {
+TEST(PlaneRegion, ContainsThePointsOutsideAllSubtractedPolygons) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
   int left = 0;
@@ -127,8 +127,8 @@ TEST(PlaneRegion, HoldsThePointsThatNoneOfTheOthersHolds) {
   EXPECT_GT(left, 200);
 }
 
-/// In any order the same is left, though the edges of the polygons nearly coincide.
-TEST(PlaneRegion, IsTheSameForAnyOrder) {
+/// The area does not depend on the order, although edges of the polygons nearly coincide.
+TEST(PlaneRegion, DoesNotDependOnTheOrder) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> noise(-1e-15, 1e-15);
   std::vector<Polygon> grid;
