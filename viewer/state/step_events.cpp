@@ -130,7 +130,7 @@ QString text_of(StepEvent::Kind kind) {
     case Kind::back_shown:
       return tr("shows its back to");
     case Kind::back_to_back:
-      return tr("is back to back with");
+      return tr("back to back with");
   }
   return {};
 }
