@@ -29,21 +29,17 @@ int main() {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       cube.add_face(faces[f], f == 1 ? 1 : 0);
     }
-    const auto scene = std::make_shared<const transillum::Scene>(
-        cube, transillum::SceneOptions{.max_patch_area = 0.05});
+    const auto scene = std::make_shared<const transillum::Scene>(cube);
 
     transillum::SolveOptions options;
     options.normalize = transillum::Normalization::symmetric;
     const transillum::Solution solution = transillum::solve(scene, options);
 
-    std::array<double, 6> power{};  // emitted and reflected, W: faces have an area of 1 m2
+    // Patches have the numbers of their faces: no option cuts a face into several.
     for (transillum::PatchId i = 0; i < scene->patch_count(); ++i) {
-      const transillum::Patch& patch = scene->patch(i);
-      transillum::at(power, patch.face) += patch.area * transillum::at(solution.radiosity, i).g;
+      std::printf("face %d: B = %.3f W/m2\n", scene->patch(i).face,
+                  transillum::at(solution.radiosity, i).g);
     }
-    std::printf(
-        "%d patches; mean B of the floor %.3f, of the walls %.3f, of the ceiling %.3f W/m2\n",
-        scene->patch_count(), power[0], (power[2] + power[3] + power[4] + power[5]) / 4, power[1]);
     std::printf("energy balance %.6f\n", solution.statistics.energy_balance);
     return 0;
   } catch (const transillum::InputError& error) {

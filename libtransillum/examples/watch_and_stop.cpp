@@ -1,22 +1,23 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Solves direction by direction, prints the change made by each pass, and stops when three passes
-// in a row have changed the estimate by less than a given share.
+// Solves direction by direction, prints the change made by each pass, and stops when 20 passes in
+// a row have changed the estimate by less than a given share.
 //
 // Usage: watch_and_stop SCENE [SHARE]
 //   SCENE  a .obj file or a built-in scene, such as "cornell-box"
-//   SHARE  relative change of B in the maximum norm; default 0.01
+//   SHARE  relative change of B in the maximum norm; default 0.001
 #include <transillum/transillum.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 int main(int argc, char** argv) {
   if (argc < 2 || argc > 3) {
     std::fprintf(stderr, "usage: %s SCENE [SHARE]\n", argv[0]);
     return 2;
   }
-  const double enough = argc == 3 ? std::atof(argv[2]) : 0.01;
+  const double enough = argc == 3 ? std::atof(argv[2]) : 0.001;
   try {
     transillum::SolveOptions options;
     options.directions = 1024;
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
 
     int quiet = 0;  // passes in a row with a small change
     using Until = transillum::RadiositySolver::Until;
-    while (quiet < 3 && solver.advance(Until::direction)) {
+    while (quiet < 20 && solver.advance(Until::direction)) {
       const auto& changes = solver.estimate_changes();  // of the passes of this iteration
       if (changes.empty()) {
         break;  // the first iteration is finished
@@ -34,9 +35,14 @@ int main(int argc, char** argv) {
       std::printf("pass %4zu, direction (%6.3f, %6.3f, %6.3f): B changes by %.4f\n", changes.size(),
                   omega.x, omega.y, omega.z, changes.back());
     }
-    std::printf("stopped after %d of %d passes; B of patch 0 is about %.4f\n",
-                solver.progress().direction, options.directions,
-                solver.running_estimate().front().g);
+    double power = 0;
+    const std::vector<transillum::Rgb> b = solver.running_estimate();
+    for (transillum::PatchId i = 0; i < solver.scene().patch_count(); ++i) {
+      power += solver.scene().patch(i).area * transillum::at(b, i).g;
+    }
+    std::printf(
+        "stopped after %d of %d passes; all patches emit and reflect %.4f W of green light\n",
+        solver.progress().direction, options.directions, power);
     return 0;
   } catch (const transillum::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
