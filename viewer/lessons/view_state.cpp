@@ -108,7 +108,7 @@ json to_json(const Goal& goal) {
   if (goal.kind == Goal::Kind::passes) {
     return goal.passes;
   }
-  return goal.kind == Goal::Kind::rest ? json(0) : json("finished");
+  return goal.kind == Goal::Kind::pause ? json(0) : json("finished");
 }
 
 std::optional<FocusChoice> focus_from(const json& value, const std::string& where) {

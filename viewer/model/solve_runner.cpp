@@ -123,7 +123,7 @@ void SolveRunner::work() {
   while (true) {
     const auto has_work = [this] {
       return quit_ || open_request_ || restart_request_ || form_factors_requested_ ||
-             goal_.kind != Goal::Kind::rest;
+             goal_.kind != Goal::Kind::pause;
     };
     if (!has_work()) {
       post_state(idle_state());

@@ -22,8 +22,8 @@ namespace transillum::viewer {
 
 /// What the solver is to reach before it pauses.
 struct Goal {
-  enum class Kind { rest, direction, iteration, passes, finished };
-  Kind kind = Kind::rest;
+  enum class Kind { pause, direction, iteration, passes, finished };
+  Kind kind = Kind::pause;
   std::int64_t passes = 0;  ///< for Kind::passes: passes_done() of the solve
 };
 
@@ -51,7 +51,7 @@ class SolveRunner : public QObject {
   /// Solves until the goal is reached.
   void set_goal(Goal goal);
   void run() { set_goal({Goal::Kind::finished}); }
-  void pause() { set_goal({Goal::Kind::rest}); }
+  void pause() { set_goal({Goal::Kind::pause}); }
   void advance_one_direction() { set_goal({Goal::Kind::direction}); }
   void advance_one_iteration() { set_goal({Goal::Kind::iteration}); }
   /// Cancels loading; or discards the solve and returns to the first direction.
