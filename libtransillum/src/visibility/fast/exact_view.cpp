@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/polygon_area.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -530,13 +531,13 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
 }
 
 ExactView::Real ExactView::area_of(const Polygon& polygon) {
-  Real twice = 0;
-  const Real x0 = polygon.x[0], y0 = polygon.y[0];
-  for (std::size_t k = 2; k < polygon.count; ++k) {
-    twice += (polygon.x[k - 1] - x0) * (polygon.y[k] - y0) -
-             (polygon.y[k - 1] - y0) * (polygon.x[k] - x0);
-  }
-  return std::max(0.0L, twice / 2);
+  struct Corner {
+    Real x, y;
+  };
+  const Real area = polygon_area(polygon.count, [&](std::size_t k) {
+    return Corner{polygon.x[k], polygon.y[k]};
+  });
+  return std::max(0.0L, area);
 }
 
 }  // namespace transillum
