@@ -9,7 +9,7 @@ class QSettings;
 
 namespace transillum::viewer {
 
-/// Dark or light, and as a projector needs it: larger type, thicker lines, more contrast.
+/// Dark or light colors, and projector mode: larger type, thicker lines, more contrast.
 class AppearanceActions : public QObject {
   Q_OBJECT
 
@@ -21,7 +21,7 @@ class AppearanceActions : public QObject {
   void load(const QSettings& settings);
 
  signals:
-  /// What has painted with the old colors must do it again.
+  /// Views that paint with theme colors must repaint.
   void changed();
 
  private:

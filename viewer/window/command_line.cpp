@@ -13,40 +13,40 @@ namespace transillum::viewer {
 namespace {
 
 // As the command line keeps them, before names become enumerators.
-struct Words {
+struct Names {
   std::string sampling, engine, normalize, scheme, first_shot = "none";
   bool one_way = false, two_way = false;
 };
 
-// The names that a setting takes, and its sentence.
-std::string described(const char* setting, const std::vector<std::string>& names) {
+// The choices of a setting, and its description.
+std::string described(const char* setting, const std::vector<std::string>& choices) {
   std::string text;
-  for (const std::string& name : names) {
+  for (const std::string& name : choices) {
     text += (text.empty() ? "" : " | ") + name;
   }
   return text + ": " + description_of(setting);
 }
 
-void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
+void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   SolveOptions& solve = line.solve_options;
   app.add_option("-m,--directions", solve.directions, description_of("directions"))
       ->capture_default_str();
-  app.add_option("--sampling", words.sampling, described("sampling", sampling_names()))
+  app.add_option("--sampling", names.sampling, described("sampling", sampling_names()))
       ->capture_default_str();
   app.add_option("--seed", solve.seed, description_of("seed"))->capture_default_str();
   app.add_option("--rotate", solve.rotation, description_of("rotate"));
-  app.add_option("--engine", words.engine, described("engine", engine_names()))
+  app.add_option("--engine", names.engine, described("engine", engine_names()))
       ->capture_default_str();
   app.add_option("--resolution", solve.engine_options.resolution, description_of("resolution"))
       ->check(CLI::Range(1, EngineOptions::largest_resolution));
   auto* one_way =
-      app.add_flag("--one-way", words.one_way, "use each direction alone, as the paper does");
-  app.add_flag("--two-way", words.two_way, description_of("two-way"))->excludes(one_way);
-  app.add_option("--normalize", words.normalize, described("normalize", normalization_names()))
+      app.add_flag("--one-way", names.one_way, "use each direction alone, as the paper does");
+  app.add_flag("--two-way", names.two_way, description_of("two-way"))->excludes(one_way);
+  app.add_option("--normalize", names.normalize, described("normalize", normalization_names()))
       ->capture_default_str();
-  app.add_option("--scheme", words.scheme, described("scheme", scheme_names()))
+  app.add_option("--scheme", names.scheme, described("scheme", scheme_names()))
       ->capture_default_str();
-  app.add_option("--first-shot", words.first_shot,
+  app.add_option("--first-shot", names.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
       ->capture_default_str();
   app.add_option("--burn-in", solve.burn_in, description_of("burn-in"))->capture_default_str();
@@ -66,14 +66,14 @@ void add_solve_options(CLI::App& app, CommandLine& line, Words& words) {
       ->check(CLI::NonNegativeNumber);
 }
 
-void finish(CommandLine& line, const Words& words, const CLI::App& app) {
+void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   SolveOptions& solve = line.solve_options;
-  solve.sampling = sampling_from_name(words.sampling);
-  solve.engine = engine_from_name(words.engine);
-  solve.two_way = !words.one_way;
-  solve.normalize = normalization_from_name(words.normalize);
-  solve.scheme = scheme_from_name(words.scheme);
-  solve.first_shot = first_shot_from_name(words.first_shot);
+  solve.sampling = sampling_from_name(names.sampling);
+  solve.engine = engine_from_name(names.engine);
+  solve.two_way = !names.one_way;
+  solve.normalize = normalization_from_name(names.normalize);
+  solve.scheme = scheme_from_name(names.scheme);
+  solve.first_shot = first_shot_from_name(names.first_shot);
   solve.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty() && line.lesson.empty()) {
@@ -96,39 +96,37 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
                                      std::ostream& error) {
   ParsedCommandLine parsed;
   CommandLine& line = parsed.command_line;
-  Words words;
-  words.sampling = name_of(line.solve_options.sampling);
-  words.engine = name_of(line.solve_options.engine);
-  words.normalize = name_of(line.solve_options.normalize);
-  words.scheme = name_of(line.solve_options.scheme);
+  Names names;
+  names.sampling = name_of(line.solve_options.sampling);
+  names.engine = name_of(line.solve_options.engine);
+  names.normalize = name_of(line.solve_options.normalize);
+  names.scheme = name_of(line.solve_options.scheme);
 
-  CLI::App app("Watch diffuse light settle in a scene, direction by direction.",
+  CLI::App app("Shows how the light in a diffuse scene converges, direction by direction.",
                "transillum-viewer");
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
   app.add_option("SCENE", line.scene,
                  "an .obj file or a built-in scene, solved at once (default: sphere-flake); or a "
-                 "result (.vtp), "
-                 "a session or a lesson (.json)");
-  add_solve_options(app, line, words);
-  auto* lesson = app.add_option("--lesson", line.lesson,
-                                "a lesson's file, or the number of one that comes along");
-  app.add_option("--page", line.page, "the lesson's page to begin with")
+                 "result (.vtp), a session or a lesson (.json)");
+  add_solve_options(app, line, names);
+  auto* lesson =
+      app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson");
+  app.add_option("--page", line.page, "page of the lesson to start at")
       ->needs(lesson)
       ->check(CLI::PositiveNumber);
   auto* screenshot =
       app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
   app.add_option(
          "--after", line.after,
-         "directions to take before the screenshot (default: the first full iteration; of a result "
-         "none)")
+         "number of directions before the screenshot (default: one iteration; none for a result)")
       ->needs(screenshot)
       ->check(CLI::PositiveNumber);
   try {
     app.parse(argc, argv);
-    finish(line, words, app);
-  } catch (const CLI::Success& wish) {  // --help, --version
+    finish(line, names, app);
+  } catch (const CLI::Success& request) {  // --help, --version
     parsed.exit_now = true;
-    parsed.exit_status = app.exit(wish, out, error);
+    parsed.exit_status = app.exit(request, out, error);
   } catch (const CLI::ParseError& wrong) {
     error << "transillum-viewer: " << wrong.what() << '\n';
     parsed.exit_now = true;

@@ -9,9 +9,9 @@
 
 namespace transillum::viewer {
 
-/// What the user asked for.
+/// The parsed arguments.
 struct CommandLine {
-  std::string scene;  ///< empty: start without one
+  std::string scene;  ///< file or built-in; empty: none given
   SceneOptions scene_options;
   SolveOptions solve_options;
   std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
@@ -20,14 +20,14 @@ struct CommandLine {
   int after = 0;           ///< directions before the screenshot; 0: the first full iteration
 };
 
-/// Either a command line to obey, or the status to exit with at once.
+/// Either a command line to run, or the status to exit with at once.
 struct ParsedCommandLine {
   CommandLine command_line;
   bool exit_now = false;
   int exit_status = 0;
 };
 
-/// Help goes to `out`; what is wrong goes to `error`, as one line, with status 2.
+/// Writes help to `out`, and an error in the arguments as one line to `error` (status 2).
 ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
                                      std::ostream& error);
 

@@ -33,7 +33,7 @@ Widths usual_widths_of(Layout layout) {
   }
 }
 
-// Larger type wants wider sides, but the scene is to keep its place.
+// A larger font needs wider sides, but the scene must keep enough width.
 Widths widths_of(Layout layout, int window_width) {
   constexpr double most_share = 0.64;
   const Widths usual = usual_widths_of(layout);
@@ -78,7 +78,7 @@ void DockLayouts::arrange(Layout layout) {
   QList<QDockWidget*> shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
-    // One without a place here comes where it is in another layout, should it be asked for.
+    // A dock without a place in this layout opens at its place in another one.
     if (!dock.places.empty()) {
       window_.addDockWidget(dock.places.front().area, dock.widget);
     }
@@ -100,7 +100,7 @@ void DockLayouts::arrange(Layout layout) {
   }
   window_.resizeDocks(shown, heights, Qt::Vertical);
   follow_type();
-  // Qt may leave the bar of tabs that are no more.
+  // Qt may leave an empty tab bar.
   QTimer::singleShot(0, this, [this] {
     for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
       if (bar->count() == 0) {
@@ -133,7 +133,7 @@ void DockLayouts::follow_type() {
 
 bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildPolished) {
-    // The window makes the tabs of its docks: their names are to be read, if need be by scrolling.
+    // The window creates the tab bars of its docks; names must not be cut off.
     auto* bar = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child());
     if (bar) {
       bar->setElideMode(Qt::ElideNone);

@@ -14,38 +14,39 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// The docks round the scene, and the ways to lay them out.
+/// The docks around the scene, and their layouts.
 class DockLayouts : public QObject {
   Q_OBJECT
 
  public:
   explicit DockLayouts(QMainWindow& window);
 
-  /// Where a dock lies in a layout: at a side of the window, so many pixels high there.
+  /// The place of a dock in a layout: a side of the window, and the height in pixels.
   struct Place {
     Layout layout;
     Qt::DockWidgetArea area;
     int height;
     bool behind = false;  ///< a tab behind the dock added before it
   };
-  /// Docks of one side lie below one another in the order they were added.
+  /// Docks on one side are stacked in the order in which they were added.
   QDockWidget* add(const QString& title, const char* name, QWidget* content,
                    std::vector<Place> places);
   void arrange(Layout layout);
-  /// Gives the sides the widths that the layout wants with the type there is now.
+  /// Sets the widths of the sides for the current font size.
   void follow_type();
   /// The places and sizes of all docks, for restore().
   QByteArray state() const;
   /// Restores a state saved in layout number `layout`. False where it does not fit this version.
   bool restore(int layout, const QByteArray& state);
-  /// The one arranged last.
+  /// The layout arranged last.
   Layout current() const { return current_; }
-  /// Shows a panel, in front of those it shares its place with. `panel` is its dock's name without
-  /// "_dock"; false where there is none.
+  /// Shows a panel, in front of the others in its place.
+  /// @param panel the name of its dock without "_dock"
+  /// @returns false where there is none
   bool bring_to_front(const std::string& panel);
-  /// What bring_to_front() takes.
+  /// The names that bring_to_front() accepts.
   std::vector<std::string> panels() const;
-  /// Docks to show and hide, and the layouts.
+  /// Adds the actions that show and hide docks, and the layouts.
   void add_to(QMenu& menu);
 
  protected:

@@ -31,17 +31,18 @@ void add_keys(const QMenu& menu, std::vector<KeyUse>& keys) {
   }
 }
 
-// What no action knows of: the pointer, and keys that belong to one view.
-KeyGroup pointer() {
+// What no action has: the pointer, and keys that belong to one view.
+KeyGroup pointer_group() {
   const auto tr = [](const char* text) { return QMainWindow::tr(text); };
-  return {tr("Pointer"),
-          {{tr("Scene"), tr("drag: turn; Shift+drag or middle button: move; wheel: nearer; click: "
-                            "select a patch")},
-           {tr("Map"), tr("drag: move; wheel: enlarge; double click: all of it; click: select a "
-                          "patch, list its line; right button: run to a point")},
-           {tr("Timeline"), tr("drag: go to a moment; Shift+drag: polygon by polygon; arrow keys: "
-                               "one polygon, with Ctrl one direction")},
-           {tr("Directions"), tr("drag: turn the sphere; click: go to a direction")}}};
+  return {
+      tr("Pointer"),
+      {{tr("Scene"), tr("drag: rotate; Shift+drag or middle button: pan; wheel: zoom; click: "
+                        "select a patch")},
+       {tr("Map"), tr("drag: pan; wheel: zoom; double click: fit; click: select a patch and "
+                      "list the patches on its line; right button: run to a point")},
+       {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
+                           "with Ctrl one direction")},
+       {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
 }
 
 QString html(const KeyGroup& group) {
@@ -76,15 +77,15 @@ std::vector<KeyGroup> keys_of(const QMainWindow& window) {
 
 QString key_page(const QMainWindow& window) {
   std::vector<KeyGroup> groups = keys_of(window);
-  groups.push_back(pointer());
-  std::size_t rows = 0, put = 0;
+  groups.push_back(pointer_group());
+  std::size_t rows = 0, placed_rows = 0;
   for (const KeyGroup& group : groups) {
     rows += group.keys.size() + 2;
   }
   QString columns[2];
   for (const KeyGroup& group : groups) {
-    columns[2 * put < rows ? 0 : 1] += html(group);
-    put += group.keys.size() + 2;
+    columns[2 * placed_rows < rows ? 0 : 1] += html(group);
+    placed_rows += group.keys.size() + 2;
   }
   return QStringLiteral(
              "<table width='100%'><tr><td width='50%' valign='top'>%1</td>"

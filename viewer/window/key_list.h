@@ -8,22 +8,22 @@ class QMainWindow;
 
 namespace transillum::viewer {
 
-/// A key of the window and what it does now.
+/// A key of the window and what it does.
 struct KeyUse {
   QString keys;
   QString text;
-  bool enabled = true;  ///< it does something as things stand
+  bool enabled = true;  ///< whether its action is enabled now
 };
 struct KeyGroup {
   QString menu;
   std::vector<KeyUse> keys;
 };
 
-/// All keys of the window's menus, in their order: made of the actions themselves.
+/// All keys of the window's menus, in the order of the menus; read from the actions.
 std::vector<KeyGroup> keys_of(const QMainWindow& window);
-/// The same as a page of HTML in two columns, with what the pointer does.
+/// The same as a page of HTML in two columns, with the functions of the pointer.
 QString key_page(const QMainWindow& window);
-/// Shows that page until it is closed; the window can be used beside it.
+/// Shows that page in a non-modal dialog.
 void show_keys(QMainWindow& window);
 
 }  // namespace transillum::viewer

@@ -5,6 +5,9 @@
 #include <QSurfaceFormat>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "solve/settings_panel.h"
 #include "transillum/errors.h"
@@ -37,6 +40,51 @@ void print_error(const QString& message) {
   std::cerr << "transillum-viewer: " << message.toStdString() << std::endl;
 }
 
+/// The scene to open; without arguments, one that shows a solve at work.
+std::string scene_of(const CommandLine& command_line) {
+  return command_line.scene.empty() && command_line.lesson.empty() ? "sphere-flake"
+                                                                   : command_line.scene;
+}
+
+std::optional<Goal> goal_of(const CommandLine& command_line) {
+  if (command_line.after > 0) {
+    return Goal{Goal::Kind::passes, command_line.after};
+  }
+  if (!command_line.screenshot.empty() && !transillum::is_result_file(scene_of(command_line))) {
+    return Goal{Goal::Kind::iteration};
+  }
+  return std::nullopt;
+}
+
+/// Writes a screenshot once the window is settled; that, or a failure, ends the event loop.
+std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunner& runner,
+                                            const std::string& path) {
+  auto screenshot = std::make_unique<Screenshot>(
+      window, [&window] { return window.settled(); }, QString::fromStdString(path));
+  const auto fail = [](const QString& message, int exit_status) {
+    print_error(message);
+    QApplication::exit(exit_status);
+  };
+  QObject::connect(screenshot.get(), &Screenshot::done, qApp, &QApplication::quit);
+  QObject::connect(screenshot.get(), &Screenshot::failed, qApp,
+                   [fail](const QString& message) { fail(message, 1); });
+  QObject::connect(
+      &runner, &SolveRunner::failed, qApp,
+      [fail](const QString& message, bool bad_input) { fail(message, bad_input ? 2 : 1); });
+  return screenshot;
+}
+
+/// @throws InputError where a session or a lesson cannot be read
+void open_arguments(MainWindow& window, const CommandLine& command_line) {
+  const std::string scene = scene_of(command_line);
+  if (!scene.empty()) {
+    window.files().open(QString::fromStdString(scene), goal_of(command_line));
+  }
+  if (!command_line.lesson.empty()) {
+    window.files().open_lesson(command_line.lesson, command_line.page);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -66,45 +114,16 @@ int main(int argc, char** argv) {
   SharedState state;
   MainWindow window(state, !for_screenshot);
   window.parts().settings.set_options(command_line.solve_options, command_line.scene_options);
-  int status = 0;
   std::unique_ptr<Screenshot> screenshot;
   if (for_screenshot) {
-    screenshot = std::make_unique<Screenshot>(
-        window, [&] { return window.settled(); }, QString::fromStdString(command_line.screenshot));
-    QObject::connect(screenshot.get(), &Screenshot::done, &application, &QApplication::quit);
-    const auto give_up = [&](const QString& message, int exit_status) {
-      print_error(message);
-      status = exit_status;
-      application.quit();
-    };
-    QObject::connect(screenshot.get(), &Screenshot::failed, &application,
-                     [give_up](const QString& message) { give_up(message, 1); });
-    QObject::connect(
-        &state.runner, &SolveRunner::failed, &application,
-        [give_up](const QString& message, bool bad_input) { give_up(message, bad_input ? 2 : 1); });
+    screenshot = take_screenshot(window, state.runner, command_line.screenshot);
   }
   window.show();
-  // Without arguments, start with a scene that is being solved.
-  const std::string scene = command_line.scene.empty() && command_line.lesson.empty()
-                                ? "sphere-flake"
-                                : command_line.scene;
-  std::optional<Goal> goal;
-  if (command_line.after > 0) {
-    goal = Goal{Goal::Kind::passes, command_line.after};
-  } else if (for_screenshot && !transillum::is_result_file(scene)) {
-    goal = Goal{Goal::Kind::iteration};
-  }
   try {
-    if (!scene.empty()) {
-      window.files().open(QString::fromStdString(scene), goal);
-    }
-    if (!command_line.lesson.empty()) {
-      window.files().open_lesson(command_line.lesson, command_line.page);
-    }
+    open_arguments(window, command_line);
   } catch (const transillum::InputError& error) {
     print_error(QString::fromStdString(error.what()));
     return 2;
   }
-  QApplication::exec();
-  return status;
+  return QApplication::exec();
 }

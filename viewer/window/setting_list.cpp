@@ -18,10 +18,11 @@ QString setting_page() {
                      QString::fromStdString(setting.default_value).toHtmlEscaped());
   }
   return PageDialog::tr(
-             "<h3>Settings of a solve</h3><p>The command line has them with two dashes, "
-             "lessons and sessions as they stand here, but for those with an asterisk.</p>"
-             "<table cellpadding=4><tr><th align=left>name</th><th align=left>what it "
-             "does</th><th align=left>value</th><th align=left>default</th></tr>") +
+             "<h3>Settings of a solve</h3><p>On the command line, put two dashes before the name. "
+             "Lessons and sessions use the names as they are; those with an asterisk are for the "
+             "command line only.</p>"
+             "<table cellpadding=4><tr><th align=left>Name</th><th align=left>Meaning</th>"
+             "<th align=left>Value</th><th align=left>Default</th></tr>") +
          rows + QStringLiteral("</table>");
 }
 

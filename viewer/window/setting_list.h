@@ -7,9 +7,9 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// All settings of a solve with type, default and sentence, as a page of HTML.
+/// All settings of a solve with type, default and description, as a page of HTML.
 QString setting_page();
-/// Shows that page until it is closed.
+/// Shows that page in a non-modal dialog.
 void show_settings(QWidget& parent);
 
 }  // namespace transillum::viewer
