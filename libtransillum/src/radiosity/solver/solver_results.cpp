@@ -86,7 +86,8 @@ FormFactors RadiositySolver::Impl::form_factors() const {
         "the semi-iterative scheme keeps no form factors unless they are requested");
   }
   if (history.size() == 0 || iteration.begun || kept_areas().passes == 0) {
-    throw std::runtime_error("there are no form factors before the first iteration is finished");
+    throw std::runtime_error(
+        "form factors are available between iterations, after one that kept them");
   }
   if (!kept.available()) {
     throw MemoryLimitExceeded("the form factors exceed the memory limit");
