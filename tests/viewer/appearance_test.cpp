@@ -119,9 +119,9 @@ class AppearanceTest : public QObject {
       QVERIFY2(page.contains(text), qPrintable(text));
     }
 
-    QFile manual(QStringLiteral(TRANSILLUM_MANUAL));
-    QVERIFY(manual.open(QIODevice::ReadOnly));
-    const QString text = QString::fromUtf8(manual.readAll());
+    QFile guide(QStringLiteral(TRANSILLUM_SOURCE "/viewer/USER_GUIDE.md"));
+    QVERIFY(guide.open(QIODevice::ReadOnly));
+    const QString text = QString::fromUtf8(guide.readAll());
     for (const auto& [key, use] : uses) {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }

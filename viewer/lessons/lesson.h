@@ -19,7 +19,7 @@ struct Lesson {
   std::vector<Page> pages;  ///< at least one
 };
 
-/// Parses the text of a lesson file; viewer/MANUAL.md describes the format.
+/// Parses the text of a lesson file; viewer/LESSON_FORMAT.md describes the format.
 /// @param name the file's name in error messages
 /// @param folder where relative scene files are searched first
 /// @throws InputError naming file, page, key and problem
