@@ -42,6 +42,12 @@ TEST(Directions, ErrorsMatchReferenceValues) {
   EXPECT_LT(sky_error(Sampling::halton, 1024), 8e-3);
 }
 
+/// Scripts written for earlier versions use the British spelling.
+TEST(Directions, AcceptTheFormerSpellingOfCentered) {
+  EXPECT_EQ(sampling_from_name("centred-hammersley"), Sampling::centered_hammersley);
+  EXPECT_EQ(name_of(Sampling::centered_hammersley), "centered-hammersley");
+}
+
 TEST(Directions, AreUnitVectorsByEquation13) {
   for (const auto& name : sampling_names()) {
     for (const auto& d : make_directions(sampling_from_name(name), 777, 5)) {
