@@ -20,7 +20,7 @@ class ScreenshotTest : public QObject {
       return outcome;
     }
     outcome.status = process.exitCode();
-    // Qt's own remark about a missing run-time folder is none of ours.
+    // Qt reports a missing run-time folder; that line is not the program's.
     for (const QByteArray& line : process.readAllStandardError().split('\n')) {
       if (!line.isEmpty() && !line.contains("XDG_RUNTIME_DIR")) {
         outcome.error += line + '\n';
@@ -45,11 +45,11 @@ class ScreenshotTest : public QObject {
       }
     }
     QVERIFY(colors.size() > 60);
-    // Nothing else is left behind.
+    // No temporary file remains.
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"window.png"});
   }
 
-  void bad_input_is_told_in_one_line_and_leaves_nothing() {
+  void bad_input_gives_one_line_and_no_file() {
     const QTemporaryDir folder;
     const Outcome outcome = run({"no-such-scene", "--screenshot", folder.filePath("window.png")});
     QCOMPARE(outcome.status, 2);
@@ -58,7 +58,7 @@ class ScreenshotTest : public QObject {
     QVERIFY(QDir(folder.path()).entryList(QDir::Files).isEmpty());
   }
 
-  void a_wrong_call_exits_with_2() {
+  void wrong_arguments_exit_with_status_2() {
     const Outcome outcome = run({"--color", "red"});
     QCOMPARE(outcome.status, 2);
     QCOMPARE(outcome.error.count('\n'), 1);

@@ -28,7 +28,7 @@ inline bool wait_for(const std::function<bool()>& condition, int milliseconds = 
   return QTest::qWaitFor(condition, milliseconds);
 }
 
-/// How many clearly different colors a picture has, up to 16 levels a channel.
+/// Number of clearly different colors in a picture, at 16 levels per channel.
 inline int color_count(const QImage& image) {
   QSet<QRgb> colors;
   for (int y = 0; y < image.height(); y += 2) {
@@ -80,7 +80,7 @@ inline std::unique_ptr<TestWindow> make_window(int directions = 32) {
   return make_window(SolveOptions{.directions = directions});
 }
 
-/// To be looked at: TRANSILLUM_PICTURES names the folder.
+/// Saves a picture for inspection, in the folder named by TRANSILLUM_PICTURES, if it is set.
 inline void save_picture(QWidget& window, const QString& name) {
   const QString folder = qEnvironmentVariable("TRANSILLUM_PICTURES");
   if (!folder.isEmpty()) {
@@ -90,7 +90,7 @@ inline void save_picture(QWidget& window, const QString& name) {
 
 }  // namespace transillum::viewer::test
 
-/// As main.cpp sets Qt up.
+/// Sets Qt up as main.cpp does.
 #define TRANSILLUM_VIEWER_TEST_MAIN(TestClass)                                 \
   int main(int argc, char** argv) {                                            \
     QStandardPaths::setTestModeEnabled(true);                                  \

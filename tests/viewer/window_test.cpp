@@ -34,7 +34,7 @@ struct Solved : SolvedWindow {
     }
     return patches;
   }
-  // A place in the scene's picture where a click hits one of `wanted`.
+  // A point of the 3-D view where a click hits one of `wanted`.
   QPoint place_of(const std::set<PatchId>& wanted) const {
     const QSize size = scene_view->canvas()->size();
     for (int y = 10; y < size.height(); y += 7) {
@@ -56,7 +56,7 @@ class WindowTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void starts_with_scenes_to_choose_from() {
+  void starts_with_the_list_of_scenes() {
     const auto window = make_window();
     auto* button = window->findChild<QPushButton*>("built_in_furnace");
     QVERIFY(button && button->isVisible());
@@ -65,7 +65,7 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return window->snapshot() != nullptr; }));
     auto* scene_view = window->findChild<SceneView*>();
     QVERIFY(scene_view->isVisible());
-    // And back, while the scene stays what it is.
+    // The list can be shown again, and left, without changing the scene.
     auto* scenes = window->findChild<QAction*>("scenes");
     scenes->trigger();
     QVERIFY(button->isVisible() && !scene_view->isVisible());
@@ -74,7 +74,7 @@ class WindowTest : public QObject {
     QVERIFY(color_count(scene_view->picture(1)) > 2);
     window->findChild<QPushButton*>("back_to_scene")->click();
     QVERIFY(scene_view->isVisible());
-    // A lesson whose scene is open wants it to be seen.
+    // A lesson whose scene is open shows the scene instead of the list.
     window->files().open_lesson("1", 1);
     QVERIFY(wait_for([&] { return window->findChild<ViewStateApplier*>()->arrived(); }));
     scenes->trigger();
@@ -85,7 +85,7 @@ class WindowTest : public QObject {
     }));
   }
 
-  void pictures_are_neither_blank_nor_of_one_color() {
+  void pictures_are_neither_blank_nor_uniform() {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage scene = picture_of(solved.scene_view->canvas());
@@ -99,7 +99,7 @@ class WindowTest : public QObject {
     QVERIFY(color_count(whole) > 40);
   }
 
-  void a_color_map_brings_its_bar() {
+  void a_color_map_shows_its_color_bar() {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage before = picture_of(solved.scene_view->canvas());
@@ -110,7 +110,7 @@ class WindowTest : public QObject {
     QVERIFY(share_of(whole, QColor(top[0], top[1], top[2])) > 0);
   }
 
-  void what_is_typed_after_a_choice_is_not_the_lists() {
+  void typing_after_choosing_from_a_list_does_not_change_it() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     QApplication::setActiveWindow(solved.window.get());
@@ -127,7 +127,7 @@ class WindowTest : public QObject {
     QVERIFY(solved.window->colors.quantity() == Quantity::exitance);
   }
 
-  void without_values_the_bar_takes_no_room() {
+  void an_empty_color_bar_takes_no_space() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     solved.window->selection.select(no_patch);
@@ -139,7 +139,7 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return solved.scene_view->width() < whole; }));
   }
 
-  void a_picture_leaves_the_screen_as_it_was() {
+  void exporting_a_picture_does_not_change_the_screen() {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage before = picture_of(solved.scene_view->canvas());
@@ -149,7 +149,7 @@ class WindowTest : public QObject {
     QVERIFY(picture_of(solved.scene_view->canvas()) == before);
   }
 
-  void an_outline_keeps_its_color_from_all_sides() {
+  void an_outline_has_the_same_color_from_all_sides() {
     const Solved solved("rooms");
     QVERIFY(solved.ready);
     const PatchId lamp = 176;  // in a ceiling
@@ -157,7 +157,7 @@ class WindowTest : public QObject {
     ViewPoint view = solved.scene_view->view_point();
     view.target = patch.center;
     solved.window->selection.select(lamp);
-    // Its front, nearly from the side, and through its culled back.
+    // From the front, at a grazing angle, and through the culled back side.
     for (const double below : {2.0, 0.2, -0.2, -2.0}) {
       view.eye = patch.center + Vec3{-1, -8, 0} + below * patch.normal;
       solved.scene_view->set_view_point(view);
@@ -168,7 +168,7 @@ class WindowTest : public QObject {
     }
   }
 
-  void a_click_in_the_scene_selects_everywhere() {
+  void a_click_in_the_scene_selects_the_patch_in_all_views() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     const QPoint place = solved.place_of(solved.patches_in_map());
@@ -187,7 +187,7 @@ class WindowTest : public QObject {
     QVERIFY(share_of(picture_of(solved.scene_view->canvas()), theme::selection) > 0);
   }
 
-  void a_drag_turns_the_scene_and_selects_nothing() {
+  void a_drag_rotates_the_scene_and_selects_nothing() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     QWidget* canvas = solved.scene_view->canvas();
@@ -202,16 +202,16 @@ class WindowTest : public QObject {
     QCOMPARE(solved.window->selection.patch(), no_patch);
   }
 
-  void what_a_click_hits_is_seen_from_its_front() {
+  void a_click_hits_front_sides_only() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
-    // The picture is of a closed box: outside the culled near walls there is always a patch.
+    // The box is closed: behind its culled near walls there is a patch everywhere.
     const QPoint middle = solved.scene_view->canvas()->rect().center();
     const PatchId patch = solved.scene_view->patch_at(middle);
     QVERIFY(patch != no_patch);
   }
 
-  void a_click_in_the_map_selects() {
+  void a_click_in_the_map_selects_the_patch() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     MapCanvas* canvas = solved.map_view->canvas();
@@ -223,10 +223,10 @@ class WindowTest : public QObject {
     QCOMPARE(solved.text("patch_id"), QString::number(patch));
   }
 
-  void actions_drive_the_solve() {
+  void actions_control_the_solve() {
     const Solved solved("cornell-box");
     QVERIFY(solved.ready);
-    // Starting anew with many directions.
+    // Solve again with many directions.
     solved.window->runner.restart(
         [] {
           SolveOptions options;
@@ -250,7 +250,7 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return solved.window->snapshot()->progress.direction == 0; }));
   }
 
-  void a_bad_file_is_told_in_words_and_the_old_scene_stays() {
+  void a_bad_file_is_reported_and_the_old_scene_stays() {
     const Solved solved("furnace");
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
@@ -292,7 +292,7 @@ class WindowTest : public QObject {
     QVERIFY(window->windowTitle().contains("dropped.obj"));
   }
 
-  void fits_a_projector() {
+  void fits_the_screen_of_a_projector() {
     const SolvedWindow solved("boards");
     const auto& window = solved.window;
     const auto fits = [&](const QSize& size) {
@@ -315,7 +315,7 @@ class WindowTest : public QObject {
     QVERIFY(fits_large);
   }
 
-  void a_panel_behind_others_rests() {
+  void a_panel_behind_others_does_no_work() {
     const auto window = make_window();
     auto* dock = window->findChild<QDockWidget*>("received_dock");
     QVERIFY(!dock->isHidden());
@@ -326,7 +326,7 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return !dock->widget()->isVisible(); }, 5000));
   }
 
-  void a_layout_gives_its_docks_their_sizes() {
+  void a_layout_sets_the_sizes_of_its_docks() {
     const auto window = make_window();
     window->resize(1440, 900);
     for (const char* panel : {"tree", "algorithm", "event"}) {
@@ -337,7 +337,7 @@ class WindowTest : public QObject {
     }
   }
 
-  void tables_grow_with_the_type() {
+  void tables_grow_with_the_font() {
     const auto window = make_window();
     auto* table = window->findChild<QTableView*>("received_light");
     const auto header_fits = [&] {
@@ -360,7 +360,7 @@ class WindowTest : public QObject {
     QVERIFY(fits);
   }
 
-  void panels_can_be_closed_and_come_back() {
+  void panels_can_be_closed_and_reopened() {
     const auto window = make_window();
     auto* map = window->findChild<QDockWidget*>("map_dock");
     map->close();

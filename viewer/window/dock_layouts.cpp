@@ -57,7 +57,7 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
   dock->setWidget(content);
-  // Qt moves a tab behind others out of sight and lets it count as visible: its content would work
+  // Qt moves a tab behind others off screen, but it still counts as visible: its content would work
   // on for nobody, and never hear that it is in front again.
   // Else a dock of hidden content is given no room, and those that share its place none either.
   QSizePolicy policy = content->sizePolicy();
