@@ -57,9 +57,9 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName(QString::fromLatin1(name));
   dock->setWidget(content);
-  // Qt moves a tab behind others off screen, but it still counts as visible: its content would work
-  // on for nobody, and never hear that it is in front again.
-  // Else a dock of hidden content is given no room, and those that share its place none either.
+  // Qt moves a tab behind others off screen but reports it as visible: its content would go on
+  // working, and would not be notified when it comes to the front.
+  // Without the next lines, a dock with hidden content gets no space, nor do its neighbors.
   QSizePolicy policy = content->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   content->setSizePolicy(policy);
