@@ -1,7 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // The format of lesson files: every key, its default, and the error for each mistake.
+#include <QFile>
+#include <QRegularExpression>
 #include <QTest>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "lessons/lesson.h"
@@ -15,6 +18,11 @@ namespace {
 // A lesson of these pages.
 std::string lesson(const std::string& pages) {
   return R"({"title": "T", "pages": [)" + pages + "]}";
+}
+
+QString description() {
+  QFile file(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
+  return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
 }
 
 std::string page(const std::string& show) { return R"({"text": "x", "show": {)" + show + "}}"; }
@@ -188,6 +196,49 @@ class LessonFormatTest : public QObject {
     }
     QCOMPARE(in_files, defaults.size());
     QVERIFY(run_options_from_json(defaults, "d") == RunOptions{});
+  }
+
+  void the_example_in_the_description_is_a_lesson() {
+    static const QRegularExpression block(QStringLiteral("```json\n(.*?)```"),
+                                          QRegularExpression::DotMatchesEverythingOption);
+    const auto example = block.match(description());
+    QVERIFY(example.hasMatch());
+    const Lesson l = lesson_from_text(example.captured(1).toStdString(), "example");
+    QCOMPARE(l.pages.size(), std::size_t{2});
+    QCOMPARE(l.pages[1].state.selection, PatchId{16});
+    QVERIFY(l.pages[1].state.focus && l.pages[1].state.focus->phase == Phase::split);
+  }
+
+  // Every key that the program writes; each value of a list in the file is an example.
+  void every_key_is_described() {
+    ViewState state;
+    state.options.solve.rotation = 1;
+    state.focus = FocusChoice();
+    state.selection = 1;
+    state.camera = ViewPoint();
+    state.range = {0, 1};
+    state.exposure = 0;
+    state.outlines = true;
+    state.overlays = {Overlay::normals};
+    state.materials = {MaterialChange()};
+    state.layout = Layout::teach;
+    state.panels = {"map"};
+    const QString text = description();
+    int keys = 0;
+    const std::function<void(const nlohmann::json&)> check = [&](const nlohmann::json& value) {
+      for (const auto& [key, inner] : value.items()) {
+        if (value.is_object()) {
+          ++keys;
+          const QString name = QString::fromStdString(key);
+          QVERIFY2(text.contains('`' + name + '`') || text.contains('"' + name + '"'), key.c_str());
+        }
+        if (inner.is_structured()) {
+          check(inner);
+        }
+      }
+    };
+    check(to_json(state));
+    QVERIFY(keys > 45);
   }
 
   void unknown_panels_are_errors() {

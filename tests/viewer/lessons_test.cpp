@@ -143,6 +143,18 @@ class LessonsTest : public QObject {
     QVERIFY(wait_for([&] { return taught.window->banner_text().contains("no direction 5"); }));
   }
 
+  void every_panel_is_described() {
+    QFile file(QStringLiteral(TRANSILLUM_SOURCE "/viewer/LESSON_FORMAT.md"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray text = file.readAll();
+    const Taught taught;
+    const std::vector<std::string> panels = taught.window->parts().docks.panels();
+    QVERIFY(panels.size() > 10);
+    for (const std::string& panel : panels) {
+      QVERIFY2(text.contains(('"' + panel + '"').c_str()), panel.c_str());
+    }
+  }
+
   void turning_past_the_last_page_opens_the_next_lesson() {
     LessonPanel panel(built_in_lessons());
     panel.show();

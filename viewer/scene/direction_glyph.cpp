@@ -17,15 +17,13 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr double amber[3] = {1.0, 0.72, 0.15};
-
 vtkSmartPointer<vtkActor> flat_actor(vtkPolyData* data, vtkRenderer& renderer) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetColor(amber[0], amber[1], amber[2]);
+  actor->GetProperty()->SetColor(direction_color[0], direction_color[1], direction_color[2]);
   actor->PickableOff();
   actor->VisibilityOff();
   renderer.AddActor(actor);

@@ -10,6 +10,9 @@
 
 namespace transillum::viewer {
 
+/// Red, green and blue of arrows and plane, in [0, 1].
+inline constexpr double direction_color[3] = {1.0, 0.72, 0.15};
+
 /// A transillumination direction: arrows along which light travels, and the plane across them.
 class DirectionGlyph {
  public:
