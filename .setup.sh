@@ -1,5 +1,5 @@
-# Shared by ./demo and ./check; to be sourced by bash. Expects $root, the project's folder.
-# What it needs itself is part of every Debian: coreutils, grep, dpkg, apt.
+# Functions of ./demo and ./check; to be sourced by bash. Expects $root, the project's folder.
+# Requires only what every Debian has: coreutils, grep, dpkg, apt.
 
 trap 'exit 130' INT TERM HUP
 
@@ -9,13 +9,13 @@ stop() {
   exit 1
 }
 
-# run_logged LOG COMMAND...: quiet, but the end of the log is shown where it fails.
+# run_logged LOG COMMAND...: output goes to LOG; if COMMAND fails, the end of LOG is printed.
 run_logged() {
   local log=$1
   shift
   if ! "$@" >>"$log" 2>&1 </dev/null; then
     tail -n 40 "$log" >&2
-    stop "this failed: $* (all of it: $log)"
+    stop "command failed: $* (full log: $log)"
   fi
 }
 
@@ -29,29 +29,29 @@ missing_packages() {
 
 install_missing_packages() {
   if ! command -v dpkg-query >/dev/null; then
-    say "This is no Debian: taking for granted what .packages lists."
+    say "Not a Debian system: assuming that the packages in .packages are installed."
     return
   fi
   local missing as_root=() log=$root/build/packages.log
   mapfile -t missing < <(missing_packages)
   [ ${#missing[@]} -gt 0 ] || return 0
   if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null || stop "these packages are missing, and installing them takes root: ${missing[*]}"
+    command -v sudo >/dev/null || stop "these packages are missing, and installing them requires root: ${missing[*]}"
     as_root=(sudo)
     sudo true || stop "these packages are missing: ${missing[*]}"
   fi
   mkdir -p "$root/build"
   : >"$log"
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
-  say "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
-  # An installation that was interrupted before has to be finished first.
+  say "Installing ${#missing[@]} packages and their dependencies: ${missing[*]}"
+  # Finishes an installation that was interrupted before.
   run_logged "$log" "${as_root[@]}" dpkg --configure -a
   run_logged "$log" "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 update
   run_logged "$log" "${as_root[@]}" apt-get -o DPkg::Lock::Timeout=300 install -y \
     --no-install-recommends "${missing[@]}"
 }
 
-# A compiler may take 2 GB.
+# One job per core, and at most one per 2 GB of free memory.
 job_count() {
   local cores memory=0
   cores=$(nproc)
@@ -61,7 +61,7 @@ job_count() {
   echo "$cores"
 }
 
-# ccache, where it is installed, stops a build when it cannot keep its files.
+# ccache, if installed, fails the build when it cannot write its files.
 find_place_for_ccache() {
   [ -z "${CCACHE_DIR:-}" ] || return 0
   local cache=${XDG_CACHE_HOME:-${HOME:-/nonexistent}/.cache}
@@ -90,13 +90,13 @@ build() {
   done || {
     [ ! -t 1 ] || printf '\r\033[K'
     grep -A 20 'FAILED\|rror' "$log" | head -n 60 >&2
-    stop "the build failed (all of it: $log)"
+    stop "the build failed (full log: $log)"
   }
   [ ! -t 1 ] || printf '\r\033[K'
 }
 
-# A screen of its own, for programs that need one; gone when this script ends. Without -noreset it
-# would start anew, and refuse programs meanwhile, whenever the last one leaves.
+# Starts a virtual display, which ends with this script. Without -noreset the server would restart,
+# and refuse connections meanwhile, whenever its last client disconnects.
 start_display() {
   local number
   exec 7< <(exec Xvfb -displayfd 1 -screen 0 1600x1000x24 +extension GLX -nolisten tcp -noreset 2>/dev/null)
@@ -105,7 +105,7 @@ start_display() {
   read -r -t 60 -u 7 number || stop "Xvfb did not start"
   export DISPLAY=:$number
   unset WAYLAND_DISPLAY
-  # Qt talks about it where there is none.
+  # Without this folder Qt prints a warning.
   if [ -z "${XDG_RUNTIME_DIR:-}" ]; then
     export XDG_RUNTIME_DIR=$root/build/runtime
     mkdir -p "$XDG_RUNTIME_DIR"
