@@ -1,0 +1,172 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Checks the documents (*.md) of the source tree: relative links lead to existing files and
+// headings, every decision is in the index, and the C++ code in the README is that of an example.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace transillum {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+fs::path source_folder() { return fs::path(TRANSILLUM_DATA_DIR).parent_path(); }
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// All *.md files, without build folders and hidden ones.
+std::vector<fs::path> documents() {
+  std::vector<fs::path> found;
+  for (auto entry = fs::recursive_directory_iterator(source_folder());
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    const std::string name = entry->path().filename().string();
+    if (entry->is_directory() && (name == "build" || name.starts_with("."))) {
+      entry.disable_recursion_pending();
+    } else if (entry->path().extension() == ".md") {
+      found.push_back(entry->path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// A document's lines without those in fenced code blocks.
+std::vector<std::string> prose_lines(const fs::path& document) {
+  std::istringstream text(text_of(document));
+  std::vector<std::string> lines;
+  bool in_code = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```")) {
+      in_code = !in_code;
+    }
+    lines.push_back(in_code ? "" : line);
+  }
+  return lines;
+}
+
+/// The anchor that a heading gets when a document is shown as a web page: lower case, blanks as
+/// hyphens, punctuation dropped.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading.substr(heading.find_first_not_of("# "))) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == ' ') {
+      anchor += '-';
+    } else if (byte >= 0x80 || std::isalnum(byte) || c == '-' || c == '_') {
+      anchor += static_cast<char>(std::tolower(byte));
+    }
+  }
+  return anchor;
+}
+
+std::set<std::string> anchors(const fs::path& document) {
+  std::set<std::string> found;
+  for (const std::string& line : prose_lines(document)) {
+    if (line.starts_with("#")) {
+      found.insert(anchor_of(line));
+    }
+  }
+  return found;
+}
+
+/// Whether a relative link, as written in `document`, leads somewhere.
+bool leads_somewhere(const fs::path& document, const std::string& link) {
+  const std::size_t hash = std::min(link.find('#'), link.size());
+  const fs::path target =
+      hash == 0 ? document : document.parent_path() / fs::path(link.substr(0, hash));
+  if (!fs::exists(target)) {
+    return false;
+  }
+  return hash == link.size() || target.extension() != ".md" ||
+         anchors(target).contains(link.substr(hash + 1));
+}
+
+TEST(Documents, HaveNoBrokenLinks) {
+  // [text](target); code between backquotes inside the text is fine.
+  const std::regex link_pattern(R"(\]\(([^()\s]+)\))");
+  std::vector<std::string> broken;
+  std::size_t count = 0;
+  for (const fs::path& document : documents()) {
+    const std::vector<std::string> lines = prose_lines(document);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      for (std::sregex_iterator match(lines[k].begin(), lines[k].end(), link_pattern), end;
+           match != end; ++match) {
+        const std::string link = (*match)[1];
+        if (link.find("://") != std::string::npos) {
+          continue;
+        }
+        ++count;
+        if (!leads_somewhere(document, link)) {
+          broken.push_back(document.lexically_relative(source_folder()).string() + ":" +
+                           std::to_string(k + 1) + ": " + link);
+        }
+      }
+    }
+  }
+  EXPECT_THAT(broken, IsEmpty());
+  EXPECT_GT(count, 100U);
+}
+
+TEST(Documents, TheIndexOfDecisionsIsComplete) {
+  const fs::path folder = source_folder() / "libtransillum/decisions";
+  const std::string index = text_of(folder / "README.md");
+  int highest = 0;
+  std::set<int> numbers;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "README.md") {
+      continue;
+    }
+    const int number = std::stoi(name.substr(0, 4));
+    const std::string title = "# " + std::to_string(number) + ". ";
+    EXPECT_THAT(index, HasSubstr("| [" + std::to_string(number) + "](" + name + ") |"));
+    EXPECT_TRUE(text_of(entry.path()).starts_with(title)) << name;
+    EXPECT_TRUE(numbers.insert(number).second) << "two decisions have the number " << number;
+    highest = std::max(highest, number);
+  }
+  const std::string gaps = index.substr(index.find("## Numbers without a note"));
+  for (int number = 1; number < highest; ++number) {
+    if (!numbers.contains(number)) {
+      EXPECT_TRUE(std::regex_search(gaps, std::regex("\\b" + std::to_string(number) + "\\b")))
+          << "number " << number << " is not explained";
+    }
+  }
+}
+
+TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {
+  std::string examples;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(source_folder() / "libtransillum/examples")) {
+    if (entry.path().extension() == ".cpp") {
+      examples += text_of(entry.path());
+    }
+  }
+  const std::string readme = text_of(source_folder() / "README.md"), open = "```cpp\n";
+  int count = 0;
+  for (std::size_t begin = readme.find(open); begin != std::string::npos;
+       begin = readme.find(open, begin)) {
+    begin += open.size();
+    const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
+    EXPECT_THAT(examples, HasSubstr(code));
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
+}  // namespace
+}  // namespace transillum
