@@ -104,10 +104,14 @@ void TimelineBar::show_position() {
   }
   const QString facing = step.front_facing ? tr("Patch <b>%1</b> faces ω (receiver)")
                                            : tr("Patch <b>%1</b> faces away from ω (source)");
+  const QString cuts =
+      step.cut == 1
+          ? tr("%1; it cuts 1 piece of V").arg(facing.arg(step.patch))
+          : tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut));
+  const QString size = step.map_size == 1 ? tr("V has 1 polygon")
+                                          : tr("V has %1 polygons").arg(count_text(step.map_size));
   text_->set_clauses(
-      {tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut)),
-       tr("exchanges light with %1 of them").arg(count_text(step.exchanges)),
-       tr("V has %1 polygons").arg(count_text(step.map_size))});
+      {cuts, tr("exchanges light with %1 of them").arg(count_text(step.exchanges)), size});
 }
 
 }  // namespace transillum::viewer
