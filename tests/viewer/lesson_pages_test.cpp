@@ -174,6 +174,17 @@ void add_sampling_lesson(std::vector<Statement>& all) {
                      .arg(spiral.samples.size())
                      .arg(2 * spiral.samples.size())});
 
+  // The error of B on each of these pages.
+  const std::vector<Rgb> reference =
+      solve_reference(spiral.scene, spiral.tree, reference_options(512));
+  const auto error = [&](const Shown& shown) {
+    return percent(radiosity_error(shown.solution().radiosity, reference).rms);
+  };
+  const QString of_random = error(random);
+  all.push_back({6, 1, "RMS error of *B* is " + of_random});
+  all.push_back({6, 2, QString("falls from %1 to %2").arg(of_random, error(Shown(6, 2)))});
+  all.push_back({6, 3, "RMS error of *B* is " + error(spiral)});
+
   const int passes[] = {64, 256, 1024};
   QString head = "| *M* = |";
   for (const int m : passes) {
@@ -282,6 +293,7 @@ const std::vector<ColorWord>& color_words() {
       QColor::fromRgbF(direction_color[0], direction_color[1], direction_color[2]);
   static const std::vector<ColorWord> all = {
       {1, 2, "outlined in pink", theme::selection},
+      {1, 2, "from the gray points it receives nothing", theme::on_dark_dim},
       {1, 2, "The pink cross is the normal", theme::selection},
       {1, 3, "is still black", Qt::black},
       {2, 1, "the square with the orange border", direction},
@@ -296,6 +308,7 @@ const std::vector<ColorWord>& color_words() {
       {4, 4, "**outside** (blue)", theme::outside},
       {4, 4, "Each orange part", theme::inside},
       {4, 4, "the orange parts", theme::inside},
+      {5, 3, "The blue lines in the scene", theme::outside},
       {7, 2, "outlined in pink", theme::selection},
   };
   return all;
@@ -304,6 +317,9 @@ const std::vector<ColorWord>& color_words() {
 QString name_of_color(const QColor& color) {
   if (color.value() < 32) {
     return QStringLiteral("black");
+  }
+  if (color.saturation() < 48) {
+    return QStringLiteral("gray");
   }
   const int hue = color.hue();
   return hue < 15    ? QStringLiteral("red")
@@ -348,6 +364,27 @@ QStringList names_in(const QString& markdown) {
     }
   }
   return names;
+}
+
+// B of a patch relative to the mean of its neighbors within 1 m in the same plane and of the same
+// material.
+double relative_to_neighbors(const Scene& scene, const std::vector<Rgb>& radiosity,
+                             PatchId selected) {
+  const Patch& patch = scene.patch(selected);
+  double sum = 0;
+  int count = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Patch& other = scene.patch(i);
+    const Vec3 offset = other.center - patch.center;
+    if (i == selected || other.material != patch.material ||
+        dot(other.normal, patch.normal) < 0.99 || std::abs(dot(offset, patch.normal)) > 1e-6 ||
+        norm(offset) > 1) {
+      continue;
+    }
+    sum += luminance(at(radiosity, i));
+    ++count;
+  }
+  return luminance(at(radiosity, selected)) * count / sum;
 }
 
 }  // namespace
@@ -536,6 +573,7 @@ class LessonPagesTest : public QObject {
     QCOMPARE(history.step_count(), sorted.scene->patch_count() + 1);
     QVERIFY(sorted.page.state.options.solve.normalize == Normalization::none);  // as on page 4
     QCOMPARE(history.step(0).cut, 0);
+    QVERIFY(!history.step(0).front_facing);  // page 2: it emits
     const std::int32_t k =
         first_step(history, [](const MapHistory::Step& step) { return step.exchanges > 0; });
     QVERIFY(k > 1 && history.step(k).front_facing);
@@ -583,30 +621,28 @@ class LessonPagesTest : public QObject {
   }
 
   void stars_and_the_first_shot() {
-    // B of the selected patch relative to its neighbors in the wall.
-    const Shown few(7, 2);
+    const Shown all(7, 1), few(7, 2), shot(7, 4);
+    const std::vector<Rgb> before = all.solution().radiosity, after = shot.solution().radiosity;
     const PatchId selected = few.page.state.selection;
-    const auto beside_neighbors = [&](const Shown& shown) {
-      const Solution solution = shown.solution();
-      const Patch& patch = shown.scene->patch(selected);
+    QVERIFY(few.contains("darker than its neighbors"));
+    const double dark = relative_to_neighbors(*few.scene, before, selected);
+    const double even = relative_to_neighbors(*few.scene, after, selected);
+    QVERIFY2(dark < 0.85 && even > 0.93, qPrintable(QString("%1, %2").arg(dark).arg(even)));
+    // Differences between neighbors in the walls.
+    QVERIFY(all.contains("jumps from patch to patch") && shot.contains("changes smoothly"));
+    const auto roughness = [&](const std::vector<Rgb>& radiosity) {
       double sum = 0;
       int count = 0;
-      for (PatchId i = 0; i < shown.scene->patch_count(); ++i) {
-        const Patch& other = shown.scene->patch(i);
-        if (i == selected || other.material != patch.material) {
-          continue;
+      for (PatchId i = 0; i < few.scene->patch_count(); ++i) {
+        if (few.scene->patch(i).material == few.scene->patch(selected).material) {
+          sum += std::abs(relative_to_neighbors(*few.scene, radiosity, i) - 1);
+          ++count;
         }
-        if (dot(other.normal, patch.normal) < 0.99 || norm(other.center - patch.center) > 1) {
-          continue;
-        }
-        sum += luminance(at(solution.radiosity, i));
-        ++count;
       }
-      return luminance(at(solution.radiosity, selected)) * count / sum;
+      return sum / count;
     };
-    QVERIFY(few.contains("darker than its neighbors"));
-    const double before = beside_neighbors(few), after = beside_neighbors(Shown(7, 4));
-    QVERIFY2(before < 0.85 && after > 0.93, qPrintable(QString("%1, %2").arg(before).arg(after)));
+    const double rough = roughness(before), smooth = roughness(after);
+    QVERIFY2(rough > 2 * smooth, qPrintable(QString("%1, %2").arg(rough).arg(smooth)));
   }
 };
 
