@@ -242,7 +242,7 @@ Coverage coverage_of(int runs, int directions_a_replica) {
 }
 
 /// 95 % of the intervals should contain the true value. So few directions hit some lights once or
-/// never; errors that skewed are contained less often (decisions/0030).
+/// never; errors that skewed are contained less often (decisions/0030-coverage.md).
 TEST(Replicas, IntervalsContainTheTrueValueAtTheirConfidence) {
   const Coverage coverage = coverage_of(60, 24);
   RecordProperty("patches_held", std::to_string(coverage.patches));
