@@ -1,4 +1,4 @@
-# What the viewer and its tests are made of. Imported targets belong to the folder that finds them,
+# Dependencies of the viewer and its tests. Imported targets belong to the folder that finds them,
 # so both include this.
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel FiltersSources GUISupportQt InteractionStyle RenderingCore
