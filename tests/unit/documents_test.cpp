@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Checks the documents (*.md) of the source tree: relative links lead to existing files and
-// headings, every decision is in the index, and the C++ code in the README is that of an example.
+// headings, every decision is in the index, decisions that sources name exist, and the C++ code in
+// the README is that of an example.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -146,6 +147,32 @@ TEST(Documents, TheIndexOfDecisionsIsComplete) {
           << "number " << number << " is not explained";
     }
   }
+}
+
+/// Comments of the sources that refer to a decision.
+TEST(Documents, DecisionsNamedInSourcesExist) {
+  const std::regex reference(R"(decisions/\d{4}[a-z0-9-]*(\.md)?)");
+  std::vector<std::string> missing;
+  std::size_t count = 0;
+  for (const char* folder : {"libtransillum", "viewer", "tests"}) {
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(source_folder() / folder)) {
+      const fs::path extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") {
+        continue;
+      }
+      const std::string text = text_of(entry.path());
+      for (std::sregex_iterator match(text.begin(), text.end(), reference), end; match != end;
+           ++match) {
+        ++count;
+        if (!fs::is_regular_file(source_folder() / "libtransillum" / match->str())) {
+          missing.push_back(entry.path().filename().string() + ": " + match->str());
+        }
+      }
+    }
+  }
+  EXPECT_THAT(missing, IsEmpty());
+  EXPECT_GT(count, 5U);
 }
 
 TEST(Documents, CodeInTheReadmeIsThatOfAnExample) {

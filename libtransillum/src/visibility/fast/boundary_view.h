@@ -13,9 +13,9 @@
 namespace transillum {
 
 /// The visibility query of one projected fragment, or of its part in one bin: the candidates,
-/// nearest first, are subtracted from its region (decisions/0023-boundary-segments.md). The region that
-/// remains is stored as boundary segments only, in doubles relative to the fragment or the bin. If
-/// rounding makes the segments inconsistent, the query fails and has to be repeated with an
+/// nearest first, are subtracted from its region (decisions/0023-boundary-segments.md). The region
+/// that remains is stored as boundary segments only, in doubles relative to the fragment or the
+/// bin. If rounding makes the segments inconsistent, the query fails and has to be repeated with an
 /// ExactView.
 class BoundaryView {
  public:
