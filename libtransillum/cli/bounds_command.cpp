@@ -94,7 +94,7 @@ Run add_bounds_command(CLI::App& program) {
       ->type_name("");
   add_bounds_options(command, call->options);
   add_sequence_options(command, call->sequence);
-  command.add_flag("--one-way", call->one_way, "measure the directions without their opposites");
+  command.add_flag("--one-way", call->one_way, "use the directions without their opposites");
   add_scene_options(command, call->scene_options);
   command
       .add_option("--run", call->options.run,

@@ -159,7 +159,7 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
                     [&options](const std::string& text) {
                       options.lines_per_patch = parse_number("--lines", text);
                       if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
-                        refuse("--lines", text, "larger than 0 and at most 1e6");
+                        refuse("--lines", text, "greater than 0 and at most 1e6");
                       }
                     });
   add_parsed_option(
@@ -191,7 +191,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                     [&options](const std::string& text) {
                       options.max_patch_area = parse_number("--max-patch-area", text);
                       if (!(options.max_patch_area > 0)) {
-                        refuse("--max-patch-area", text, "larger than 0");
+                        refuse("--max-patch-area", text, "greater than 0");
                       }
                     });
 }

@@ -241,7 +241,7 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
                       options.burn_in =
                           static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
                     });
-  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: no error bars"),
+  add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: no error estimate"),
                     [&options](const std::string& text) {
                       options.replicas =
                           static_cast<int>(parse_whole_number("--replicas", text, 1, 64));

@@ -227,7 +227,7 @@ TEST_F(ResultReader, RefusesImpossibleValues) {
       {"two_sided is 7, not a whole number from 0 to 1", figure("two_sided", 7)},
       {"a polygon's corner is point 99",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 99); }},
-      {"a polygon's corner is point 10, not from 0 to 9",
+      {"a polygon's corner is point 10, not in the range 0 to 9",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 10); }},
       {"a polygon's corner is point -1",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, -1); }},

@@ -30,7 +30,7 @@ std::vector<Row> obj_rows() {
       {"OnlyComments", "# nothing\n\n", "", {"s.obj: no vertices"}},
       {"NoFaces", square, "", {"s.obj: no faces"}},
       {"Html", "<html>\n<body>hello</body>\n", "", {"s.obj: no vertices", "is it an OBJ file?"}},
-      {"Binary", std::string("v 0 0 0\n\0\1\2", 11), "", {"s.obj: is a binary file"}},
+      {"Binary", std::string("v 0 0 0\n\0\1\2", 11), "", {"s.obj: a binary file"}},
       {"NotANumber", "v 0 0 0\nv 1 x 0\n", "", {"s.obj:2: vertex 2: `x` is not a number"}},
       {"HalfANumber", "v 0 0 1.5abc\n", "", {"s.obj:1: vertex 1: `1.5abc` is not a number"}},
       {"CommaNumber", "v 0,5 0 1\n", "", {"s.obj:1: vertex 1: `0,5` is not a number"}},
@@ -42,7 +42,7 @@ std::vector<Row> obj_rows() {
       {"IndexTooLarge",
        square + "f 1 2 3\nf 1 2 5\n",
        "",
-       {"s.obj:6: face 1: vertex index 5 is out of range, there are 4 vertices"}},
+       {"s.obj:6: face 1: vertex index 5 is out of range; there are 4 vertices"}},
       {"IndexZero", square + "f 0 1 2\n", "", {"s.obj:5: face 0: vertex index 0 is out of range"}},
       {"IndexTooNegative",
        square + "f -5 -1 -2\n",
@@ -95,7 +95,7 @@ std::vector<Row> mtl_rows() {
        "mtllib gone.mtl\n" + square + "f 1 2 3\n",
        "",
        {"s.obj:1: MTL file `gone.mtl` not found"}},
-      {"MtlIsAFolder", "mtllib .\n" + square + "f 1 2 3\n", "", {"is not a regular file"}},
+      {"MtlIsAFolder", "mtllib .\n" + square + "f 1 2 3\n", "", {"not a regular file"}},
       {"MtllibWithoutName", "mtllib\n", "", {"s.obj:1: mtllib has no file name"}},
       {"UnknownMaterial",
        lib + square + "usemtl whit\nf 1 2 3\n",
@@ -183,7 +183,7 @@ TEST(ObjFile, FolderIsReported) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "d.obj");
   EXPECT_THAT(test::refusal([&] { load_scene((folder.path() / "d.obj").string()); }),
-              HasSubstr("d.obj: is not a regular file"));
+              HasSubstr("d.obj: not a regular file"));
 }
 
 TEST(ObjFile, TwoGigabytesAreRefusedUnread) {

@@ -235,7 +235,7 @@ TEST(ScenePatches, RefuseInvalidDescriptions) {
   d = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   d.corners[1] = 3;
   EXPECT_EQ(test::refusal([&] { Scene{d}; }),
-            "test: face 0: vertex index 3 is out of range, there are 3 vertices");
+            "test: face 0: vertex index 3 is out of range; there are 3 vertices");
   d.corners[1] = -1;
   EXPECT_THAT(test::refusal([&] { Scene{d}; }), HasSubstr("vertex index -1"));
   d = polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});

@@ -31,7 +31,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
     throw InputError(path.string() + ": no such file");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    throw InputError(path.string() + ": is not a regular file");
+    throw InputError(path.string() + ": not a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
@@ -48,7 +48,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
     throw InputError(path.string() + ": cannot be read");
   }
   if (text.find('\0') != std::string::npos) {
-    throw InputError(path.string() + ": is a binary file, not a text file");
+    throw InputError(path.string() + ": a binary file, not a text file");
   }
   return text;
 }

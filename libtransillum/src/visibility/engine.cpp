@@ -43,7 +43,7 @@ namespace {
 
 void check(const EngineOptions& options) {
   if (options.resolution < 0 || options.resolution > EngineOptions::largest_resolution) {
-    throw InputError(fmt::format("resolution: {} is not from 1 to {}", options.resolution,
+    throw InputError(fmt::format("resolution: {} is not in the range 1 to {}", options.resolution,
                                  EngineOptions::largest_resolution));
   }
 }
@@ -72,7 +72,7 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
       return corrected_engine(std::move(scene), std::move(tree));
     case Engine::hemicube:
       throw InputError(
-          "engine hemicube: it has no directions; it draws the scene as seen from each patch");
+          "engine hemicube has no directions; it draws the scene as seen from each patch");
   }
   throw InputError("no such engine");
 }

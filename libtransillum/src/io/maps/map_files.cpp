@@ -48,8 +48,8 @@ std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
     return fmt::format("nothing is above patch {}", map.receiver);
   }
   const double cosine = dot(scene.patch(map.receiver).normal, map.frame.omega);
-  return fmt::format("patch {} {} the direction and sees nothing", map.receiver,
-                     cosine < -1e-9 ? "faces away from" : "is edge-on to");
+  return fmt::format("patch {} is {} the direction and sees nothing", map.receiver,
+                     cosine < -1e-9 ? "back-facing along" : "edge-on to");
 }
 
 void check_map_path(const std::filesystem::path& path) {

@@ -149,8 +149,8 @@ class ResultReader {
     std::int64_t before = 0;
     for (const std::int64_t end : outlines.end) {
       if (end < before || end > std::numeric_limits<std::int32_t>::max()) {
-        file_.fail(fmt::format("a polygon's corners end at {}, which is not from {} to {}", end,
-                               before, std::numeric_limits<std::int32_t>::max()));
+        file_.fail(fmt::format("a polygon's corners end at {}, which is not in the range {} to {}",
+                               end, before, std::numeric_limits<std::int32_t>::max()));
       }
       before = end;
     }
@@ -158,7 +158,8 @@ class ResultReader {
     const auto points = static_cast<std::int64_t>(file_.points());
     for (const std::int64_t p : file_.whole_numbers("Polys", "connectivity", count)) {
       if (p < 0 || p >= points) {
-        file_.fail(fmt::format("a polygon's corner is point {}, not from 0 to {}", p, points - 1));
+        file_.fail(
+            fmt::format("a polygon's corner is point {}, not in the range 0 to {}", p, points - 1));
       }
       outlines.corners.push_back(static_cast<PointId>(p));
     }

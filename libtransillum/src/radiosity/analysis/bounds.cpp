@@ -22,13 +22,13 @@ constexpr double pi = std::numbers::pi;
 
 void check_rho(double rho) {
   if (!(rho >= 0 && rho < 1)) {
-    throw InputError(fmt::format("reflectance: {} is not from 0 to below 1", rho));
+    throw InputError(fmt::format("reflectance: {} is not at least 0 and less than 1", rho));
   }
 }
 
 void check_positive(const char* name, double value) {
   if (!(value > 0 && std::isfinite(value))) {
-    throw InputError(fmt::format("{}: {} is not a number above 0", name, value));
+    throw InputError(fmt::format("{}: {} is not a finite number greater than 0", name, value));
   }
 }
 

@@ -320,7 +320,7 @@ void StudyOptions::validate() const {
     throw InputError("study: no number of directions is given");
   }
   if (rotations < 1 || rotations > 1000) {
-    throw InputError(fmt::format("rotations: {} is not from 1 to 1000", rotations));
+    throw InputError(fmt::format("rotations: {} is not in the range 1 to 1000", rotations));
   }
   for (const StudySeries& one : series) {
     for (const int m : directions) {

@@ -261,10 +261,10 @@ class RowGatherer {
 
 void GatherOptions::validate() const {
   if (rays_per_patch < 1 || rays_per_patch > 1 << 24) {
-    throw InputError(fmt::format("rays: {} is not from 1 to {}", rays_per_patch, 1 << 24));
+    throw InputError(fmt::format("rays: {} is not in the range 1 to {}", rays_per_patch, 1 << 24));
   }
   if (threads < 0 || threads > 4096) {
-    throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
+    throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
   }
 }
 

@@ -217,7 +217,7 @@ void HemicubeOptions::validate() const {
         fmt::format("resolution: {} is not an even number from 2 to 2048", resolution));
   }
   if (threads < 0 || threads > 4096) {
-    throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
+    throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
   }
 }
 

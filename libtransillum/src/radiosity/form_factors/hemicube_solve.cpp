@@ -22,7 +22,7 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
   if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
       options.replicas > 1 || options.first_shot) {
     throw InputError(
-        "engine hemicube: it has no directions, and so no schemes, normalizations, replicas or "
+        "engine hemicube has no directions, and therefore no schemes, normalizations, replicas or "
         "first shot");
   }
   HemicubeOptions hemicubes;

@@ -68,7 +68,7 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
       {"burn-in", "a number", "semi-iterative: first iterations to exclude from the mean",
        fmt::to_string(solve.burn_in)},
       {"replicas", "a number",
-       "split M into this many randomly rotated sets; their spread gives error bars",
+       "split M into this many randomly rotated sets; their spread gives an error estimate",
        fmt::to_string(solve.replicas)},
       {"iterations", "a number, 0: none", "stop after this many iterations",
        fmt::to_string(solve.iterations)},

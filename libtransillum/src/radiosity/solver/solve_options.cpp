@@ -37,7 +37,8 @@ const std::string& name_of(Scheme scheme) { return at(scheme_names(), scheme); }
 
 void SolveOptions::validate() const {
   if (directions < 1 || directions > (1 << 24)) {
-    throw InputError(fmt::format("directions: {} is not from 1 to {}", directions, 1 << 24));
+    throw InputError(
+        fmt::format("directions: {} is not in the range 1 to {}", directions, 1 << 24));
   }
   if (iterations < 0) {
     throw InputError(fmt::format("iterations: {} is less than 0", iterations));
@@ -46,14 +47,14 @@ void SolveOptions::validate() const {
     throw InputError(fmt::format("tolerance: {} is not between 0 and 1", tolerance));
   }
   if (burn_in < 0 || burn_in > 1'000'000) {
-    throw InputError(fmt::format("burn-in: {} is not from 0 to 1000000", burn_in));
+    throw InputError(fmt::format("burn-in: {} is not in the range 0 to 1000000", burn_in));
   }
   if (scheme == Scheme::semi_iterative && iterations > 0 && burn_in >= iterations) {
     throw InputError(
         fmt::format("burn-in: {} of {} iterations leave none for the mean", burn_in, iterations));
   }
   if (replicas < 1 || replicas > 64) {
-    throw InputError(fmt::format("replicas: {} is not from 1 to 64", replicas));
+    throw InputError(fmt::format("replicas: {} is not in the range 1 to 64", replicas));
   }
   if (replicas > directions) {
     throw InputError(
@@ -82,7 +83,7 @@ void SolveOptions::validate() const {
         fmt::format("first shot: {} is not a finite number of at least 0", *first_shot));
   }
   if (threads < 0 || threads > 4096) {
-    throw InputError(fmt::format("threads: {} is not from 0 to 4096", threads));
+    throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
   }
 }
 

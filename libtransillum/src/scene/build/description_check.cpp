@@ -38,13 +38,13 @@ void check_faces(const SceneDescription& description) {
   for (std::size_t f = 0; f < description.face_count(); ++f) {
     for (const PointId p : description.outline(f)) {
       if (p < 0 || p >= point_count) {
-        throw InputError(fmt::format("{}vertex index {} is out of range, there are {} vertices",
+        throw InputError(fmt::format("{}vertex index {} is out of range; there are {} vertices",
                                      face_place(description, f), p, point_count));
       }
     }
     const std::int32_t material = description.face_material[f];
     if (material < 0 || material >= material_count) {
-      throw InputError(fmt::format("{}material {} is out of range, there are {} materials",
+      throw InputError(fmt::format("{}material {} is out of range; there are {} materials",
                                    face_place(description, f), material, material_count));
     }
   }

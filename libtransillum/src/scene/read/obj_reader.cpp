@@ -221,7 +221,7 @@ class ObjReader {
         if (p < count) {
           continue;
         }
-        throw InputError(fmt::format("{}vertex index {} is out of range, there are {} vertices",
+        throw InputError(fmt::format("{}vertex index {} is out of range; there are {} vertices",
                                      face_place(description_, f), p + 1, count));
       }
     }
@@ -281,7 +281,7 @@ class ObjReader {
     fail(fmt::format("face {}: {}", description_.face_count(), what));
   }
   [[noreturn]] void fail_index(std::string_view index) const {
-    fail_face(fmt::format("vertex index {} is out of range, there are {} vertices", index,
+    fail_face(fmt::format("vertex index {} is out of range; there are {} vertices", index,
                           description_.points.size()));
   }
 

@@ -30,8 +30,8 @@ using WidePolygon = std::array<WidePoint, FragmentOutlines::max_corners + 4>;
 
 /// Clips a polygon of `count` corners by one side (0 to 3) of a square of width 2 `half` around the
 /// origin; returns the number of corners in `clipped`.
-std::size_t clip(const WidePolygon& polygon, std::size_t count, int side, long double half,
-                 WidePolygon& clipped) {
+std::size_t clip_to_bin_side(const WidePolygon& polygon, std::size_t count, int side,
+                             long double half, WidePolygon& clipped) {
   const bool along_x = side % 2 == 0;
   const long double limit = side < 2 ? half : -half;
   const auto depth = [&](const WidePoint& p) {
@@ -117,7 +117,7 @@ void BoundaryView::load_part_in_bin() {
                   static_cast<long double>(p.y - origin_.y)};
   }
   for (int side = 0; side < 4 && count > 0; ++side) {
-    count = clip(polygon, count, side, static_cast<long double>(half), clipped);
+    count = clip_to_bin_side(polygon, count, side, static_cast<long double>(half), clipped);
     polygon = clipped;
   }
   region_->count = 0;
@@ -142,8 +142,8 @@ void BoundaryView::find_window() {
   }
 }
 
-double BoundaryView::subtract(std::int32_t fragment) {
-  const ProjectedFragments::Fragment& candidate = at(projected_.fragments, fragment);
+double BoundaryView::subtract(std::int32_t candidate) {
+  const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
   if (!loaded_) {
     loaded_ = true;
     if (bin_) {
@@ -155,8 +155,7 @@ double BoundaryView::subtract(std::int32_t fragment) {
       return 0;
     }
   }
-  set_cutter(cutter_, projected_.corners.data() + candidate.begin, candidate.end - candidate.begin,
-             origin_, 4 * reach_);
+  set_cutter(cutter_, projected_.corners.data() + by.begin, by.end - by.begin, origin_, 4 * reach_);
   // A point near the common area of both polygons.
   cutter_.pivot_x = std::clamp(cutter_.x[0], -extent_[4], extent_[0]);
   cutter_.pivot_y = std::clamp(cutter_.y[0], -extent_[5], extent_[1]);
@@ -167,8 +166,8 @@ double BoundaryView::subtract(std::int32_t fragment) {
   }
   double twice_area = cut_.twice_area;
   const double noise = 0.25 * cutter_.tolerance * cutter_.perimeter;
-  failed_ = candidate.cut_needle || noise_limit * noise > candidate.area ||
-            !add_edges(twice_area) || next_region_->count > BoundarySegments::max_count;
+  failed_ = by.cut_needle || noise_limit * noise > by.area || !add_edges(twice_area) ||
+            next_region_->count > BoundarySegments::max_count;
   const double area = 0.5 * twice_area;
   if (failed_ || area <= noise) {
     return 0;

@@ -306,9 +306,9 @@ ExactView::Real ExactView::exact_side_of(const Polygon& polygon, std::size_t k, 
                                       : exact_side(line, at(projected_.grid.points, point)));
 }
 
-double ExactView::subtract(std::int32_t fragment) {
-  const FragmentBox& box = at(projected_.boxes, fragment);
-  const ProjectedFragments::Fragment& candidate = at(projected_.fragments, fragment);
+double ExactView::subtract(std::int32_t candidate) {
+  const FragmentBox& box = at(projected_.boxes, candidate);
+  const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
   bool loaded = false;
   Real area = 0;
   new_parts_.clear();
@@ -320,8 +320,8 @@ double ExactView::subtract(std::int32_t fragment) {
     }
     if (!loaded) {
       edge_count_ = kept_edges_;
-      load_corners(candidate, candidate_);
-      load_edges(candidate, candidate_);
+      load_corners(by, candidate_);
+      load_edges(by, candidate_);
       candidate_reach_ = reach_of(candidate_);
       loaded = true;
     }

@@ -255,17 +255,17 @@ class NewellOrder {
     }
     const std::size_t more = cycle.size() > max_listed ? cycle.size() - max_listed : 0;
     cycle.resize(cycle.size() - more);
-    throw InputError(fmt::format(
-        "{}: {}: patches {}{} overlap in a cycle; the painter's order newell splits no patches, "
-        "order bsp does",
-        scene_.name(), direction_text(), fmt::join(cycle, ", "),
-        more > 0 ? fmt::format(" and {} more", more) : std::string()));
+    throw InputError(
+        fmt::format("{}: {}: patches {}{} overlap in a cycle; the painter's order newell does not "
+                    "split patches; order bsp does",
+                    scene_.name(), direction_text(), fmt::join(cycle, ", "),
+                    more > 0 ? fmt::format(" and {} more", more) : std::string()));
   }
 
   [[noreturn]] void fail_on_intersection(PatchId a, PatchId b) const {
     throw InputError(
-        fmt::format("{}: {}: patches {} and {} intersect; the painter's order newell splits no "
-                    "patches, order bsp does",
+        fmt::format("{}: {}: patches {} and {} intersect; the painter's order newell does not "
+                    "split patches; order bsp does",
                     scene_.name(), direction_text(), std::min(a, b), std::max(a, b)));
   }
 

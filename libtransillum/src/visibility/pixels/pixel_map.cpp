@@ -57,7 +57,7 @@ int checked(int resolution) {
     return PixelMap::default_resolution;
   }
   if (resolution < 0 || resolution > PixelMap::largest_resolution) {
-    throw InputError(fmt::format("resolution of a map: {} is not between 1 and {}", resolution,
+    throw InputError(fmt::format("resolution of a map: {} is not in the range 1 to {}", resolution,
                                  PixelMap::largest_resolution));
   }
   return resolution;

@@ -278,7 +278,7 @@ void trace_lines(const Scene& scene, std::uint64_t seed, const PixelGrid& grid,
 
 TransferEngine ray_engine(std::shared_ptr<const Scene> scene, const EngineOptions& options) {
   if (!(options.lines_per_patch > 0 && options.lines_per_patch <= 1e6)) {
-    throw InputError(fmt::format("lines per patch: {} is not larger than 0 and at most 1e6",
+    throw InputError(fmt::format("lines per patch: {} is not greater than 0 and at most 1e6",
                                  options.lines_per_patch));
   }
   auto embree = std::make_shared<const EmbreeScene>(*scene);
