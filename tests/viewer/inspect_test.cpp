@@ -293,16 +293,16 @@ class InspectTest : public QObject {
     }
   }
 
-  void kept_views_restore_the_camera() {
+  void saved_views_restore_the_camera() {
     const Inspected shown("rooms");
     QVERIFY(shown.ready);
     const ViewPoint first = shown.scene_view->view_point();
     shown.trigger("keep_view");
     shown.trigger("view_top");
     QVERIFY(distance_of(shown.scene_view->view_point(), first) > 0.1);
-    const auto& kept = shown.window->parts().page.bookmarks().all();
-    QCOMPARE(kept.size(), std::size_t{1});
-    shown.scene_view->set_view_point(kept[0].view);
+    const auto& saved = shown.window->parts().page.bookmarks().all();
+    QCOMPARE(saved.size(), std::size_t{1});
+    shown.scene_view->set_view_point(saved[0].view);
     QVERIFY(distance_of(shown.scene_view->view_point(), first) < 1e-9);
     shown.window->selection.select(5);
     shown.trigger("view_patch");

@@ -189,7 +189,7 @@ class SessionFileTest : public QObject {
     QTest::newRow("patch") << R"({"show": {}, "breakpoints": [{"kind": "cut", "patch": -1}]})"
                            << "breakpoint 1, patch";
     QTest::newRow("view") << R"({"show": {}, "kept-views": [{"name": "x"}]})"
-                          << "kept view 1, camera";
+                          << "saved view 1, camera";
     QTest::newRow("notes") << R"({"show": {}, "notes": []})"
                            << "bad.json, notes";
     QTest::newRow("key") << R"({"show": {}, "note": ""})"

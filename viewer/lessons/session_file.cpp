@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Session files: the state of the window, breakpoints, kept views and notes as JSON, saved and
+// Session files: the state of the window, breakpoints, saved views and notes as JSON, saved and
 // opened by the user.
 #include "lessons/session_file.h"
 
@@ -40,7 +40,7 @@ Breakpoint breakpoint_from(const json& value, const std::string& where) {
   return breakpoint;
 }
 
-CameraBookmarks::Bookmark kept_view_from(const json& value, const std::string& where) {
+CameraBookmarks::Bookmark saved_view_from(const json& value, const std::string& where) {
   JsonObject object(value, where);
   std::string name;
   object.read("name", name);
@@ -104,7 +104,7 @@ Session session_from_text(const std::string& text, const std::string& name,
   }
   session.state = view_state_from_json(*show, object.where("show"), folder);
   read_list(object, "breakpoints", "breakpoint", session.breakpoints, breakpoint_from);
-  read_list(object, "kept-views", "kept view", session.kept_views, kept_view_from);
+  read_list(object, "kept-views", "saved view", session.saved_views, saved_view_from);
   object.read("notes", session.notes);
   std::string docks;
   object.read("docks", docks);
@@ -121,7 +121,7 @@ std::string to_text(const Session& session, const std::string& folder) {
     breakpoints.push_back(to_json(b));
   }
   json views = json::array();
-  for (const auto& [name, view] : session.kept_views) {
+  for (const auto& [name, view] : session.saved_views) {
     views.push_back({{"name", name.toStdString()}, {"camera", to_json(view)}});
   }
   const json whole = {{"show", to_json(state)},

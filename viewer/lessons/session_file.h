@@ -15,7 +15,7 @@ namespace transillum::viewer {
 struct Session {
   ViewState state;
   std::vector<Breakpoint> breakpoints;
-  std::vector<CameraBookmarks::Bookmark> kept_views;
+  std::vector<CameraBookmarks::Bookmark> saved_views;
   std::string notes;  ///< free text
   QByteArray docks;   ///< QMainWindow::saveState() of state.layout; empty: its default
 };

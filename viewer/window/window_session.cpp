@@ -27,7 +27,7 @@ void WindowSession::restore(const Session& session) {
     parts_.docks.restore(static_cast<int>(*session.state.layout), session.docks);
   }
   parts_.breakpoints.set_list(session.breakpoints);
-  parts_.page.bookmarks().set(session.kept_views);
+  parts_.page.bookmarks().set(session.saved_views);
   parts_.relighting.edits().undo_stack().clear();
   parts_.notes.setPlainText(QString::fromStdString(session.notes));
 }
