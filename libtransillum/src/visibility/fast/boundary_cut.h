@@ -1,4 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The inner loop of BoundaryView: cutting the boundary segments of a region by a convex polygon.
+// simd_backend.cpp implements set_cutter(), cut_boundary() and extent_of() by the widest backend
+// that the processor supports.
 #pragma once
 
 #include <array>

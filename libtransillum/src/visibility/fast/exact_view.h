@@ -10,20 +10,21 @@
 // double where that is certain, otherwise in integers from the grid points that define corner and
 // line.
 //
+// clang-format off
 // States. All polygons are stored in the pool polygons_; each index into it is in exactly one of
 //   remaining_  not covered by any candidate so far,
 //   new_parts_  split off by the candidate being subtracted; empty between calls of subtract(),
 //   free_       unused, to be reused by new_polygon().
 //
-//   begin_query()              remaining_ = { the fragment, clipped to the bin }; all others free
-//   subtract(candidate)        for each polygon in remaining_ whose window overlaps its box:
-//     subtract_from_polygon()    no common area:  the polygon stays in remaining_, new_parts_ as
-//     before
-//                                covered:         the polygon -> free_
-//                                cut:             the polygon -> free_, its parts outside ->
-//                                new_parts_
-//                              then new_parts_ -> remaining_
-//   done()                     remaining_ is empty, or its area is rounding only
+//   begin_query()   remaining_ = { the fragment, clipped to the bin }; all others free
+//   subtract()      for each polygon in remaining_ whose window overlaps the candidate's box,
+//                   subtract_from_polygon() finds it
+//                     disjoint:  the polygon stays in remaining_
+//                     covered:   the polygon -> free_
+//                     cut:       the polygon -> free_, its parts outside -> new_parts_
+//                   then new_parts_ -> remaining_
+//   done()          remaining_ is empty, or its area is rounding only
+// clang-format on
 //
 // edges_ holds the lines of all edges: [0, kept_edges_) are those of the polygons above, and
 // [kept_edges_, edge_count_) those of the current candidate. They are discarded when the next
