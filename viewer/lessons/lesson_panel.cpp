@@ -117,7 +117,7 @@ void LessonPanel::make_actions() {
                           tr("Go to the previous page (Page Up)"));
   previous_->setShortcut(Qt::Key_PageUp);
   next_ = make_action(this, "lesson_next", tr("Next page"),
-                      tr("Go to the next page (Page Down, as presenter remotes send)"));
+                      tr("Go to the next page (Page Down, also sent by presenter remotes)"));
   next_->setShortcut(Qt::Key_PageDown);
   again_ = make_action(this, "lesson_again", tr("Show this page again"),
                        tr("Restore the window to the state of this page"));

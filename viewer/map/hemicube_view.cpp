@@ -185,9 +185,8 @@ QString HemicubeView::status_text() const {
   if (comparison_->exact.empty()) {
     return tr("%1: computing exact form factors… %2 %").arg(eye).arg(100 * progress_, 0, 'f', 0);
   }
-  const QString wrong = tr("%1: form factors wrong by %2 %")
-                            .arg(eye)
-                            .arg(100 * comparison_->wrong_share(), 0, 'g', 2);
+  const QString wrong =
+      tr("%1: form factor error %2 %").arg(eye).arg(100 * comparison_->wrong_share(), 0, 'g', 2);
   return comparison_->missed() == 0
              ? wrong
              : tr("%1, %2 patches missed").arg(wrong).arg(comparison_->missed());

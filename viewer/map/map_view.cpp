@@ -261,7 +261,7 @@ QString MapView::pixel_text() const {
       tr("V after %1 of %2 steps")
           .arg(count_text(view.step + 1), count_text(focus_.map()->history.step_count()));
   if (view.corrected) {
-    return after + tr(", fragments uncut: %1 % of the area wrong").arg(percent_of(view.wrong));
+    return after + tr(", fragments not cut: %1 % of the area is wrong").arg(percent_of(view.wrong));
   }
   if (!view.choice.differences) {
     return after + tr(", pixel size %1 m").arg(number_text(view.drawn.pixels.side));

@@ -11,7 +11,7 @@ namespace transillum::viewer {
 ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   setObjectName("show");
   setText(tr("Show "));
-  setToolTip(tr("Choose what is drawn in addition to the colored patches"));
+  setToolTip(tr("Choose what to draw in addition to the colored patches"));
   setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(this);
   menu->setToolTipsVisible(true);

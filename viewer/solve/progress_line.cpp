@@ -127,7 +127,7 @@ void ProgressLine::show_solve() {
                          : tr("%1 done").arg(iterations_text(progress.iteration));
   if (state_ == RunState::finished) {
     phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
-                                                     : tr("Done after %1, %2 s"))
+                                                     : tr("Finished after %1, %2 s"))
                         .arg(iterations_text(progress.iteration),
                              QString::number(snapshot_->statistics.seconds_total, 'f', 1)));
   } else if (snapshot_->of_file) {

@@ -126,9 +126,9 @@ QString text_of(StepEvent::Kind kind) {
     case Kind::exchange:
       return tr("receives from");
     case Kind::back_seen:
-      return tr("sees the back of");
+      return tr("sees the back side of");
     case Kind::back_shown:
-      return tr("shows its back to");
+      return tr("shows its back side to");
     case Kind::back_to_back:
       return tr("back to back with");
   }

@@ -23,7 +23,7 @@ struct StepEvent {
   PatchId below = no_patch;  ///< patch of the polygon that the step processes
   PatchId above = no_patch;  ///< patch of the cut polygon; no_patch: inserted or edge-on
   double area = 0;           ///< m²: of the polygon, or of the cut part above it
-  int parts = 0;             ///< number of parts of the cut polygon that stay in V
+  int parts = 0;             ///< number of parts of the cut polygon that remain in V
   double pair_area = 0;      ///< events_at_point(): A(below, above) of the direction, m²
 
   friend bool operator==(const StepEvent&, const StepEvent&) = default;

@@ -91,7 +91,7 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     return {};
   }
   if (role == Qt::ToolTipRole && section == of_parts) {
-    return tr("Number of pieces of the cut polygon that stay in V");
+    return tr("Number of parts of the cut polygon that remain in V");
   }
   if (role == Qt::ToolTipRole && section == of_area) {
     return tr(

@@ -70,7 +70,7 @@ void StepActions::add_newest() {
   newest_->setCheckable(true);
   newest_->setShortcut(Qt::Key_F);
   newest_->setToolTip(
-      tr("Show each new direction as it is solved, at the step with most sources in V (F)"));
+      tr("Show each new direction as it is solved, at the step with the most sources in V (F)"));
   connect(newest_, &QAction::triggered, &focus_, &Focus::set_following);
 }
 

@@ -77,7 +77,7 @@ void FileActions::make_actions() {
   reload_ = make_action(this, "reload", tr("Reload"), QKeySequence(QStringLiteral("Ctrl+R")),
                         tr("Read the scene's file again and keep the view (Ctrl+R)"));
   watch_ = make_action(this, "watch", tr("Reload when the file changes"), {},
-                       tr("Read the scene's file again whenever another program writes it"));
+                       tr("Read the scene's file again whenever another program changes it"));
   watch_->setCheckable(true);
 }
 

@@ -38,8 +38,8 @@ KeyGroup pointer_group() {
       tr("Pointer"),
       {{tr("Scene"), tr("drag: rotate; Shift+drag or middle button: pan; wheel: zoom; click: "
                         "select a patch")},
-       {tr("Map"), tr("drag: pan; wheel: zoom; double click: fit; click: select a patch and "
-                      "list the patches on its line; right button: run to a point")},
+       {tr("Map"), tr("drag: pan; wheel: zoom; double-click: fit; click: select a patch and "
+                      "list the patches on its line; right-click: run to a point")},
        {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
                            "with Ctrl one direction")},
        {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
