@@ -29,7 +29,7 @@ struct PassCounts {
   std::int64_t cuts = 0;             ///< cuts of a polygon by a line
   std::int64_t decisions = 0;        ///< decisions on which side of a line a corner lies
   std::int64_t exact_decisions = 0;  ///< of them, those made in integer arithmetic
-  std::int64_t exact_queries = 0;    ///< visibility queries by pieces with exact predicates
+  std::int64_t exact_queries = 0;    ///< visibility queries repeated with exact predicates
   std::int64_t pixels = 0;           ///< pixels covered by a patch, or lines that hit one; summed
   std::int64_t missed = 0;           ///< patches too small or thin for any pixel or line
   double seconds_order = 0;          ///< ordering and projecting, s of the pass's thread

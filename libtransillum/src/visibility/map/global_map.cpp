@@ -39,7 +39,7 @@ namespace {
 
 // Like CGAL's kernel Epeck, with Rational as the exact numbers behind the intervals.
 using Kernel = CGAL::Lazy_kernel<CGAL::Simple_cartesian<Rational>>;
-/// Index of an edge in TileEdges. Each piece of the map's edges carries the numbers of all edges
+/// Index of an edge in TileEdges. Each part of the map's edges carries the numbers of all edges
 /// that overlap there.
 using EdgeNumber = std::int32_t;
 using MapTraits =

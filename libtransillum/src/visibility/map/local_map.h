@@ -112,14 +112,14 @@ class LocalMap {
     add(outline, fragment.patch, front_facing, row, box);
   }
 
-  /// Replaces polygon `above` of V by the parts of it that clipper_ found outside.
-  void replace_by_outside(std::int32_t above) {
-    PolygonOfV& cut = at(polygons_, above);
-    const PatchId patch = cut.patch;
-    const bool front_facing = cut.front_facing;
-    const std::int32_t row = cut.row;
-    index_.erase(above);
-    free_.push_back(above);
+  /// Replaces polygon `above_id` of V by the parts of it that clipper_ found outside.
+  void replace_by_outside(std::int32_t above_id) {
+    const PolygonOfV& above = at(polygons_, above_id);
+    const PatchId patch = above.patch;
+    const bool front_facing = above.front_facing;
+    const std::int32_t row = above.row;
+    index_.erase(above_id);
+    free_.push_back(above_id);
     if constexpr (RecorderType::records) {
       at(recorder_.record.rows, row).consumed = step_;
       add_row(clipper_.inside(), patch, front_facing, row, step_);
@@ -143,11 +143,11 @@ class LocalMap {
       id = free_.back();
       free_.pop_back();
     }
-    PolygonOfV& fragment = at(polygons_, id);
-    fragment.outline.assign(outline.begin(), outline.end());
-    fragment.patch = patch;
-    fragment.front_facing = front_facing;
-    fragment.row = row;
+    PolygonOfV& polygon = at(polygons_, id);
+    polygon.outline.assign(outline.begin(), outline.end());
+    polygon.patch = patch;
+    polygon.front_facing = front_facing;
+    polygon.row = row;
     index_.insert(id, box);
   }
 
@@ -193,7 +193,7 @@ class LocalMap {
   std::int32_t step_ = 0;
   std::vector<PolygonOfV> polygons_;
   std::vector<std::int32_t> free_;   ///< unused entries of polygons_
-  std::vector<std::int32_t> found_;  ///< candidates of the current step
+  std::vector<std::int32_t> found_;  ///< polygons of V that the step's fragment may lie below
 };
 
 }  // namespace transillum

@@ -2,10 +2,10 @@
 //
 // The region of the global visibility map about a point, from the recorded local map. A region lies
 // inside all fragments that cover the point, whose intersection is a convex polygon, and outside
-// all others. Subtracting those from the polygon leaves convex pieces; the region is the pieces
-// that are connected to the point's piece through common edges:
+// all others. Subtracting those from the polygon leaves convex parts; the region consists of the
+// part with the point and those connected to it through common edges:
 //
-//      +-------+---+       The polygon, minus fragment f: pieces a, b and c.
+//      +-------+---+       The polygon, minus fragment f: parts a, b and c.
 //      |   a   |f f|       For a point in a, b is connected; c is not.
 //      +-----+-+f f|
 //      |  b  |f f f|
@@ -27,7 +27,7 @@ namespace {
 using Point = PlaneRegion::Point;
 using Polygon = std::vector<Point>;
 
-constexpr std::size_t max_pieces = 2000;
+constexpr std::size_t max_parts = 2000;
 /// Lengths below this share of the polygon's are rounding errors.
 constexpr double rounding = 1e-9;
 
@@ -105,28 +105,28 @@ bool have_common_edge(const Polygon& one, const Polygon& other, double tolerance
   return false;
 }
 
-/// The first piece and those connected to it through common edges.
-std::vector<Polygon> connected_to_first(std::vector<Polygon> pieces, double tolerance) {
+/// The first part and those connected to it through common edges.
+std::vector<Polygon> connected_to_first(std::vector<Polygon> parts, double tolerance) {
   std::vector<PlaneRegion::Box> boxes;
-  for (const Polygon& piece : pieces) {
-    PlaneRegion::Box box = box_of(piece);
+  for (const Polygon& part : parts) {
+    PlaneRegion::Box box = box_of(part);
     box.low = {box.low.u - tolerance, box.low.v - tolerance};
     boxes.push_back(box);
   }
   std::size_t reached = 1;
   for (std::size_t from = 0; from < reached; ++from) {
-    for (std::size_t to = reached; to < pieces.size(); ++to) {
+    for (std::size_t to = reached; to < parts.size(); ++to) {
       if (!boxes[from].overlaps(boxes[to]) ||
-          !have_common_edge(pieces[from], pieces[to], tolerance)) {
+          !have_common_edge(parts[from], parts[to], tolerance)) {
         continue;
       }
-      std::swap(pieces[reached], pieces[to]);
+      std::swap(parts[reached], parts[to]);
       std::swap(boxes[reached], boxes[to]);
       ++reached;
     }
   }
-  pieces.resize(reached);
-  return pieces;
+  parts.resize(reached);
+  return parts;
 }
 
 /// Finds the region of one point.
@@ -140,7 +140,7 @@ class RegionFinder {
     if (!subtract_others()) {
       return std::nullopt;
     }
-    if (!collect_pieces()) {
+    if (!collect_parts()) {
       return std::nullopt;  // the point is on an edge, or nothing covers it
     }
     return connected_region();
@@ -184,7 +184,7 @@ class RegionFinder {
     });
   }
 
-  /// Returns false where rest_ falls into too many pieces.
+  /// Returns false where rest_ falls into too many parts.
   bool subtract_others() {
     for (const std::int32_t row : others_) {
       PlaneRegion::Box box;
@@ -198,27 +198,27 @@ class RegionFinder {
       if (!sides.empty()) {
         rest_.subtract(sides, box);
       }
-      if (rest_.size() > max_pieces) {
+      if (rest_.size() > max_parts) {
         return false;
       }
     }
     return true;
   }
 
-  /// Copies the pieces of rest_, the one in which the point lies deepest first. Returns false where
+  /// Copies the parts of rest_, the one in which the point lies deepest first. Returns false where
   /// the point lies inside none.
-  bool collect_pieces() {
+  bool collect_parts() {
     double deepest = 0;
     rest_.for_each([&](std::span<const Point> corners) {
-      Polygon piece(corners.begin(), corners.end());
-      const auto sides = sides_of(piece);
+      Polygon part(corners.begin(), corners.end());
+      const auto sides = sides_of(part);
       double depth = sides.empty() ? -HUGE_VAL : HUGE_VAL;
       for (const PlaneRegion::Side& side : sides) {
         depth = std::min(depth, side.distance({point_.x, point_.y}));
       }
-      pieces_.push_back(std::move(piece));
+      parts_.push_back(std::move(part));
       if (depth > deepest) {
-        std::swap(pieces_.front(), pieces_.back());
+        std::swap(parts_.front(), parts_.back());
       }
       deepest = std::max(deepest, depth);
     });
@@ -228,10 +228,10 @@ class RegionFinder {
   MapRegion connected_region() {
     MapRegion region;
     const double tolerance = rounding * length_of(box_);
-    for (const Polygon& piece : connected_to_first(std::move(pieces_), tolerance)) {
-      region.area += area_of(piece);
+    for (const Polygon& part : connected_to_first(std::move(parts_), tolerance)) {
+      region.area += area_of(part);
       region.parts.emplace_back();
-      for (const Point& p : piece) {
+      for (const Point& p : part) {
         region.parts.back().push_back({p.u, p.v});
       }
     }
@@ -244,7 +244,7 @@ class RegionFinder {
   PlaneRegion rest_;
   PlaneRegion::Box box_;              ///< of rest_ before the others are subtracted
   std::vector<std::int32_t> others_;  ///< rows of fragments that do not cover the point
-  std::vector<Polygon> pieces_;
+  std::vector<Polygon> parts_;
 };
 
 }  // namespace
