@@ -102,8 +102,8 @@ void TimelineBar::show_position() {
     text_->set_clauses({tr("Patch <b>%1</b> is edge-on: skipped").arg(step.patch)});
     return;
   }
-  const QString facing = step.front_facing ? tr("Patch <b>%1</b> is front-facing: receives")
-                                           : tr("Patch <b>%1</b> is back-facing: emits");
+  const QString facing = step.front_facing ? tr("Patch <b>%1</b> is front-facing (receives)")
+                                           : tr("Patch <b>%1</b> is back-facing (emits)");
   const QString cuts =
       step.cut == 1
           ? tr("%1; it cuts 1 polygon of V").arg(facing.arg(step.patch))
