@@ -144,7 +144,7 @@ class SteppingTest : public QObject {
     for (const std::optional<Engine> engine :
          {std::optional<Engine>(), std::optional(Engine::zbuffer), std::optional(Engine::painter),
           std::optional(Engine::rays), std::optional(Engine::corrected)}) {
-      request.pixels.engine = engine;
+      request.choice.engine = engine;
       QVERIFY(!paint_map(request).image.isNull());
       QVERIFY_EXCEPTION_THROWN(paint_map(request, canceled), Canceled);
     }

@@ -284,11 +284,11 @@ void CompareView::show_maps() {
       continue;
     }
     choice->hemicube->clear();
-    content.pixels = {};
+    content.choice = {};
     if (has_pixels(engine) || engine == Engine::corrected) {
-      content.pixels.engine = engine;
-      content.pixels.order = snapshot_->options.engine_options.order;
-      content.pixels.resolution = choice->resolution->value();
+      content.choice.engine = engine;
+      content.choice.order = snapshot_->options.engine_options.order;
+      content.choice.resolution = choice->resolution->value();
     }
     choice->map->show_map(content);
   }

@@ -136,11 +136,11 @@ void MapCanvas::repaint_map() {
   }
   // While the view moves or new directions arrive, pictures being painted are finished: an old one
   // now and then is better than none. A change that the user made cancels them.
-  const bool cancels = content_.pixels != sent_.picture.pixels ||
+  const bool cancels = content_.choice != sent_.picture.choice ||
                        (content_.step_shown && content_.map != sent_.picture.map);
   sent_ = {
       {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
-       content_.pixels, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
+       content_.choice, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
       sent_.number + 1};
   painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
@@ -349,7 +349,7 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     return;  // no room between scale bar and axes
   }
   std::vector<std::pair<QBrush, QString>> entries{{back_side_brush(1), tr("back side")}};
-  const PixelChoice& choice = picture_->request.pixels;
+  const MapEngineChoice& choice = picture_->request.choice;
   if (choice.engine == Engine::corrected && choice.differences) {
     entries.emplace_back(theme::inside, tr("too much"));
     entries.emplace_back(theme::outside, tr("too little"));

@@ -35,7 +35,7 @@ class MapCanvas : public QWidget {
     Phase phase = Phase::after;
     bool step_shown = false;  ///< mark the changes of the step
     bool labels = false;      ///< patch numbers on polygons
-    PixelChoice pixels;
+    MapEngineChoice choice;
     std::optional<Vec2> probe;  ///< marked by crosshairs, meters on the plane
     std::shared_ptr<const std::vector<Color8>> patch_colors;
   };

@@ -123,7 +123,7 @@ class MapPainting {
     transform_.scale *= ratio_;
     transform_.middle *= ratio_;
     // Other engines show V alone, not the changes of a step.
-    const bool marked = request.step_shown && !request.pixels.engine;
+    const bool marked = request.step_shown && !request.choice.engine;
     if (marked && request.step >= 0) {
       step_row_ = history_.step(request.step).row;
     }
@@ -138,7 +138,7 @@ class MapPainting {
     picture_.image.fill(theme::scene_background);
     painter_.begin(&picture_.image);
     picture_.rows = drawn_rows();
-    if (request_.pixels.engine) {
+    if (request_.choice.engine) {
       picture_.pixels = pixels();
       draw(*picture_.pixels);
     } else {
@@ -158,13 +158,13 @@ class MapPainting {
  private:
   std::shared_ptr<const PixelView> pixels() const {
     const std::shared_ptr<const PixelView>& known = request_.known_pixels;
-    if (known && known->shows(*request_.map, request_.step, request_.pixels)) {
+    if (known && known->shows(*request_.map, request_.step, request_.choice)) {
       return known;
     }
-    return make_pixel_view(request_.map, request_.step, request_.pixels, cancellation_);
+    return make_pixel_view(request_.map, request_.step, request_.choice, cancellation_);
   }
 
-  bool draws_corrected() const { return request_.pixels.engine == Engine::corrected; }
+  bool draws_corrected() const { return request_.choice.engine == Engine::corrected; }
 
   void draw(const PixelView& view) {
     if (!view.failure.empty()) {
@@ -175,7 +175,7 @@ class MapPainting {
       return;
     }
     draw_corrected(painter_, *view.corrected, transform_, *request_.patch_colors, hatch_,
-                   request_.pixels.differences, cancellation_);
+                   request_.choice.differences, cancellation_);
     if (request_.labels) {
       label_corrected(painter_, *view.corrected, transform_, ratio_);
     }

@@ -37,13 +37,13 @@ struct MapTransform {
 
 /// Which engine's V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the
 /// open shares of engine corrected. (A hemicube has a picture of its own: HemicubeView.)
-struct PixelChoice {
+struct MapEngineChoice {
   std::optional<Engine> engine;              ///< nullopt: exact
   PaintersOrder order = PaintersOrder::bsp;  ///< of engine painter
   int resolution = 64;                       ///< pixels along the longer side
   bool differences = true;                   ///< mark errors
 
-  friend bool operator==(const PixelChoice&, const PixelChoice&) = default;
+  friend bool operator==(const MapEngineChoice&, const MapEngineChoice&) = default;
 };
 struct PixelView;
 
@@ -54,7 +54,7 @@ struct MapPictureRequest {
   Phase phase = Phase::after;
   bool step_shown = false;  ///< mark the changes of the step
   bool labels = false;      ///< patch numbers on polygons with room for them
-  PixelChoice pixels;
+  MapEngineChoice choice;
   std::shared_ptr<const PixelView>
       known_pixels;  ///< of an earlier picture, for reuse; may be of another map
   std::shared_ptr<const std::vector<Color8>> patch_colors;

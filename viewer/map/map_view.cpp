@@ -14,9 +14,9 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "map/engine_menu.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
-#include "map/pixel_menu.h"
 #include "map/pixel_view.h"
 #include "support/number_text.h"
 #include "widgets/theme.h"
@@ -131,9 +131,9 @@ QWidget* MapView::make_controls() {
   row->addWidget(add_phase(Phase::after, "phase_after", tr("After"),
                            tr("Show V after the step, with the fragment inserted")));
   row->addStretch(1);
-  pixels_ = new PixelMenu;
-  row->addWidget(pixels_);
-  connect(pixels_, &PixelMenu::changed, this, &MapView::show_position);
+  engine_menu_ = new EngineMenu;
+  row->addWidget(engine_menu_);
+  connect(engine_menu_, &EngineMenu::changed, this, &MapView::show_position);
   labels_ =
       text_button(tr("Labels"), tr("Write patch numbers on the polygons that have room"), true);
   labels_->setObjectName("map_labels");
@@ -181,7 +181,7 @@ bool MapView::up_to_date() const {
   return painted && !recolor_timer_->isActive();
 }
 
-bool MapView::shows_hemicube() const { return pixels_->choice().engine == Engine::hemicube; }
+bool MapView::shows_hemicube() const { return engine_menu_->choice().engine == Engine::hemicube; }
 
 void MapView::show_position() {
   const auto map = focus_.map();
@@ -197,21 +197,21 @@ void MapView::show_position() {
   auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
   pictures_->setCurrentWidget(shows_hemicube() ? static_cast<QWidget*>(hemicube_) : canvas_);
   if (shows_hemicube()) {
-    hemicube_->show_scene({map->loaded, pixels_->choice().resolution, pixels_->choice().differences,
-                           std::move(patch_colors)});
+    hemicube_->show_scene({map->loaded, engine_menu_->choice().resolution,
+                           engine_menu_->choice().differences, std::move(patch_colors)});
     show_title();
     return;
   }
   hemicube_->clear();
   canvas_->show_map({map, focus_.position().step, focus_.phase(), !focus_.following(),
-                     labels_->isChecked(), pixels_->choice(), focus_.probe(),
+                     labels_->isChecked(), engine_menu_->choice(), focus_.probe(),
                      std::move(patch_colors)});
 }
 
 void MapView::show_title() {
   const auto map = focus_.map();
   for (QAbstractButton* button : phases_->buttons()) {
-    button->setEnabled(map && !pixels_->choice().engine);
+    button->setEnabled(map && !engine_menu_->choice().engine);
   }
   zoom_->setEnabled(map && !shows_hemicube());
   labels_->setEnabled(!shows_hemicube());

@@ -19,7 +19,7 @@ namespace transillum::viewer {
 
 class HemicubeView;
 class MapCanvas;
-class PixelMenu;
+class EngineMenu;
 
 /// The visibility map V of the direction in focus, and how the current step changes it.
 class MapView : public QWidget {
@@ -58,7 +58,7 @@ class MapView : public QWidget {
   QButtonGroup* phases_;
   QToolButton* labels_;
   QToolButton* zoom_;
-  PixelMenu* pixels_;
+  EngineMenu* engine_menu_;
   QTimer* recolor_timer_;
 };
 

@@ -35,7 +35,7 @@ QPolygonF polygon_of(const VisibilityMap& map, const VisibilityMap::Polygon& pol
 }  // namespace
 
 std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const RecordedMap>& map,
-                                                 std::int32_t step, const PixelChoice& choice,
+                                                 std::int32_t step, const MapEngineChoice& choice,
                                                  const Cancellation& cancellation) {
   auto view = std::make_shared<PixelView>();
   const LoadedScene& loaded = *map->loaded;

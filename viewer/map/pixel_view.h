@@ -20,13 +20,13 @@ namespace transillum::viewer {
 struct PixelView {
   std::shared_ptr<const RecordedMap> of;
   std::int32_t step = 0;
-  PixelChoice choice;
+  MapEngineChoice choice;
   VisibilityMap drawn;                    ///< polygons of pixels; empty for engine corrected
   std::optional<CorrectedMap> corrected;  ///< of engine corrected
   std::string failure;                    ///< the engine's message; empty on success
   double wrong = 0;  ///< wrong share of the area of V or of the pixels, 0 to 1; 0 if not requested
 
-  bool shows(const RecordedMap& map, std::int32_t after, const PixelChoice& by) const {
+  bool shows(const RecordedMap& map, std::int32_t after, const MapEngineChoice& by) const {
     return of.get() == &map && step == after && choice == by;
   }
 };
@@ -34,7 +34,7 @@ struct PixelView {
 /// @param choice with an engine
 /// @throws Canceled
 std::shared_ptr<const PixelView> make_pixel_view(const std::shared_ptr<const RecordedMap>& map,
-                                                 std::int32_t step, const PixelChoice& choice,
+                                                 std::int32_t step, const MapEngineChoice& choice,
                                                  const Cancellation& cancellation);
 
 /// Fills pixels in their patch's color, back sides with `back_side`.

@@ -9,14 +9,15 @@ class QActionGroup;
 
 namespace transillum::viewer {
 
-/// A button with the menu of what the map shows: the exact V, or that of another engine.
-class PixelMenu : public QToolButton {
+/// A button with a menu to choose whose V the map shows, the exact one or that of another engine,
+/// its resolution and whether errors are marked.
+class EngineMenu : public QToolButton {
   Q_OBJECT
 
  public:
-  explicit PixelMenu(QWidget* parent = nullptr);
+  explicit EngineMenu(QWidget* parent = nullptr);
 
-  const PixelChoice& choice() const { return choice_; }
+  const MapEngineChoice& choice() const { return choice_; }
 
  signals:
   void changed();
@@ -24,9 +25,9 @@ class PixelMenu : public QToolButton {
  private:
   void add_engines(QMenu& menu);
   void add_resolutions(QMenu& menu);
-  void change(const PixelChoice& choice);
+  void change(const MapEngineChoice& choice);
 
-  PixelChoice choice_;
+  MapEngineChoice choice_;
   QActionGroup* resolutions_;
   QAction* differences_;
 };

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The menu that chooses the engine, resolution and error marks of a map (PixelChoice).
-#include "map/pixel_menu.h"
+// The menu that chooses the engine, resolution and error marks of a map (MapEngineChoice).
+#include "map/engine_menu.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -12,18 +12,18 @@ namespace transillum::viewer {
 
 namespace {
 
-QString label_of(const PixelChoice& choice) {
+QString label_of(const MapEngineChoice& choice) {
   if (!choice.engine) {
-    return PixelMenu::tr("Exact");
+    return EngineMenu::tr("Exact");
   }
   const QString name = engine_label(*choice.engine);
-  return choice.order == PaintersOrder::newell ? PixelMenu::tr("%1, Newell's order").arg(name)
+  return choice.order == PaintersOrder::newell ? EngineMenu::tr("%1, Newell's order").arg(name)
                                                : name;
 }
 
 }  // namespace
 
-PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
+EngineMenu::EngineMenu(QWidget* parent) : QToolButton(parent) {
   setObjectName("map_engine");
   setToolTip(tr("Choose the engine whose V is drawn"));
   setPopupMode(QToolButton::InstantPopup);
@@ -37,7 +37,7 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   differences_->setCheckable(true);
   differences_->setChecked(choice_.differences);
   connect(differences_, &QAction::toggled, this, [this](bool on) {
-    PixelChoice next = choice_;
+    MapEngineChoice next = choice_;
     next.differences = on;
     change(next);
   });
@@ -45,12 +45,12 @@ PixelMenu::PixelMenu(QWidget* parent) : QToolButton(parent) {
   change(choice_);
 }
 
-void PixelMenu::add_engines(QMenu& menu) {
+void EngineMenu::add_engines(QMenu& menu) {
   menu.addSection(tr("Engine"));
   auto* engines = new QActionGroup(this);
   const auto add_engine = [&](std::optional<Engine> engine, const char* name,
                               PaintersOrder order = PaintersOrder::bsp) {
-    PixelChoice shown;
+    MapEngineChoice shown;
     shown.engine = engine;
     shown.order = order;
     QAction* action = engines->addAction(label_of(shown));
@@ -59,7 +59,7 @@ void PixelMenu::add_engines(QMenu& menu) {
     action->setCheckable(true);
     action->setChecked(!engine);
     connect(action, &QAction::triggered, this, [this, engine, order] {
-      PixelChoice next = choice_;
+      MapEngineChoice next = choice_;
       next.engine = engine;
       next.order = order;
       change(next);
@@ -75,7 +75,7 @@ void PixelMenu::add_engines(QMenu& menu) {
   menu.addActions(engines->actions());
 }
 
-void PixelMenu::add_resolutions(QMenu& menu) {
+void EngineMenu::add_resolutions(QMenu& menu) {
   menu.addSection(tr("Pixels along the longer side"));
   resolutions_ = new QActionGroup(this);
   for (const int resolution : {16, 32, 64, 128, 256, 512}) {
@@ -83,7 +83,7 @@ void PixelMenu::add_resolutions(QMenu& menu) {
     action->setCheckable(true);
     action->setChecked(resolution == choice_.resolution);
     connect(action, &QAction::triggered, this, [this, resolution] {
-      PixelChoice next = choice_;
+      MapEngineChoice next = choice_;
       next.resolution = resolution;
       change(next);
     });
@@ -91,7 +91,7 @@ void PixelMenu::add_resolutions(QMenu& menu) {
   menu.addActions(resolutions_->actions());
 }
 
-void PixelMenu::change(const PixelChoice& choice) {
+void EngineMenu::change(const MapEngineChoice& choice) {
   choice_ = choice;
   const bool pixels = choice_.engine && takes_resolution(*choice_.engine);
   resolutions_->setEnabled(pixels);
