@@ -26,14 +26,14 @@ enum class Quantity {
 /// How a quantity is named and shown.
 struct QuantityTraits {
   Quantity quantity;
-  const char* name;     ///< in lists of choices
-  const char* symbol;   ///< above the color bar
-  const char* unit;     ///< or ""
-  const char* meaning;  ///< one sentence
-  bool is_light;        ///< RGB can be shown in true color
-  bool has_channels;    ///< RGB differ; else all three are equal
-  bool is_signed;       ///< values can be negative
-  bool of_selection;    ///< depends on the selected patch
+  const char* name;           ///< in lists of choices
+  const char* symbol;         ///< above the color bar
+  const char* unit = "";      ///< empty for a number
+  const char* meaning;        ///< one sentence
+  bool is_light = false;      ///< RGB can be shown in true color
+  bool has_channels = false;  ///< RGB differ; else all three are equal
+  bool is_signed = false;     ///< values can be negative
+  bool of_selection = false;  ///< depends on the selected patch
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
