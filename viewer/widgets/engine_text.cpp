@@ -39,8 +39,7 @@ QString engine_label(Engine engine) {
 QString engine_sentence(Engine engine) {
   switch (engine) {
     case Engine::fast:
-      return tr(
-          "Exact: subtracts the candidates above each receiver from its polygon, nearest first");
+      return tr("Exact: subtracts the candidates from each receiver's region, nearest first");
     case Engine::local:
       return tr("Exact: the local visibility map of section 3.2, which can be stepped through");
     case Engine::global:

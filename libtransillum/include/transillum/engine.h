@@ -16,7 +16,7 @@ namespace transillum {
 
 /// The algorithm that computes Transfers from a direction.
 enum class Engine {
-  fast,       ///< subtracts from each receiver's polygon what lies above it, nearest first
+  fast,       ///< subtracts the candidates from each receiver's region, nearest first
   local,      ///< the local visibility map of section 3.2; can be recorded and stepped through
   global,     ///< the global visibility map of section 3.1, by an exact arrangement
   exact,      ///< the local map in exact arithmetic: a reference for small scenes
