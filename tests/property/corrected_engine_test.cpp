@@ -57,7 +57,7 @@ TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {
   }
 }
 
-TEST(CorrectedEngine, SeesNothingBehindAFaceThatHidesAll) {
+TEST(CorrectedEngine, SeesNothingBehindAFaceThatHidesEverything) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   const auto square = [](double half, double z, bool up) {
@@ -79,7 +79,7 @@ TEST(CorrectedEngine, SeesNothingBehindAFaceThatHidesAll) {
 }
 
 /// A shade hides a corner of the floor; the lamp covers the rest.
-TEST(CorrectedEngine, GivesTheRestToTheFaceBehind) {
+TEST(CorrectedEngine, AssignsTheRestToTheFaceBehind) {
   testing::Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, gray);

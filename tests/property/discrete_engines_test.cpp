@@ -69,7 +69,7 @@ double total_difference(const PairAreas& exact, PairAreas found) {
 }
 
 /// The share of wrongly exchanged area falls in proportion to the pixel's side, or faster.
-TEST_P(DiscreteEngines, ErrorFallsAsPixelsShrink) {
+TEST_P(DiscreteEngines, ErrorDecreasesWithPixelSize) {
   for (const auto& scene : {load_scene("cornell-box"), load_scene("rooms"), random_triangles(),
                             load_scene("boards", {.two_sided = true})}) {
     const auto directions = testing::test_directions(20, 5);
@@ -170,7 +170,7 @@ TEST_P(DiscreteEngines, SmallPatchesAreMissedAndCounted) {
   EXPECT_NEAR(at(2048).exchanges[0].area, 1e-6, 2e-7);
 }
 
-TEST_P(DiscreteEngines, TheFurnaceIsAtTwoForAnyNumberOfThreads) {
+TEST_P(DiscreteEngines, FurnaceHasRadiosityTwoForAnyNumberOfThreads) {
   SolveOptions options{.directions = 32,
                        .engine = GetParam(),
                        .engine_options = {.resolution = 60},

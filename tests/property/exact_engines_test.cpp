@@ -54,7 +54,7 @@ std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1) {
   return {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
 }
 
-TEST_P(ExactEngines, SquaresGiveTheRoundedTruth) {
+TEST_P(ExactEngines, AreaOfSquaresIsCorrectlyRounded) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   // 1 - 0.1 is the exact result for the doubles' values, rounded once.
@@ -71,7 +71,7 @@ TEST_P(ExactEngines, ThirdsAreRoundedOnce) {
   EXPECT_EQ(only_area(sketch), 1.0 / 6);
 }
 
-TEST_P(ExactEngines, PartsAroundABlockerSumToTheRoundedTruth) {
+TEST_P(ExactEngines, PartsAroundABlockerSumToTheCorrectlyRoundedArea) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.face(up(rectangle(0, 0, 1, 1), 0), gray);
@@ -89,7 +89,7 @@ TEST_P(ExactEngines, PartsAroundABlockerSumToTheRoundedTruth) {
   EXPECT_EQ(transfers.exchanges[0].area, 197.0 / 224);
 }
 
-TEST_P(ExactEngines, StopAtOnceWhenCanceled) {
+TEST_P(ExactEngines, StopImmediatelyWhenCanceled) {
   const auto scene = load_scene("cornell-box");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));
@@ -98,7 +98,7 @@ TEST_P(ExactEngines, StopAtOnceWhenCanceled) {
   EXPECT_THROW(engine({0, 0, 1}, cancellation), Canceled);
 }
 
-TEST_P(ExactEngines, StopSoonWhenCanceledDuringAPass) {
+TEST_P(ExactEngines, StopQuicklyWhenCanceledDuringAPass) {
   const auto scene = load_scene("sphere-flake:levels=2,slices=10,stacks=6");
   const TransferEngine engine =
       make_engine(GetParam(), scene, std::make_shared<const BspTree>(*scene));

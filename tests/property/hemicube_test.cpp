@@ -292,7 +292,7 @@ TEST(HemicubeSolve, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(solve_by_hemicubes(scene, options).radiosity == one.radiosity);
 }
 
-TEST(HemicubeSolve, RefusesOptionsThatItLacks) {
+TEST(HemicubeSolve, RefusesUnsupportedOptions) {
   const auto scene = load_scene("furnace");
   const auto solve_with = [&](auto change) {
     SolveOptions options;

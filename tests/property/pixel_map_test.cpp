@@ -130,7 +130,7 @@ TEST(PixelMap, MarksWhereItIsWrongAndNowhereElse) {
   }
 }
 
-TEST(PixelMap, DifferencesFallAsPixelsShrink) {
+TEST(PixelMap, DifferencesDecreaseWithPixelSize) {
   const auto scene = load_scene("cornell-box");
   const auto share = [&](int resolution) {
     const Views views(scene, normalized({1, 2, 3}), Engine::zbuffer, resolution, 14);

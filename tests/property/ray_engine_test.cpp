@@ -84,7 +84,7 @@ std::vector<std::shared_ptr<const Scene>> many_scenes() {
   return scenes;
 }
 
-TEST(RayEngine, CountsArePlainBinomialNumbers) {
+TEST(RayEngine, CountsAreBinomial) {
   constexpr double fewest = 50;  // the Poisson tail of fewer is not normal
   Deviations all;
   for (const auto& scene : many_scenes()) {
@@ -151,7 +151,7 @@ double rms_error(const PairAreas& exact, PairAreas found) {
   return std::sqrt(sum / static_cast<double>(exact.size()));
 }
 
-TEST(RayEngine, ErrorFallsAsLinesGrow) {
+TEST(RayEngine, ErrorDecreasesWithTheNumberOfLines) {
   const auto scene = load_scene("rooms");
   const TransferEngine exact = local_engine(scene);
   const auto error = [&](double lines, bool gridded) {
@@ -264,7 +264,7 @@ TEST(RayEngine, CanBeCanceledAndChecksTheNumberOfLines) {
 }
 
 /// Rows are normalized by the sums of the same lines, so the furnace is exact for any lines.
-TEST(RayEngine, TheFurnaceIsAtTwo) {
+TEST(RayEngine, FurnaceHasRadiosityTwo) {
   const Solution solution = solve(load_scene("furnace"), {.directions = 32,
                                                           .engine = Engine::rays,
                                                           .normalize = Normalization::rows,

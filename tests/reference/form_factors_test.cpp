@@ -148,7 +148,7 @@ TEST(Gather, CanBeCanceledAndRejectsBadOptions) {
   EXPECT_THROW(gather_form_factors(*scene, {}, cancellation), Canceled);
 }
 
-TEST(FormFactors, OfPassesGiveTheSolversRadiosity) {
+TEST(FormFactors, FromPassesGiveTheSolversRadiosity) {
   const auto scene = load_scene("cornell-box");
   for (const bool two_way : {true, false}) {
     RadiositySolver solver(scene, {.directions = 300, .two_way = two_way, .tolerance = 1e-12});
@@ -168,7 +168,7 @@ TEST(FormFactors, OfPassesGiveTheSolversRadiosity) {
   EXPECT_THROW(forgetful.form_factors(), std::runtime_error);
 }
 
-TEST(FormFactors, OfRaysGiveTheRadiosityOfPasses) {
+TEST(FormFactors, FromRaysGiveTheRadiosityFromPasses) {
   const auto scene = load_scene("cornell-box", {.max_patch_area = 0.02});
   const Solution passes = solve(scene, {.directions = 4000, .tolerance = 1e-9});
   const FormFactors f = gather_form_factors(*scene, {.rays_per_patch = 50000});

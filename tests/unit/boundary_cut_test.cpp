@@ -52,7 +52,7 @@ Points square(double x, double y, double size) {
   return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
 }
 
-class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
+class BoundaryCutBackends : public ::testing::TestWithParam<SimdBackend> {
  protected:
   bool cut(const BoundarySegments& outline, const Cutter& cutter) {
     return GetParam().cut(outline, cutter, cut_, outside_);
@@ -70,7 +70,7 @@ class OutlineCutWays : public ::testing::TestWithParam<SimdBackend> {
 
 /// The cutter overlaps the square's right side: three segments remain whole, the fourth becomes two
 /// outside parts and one inside part.
-TEST_P(OutlineCutWays, ACutterAcrossASide) {
+TEST_P(BoundaryCutBackends, ACutterAcrossASide) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   const Cutter cutter = cutter_of(GetParam(), {{3, 1}, {6, 1}, {6, 2}, {3, 2}});
@@ -93,7 +93,7 @@ TEST_P(OutlineCutWays, ACutterAcrossASide) {
   EXPECT_EQ(GetParam().extent(outside_), (Extent{4, 4, 8, 4, 0, 0, 0, 4}));
 }
 
-TEST_P(OutlineCutWays, ACutterInsideTheRegion) {
+TEST_P(BoundaryCutBackends, ACutterInsideTheRegion) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(1, 1, 1))));
@@ -104,7 +104,7 @@ TEST_P(OutlineCutWays, ACutterInsideTheRegion) {
   EXPECT_EQ(outside_.count, 4U);
 }
 
-TEST_P(OutlineCutWays, ARegionInsideTheCutter) {
+TEST_P(BoundaryCutBackends, ARegionInsideTheCutter) {
   BoundarySegments outline;
   add(outline, square(1, 1, 1));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(0, 0, 4))));
@@ -115,7 +115,7 @@ TEST_P(OutlineCutWays, ARegionInsideTheCutter) {
   EXPECT_EQ(outside_.count, 0U);
 }
 
-TEST_P(OutlineCutWays, NoCommonArea) {
+TEST_P(BoundaryCutBackends, NoCommonArea) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   EXPECT_FALSE(cut(outline, cutter_of(GetParam(), square(5, 0, 4))));
@@ -129,7 +129,7 @@ TEST_P(OutlineCutWays, NoCommonArea) {
 
 /// Points within the tolerance of a line count as on its inner side; segments are cut at such end
 /// points.
-TEST_P(OutlineCutWays, PointsOnLines) {
+TEST_P(BoundaryCutBackends, PointsOnLines) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));
   ASSERT_TRUE(cut(outline, cutter_of(GetParam(), square(5, 0, 4), 1)));
@@ -141,7 +141,7 @@ TEST_P(OutlineCutWays, PointsOnLines) {
   EXPECT_EQ(outside_.count, 3U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OutlineCutWays, ::testing::ValuesIn(simd_backends()),
+INSTANTIATE_TEST_SUITE_P(All, BoundaryCutBackends, ::testing::ValuesIn(simd_backends()),
                          [](const auto& test) {
                            std::string name = test.param.name;
                            std::replace(name.begin(), name.end(), ' ', '_');

@@ -61,7 +61,7 @@ TEST(Directions, AreUnitVectorsByEquation13) {
   }
 }
 
-TEST(Directions, HammersleyIsThePapers) {
+TEST(Directions, HammersleyMatchesThePaper) {
   const auto points = make_directions(Sampling::hammersley, 8, 0);
   const double v[] = {0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
   for (std::size_t k = 0; k < 8; ++k) {

@@ -133,7 +133,7 @@ void expect_side_of_meeting(const GridLine& line, const GridLine& p, const GridL
   }
 }
 
-TEST(ExactSide, IsCorrectForMeetingsOfLines) {
+TEST(ExactSide, IsCorrectForIntersectionsOfLines) {
   RandomGrid random;
   for (int round = 0; round < rounds; ++round) {
     const GridLine line = random.line(), p = random.line(), q = random.line();

@@ -386,7 +386,7 @@ TEST(FastEngine, RarelyNeedsExactSigns) {
 }
 
 /// Faces thinner than doubles can resolve, and faces 10^4 times smaller than those behind them.
-TEST(FastEngine, UsesExactSignsForNeedlesAndSpecks) {
+TEST(FastEngine, UsesExactSignsForNeedlesAndTinyFaces) {
   const auto exact_queries = [](const Fast& fast) {
     std::int64_t count = 0;
     for (const Vec3& omega : testing::test_directions(10, 15)) {
@@ -395,13 +395,13 @@ TEST(FastEngine, UsesExactSignsForNeedlesAndSpecks) {
     }
     return count;
   };
-  Sketch needles, specks;
+  Sketch needles, tiny;
   const int gray = needles.material(0.5, 1);
-  specks.material(0.5, 1);
+  tiny.material(0.5, 1);
   needles.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1, 1e-5, 1}, false, gray);
-  specks.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, gray);
+  tiny.box({-1, -1, -1}, {2, 2, 2}, true, gray).box({0, 0, 0}, {1e-5, 1e-5, 1e-5}, false, gray);
   EXPECT_GT(exact_queries(Fast(needles.scene())), 0);
-  EXPECT_GT(exact_queries(Fast(specks.scene())), 0);
+  EXPECT_GT(exact_queries(Fast(tiny.scene())), 0);
 }
 
 TEST(FastEngine, ThrowsWhenCanceled) {
@@ -418,7 +418,7 @@ double cpu_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(FastEngine, StopsSoonWhenCanceledDuringAPass) {
+TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {
   const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
   const Vec3 omega = normalized({1, 2, 3});
   clockid_t clock{};

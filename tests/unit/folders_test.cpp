@@ -313,7 +313,7 @@ class PlantedIncludes : public ::testing::Test {
   Rules rules_;
 };
 
-TEST_F(PlantedIncludes, AreNoneInAnOrderlyTree) {
+TEST_F(PlantedIncludes, AreNotReportedInAValidTree) {
   EXPECT_THAT(folder_violations(includes(), rules_), IsEmpty());
   EXPECT_THAT(layer_violations(includes(), rules_), IsEmpty());
   EXPECT_THAT(CycleSearch(includes()).run(), IsEmpty());

@@ -131,7 +131,7 @@ TEST_F(IoWriters, PlyReadsBackBitForBit) {
   }
 }
 
-TEST_F(IoWriters, ObjCarriesRadiosityAtCornersOfItsOwn) {
+TEST_F(IoWriters, ObjStoresRadiosityAtUnsharedCorners) {
   const auto rows = cells(written("a.obj"), ' ');
   std::size_t row = 1;  // after the comment
   std::size_t corner = 0;

@@ -357,7 +357,7 @@ TEST_F(MapFiles, SvgHasTheRequestedSize) {
   }
 }
 
-TEST_F(MapFiles, NamesMayBeAnything) {
+TEST_F(MapFiles, AcceptAnySceneName) {
   const std::string names[] = {"a<b>&\"c\"']]>", "\x01\x1b[31m\x7f", "\xff\xfe broken \xc3",
                                std::string(3000, 'n'), "fertőrákos"};
   for (const std::string& name : names) {
@@ -422,7 +422,7 @@ TEST_F(MapFiles, PngAreasArePixelCounts) {
 }
 
 /// In a view along z, u points left and v up; the directions of u and v are those of the frame.
-TEST_F(MapFiles, PngHasTheLampAtItsPlace) {
+TEST_F(MapFiles, PngShowsTheLampAtItsPosition) {
   written("m.png", of_floor(), {.size = 400});
   const Picture picture(folder_ / "m.png");
   const Vec2 middle = direction_.record.frame.project({1, 1, 0});
@@ -452,7 +452,7 @@ TEST(MapPng, HasNoSeams) {
   EXPECT_GT(row_minimum, 100);
 }
 
-TEST_F(MapFiles, EmptyMapsAreFilesToo) {
+TEST_F(MapFiles, EmptyMapsCanBeWritten) {
   const RecordedDirection edge_on = recorded(*scene_, {1, 0, 0});
   const RecordedDirection from_above = recorded(*scene_, {0, 0, -1});
   for (const VisibilityMap& map :

@@ -134,7 +134,7 @@ TEST(RadiositySolver, ReportsDivergence) {
   EXPECT_NO_THROW(solve(sketch.scene(), {.directions = 1, .normalize = Normalization::rows}));
 }
 
-TEST(RadiositySolver, ADarkSceneConvergesAtOnce) {
+TEST(RadiositySolver, ADarkSceneConvergesImmediately) {
   Sketch sketch;
   sketch.box({0, 0, 0}, {1, 1, 1}, true, sketch.material(0.5, 0));
   const Solution solution = solve(sketch.scene(), {.directions = 8});

@@ -266,7 +266,7 @@ TEST_F(ResultReader, AllocatesNoMoreThanAFileCanHold) {
 }
 
 /// Truncated files give an error message; files with a few changed bytes give one, or a scene.
-TEST_F(ResultReader, SurvivesDamage) {
+TEST_F(ResultReader, RejectsOrReadsDamagedFiles) {
   const std::string whole = read_file(path_);
   const auto error_of = [&](const std::string& text) {
     write_text(path_, text);

@@ -67,7 +67,7 @@ TEST(Study, ErrorsAreRelativeAndOverAllPatches) {
               1e-15);
 }
 
-TEST(Study, RandomErrorFallsAsOneOverTheRootAndFibonacciFaster) {
+TEST(Study, RandomErrorDecreasesAsOneOverTheRootAndFibonacciFaster) {
   StudyOptions options;
   options.series = {{Sampling::random}, {Sampling::fibonacci}};
   options.directions = {16, 32, 64, 128, 256, 512};
@@ -180,7 +180,7 @@ TEST(Study, CostsAreInterpolated) {
   EXPECT_FALSE(cost_of(std::vector{point(1, 1e-9), point(2, 0.1)}, 0.05));
 }
 
-TEST(Study, TooFewDirectionsAreAResult) {
+TEST(Study, RecordsThatDirectionsAreTooFew) {
   // Reflectance near 1: with three directions rows sum to far more than 1.
   SceneDescription description = describe_scene("furnace");
   for (Material& material : description.materials) {
@@ -215,7 +215,7 @@ TEST(Study, InfiniteRadiosityIsAFailure) {
   EXPECT_TRUE(std::isnan(study.points[0].max_error));
 }
 
-TEST(Study, TooLittleMemoryIsAResult) {
+TEST(Study, RecordsThatMemoryIsTooSmall) {
   StudyOptions options;
   options.series = {{Sampling::fibonacci},
                     {Sampling::fibonacci, true, Normalization::none, Scheme::conjugate_gradients}};
@@ -253,7 +253,7 @@ TEST(Study, KeepsFinishedPointsWhenCanceled) {
   EXPECT_GT(last_share, 0.5);
 }
 
-TEST(Study, RejectsWhatItCannotStudy) {
+TEST(Study, RejectsInvalidOptions) {
   StudyOptions options;
   EXPECT_THROW(box().study(options), InputError);
   options.series = {{Sampling::random, false, Normalization::symmetric}};
@@ -451,7 +451,7 @@ TEST(StudyPlot, LegendShowsSlopesWorstFirst) {
   EXPECT_EQ(by_seconds.series[0].note, "");
 }
 
-TEST(StudyPlot, AnythingCanBeDrawn) {
+TEST(StudyPlot, ExtremeValuesCanBeDrawn) {
   const TemporaryFolder folder;
   std::vector<StudySeries> series{{Sampling::random}};
   Study study;

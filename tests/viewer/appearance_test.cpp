@@ -59,7 +59,7 @@ class AppearanceTest : public QObject {
     QCOMPARE(text->document()->defaultFont().pixelSize(), size);
   }
 
-  void dark_is_dark() {
+  void dark_mode_has_dark_panels() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const auto lightness = [&] {

@@ -90,7 +90,7 @@ class BreakpointsTest : public QObject {
     QVERIFY(steps_where(d.history(), {Kind::pair, 0, 0}).empty());
   }
 
-  void a_figure_breakpoint_holds_where_its_bound_is_passed() {
+  void a_threshold_breakpoint_holds_where_its_value_is_passed() {
     const Direction d("cornell-box");
     const MapHistory& history = d.history();
     int largest = 0;

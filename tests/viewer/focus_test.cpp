@@ -251,7 +251,7 @@ class FocusTest : public QObject {
     QVERIFY(w.arrived_at({0, 2, 3}));
   }
 
-  void the_newest_target_wins() {
+  void the_newest_target_replaces_older_ones() {
     FocusWithMaps w;
     w.focus.go_to({0, 0, 1});
     w.answers_at_once = false;

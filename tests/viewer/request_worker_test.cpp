@@ -95,7 +95,7 @@ class RequestWorkerTest : public QObject {
     QCOMPARE(done.wait_for(1), (Entries{{4, {}}}));
   }
 
-  void survives_a_throwing_failure_handler() {
+  void continues_after_a_throwing_failure_handler() {
     Log done;
     RequestWorker<int> worker(
         [&](int number, const Cancellation&) {
@@ -166,7 +166,7 @@ class RequestWorkerTest : public QObject {
     QCOMPARE(*waiting, 2);
   }
 
-  void only_patient_requests_wait_for_the_pause() {
+  void only_requests_after_the_pause_wait_for_it() {
     Log done;
     RequestWorker<int> worker([&](int number, const Cancellation&) { done.add(number); },
                               [](int, const QString&) {}, {std::chrono::minutes(5), 0});

@@ -113,7 +113,7 @@ class ResponsivenessTest : public QObject {
     QVERIFY(closing.elapsed() < 1000);
   }
 
-  void a_seek_is_shown_soon() {
+  void a_seek_is_shown_quickly() {
     const auto window = make_window(64);
     window->open("sphere-flake", {Goal::Kind::passes, 2});
     QVERIFY(wait_for(
@@ -153,7 +153,7 @@ class ResponsivenessTest : public QObject {
   }
 
   // Few directions, to limit the time of the test: measures everything except large form factors.
-  void a_slider_is_shown_soon() {
+  void a_change_of_a_slider_is_shown_quickly() {
     constexpr int directions = 32;
     const auto window = make_window(directions);
     window->open("sphere-flake", {Goal::Kind::iteration});
