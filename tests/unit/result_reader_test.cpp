@@ -190,7 +190,7 @@ TEST_F(ResultReader, RefusesPairsThatAreNotSidesOfOneFace) {
 
 TEST_F(ResultReader, RefusesOtherFiles) {
   EXPECT_THAT(refusal([&] { read_result(folder_ / "none.vtp"); }), HasSubstr("no such file"));
-  EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("not a plain file"));
+  EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("is not a regular file"));
   for (const char* text : {"", "v 0 0 0\n", "<a><AppendedData", "<VTKFile/><AppendedData/>",
                            "<VTKFile type=\"ImageData\"><AppendedData encoding=\"raw\">_"}) {
     write_text(path_, text);
@@ -231,9 +231,9 @@ TEST_F(ResultReader, RefusesImpossibleValues) {
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, 10); }},
       {"a polygon's corner is point -1",
        [](vtkPolyData& mesh) { mesh.GetPolys()->GetConnectivityArray()->SetTuple1(1, -1); }},
-      {"face 1: it has no area",
+      {"face 1: no area",
        [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(3, mesh.GetPoint(4)); }},
-      {"is not planar", [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, 2, 3); }},
+      {"not planar", [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, 2, 3); }},
       {"coordinate is not a finite number",
        [](vtkPolyData& mesh) { mesh.GetPoints()->SetPoint(7, 2, std::nan(""), 3); }},
       {"must contain polygons only", [](vtkPolyData& mesh) { mesh.SetLines(mesh.GetPolys()); }},
@@ -300,7 +300,7 @@ TEST(CliResult, IsNotASceneToSolve) {
   const TemporaryFolder folder;
   write_text(folder / "r.vtp", "");
   EXPECT_THAT(run_program({"info", folder / "r.vtp"}).err,
-              HasSubstr("is a result, which transillum-viewer opens"));
+              HasSubstr("is a result file (open it in transillum-viewer)"));
 }
 
 }  // namespace
