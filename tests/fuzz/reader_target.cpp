@@ -45,7 +45,7 @@ double rounding_of_areas(const Scene& scene) {
   return 256 * 0x1p-52 * largest * scene.bounds().diagonal();
 }
 
-/// Uncertainty of the area of a slightly bent patch that counts as planar, m²: a corner that is
+/// Uncertainty of the area of a slightly bent patch that is treated as planar, m²: a corner that is
 /// straight in the projection along an axis, but not in the projection along the normal, is in no
 /// triangle.
 double bend_of(const Scene& scene, PatchId i) {

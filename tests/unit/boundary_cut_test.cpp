@@ -127,8 +127,8 @@ TEST_P(BoundaryCutBackends, NoCommonArea) {
   }
 }
 
-/// Points within the tolerance of a line count as on its inner side; segments are cut at such end
-/// points.
+/// Points within the tolerance of a line are treated as on its inner side; segments are cut at such
+/// end points.
 TEST_P(BoundaryCutBackends, PointsOnLines) {
   BoundarySegments outline;
   add(outline, square(0, 0, 4));

@@ -113,8 +113,8 @@ TEST(BspTree, CutsInterpenetratingTriangles) {
   expect_consistent(*scene, tree);
 }
 
-/// Triangles whose planes nearly coincide: several successive corners of an outline count as on the
-/// plane, and must not be assigned to both sides.
+/// Triangles whose planes nearly coincide: several successive corners of an outline are treated as
+/// on the plane, and must not be assigned to both sides.
 TEST(BspTree, KeepsTheAreaOfNearlyCoplanarTriangles) {
   std::mt19937_64 generator(3);
   for (const double spread : {1e-13, 1e-12, 1e-11, 1e-9}) {

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// RequestWorker: exceptions of jobs become messages, the newest request wins, pauses between jobs.
+// RequestWorker: exceptions of jobs become messages, the newest request replaces older ones, pauses
+// between jobs.
 #include "support/request_worker.h"
 
 #include <QtTest>

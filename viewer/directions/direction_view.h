@@ -71,7 +71,7 @@ class DirectionView : public QWidget {
   void draw_focus(QPainter& painter) const;
   void draw_legend(QPainter& painter) const;
   std::optional<Point> point_at(const QPointF& where) const;
-  /// The iteration shown: the one in focus where each has directions of its own, else the newest.
+  /// The iteration shown: the one in focus where each has its own directions, else the newest.
   int iteration() const;
   const std::vector<Vec3>& directions() const { return *snapshot_->directions_of(iteration()); }
   /// Directions of iteration() that have been processed.

@@ -36,7 +36,7 @@ struct MapTransform {
 };
 
 /// Which engine's V is drawn: exactly, in the pixels of an engine with has_pixels(), or with the
-/// open shares of engine corrected. (A hemicube has a picture of its own: HemicubeView.)
+/// open shares of engine corrected. (A hemicube has a separate picture: HemicubeView.)
 struct MapEngineChoice {
   std::optional<Engine> engine;              ///< nullopt: exact
   PaintersOrder order = PaintersOrder::bsp;  ///< of engine painter

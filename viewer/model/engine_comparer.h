@@ -33,7 +33,7 @@ struct EngineComparison {
   bool ok() const { return first.failure.empty() && other.failure.empty(); }
 };
 
-/// Compares engines on a thread of its own; the newest request wins.
+/// Compares engines on its own thread; the newest request replaces older ones.
 ///
 /// Threads: the public functions and the signal belong to the thread that created it.
 class EngineComparer : public QObject {

@@ -9,7 +9,7 @@
 
 namespace transillum::viewer {
 
-/// Records visibility maps on a thread of its own, beside the solver; the newest request replaces
+/// Records visibility maps on its own thread, beside the solver; the newest request replaces
 /// the waiting one, and the map being recorded is finished.
 ///
 /// Threads: the public functions and the signals belong to the thread that created it.

@@ -12,7 +12,7 @@
 
 namespace transillum::viewer {
 
-/// Solves with other materials and stored form factors, on a thread of its own; the newest request
+/// Solves with other materials and stored form factors, on its own thread; the newest request
 /// replaces the waiting one, and the running one is finished.
 ///
 /// Threads: the public functions and the signals belong to the thread that created it.

@@ -27,7 +27,7 @@ struct Goal {
   std::int64_t passes = 0;  ///< for Kind::passes: passes_done() of the solve
 };
 
-/// Loads scenes and makes solve runs, on a thread of its own.
+/// Loads scenes and makes solve runs, on its own thread.
 ///
 /// Threads: the public functions and all signals belong to the thread that created it. Commands
 /// return at once; a newer one replaces an older. Snapshots are immutable; one that has not been

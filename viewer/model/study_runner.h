@@ -29,7 +29,7 @@ struct StudySnapshot {
   double passes_per_second = 0, seconds_left = 0;
 };
 
-/// Runs studies of open scenes on a thread of its own; a newer study cancels the running one.
+/// Runs studies of open scenes on its own thread; a newer study cancels the running one.
 ///
 /// Threads: the public functions and all signals belong to the thread that created it. A snapshot
 /// that has not been delivered yet is replaced by its successor.

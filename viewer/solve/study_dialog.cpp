@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The dialog "Study". A StudyRunner computes on a thread of its own and posts snapshots; this
+// The dialog "Study". A StudyRunner computes on its own thread and posts snapshots; this
 // dialog shows the newest one as plot, table and progress.
 #include "solve/study_dialog.h"
 

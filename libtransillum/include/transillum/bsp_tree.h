@@ -74,8 +74,8 @@ class BspTree {
     FragmentId end = 0;            ///< one past the last
   };
 
-  /// Points nearer to a plane than this count as on it, m: slightly more than the rounding error
-  /// of the coordinates, so that the side of every point farther away is certain
+  /// Points nearer to a plane than this are treated as on it, m: slightly more than the rounding
+  /// error of the coordinates, so that the side of every point farther away is certain
   /// (decisions/0001-sides-of-planes.md).
   static double thickness(const Scene& scene);
 

@@ -11,8 +11,8 @@
 
 namespace transillum {
 
-/// Default threshold of R²/A from which a source counts as small: of 2,048 directions, fewer than
-/// one on average meets it from a point half a scene away.
+/// Default threshold of R²/A from which a source is treated as small: of 2,048 directions, fewer
+/// than one on average meets it from a point half a scene away.
 inline constexpr double small_source_ratio = 1000;
 
 /// The threshold called `name`: `auto` (small_source_ratio), a number >= 0, or `none`.

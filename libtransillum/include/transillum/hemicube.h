@@ -26,7 +26,7 @@ struct HemicubeOptions {
 /// Form factors by the classical hemicube method (Cohen and Greenberg 1985), for comparison: the
 /// scene is drawn onto the five sides of half a cube about one point of every patch.
 ///
-/// Visibility at that point stands for the whole patch, so patches must be small against their
+/// Visibility at that point represents the whole patch, so patches must be small against their
 /// distance; what is smaller than a pixel is either hit or missed. In a closed scene rows sum to 1
 /// except for pixels that fall through gaps between polygons; A_i F_ij = A_j F_ji does not hold.
 /// Time grows as the square of the number of patches.

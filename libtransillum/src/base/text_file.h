@@ -36,7 +36,7 @@ void split_words(std::string_view text, std::vector<std::string_view>& words);
 /// The double nearest to a decimal number, also "nan" and "inf"; empty if `word` is not a number.
 std::optional<double> parse_number(std::string_view word);
 
-/// A logical line of a file: lines joined by a backslash at the end count as one.
+/// A logical line of a file: lines joined by a backslash at the end are treated as one.
 struct TextLine {
   std::int32_t number = 0;  ///< of its first physical line, from 1
   std::string_view keyword;

@@ -37,8 +37,8 @@ Vec3 area_vector(Outline polygon);
 /// counter-clockwise.
 HalfSpace lit_half_space(Outline polygon);
 
-/// The part of a polygon in `space`. Corners within `tolerance` of the border count as on it. Parts
-/// of a concave polygon stay connected by edges along the border.
+/// The part of a polygon in `space`. Corners within `tolerance` of the border are treated as on it.
+/// Parts of a concave polygon stay connected by edges along the border.
 Corners clipped(Outline polygon, const HalfSpace& space, double tolerance = 0);
 
 /// Form factor from a differential area at x to the front side of a polygon with nothing between,
@@ -53,7 +53,7 @@ double point_form_factor(const Vec3& x, const Vec3& normal, Outline polygon);
 struct FacingPolygons {
   /// With a tolerance for the rounding of the coordinates.
   FacingPolygons(Outline whole_p, Outline whole_q);
-  /// Corners within `tolerance` of the other's plane count as on it.
+  /// Corners within `tolerance` of the other's plane are treated as on it.
   FacingPolygons(Outline whole_p, Outline whole_q, double tolerance);
   /// Whether they see nothing of each other.
   bool empty() const { return p.empty() || q.empty(); }

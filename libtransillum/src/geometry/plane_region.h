@@ -72,7 +72,7 @@ class PlaneRegion {
   void subtract_from(Part part, std::span<const Side> sides);
   Part kept(const Part& part, const Side& side);
 
-  double tolerance_ = 0;  ///< points nearer to a line than this count as on it
+  double tolerance_ = 0;  ///< points nearer to a line than this are treated as on it
   std::vector<Point> corners_;
   std::vector<Part> parts_, left_;
 };

@@ -18,7 +18,7 @@
 
 namespace transillum {
 
-/// Releases what this thread has done so far at `place`, any address that stands for it.
+/// Releases what this thread has done so far at `place`, any address that represents it.
 inline void tsan_release([[maybe_unused]] const void* place) {
 #ifdef TRANSILLUM_THREAD_SANITIZER
   __tsan_release(const_cast<void*>(place));

@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 constexpr std::size_t most_centers = 2048, fewest_centers = 32;
 /// Directions times centers examined, if that gives between the fewest and the most centers.
 constexpr std::size_t examined_pairs = std::size_t{1} << 22;
-/// Directions within this angle of the rim of a cap, in radians, count as on it.
+/// Directions within this angle of the rim of a cap, in radians, are treated as on it.
 constexpr double on_rim = 1e-12;
 
 // A cap with too few directions is the complement of one with too many. So it suffices to find the

@@ -21,7 +21,7 @@ inline DirectionSample sample_at(double u, double v) {
 inline DirectionSample sample_along(const Vec3& direction) {
   const double turns = std::atan2(direction.y, direction.x) / (2 * std::numbers::pi);
   const double u = turns < 0 ? turns + 1 : turns;
-  // turns + 1 may round to 1, which stands for u = 0.
+  // turns + 1 may round to 1, which represents u = 0.
   return {u < 1 ? u : 0, std::clamp((1 - direction.z) / 2, 0.0, 1.0), direction};
 }
 

@@ -19,7 +19,7 @@ void write_result_csv(std::ostream& out, const Solution& solution);
 void write_result_vtp(std::ostream& out, const Solution& solution);
 /// ASCII PLY, doubles; one polygon per patch with its face, patch, area, E, rho, B.
 void write_result_ply(std::ostream& out, const Solution& solution);
-/// One polygon per patch with corners of its own, whose color is the patch's B, linear, unscaled.
+/// One polygon per patch with its own corners, whose color is the patch's B, linear, unscaled.
 void write_result_obj(std::ostream& out, const Solution& solution);
 
 }  // namespace transillum

@@ -23,7 +23,7 @@
 namespace transillum {
 namespace {
 
-/// A point counts as in a plane within this distance, relative to the scene's diagonal.
+/// A point is treated as in a plane within this distance, relative to the scene's diagonal.
 constexpr double coplanar_tolerance = 1e-12;
 /// Hemicubes per thread between reports of progress.
 constexpr PatchId batch = 4;

@@ -16,7 +16,7 @@ namespace transillum {
 /// need no passes: one ExchangeSums per replica, or one.
 class KeptExchanges {
  public:
-  /// @param renews whether each iteration has directions of its own; exchanges are then kept only
+  /// @param renews whether each iteration has its own directions; exchanges are then kept only
   /// after request().
   KeptExchanges(const SolverInput& input, bool renews);
 

@@ -10,7 +10,7 @@ namespace transillum {
 /// The direction of each pass of each iteration.
 ///
 /// Any initial part of the passes is spread over the sphere. With R replicas, pass k belongs to
-/// replica k mod R; each replica is a set of the sampling under a rotation of its own.
+/// replica k mod R; each replica is a set of the sampling with its own rotation.
 class PassPlan {
  public:
   explicit PassPlan(const SolveOptions& options) : options_(options) {}

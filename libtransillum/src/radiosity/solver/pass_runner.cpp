@@ -92,7 +92,7 @@ class PipelineOrder {
   static constexpr char start = 0;
 
   Slots& slots_;
-  char source_ = 0, sink_ = 0;  ///< addresses that stand for the serial filters
+  char source_ = 0, sink_ = 0;  ///< addresses that represent the serial filters
 };
 
 }  // namespace

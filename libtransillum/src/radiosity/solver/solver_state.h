@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // RadiositySolver::Impl: the parts of a solver and the order in which they are used. Each part has
-// one job and a header of its own; solver_state.cpp has the iteration, solver_results.cpp what is
+// one job and its own header; solver_state.cpp has the iteration, solver_results.cpp what is
 // read from it, radiosity_solver.cpp the public class.
 #pragma once
 

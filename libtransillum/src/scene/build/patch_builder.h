@@ -79,7 +79,7 @@ class PatchBuilder {
   const SceneOptions& options_;
   const Cancellation& cancellation_;
   std::vector<PointId> welded_;  // for each point of the description its number in `table`, or -1
-  double flatness_ = 0;          // deviation within which a polygon counts as planar, m
+  double flatness_ = 0;          // deviation within which a polygon is treated as planar, m
   std::size_t last_refined_ = no_face;
   Warnings warnings_;
 };

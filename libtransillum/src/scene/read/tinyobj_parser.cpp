@@ -3,7 +3,7 @@
 
 #include <map>
 
-// Compiled in, with doubles, in a namespace of its own: a distribution's shared library of the same
+// Compiled in, with doubles, in a separate namespace: a distribution's shared library of the same
 // name is built for float.
 #define TINYOBJLOADER_USE_DOUBLE
 #define TINYOBJLOADER_IMPLEMENTATION

@@ -41,8 +41,8 @@ struct Cutter {
   alignas(64) std::array<double, max_edges> dx, dy, c, middle;
   alignas(64) std::array<double, max_edges> length;  ///< |dx| + |dy|
   std::size_t count = 0;
-  double perimeter = 0;             ///< sum of the lengths
-  double tolerance = 0;             ///< distance outside a line at which a point counts as on it
+  double perimeter = 0;  ///< sum of the lengths
+  double tolerance = 0;  ///< distance outside a line at which a point is treated as on it
   double pivot_x = 0, pivot_y = 0;  ///< areas are measured relative to this point
 };
 

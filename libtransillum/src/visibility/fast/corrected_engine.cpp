@@ -25,7 +25,7 @@
 namespace transillum {
 namespace {
 
-/// A fragment with a smaller share of its area open counts as hidden.
+/// A fragment with a smaller share of its area open is treated as hidden.
 constexpr double hidden = 1e-6;
 
 /// What all passes share.
@@ -102,7 +102,7 @@ class CorrectedPass {
   struct Candidate {
     std::int32_t fragment;
     double overlap;  ///< square grid units; < 0: not computed yet
-    double seen;     ///< the part of it that counts as visible
+    double seen;     ///< the part of it that is treated as visible
   };
 
   /// Collects the fragments above whose boxes overlap that of fragment k, nearest first.

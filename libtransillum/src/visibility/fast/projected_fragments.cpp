@@ -186,7 +186,7 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   const double width = -static_cast<double>(box.ends[4]) - static_cast<double>(box.ends[0]);
   const double height = -static_cast<double>(box.ends[5]) - static_cast<double>(box.ends[1]);
   const double size = width * width + height * height;
-  // Outlines thinner than the grid units that corners are rounded to count as seen edge-on.
+  // Outlines thinner than the grid units that corners are rounded to are treated as seen edge-on.
   if (area < min_width * std::sqrt(size)) {
     return false;
   }

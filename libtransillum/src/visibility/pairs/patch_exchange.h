@@ -23,8 +23,8 @@ struct PatchExchange {
 /// visible part of the larger patch is computed exactly: the error decreases about as the square of
 /// the distance between points, or in proportion to it if a blocker touches the smaller patch.
 /// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
-/// Surfaces closer to each other than 1e-12 of the scene's size count as touching, and then as back
-/// to back or side by side.
+/// Surfaces closer to each other than 1e-12 of the scene's size are treated as touching, and then
+/// as back to back or side by side.
 ///
 /// The time grows with the number of blockers in the shaft and the logarithm of the number of
 /// patches.

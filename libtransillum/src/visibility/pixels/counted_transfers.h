@@ -26,7 +26,7 @@ class CountedTransfers : public VisibilitySink {
     count(below, above, end - begin);
   }
 
-  /// @param area that each line stands for, m²
+  /// @param area that each line represents, m²
   /// @returns all transfers; may be called once
   /// @throws Canceled
   Transfers finish(const Vec3& omega, double area);

@@ -31,7 +31,7 @@ class PatchHeights {
   }
   /// Bound of the rounding error of heights over patch i, meters.
   double slack(PatchId i) const { return plane(i).slack; }
-  /// Whether a counts as above b where they coincide: as in BspTree::order().
+  /// Whether a is treated as above b where they coincide: as in BspTree::order().
   bool comes_first(PatchId a, PatchId b) const;
   /// Sorts from above, each patch once, coincident ones by comes_first(). None may be edge-on.
   void sort(std::vector<HeightSample>& samples) const;

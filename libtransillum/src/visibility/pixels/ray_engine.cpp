@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Engine rays: parallel lines through the scene, intersected by Embree with all hits reported. Each
-// line stands for an area of the plane; successive patches on it that face each other exchange that
+// line represents an area of the plane; successive patches on it that face each other exchange that
 // area. Embree finds which patches a line meets; the heights at which it meets them are recomputed
 // in double precision, because float32 does not separate close surfaces
 // (decisions/0010-rays-are-counted.md).
@@ -79,7 +79,7 @@ class LineGrid {
   }
 
   std::int64_t packets() const { return packets_; }
-  /// Area that one line stands for, m².
+  /// Area that one line represents, m².
   double area_of_line() const { return size_.x * size_.y / (rows() * columns()); }
 
   /// Sets the lines of a packet. On the grid a packet is a tile of 4 x 4 cells.

@@ -23,7 +23,7 @@ PassCounts& PassCounts::operator+=(const PassCounts& other) {
 }
 
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
-  // Below this share of its area a patch counts as grazing (ALGORITHM.md, oracle 1).
+  // Below this share of its area a patch is treated as grazing (ALGORITHM.md, oracle 1).
   constexpr double grazing_share = 1e-6;
   ClosureDefect defect;
   for (const auto* side : {&transfers.forward, &transfers.backward}) {
