@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/form_factor_views.h"
 #include "support/has_index.h"
@@ -63,88 +64,88 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   return result;
 }
 
+constexpr QuantityTraits all_traits[] = {
+    {.quantity = Quantity::radiosity,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Radiosity B"),
+     .symbol = "B",
+     .unit = "W/m²",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity", "Power per area leaving each patch, current estimate"),
+     .is_light = true,
+     .has_channels = true},
+    {.quantity = Quantity::exitance,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Emitted exitance E"),
+     .symbol = "E",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP("Quantity", "Power per area emitted by each patch itself"),
+     .is_light = true,
+     .has_channels = true},
+    {.quantity = Quantity::reflectance,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Reflectance ρ"),
+     .symbol = "ρ",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity", "Fraction of the received light that each patch reflects"),
+     .is_light = true,
+     .has_channels = true},
+    {.quantity = Quantity::irradiance,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Irradiance H"),
+     .symbol = "H",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity", "Power per area received by each patch in the last finished iteration"),
+     .is_light = true,
+     .has_channels = true},
+    {.quantity = Quantity::form_factor_from,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Form factors from selection"),
+     .symbol = "F i→j",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity",
+                           "F_ij from the selected patch i to each patch j: fraction of the light "
+                           "leaving i that reaches j"),
+     .of_selection = true},
+    {.quantity = Quantity::form_factor_to,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Form factors to selection"),
+     .symbol = "F j→i",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity",
+                           "F_ji from each patch j to the selected patch i: fraction of the light "
+                           "leaving j that reaches i"),
+     .of_selection = true},
+    {.quantity = Quantity::form_factor_sum,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"),
+     .symbol = "Σ F",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene")},
+    {.quantity = Quantity::fragments,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Number of fragments"),
+     .symbol = "fragments",
+     .meaning = QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree")},
+    {.quantity = Quantity::error,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Error estimate of B"),
+     .symbol = "± B",
+     .unit = "W/m²",
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity", "Standard error of B, from the spread of the replicas"),
+     .has_channels = true},
+    {.quantity = Quantity::last_change,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
+     .symbol = "|Δ B|",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"),
+     .has_channels = true},
+    {.quantity = Quantity::difference,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
+     .symbol = "B − A",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP("Quantity", "B minus the B of the kept run A"),
+     .has_channels = true,
+     .is_signed = true},
+};
+
 }  // namespace
 
 const std::vector<QuantityTraits>& quantity_traits() {
-  static const std::vector<QuantityTraits> traits{
-      {.quantity = Quantity::radiosity,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Radiosity B"),
-       .symbol = "B",
-       .unit = "W/m²",
-       .meaning =
-           QT_TRANSLATE_NOOP("Quantity", "Power per area leaving each patch, current estimate"),
-       .is_light = true,
-       .has_channels = true},
-      {.quantity = Quantity::exitance,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Emitted exitance E"),
-       .symbol = "E",
-       .unit = "W/m²",
-       .meaning = QT_TRANSLATE_NOOP("Quantity", "Power per area emitted by each patch itself"),
-       .is_light = true,
-       .has_channels = true},
-      {.quantity = Quantity::reflectance,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Reflectance ρ"),
-       .symbol = "ρ",
-       .meaning =
-           QT_TRANSLATE_NOOP("Quantity", "Fraction of the received light that each patch reflects"),
-       .is_light = true,
-       .has_channels = true},
-      {.quantity = Quantity::irradiance,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Irradiance H"),
-       .symbol = "H",
-       .unit = "W/m²",
-       .meaning = QT_TRANSLATE_NOOP(
-           "Quantity", "Power per area received by each patch in the last finished iteration"),
-       .is_light = true,
-       .has_channels = true},
-      {.quantity = Quantity::form_factor_from,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Form factors from selection"),
-       .symbol = "F i→j",
-       .meaning = QT_TRANSLATE_NOOP(
-           "Quantity",
-           "F_ij from the selected patch i to each patch j: fraction of the light "
-           "leaving i that reaches j"),
-       .of_selection = true},
-      {.quantity = Quantity::form_factor_to,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Form factors to selection"),
-       .symbol = "F j→i",
-       .meaning = QT_TRANSLATE_NOOP(
-           "Quantity",
-           "F_ji from each patch j to the selected patch i: fraction of the light "
-           "leaving j that reaches i"),
-       .of_selection = true},
-      {.quantity = Quantity::form_factor_sum,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"),
-       .symbol = "Σ F",
-       .meaning = QT_TRANSLATE_NOOP("Quantity",
-                                    "Sum over j of F_ij for each patch i; 1 in a closed scene")},
-      {.quantity = Quantity::fragments,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Number of fragments"),
-       .symbol = "fragments",
-       .meaning =
-           QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree")},
-      {.quantity = Quantity::error,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Error estimate of B"),
-       .symbol = "± B",
-       .unit = "W/m²",
-       .meaning =
-           QT_TRANSLATE_NOOP("Quantity", "Standard error of B, from the spread of the replicas"),
-       .has_channels = true},
-      {.quantity = Quantity::last_change,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
-       .symbol = "|Δ B|",
-       .unit = "W/m²",
-       .meaning =
-           QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"),
-       .has_channels = true},
-      {.quantity = Quantity::difference,
-       .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
-       .symbol = "B − A",
-       .unit = "W/m²",
-       .meaning = QT_TRANSLATE_NOOP("Quantity", "B minus the B of the kept run A"),
-       .has_channels = true,
-       .is_signed = true},
-  };
+  static const std::vector<QuantityTraits> traits(std::begin(all_traits), std::end(all_traits));
   return traits;
 }
 

@@ -115,7 +115,7 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     case of_area:
       return tr("Area, m²");
     case of_parts:
-      return tr("Parts left");
+      return tr("Pieces left");
     default:
       return tr("Pair, m²");
   }
