@@ -187,7 +187,7 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) 
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--two-sided", options.two_sided, description_of("two-sided"));
-  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "do not divide"),
+  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "no limit"),
                     [&options](const std::string& text) {
                       options.max_patch_area = parse_number("--max-patch-area", text);
                       if (!(options.max_patch_area > 0)) {

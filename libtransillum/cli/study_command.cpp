@@ -272,13 +272,13 @@ void add_series_options(CLI::App& command, StudyCall& call) {
                   "reference does so if any series does (default none)",
                   call.first_shots,
                   [](const std::string& text) { return std::vector{first_shot_from_name(text)}; });
-  add_parsed_option(command, "--rotations", "R",
-                    "solve with R rotated sets each; gives the RMS of their errors and the largest "
-                    "maximum (default 1: one set, not rotated)",
-                    [&call](const std::string& text) {
-                      call.study.rotations =
-                          static_cast<int>(parse_whole_number("--rotations", text, 1, 1000));
-                    });
+  add_parsed_option(
+      command, "--rotations", "R",
+      "solve with R rotated sets per point; gives the RMS of their errors and the largest "
+      "maximum (default 1: one set, not rotated)",
+      [&call](const std::string& text) {
+        call.study.rotations = static_cast<int>(parse_whole_number("--rotations", text, 1, 1000));
+      });
   add_parsed_option(
       command, "--seed", "S",
       fmt::format("random seed of samplings and rotations (default {})", call.study.solve.seed),
