@@ -215,10 +215,10 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   }
   object.read("gamma", state.gamma);
   if (!(state.gamma >= 1 && state.gamma <= 3)) {
-    object.fail_at("gamma", "must be 1 to 3");
+    object.fail_at("gamma", "must be from 1 to 3");
   }
   if (state.exposure && !(std::abs(*state.exposure) <= 12)) {
-    object.fail_at("exposure", "must be -12 to 12 EV");
+    object.fail_at("exposure", "must be from -12 to 12 EV");
   }
   object.done();
 }

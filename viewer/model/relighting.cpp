@@ -49,7 +49,7 @@ QString Relighting::method_note() const {
   }
   if (snapshot_->options.scheme == Scheme::semi_iterative) {
     return tr(
-        "Edited light uses the form factors of all iterations; B of the scheme is a mean over "
+        "Changed light uses the form factors of all iterations; B of the scheme is a mean over "
         "iterations.");
   }
   if (snapshot_->shot && !snapshot_->shot->sources.empty()) {

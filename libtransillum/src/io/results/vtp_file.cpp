@@ -143,7 +143,8 @@ class VtpFile::HeaderParser {
     if (is_vtk_ && (attributes["byte_order"] != order || attributes["header_type"] != "UInt64" ||
                     attributes["compressor"] != "vtkZLibDataCompressor")) {
       stop(
-          "is not encoded as transillum does it (UInt64 headers, zlib, native byte order); other "
+          "does not have the encoding of transillum (UInt64 headers, zlib, native byte order); "
+          "other "
           "encodings cannot be read");
     }
   }

@@ -20,7 +20,7 @@ void check(const Scene& scene, const FormFactors& form_factors,
   }
   if (!start.empty() && start.size() != patches) {
     throw InputError(
-        "the radiosity to start from belongs to another scene: the number of patches differs");
+        "the initial radiosity belongs to another scene: the number of patches differs");
   }
   for (const Material& material : materials) {
     check_material(material, "");

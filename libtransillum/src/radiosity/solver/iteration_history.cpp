@@ -85,7 +85,7 @@ void IterationHistory::check_contraction() const {
   if (growing) {
     throw NotConvergent(
         fmt::format("the iteration does not converge for M = {}: each change is {:.3g} "
-                    "times the one before",
+                    "times the previous one",
                     options_.directions, records_.back().contraction),
         Remedy::directions_or_row_normalization);
   }

@@ -58,7 +58,7 @@ void SolveOptions::validate() const {
   }
   if (replicas > directions) {
     throw InputError(
-        fmt::format("replicas: {} is more than the {} directions", replicas, directions));
+        fmt::format("replicas: {} exceeds the number of directions, {}", replicas, directions));
   }
   if (normalize == Normalization::symmetric) {
     if (!two_way) {
