@@ -166,7 +166,7 @@ class PicturesTest : public QObject {
       window.parts().docks.bring_to_front(panel);
       auto* dock = window.findChild<QDockWidget*>(QString(panel) + "_dock");
       QVERIFY(wait_for([&] { return dock->widget()->isVisible(); }));
-      QTest::qWait(500);  // requests that the panel makes beside the solver
+      QTest::qWait(500);  // requests that the panel makes while the solver runs
       QVERIFY(settles(window));
       const QImage picture = dock->grab().toImage();
       keep(picture, QStringLiteral("panel-%1.png").arg(name), picture.size());

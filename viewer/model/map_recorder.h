@@ -9,8 +9,8 @@
 
 namespace transillum::viewer {
 
-/// Records visibility maps on its own thread, beside the solver; the newest request replaces
-/// the waiting one, and the map being recorded is finished.
+/// Records visibility maps on its own thread, in parallel with the solver; the newest request
+/// replaces the waiting one, and the map being recorded is finished.
 ///
 /// Threads: the public functions and the signals belong to the thread that created it.
 class MapRecorder : public QObject {
