@@ -102,12 +102,12 @@ void TimelineBar::show_position() {
     text_->set_clauses({tr("Patch <b>%1</b> is edge-on: skipped").arg(step.patch)});
     return;
   }
-  const QString facing = step.front_facing ? tr("Patch <b>%1</b> is front-facing (receives)")
-                                           : tr("Patch <b>%1</b> is back-facing (emits)");
+  const QString facing = step.front_facing ? tr("Patch <b>%1</b> faces ω (receiver)")
+                                           : tr("Patch <b>%1</b> faces away from ω (source)");
   const QString cuts =
       step.cut == 1
-          ? tr("%1; it cuts 1 polygon of V").arg(facing.arg(step.patch))
-          : tr("%1; it cuts %2 polygons of V").arg(facing.arg(step.patch), count_text(step.cut));
+          ? tr("%1; it cuts 1 piece of V").arg(facing.arg(step.patch))
+          : tr("%1; it cuts %2 pieces of V").arg(facing.arg(step.patch), count_text(step.cut));
   const QString size = step.map_size == 1 ? tr("V has 1 polygon")
                                           : tr("V has %1 polygons").arg(count_text(step.map_size));
   text_->set_clauses(
