@@ -19,7 +19,7 @@ const std::vector<std::string>& sampling_names() {
 }
 
 Sampling sampling_from_name(const std::string& name) {
-  // The British spelling was the only one before version 0.2.
+  // The former, British spelling: scripts still use it.
   const std::string& current = name == "centred-hammersley" ? sampling_names()[1] : name;
   return choice_from_name<Sampling>(sampling_names(), "sampling", current);
 }
