@@ -169,6 +169,22 @@ TEST(RayEngine, ErrorDecreasesWithTheNumberOfLines) {
   EXPECT_LT(error(50, true), error(50, false) / 2);
 }
 
+/// Two unit squares that fill the window: every line counts, and no other, also where the number of
+/// lines is not a multiple of the packets that Embree traces.
+TEST(RayEngine, CountsEveryLineOnce) {
+  const auto scene = load_scene(std::string(TRANSILLUM_DATA_DIR) + "/scenes/parallel-squares.obj");
+  const Vec3 toward_source = scene->patch(0).normal;
+  for (const bool gridded : {false, true}) {
+    for (int lines_per_patch = 1; lines_per_patch <= 40; ++lines_per_patch) {
+      const EngineOptions options{
+          .lines_per_patch = static_cast<double>(lines_per_patch), .gridded = gridded, .seed = 3};
+      const Transfers transfers =
+          make_engine(Engine::rays, scene, nullptr, options)(toward_source, {});
+      EXPECT_NEAR(total(transfers), 1, 1e-12) << lines_per_patch << ' ' << gridded;
+    }
+  }
+}
+
 TEST(RayEngine, TheTotalIsUnbiased) {
   const auto scene = load_scene("cornell-box");
   const Vec3 omega = normalized({1, -2, 3});

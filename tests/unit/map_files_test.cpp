@@ -469,7 +469,7 @@ TEST_F(MapFiles, EmptyMapsCanBeWritten) {
     EXPECT_THAT(nlohmann::json::parse(read_file(folder_ / "m.json")).at("polygons"), IsEmpty());
   }
   EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
-  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)), HasSubstr("faces away"));
+  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)), HasSubstr("is back-facing"));
   EXPECT_EQ(empty_map_reason(*scene_, of_floor()), "");
 }
 

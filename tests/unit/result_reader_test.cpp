@@ -190,7 +190,7 @@ TEST_F(ResultReader, RefusesPairsThatAreNotSidesOfOneFace) {
 
 TEST_F(ResultReader, RefusesOtherFiles) {
   EXPECT_THAT(refusal([&] { read_result(folder_ / "none.vtp"); }), HasSubstr("no such file"));
-  EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("is not a regular file"));
+  EXPECT_THAT(refusal([&] { read_result(folder_.path()); }), HasSubstr("not a regular file"));
   for (const char* text : {"", "v 0 0 0\n", "<a><AppendedData", "<VTKFile/><AppendedData/>",
                            "<VTKFile type=\"ImageData\"><AppendedData encoding=\"raw\">_"}) {
     write_text(path_, text);

@@ -105,7 +105,7 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
 
 void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   pass_serves_ = new QComboBox;
-  pass_serves_->addItems({tr("ω and −ω"), tr("ω only (paper)")});
+  pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
   pass_serves_->setToolTip(tip("two-way"));
   normalize_ = new QComboBox;
   normalize_->addItems({tr("None (paper)"), tr("Rows"), tr("Symmetric")});
@@ -126,7 +126,7 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
   replicas_->setToolTip(tip("replicas"));
-  form.addRow(tr("Each pass serves"), pass_serves_);
+  form.addRow(tr("Each pass"), pass_serves_);
   form.addRow(tr("Normalize"), normalize_);
   form.addRow(tr("Scheme"), scheme_);
   form.addRow(tr("Replicas"), replicas_);

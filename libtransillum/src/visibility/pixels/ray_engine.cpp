@@ -161,7 +161,10 @@ class RayPass {
       grid_.place_lines(packet, lines_);
       trace();
       for (std::size_t k = 0; k < packet_size; ++k) {
-        record_line(k);
+        // Where the processor lacks AVX-512, Embree also reports hits of invalid lanes.
+        if (lines_.valid[k] != 0) {
+          record_line(k);
+        }
       }
     }
   }
