@@ -98,8 +98,7 @@ void ColorControls::make_quantity_row() {
   fill_quantities();
   mode_ = new QComboBox;
   mode_->setObjectName("color_mode");
-  mode_->addItems({tr("True color"), tr("Luminance"), tr("Red channel"), tr("Green channel"),
-                   tr("Blue channel")});
+  mode_->addItems({tr("True color"), tr("Luminance"), tr("Red"), tr("Green"), tr("Blue")});
   QSizePolicy fixed(QSizePolicy::Fixed, QSizePolicy::Fixed);
   fixed.setRetainSizeWhenHidden(true);  // so that the layout is the same for all quantities
   mode_->setSizePolicy(fixed);
