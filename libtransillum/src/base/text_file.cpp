@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
+#include <cmath>
 #include <fstream>
 
 #include "transillum/errors.h"
@@ -14,12 +14,37 @@ namespace transillum {
 namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
-constexpr std::int32_t lines_between_cancellation_checks = 4096;
-
-bool is_comment(std::string_view line) { return trimmed(line).starts_with('#'); }
+constexpr std::size_t bytes_between_cancellation_checks = std::size_t{1} << 20;
+constexpr std::int64_t longest_shift = std::int64_t{1} << 60;  ///< exponent; no mantissa is longer
 
 bool has_name_argument(std::string_view keyword) {
   return keyword == "usemtl" || keyword == "newmtl" || keyword == "mtllib";
+}
+
+/// Whether |x| >= 1, where x is a decimal number that may be out of the range of double.
+bool is_at_least_one(std::string_view word) {
+  const std::size_t mantissa_end = std::min(word.find_first_of("eE"), word.size());
+  const std::string_view mantissa = word.substr(0, mantissa_end);
+  const std::size_t first = mantissa.find_first_of("123456789");
+  if (first == std::string_view::npos) {
+    return false;
+  }
+  const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  const auto place = static_cast<std::int64_t>(first);
+  // |x| is at least 10^power and below 10^(power + 1).
+  std::int64_t power = place < point ? point - place - 1 : point - place;
+  if (mantissa_end < word.size()) {
+    std::string_view exponent = word.substr(mantissa_end + 1);
+    const bool negative = exponent.starts_with('-');
+    exponent.remove_prefix(negative || exponent.starts_with('+') ? 1 : 0);
+    std::int64_t e = 0;
+    if (std::from_chars(exponent.data(), exponent.data() + exponent.size(), e).ec ==
+        std::errc::result_out_of_range) {
+      return !negative;  // longer than any mantissa
+    }
+    power += std::clamp<std::int64_t>(negative ? -e : e, -longest_shift, longest_shift);
+  }
+  return power >= 0;
 }
 
 }  // namespace
@@ -47,6 +72,9 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
   if (!file || file.gcount() != static_cast<std::streamsize>(size)) {
     throw InputError(path.string() + ": cannot be read");
   }
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throw InputError(path.string() + ": text in UTF-16; save it as UTF-8");
+  }
   if (text.find('\0') != std::string::npos) {
     throw InputError(path.string() + ": a binary file, not a text file");
   }
@@ -73,10 +101,10 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-void split_words(std::string_view text, std::vector<std::string_view>& words) {
+void split_words(std::string_view text, std::vector<std::string_view>& words, std::size_t most) {
   words.clear();
   std::size_t begin = text.find_first_not_of(blanks);
-  while (begin < text.size()) {
+  while (begin < text.size() && words.size() < most) {
     const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
     words.push_back(text.substr(begin, end - begin));
     begin = text.find_first_not_of(blanks, end);
@@ -96,9 +124,9 @@ std::optional<double> parse_number(std::string_view word) {
   if (end != last || word.empty()) {
     return {};
   }
-  // Too large or too small for a double: strtod returns infinity or (nearly) zero.
   if (error == std::errc::result_out_of_range) {
-    return std::strtod(std::string(word).c_str(), nullptr);
+    const double magnitude = is_at_least_one(word) ? HUGE_VAL : 0.0;
+    return word.front() == '-' ? -magnitude : magnitude;
   }
   if (error != std::errc()) {
     return {};
@@ -106,29 +134,49 @@ std::optional<double> parse_number(std::string_view word) {
   return value;
 }
 
-LineFeed::LineFeed(std::string_view text, Filter filter, const Cancellation& cancellation)
-    : text_(text), filter_(std::move(filter)), cancellation_(cancellation) {
+LineReader::LineReader(std::string_view text, const Cancellation& cancellation)
+    : text_(text), cancellation_(cancellation) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text_.starts_with(byte_order_mark)) {
     position_ = byte_order_mark.size();
   }
 }
 
-bool LineFeed::next_line() {
+/// The text to the next end of a line; moves beyond it.
+std::string_view LineReader::physical_line() {
+  const std::size_t begin = position_;
+  std::size_t end = std::string_view::npos;
+  for (std::size_t from = begin; end == std::string_view::npos && from < text_.size();
+       from += bytes_between_cancellation_checks) {
+    cancellation_.throw_if_canceled();
+    const std::size_t found =
+        text_.substr(from, bytes_between_cancellation_checks).find_first_of("\r\n");
+    end = found == std::string_view::npos ? found : from + found;
+  }
+  end = std::min(end, text_.size());
+  const bool pair = end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n';
+  position_ = end + (pair ? 2 : 1);
+  ++lines_read_;
+  return text_.substr(begin, end - begin);
+}
+
+/// Puts the next logical line, without its end, into line_; false at the end of the text.
+bool LineReader::join_physical_lines() {
   line_.clear();
   line_number_ = lines_read_ + 1;
   if (position_ >= text_.size()) {
     return false;
   }
-  bool continued = true;
+  bool blank = true, comment = false, continued = true;
   while (continued && position_ < text_.size()) {
-    const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
-    line_ += text_.substr(position_, end - position_);
-    const bool pair = end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n';
-    position_ = end + (pair ? 2 : 1);
-    ++lines_read_;
+    const std::string_view part = physical_line();
+    continued = part.ends_with('\\');
+    const std::string_view content = trimmed(continued ? part.substr(0, part.size() - 1) : part);
     // A comment ends with its line, even if it ends with a backslash (of a Windows path).
-    continued = !line_.empty() && line_.back() == '\\' && !is_comment(line_);
+    comment = comment || (blank && content.starts_with('#'));
+    continued = continued && !comment;
+    blank = blank && content.empty();
+    line_ += part;
     if (continued) {
       line_.back() = ' ';
     }
@@ -136,37 +184,41 @@ bool LineFeed::next_line() {
   return true;
 }
 
-LineFeed::int_type LineFeed::underflow() {
-  while (next_line()) {
-    if (line_number_ % lines_between_cancellation_checks == 0) {
-      cancellation_.throw_if_canceled();
-    }
-    TextLine line{line_number_, {}, {}};
+std::optional<TextLine> LineReader::next() {
+  while (join_physical_lines()) {
     const std::string_view content = trimmed(line_);
-    if (content.empty() || is_comment(content)) {
+    if (content.empty() || content.starts_with('#')) {
       continue;
     }
     const std::size_t end = std::min(content.find_first_of(blanks), content.size());
-    line.keyword = content.substr(0, end);
-    line.rest = trimmed(content.substr(end));
+    TextLine line{line_number_, content.substr(0, end), trimmed(content.substr(end))};
     // Names may contain a #, as in "Material #25".
     if (!has_name_argument(line.keyword)) {
       line.rest = trimmed(line.rest.substr(0, line.rest.find('#')));
     }
-    if (!filter_(line)) {
+    return line;
+  }
+  return {};
+}
+
+LineFeed::LineFeed(std::string_view text, Filter filter, const Cancellation& cancellation)
+    : lines_(text, cancellation), filter_(std::move(filter)) {}
+
+LineFeed::int_type LineFeed::underflow() {
+  while (const std::optional<TextLine> line = lines_.next()) {
+    if (!filter_(*line)) {
       continue;
     }
     // The parser gets the line as the filter did, without comments, and without the kinds of
     // blanks that it would take for part of a word.
-    std::string passed(line.keyword);
-    passed += ' ';
-    passed += line.rest;
+    passed_ = line->keyword;
+    passed_ += ' ';
+    passed_ += line->rest;
     std::replace_if(
-        passed.begin(), passed.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
-    passed += '\n';
-    line_ = std::move(passed);
-    setg(line_.data(), line_.data(), line_.data() + line_.size());
-    return traits_type::to_int_type(line_.front());
+        passed_.begin(), passed_.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
+    passed_ += '\n';
+    setg(passed_.data(), passed_.data(), passed_.data() + passed_.size());
+    return traits_type::to_int_type(passed_.front());
   }
   return traits_type::eof();
 }

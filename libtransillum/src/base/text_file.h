@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-// Text files and their lines: reading a whole file, splitting lines into words and numbers, and a
-// stream that filters lines before a parser gets them.
+// Text files and their lines: reading a whole file, its lines, words and numbers, and a stream that
+// filters lines before a parser gets them.
 
 #include <cstdint>
 #include <filesystem>
@@ -30,10 +30,12 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
 std::string in_quotes(std::string_view text);
 /// Without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
-/// The words between blanks.
-void split_words(std::string_view text, std::vector<std::string_view>& words);
+/// The words between blanks, the first `most` of them.
+void split_words(std::string_view text, std::vector<std::string_view>& words,
+                 std::size_t most = std::string_view::npos);
 
-/// The double nearest to a decimal number, also "nan" and "inf"; empty if `word` is not a number.
+/// The double nearest to a decimal number, in any locale: infinity beyond the range of double, also
+/// "nan" and "inf". Empty if `word` is not a number.
 std::optional<double> parse_number(std::string_view word);
 
 /// A logical line of a file: lines joined by a backslash at the end are treated as one.
@@ -41,6 +43,28 @@ struct TextLine {
   std::int32_t number = 0;  ///< of its first physical line, from 1
   std::string_view keyword;
   std::string_view rest;  ///< trimmed
+};
+
+/// The logical lines of a text, without comments, empty lines and a byte order mark. Time and
+/// memory are linear in the text, however its lines are joined.
+class LineReader {
+ public:
+  LineReader(std::string_view text, const Cancellation& cancellation);
+
+  /// The next line, valid until the next call; empty at the end of the text.
+  /// @throws Canceled
+  std::optional<TextLine> next();
+
+ private:
+  bool join_physical_lines();
+  std::string_view physical_line();
+
+  std::string_view text_;
+  const Cancellation& cancellation_;
+  std::size_t position_ = 0;
+  std::int32_t lines_read_ = 0;
+  std::int32_t line_number_ = 0;
+  std::string line_;
 };
 
 /// A stream buffer that passes a text to a parser one line at a time. Every line goes through a
@@ -56,16 +80,9 @@ class LineFeed : public std::streambuf {
   int_type underflow() override;
 
  private:
-  /// The next logical line, without its end; false at the end of the text.
-  bool next_line();
-
-  std::string_view text_;
+  LineReader lines_;
   Filter filter_;
-  const Cancellation& cancellation_;
-  std::size_t position_ = 0;
-  std::int32_t lines_read_ = 0;
-  std::int32_t line_number_ = 0;
-  std::string line_;
+  std::string passed_;
 };
 
 }  // namespace transillum
