@@ -29,6 +29,19 @@ double seconds(const QElapsedTimer& timer) {
   return 1e-9 * static_cast<double>(timer.nsecsElapsed());
 }
 
+/// Runs a part of the worker's loop, which reports its own failures. If there is no memory for the
+/// report either, the next request may succeed; an exception that left the thread would end the
+/// program.
+template <class Part>
+void run_unlocked(std::unique_lock<std::mutex>& lock, const Part& part) {
+  lock.unlock();
+  try {
+    part();
+  } catch (...) {
+  }
+  lock.lock();
+}
+
 }  // namespace
 
 SolveRunner::SolveRunner(QObject* parent) : QObject(parent), worker_([this] { work(); }) {}
@@ -120,50 +133,51 @@ void SolveRunner::set_goal(Goal goal) {
 void SolveRunner::work() {
   lower_thread_priority();
   std::unique_lock lock(mutex_);
-  while (true) {
-    const auto has_work = [this] {
-      return quit_ || open_request_ || restart_request_ || form_factors_requested_ ||
-             goal_.kind != Goal::Kind::pause;
-    };
-    if (!has_work()) {
-      post_state(idle_state());
+  while (!quit_) {
+    try {
+      work_once(lock);
+    } catch (const std::bad_alloc&) {
+      // No memory to begin a request, or for the message that none is left: tried again.
     }
-    wake_.wait(lock, has_work);
-    if (quit_) {
-      return;
-    }
-    interrupted_ = false;
+  }
+}
 
-    if (open_request_) {
-      const OpenRequest request = *std::exchange(open_request_, std::nullopt);
-      load_cancellation_ = Cancellation();
-      loading_ = true;
-      lock.unlock();
-      load(request);
-      lock.lock();
-      loading_ = false;
-    } else if (restart_request_) {
-      options_ = *std::exchange(restart_request_, std::nullopt);
-      solve_cancellation_ = Cancellation();
-      const SolveOptions options = options_;
-      lock.unlock();
-      start_solve(options);
-      lock.lock();
-    } else if (form_factors_requested_) {
-      form_factors_requested_ = false;
-      lock.unlock();
-      post_form_factors();
-      lock.lock();
-    } else {
-      const Goal goal = goal_;
-      const std::uint64_t number = goal_number_;
-      lock.unlock();
-      advance(goal);
-      lock.lock();
-      // Keep a goal that was interrupted by a load: the solve continues if that load fails.
-      if (number == goal_number_ && !open_request_) {
-        goal_ = {};
-      }
+/// Waits for the next request, then handles it without holding the lock.
+void SolveRunner::work_once(std::unique_lock<std::mutex>& lock) {
+  const auto has_work = [this] {
+    return quit_ || open_request_ || restart_request_ || form_factors_requested_ ||
+           goal_.kind != Goal::Kind::pause;
+  };
+  if (!has_work()) {
+    post_state(idle_state());
+  }
+  wake_.wait(lock, has_work);
+  if (quit_) {
+    return;
+  }
+  interrupted_ = false;
+
+  if (open_request_) {
+    load_cancellation_ = Cancellation();
+    const OpenRequest request = *std::exchange(open_request_, std::nullopt);
+    loading_ = true;
+    run_unlocked(lock, [&] { load(request); });
+    loading_ = false;
+  } else if (restart_request_) {
+    solve_cancellation_ = Cancellation();
+    options_ = *std::exchange(restart_request_, std::nullopt);
+    const SolveOptions options = options_;
+    run_unlocked(lock, [&] { start_solve(options); });
+  } else if (form_factors_requested_) {
+    form_factors_requested_ = false;
+    run_unlocked(lock, [&] { post_form_factors(); });
+  } else {
+    const Goal goal = goal_;
+    const std::uint64_t number = goal_number_;
+    run_unlocked(lock, [&] { advance(goal); });
+    // Keep a goal that was interrupted by a load: the solve continues if that load fails.
+    if (number == goal_number_ && !open_request_) {
+      goal_ = {};
     }
   }
 }
@@ -463,15 +477,13 @@ void SolveRunner::post_snapshot() {
   use_stored_result(*snapshot);
   since_snapshot_.start();
   snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
-  {
-    const std::lock_guard lock(mutex_);
-    const bool message_queued = pending_snapshot_ != nullptr;
-    pending_snapshot_ = std::move(snapshot);
-    if (message_queued) {
-      return;
-    }
+  const std::lock_guard lock(mutex_);
+  const bool message_queued = pending_snapshot_ != nullptr;
+  if (!message_queued) {
+    post([this] { deliver_snapshot(); });
   }
-  post([this] { deliver_snapshot(); });
+  // After post(), which may throw: a pending snapshot without its message would block all others.
+  pending_snapshot_ = std::move(snapshot);
 }
 
 // Before the first direction, a result file has more than the solver.

@@ -79,6 +79,7 @@ class SolveRunner : public QObject {
   void deliver_snapshot();
   // The rest runs on the worker's thread.
   void work();
+  void work_once(std::unique_lock<std::mutex>& lock);
   void load(const OpenRequest& request);
   void read_scene(const OpenRequest& request, LoadedScene& loaded,
                   const Cancellation& cancellation);

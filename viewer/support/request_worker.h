@@ -103,29 +103,35 @@ class RequestWorker {
         continue;  // cleared during the pause
       }
       const Request request = *std::exchange(waiting_, std::nullopt);
-      cancellation_ = Cancellation();
-      const Cancellation cancellation = cancellation_;
-      lock.unlock();
       const Clock::time_point begin = Clock::now();
-      run_job(request, cancellation);
+      run_job(request, lock);
       const Clock::time_point end = Clock::now();
       pause_end =
           end + std::max<Clock::duration>(pause_.shortest, pause_.job_times * (end - begin));
-      lock.lock();
     }
   }
 
-  void run_job(const Request& request, const Cancellation& cancellation) {
+  /// Runs the job without holding the lock. Throws nothing.
+  void run_job(const Request& request, std::unique_lock<std::mutex>& lock) {
     try {
       try {
+        cancellation_ = Cancellation();
+        const Cancellation cancellation = cancellation_;
+        lock.unlock();
         job_(request, cancellation);
       } catch (const Canceled&) {
         // The requester no longer needs the result.
       } catch (...) {
+        if (lock.owns_lock()) {
+          lock.unlock();
+        }
         failed_(request, current_failure_text());
       }
     } catch (...) {
       // No memory for the message either: the next request may succeed.
+    }
+    if (!lock.owns_lock()) {
+      lock.lock();
     }
   }
 
