@@ -42,6 +42,7 @@ struct SceneDescription {
   std::vector<std::int32_t> face_material;  ///< index in `materials` of face f
   std::vector<std::int32_t> face_line;      ///< line of face f in the file; 0: none
   std::vector<std::string> notes;           ///< the reader's warnings, for Scene::report()
+  std::vector<std::string> files;           ///< read for it: the OBJ, then its MTL files
 
   /// Number of faces.
   std::size_t face_count() const { return face_begin.size(); }
@@ -112,6 +113,8 @@ class Scene {
 
   /// SceneDescription::name.
   const std::string& name() const { return name_; }
+  /// SceneDescription::files: those that nothing may overwrite.
+  const std::vector<std::string>& files() const { return files_; }
   /// Number of patches.
   PatchId patch_count() const { return static_cast<PatchId>(patches_.size()); }
   /// All patches, by PatchId.
@@ -150,6 +153,7 @@ class Scene {
 
  private:
   std::string name_;
+  std::vector<std::string> files_;
   SceneOptions options_;
   std::vector<Vec3> points_;
   std::vector<Material> materials_;

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "base/text_file.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -56,10 +58,16 @@ void check_used_materials(const SceneDescription& description) {
   for (const std::int32_t m : description.face_material) {
     at(used, m) = true;
   }
+  double largest = 0;
   for (std::size_t m = 0; m < used.size(); ++m) {
     if (used[m]) {
       check_material(description.materials[m], description.name + ": ");
+      largest = std::max(largest, max_abs(description.materials[m].exitance));
     }
+  }
+  if (largest > 0 && largest < smallest_exitance) {
+    throw InputError(fmt::format("{}: the largest exitance E is {}, but must be 0 or at least {}",
+                                 description.name, largest, smallest_exitance));
   }
 }
 
@@ -77,15 +85,15 @@ void check_material(const Material& material, const std::string& place) {
   for (const auto& [channel, rho] : channels(material.reflectance)) {
     if (!(rho >= 0 && rho < 1)) {
       throw InputError(
-          fmt::format("{}material `{}`: {} reflectance rho (Kd) is {}, but must be >= 0 and < 1",
-                      place, material.name, channel, rho));
+          fmt::format("{}material {}: {} reflectance rho (Kd) is {}, but must be >= 0 and < 1",
+                      place, in_quotes(material.name), channel, rho));
     }
   }
   for (const auto& [channel, e] : channels(material.exitance)) {
-    if (!(e >= 0 && std::isfinite(e))) {
+    if (!(e >= 0 && e <= largest_exitance)) {
       throw InputError(
-          fmt::format("{}material `{}`: {} exitance E (Ke) is {}, but must be >= 0 and finite",
-                      place, material.name, channel, e));
+          fmt::format("{}material {}: {} exitance E (Ke) is {}, but must be >= 0 and at most {}",
+                      place, in_quotes(material.name), channel, e, largest_exitance));
     }
   }
 }

@@ -10,11 +10,15 @@ namespace transillum {
 /// Largest magnitude of a coordinate, m; beyond it areas and volumes would overflow.
 inline constexpr double largest_coordinate = 1e60;
 
+/// Largest exitance, W/m², and smallest of a scene that has any: beyond them radiosities times
+/// areas are out of the range of double.
+inline constexpr double largest_exitance = 1e170, smallest_exitance = 1e-170;
+
 /// "name:line: face N: ", the beginning of every message about a face; N counts from 0, as in
 /// the results.
 std::string face_place(const SceneDescription& description, std::size_t face);
 
-/// Checks 0 <= rho < 1 and 0 <= E < infinity.
+/// Checks 0 <= rho < 1 and 0 <= E <= largest_exitance.
 /// @throws InputError beginning with `place`.
 void check_material(const Material& material, const std::string& place);
 

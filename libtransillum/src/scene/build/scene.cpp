@@ -12,7 +12,10 @@ namespace transillum {
 
 Scene::Scene(const SceneDescription& description, const SceneOptions& options,
              const Cancellation& cancellation)
-    : name_(description.name), options_(options), materials_(description.materials) {
+    : name_(description.name),
+      files_(description.files),
+      options_(options),
+      materials_(description.materials) {
   if (!(options.max_patch_area >= 0 && std::isfinite(options.max_patch_area))) {
     throw InputError(fmt::format("the maximum patch area is {} m², but must be finite and >= 0",
                                  options.max_patch_area));

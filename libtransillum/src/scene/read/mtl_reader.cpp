@@ -1,66 +1,58 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// MTL files: tinyobjloader parses them, but each line is checked before, and Kd and Ke are read
-// here as the nearest doubles.
+// MTL files. Their lines are few and simple, so they are read here, in memory proportional to the
+// number of different names; Kd and Ke become the nearest doubles.
 #include "scene/read/mtl_reader.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <istream>
+#include <utility>
 
-#include "base/invariant.h"
 #include "base/text_file.h"
-#include "scene/read/tinyobj_parser.h"
 
 namespace transillum {
 namespace {
 
-struct Definition {
-  Material material;
-  std::int32_t line = 0;
-  bool has_reflectance = false;
-};
-
-/// Inspects each line before tinyobjloader gets it, and keeps Kd and Ke as the nearest doubles.
-class MtlScan {
+/// Reads the lines of one file and reports each definition when it is complete.
+class MtlReader {
  public:
-  MtlScan(const std::string& file, Warnings& notes) : file_(file), notes_(notes) {}
+  struct Definition {
+    Material material;
+    std::int32_t line = 0;
+    bool has_reflectance = false;
+  };
 
-  /// Returns whether to pass the line to tinyobjloader.
-  bool inspect(const TextLine& line) {
+  MtlReader(const std::string& file, Warnings& notes) : file_(file), notes_(notes) {}
+
+  /// Returns the definition that the line ends, if any.
+  std::optional<Definition> read(const TextLine& line) {
     if (line.keyword == "newmtl") {
       return begin(line);
     }
     const bool reflectance = line.keyword == "Kd", exitance = line.keyword == "Ke";
     if (reflectance || exitance) {
-      if (definitions_.empty()) {
+      if (!current_) {
         fail(line, "comes before any newmtl");
       }
-      Material& material = definitions_.back().material;
-      (reflectance ? material.reflectance : material.exitance) = color(line);
-      definitions_.back().has_reflectance |= reflectance;
-      return true;
+      (reflectance ? current_->material.reflectance : current_->material.exitance) = color(line);
+      current_->has_reflectance |= reflectance;
+    } else if (line.keyword.starts_with("map_K")) {
+      notes_.add("texture maps, ignored", fmt::format("{}:{}: texture map {} is ignored", file_,
+                                                      line.number, in_quotes(line.keyword)));
     }
-    if (line.keyword.starts_with("map_K")) {
-      notes_.add("texture maps, ignored",
-                 fmt::format("{}:{}: texture map {} is ignored", file_, line.number, line.keyword));
-    }
-    return false;
+    return {};
   }
-  std::vector<Definition>& definitions() { return definitions_; }
+  /// The definition that the end of the file ends, if any.
+  std::optional<Definition> finish() { return std::exchange(current_, std::nullopt); }
 
  private:
-  bool begin(const TextLine& line) {
+  std::optional<Definition> begin(const TextLine& line) {
     if (line.rest.empty()) {
       fail(line, "has no name");
     }
-    Definition& definition = definitions_.emplace_back();
-    definition.material.name = line.rest;
-    definition.line = line.number;
-    return true;
+    return std::exchange(current_, Definition{{std::string(line.rest), {}, {}}, line.number});
   }
   Rgb color(const TextLine& line) {
-    split_words(line.rest, words_);
+    split_words(line.rest, words_, 4);
     if (words_.size() != 1 && words_.size() != 3) {
       fail(line, "requires three numbers");
     }
@@ -78,16 +70,14 @@ class MtlScan {
   }
   [[noreturn]] void fail(const TextLine& line, const std::string& what) const {
     const std::string material =
-        definitions_.empty()
-            ? ""
-            : fmt::format("material {}: ", in_quotes(definitions_.back().material.name));
+        current_ ? fmt::format("material {}: ", in_quotes(current_->material.name)) : "";
     throw InputError(
         fmt::format("{}:{}: {}{} {}", file_, line.number, material, line.keyword, what));
   }
 
   const std::string& file_;
   Warnings& notes_;
-  std::vector<Definition> definitions_;
+  std::optional<Definition> current_;
   std::vector<std::string_view> words_;
 };
 
@@ -95,34 +85,43 @@ class MtlScan {
 
 void MaterialLibrary::read(const std::filesystem::path& path, Warnings& notes,
                            const Cancellation& cancellation) {
-  const std::string file = path.string();
+  files_.push_back(path.string());
   const std::string text = read_text_file(path, largest_scene_file);
-  MtlScan scan(file, notes);
-  LineFeed feed(
-      text, [&](const TextLine& line) { return scan.inspect(line); }, cancellation);
-  std::istream stream(&feed);
-  // Without this the stream would swallow exceptions of inspect().
-  stream.exceptions(std::ios::badbit);
-  const std::vector<std::string> parsed = parse_mtl(stream);
-  // tinyobjloader adds a material without a name if there is none.
-  TRANSILLUM_INVARIANT(parsed.size() == std::max<std::size_t>(1, scan.definitions().size()),
-                       "tinyobjloader finds the same materials as the scan");
-  for (Definition& d : scan.definitions()) {
-    const std::string place = fmt::format("{}:{}: ", file, d.line);
-    if (numbers_.contains(d.material.name)) {
-      notes.add("repeated material definitions, ignored",
-                fmt::format("{}material {} is already defined; the first definition is used", place,
-                            in_quotes(d.material.name)));
-      continue;
+  LineReader lines(text, cancellation);
+  MtlReader reader(files_.back(), notes);
+  const auto define = [&](std::optional<MtlReader::Definition> definition) {
+    if (definition) {
+      add(std::move(definition->material), definition->line, definition->has_reflectance, notes);
     }
-    if (!d.has_reflectance) {
-      notes.add("materials without Kd", fmt::format("{}material {} has no Kd; its reflectance is 0",
-                                                    place, in_quotes(d.material.name)));
-    }
-    numbers_[d.material.name] = static_cast<std::int32_t>(materials_.size());
-    materials_.push_back(std::move(d.material));
-    places_.push_back(place);
+  };
+  while (const std::optional<TextLine> line = lines.next()) {
+    define(reader.read(*line));
   }
+  define(reader.finish());
+}
+
+/// Adds a definition of the last file.
+void MaterialLibrary::add(Material material, std::int32_t line, bool has_reflectance,
+                          Warnings& notes) {
+  const Place place{files_.size() - 1, line};
+  const bool is_new =
+      numbers_.try_emplace(material.name, static_cast<std::int32_t>(materials_.size())).second;
+  if (!is_new) {
+    notes.add("repeated material definitions, ignored",
+              fmt::format("{}material {} is already defined; the first definition is used",
+                          text_of(place), in_quotes(material.name)));
+    return;
+  }
+  if (!has_reflectance) {
+    notes.add("materials without Kd", fmt::format("{}material {} has no Kd; its reflectance is 0",
+                                                  text_of(place), in_quotes(material.name)));
+  }
+  materials_.push_back(std::move(material));
+  places_.push_back(place);
+}
+
+std::string MaterialLibrary::text_of(const Place& place) const {
+  return fmt::format("{}:{}: ", files_[place.file], place.line);
 }
 
 std::int32_t MaterialLibrary::find(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/build/warnings.h"
@@ -19,15 +20,25 @@ class MaterialLibrary {
   void read(const std::filesystem::path& path, Warnings& notes, const Cancellation& cancellation);
 
   const std::vector<Material>& materials() const { return materials_; }
+  /// Moves materials() out; find() remains valid.
+  std::vector<Material> take_materials() { return std::move(materials_); }
   /// "file:line: " of the definition, for messages.
-  const std::string& place(std::size_t material) const { return places_[material]; }
+  std::string place(std::size_t material) const { return text_of(places_[material]); }
   /// Index in materials(), or -1.
   std::int32_t find(const std::string& name) const;
   std::vector<std::string> names() const;
 
  private:
+  struct Place {
+    std::size_t file;
+    std::int32_t line;
+  };
+  void add(Material material, std::int32_t line, bool has_reflectance, Warnings& notes);
+  std::string text_of(const Place& place) const;
+
+  std::vector<std::string> files_;
   std::vector<Material> materials_;
-  std::vector<std::string> places_;
+  std::vector<Place> places_;
   std::map<std::string, std::int32_t> numbers_;
 };
 

@@ -1,6 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// OBJ files: tinyobjloader splits them into vertices, faces and materials, but each line is checked
-// before, and all numbers are read here, as the nearest doubles.
+// OBJ files: tinyobjloader splits them into vertices, faces and uses of materials, but each line is
+// checked before, and all numbers are read here, as the nearest doubles.
 #include "scene/read/obj_reader.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <istream>
 #include <new>
+#include <set>
 
 #include "base/invariant.h"
 #include "base/text_file.h"
@@ -37,12 +39,13 @@ bool is_ignored_silently(std::string_view keyword) {
 
 /// Reads one file. tinyobjloader parses the lines, but it reads malformed numbers as 0, lets large
 /// indices overflow, and does not round to nearest: so each line is checked before tinyobjloader
-/// gets it, and coordinates, Kd and Ke come from std::from_chars, as the nearest doubles.
+/// gets it, and coordinates come from std::from_chars, as the nearest doubles.
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, const Cancellation& cancellation)
       : path_(path), cancellation_(cancellation) {
     description_.name = path.string();
+    description_.files = {path.string()};
   }
 
   SceneDescription read() {
@@ -86,7 +89,7 @@ class ObjReader {
   }
 
   bool read_vertex(const TextLine& line) {
-    split_words(line.rest, words_);
+    split_words(line.rest, words_, 3);
     const std::size_t number = description_.points.size() + 1;
     if (number > max_vertices) {
       fail(fmt::format("more than {} vertices", max_vertices));
@@ -109,7 +112,7 @@ class ObjReader {
   }
 
   bool check_face(const TextLine& line) {
-    split_words(line.rest, words_);
+    split_words(line.rest, words_, max_face_corners + 1);
     if (words_.size() > max_face_corners) {
       fail_face(fmt::format("more than {} corners", max_face_corners));
     }
@@ -176,18 +179,35 @@ class ObjReader {
       fail("mtllib has no file name");
     }
     // One name with blanks, or several names: the existing files decide.
+    if (library_names_.contains(rest)) {
+      return;
+    }
     if (exists(library_path(rest))) {
-      library_.read(library_path(rest), notes_, cancellation_);
+      read_library(rest);
       return;
     }
     split_words(rest, words_);
     for (const std::string_view word : words_) {
-      const std::filesystem::path path = library_path(word);
-      if (!exists(path)) {
+      if (library_names_.contains(word)) {
+        continue;
+      }
+      if (!exists(library_path(word))) {
         fail(fmt::format("MTL file {} not found", in_quotes(word)));
       }
-      library_.read(path, notes_, cancellation_);
+      read_library(word);
     }
+  }
+  /// Reads each file once, however many lines name it, under however many names.
+  void read_library(std::string_view name) {
+    library_names_.emplace(name);
+    const std::filesystem::path path = library_path(name);
+    std::error_code error;
+    const std::filesystem::path file = std::filesystem::canonical(path, error);
+    if (!error && !library_files_.insert(file).second) {
+      return;
+    }
+    library_.read(path, notes_, cancellation_);
+    description_.files.push_back(path.string());
   }
   std::filesystem::path library_path(std::string_view name) const {
     std::filesystem::path path = path_.parent_path() / name;
@@ -228,7 +248,6 @@ class ObjReader {
   }
 
   void resolve_materials() {
-    description_.materials = library_.materials();
     std::vector<std::int32_t> resolved(used_names_.size(), -1);
     std::int64_t without = 0;
     for (std::int32_t& material : description_.face_material) {
@@ -243,6 +262,7 @@ class ObjReader {
       }
       material = known;
     }
+    description_.materials = library_.take_materials();
     if (without == 0) {
       return;
     }
@@ -291,6 +311,8 @@ class ObjReader {
   const Cancellation& cancellation_;
   SceneDescription description_;
   MaterialLibrary library_;
+  std::set<std::string, std::less<>> library_names_;  ///< read already, as written
+  std::set<std::filesystem::path> library_files_;     ///< the same, resolved
   Warnings notes_;
   std::int32_t line_ = 0;
   Vec3 vertex_;

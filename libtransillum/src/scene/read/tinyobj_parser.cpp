@@ -1,8 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "scene/read/tinyobj_parser.h"
 
-#include <map>
-
 // Compiled in, with doubles, in a separate namespace: a distribution's shared library of the same
 // name is built for float.
 #define TINYOBJLOADER_USE_DOUBLE
@@ -42,18 +40,6 @@ void parse_obj(std::istream& text, const ObjEvents& events) {
   };
   std::string warnings, errors;
   tinyobj::LoadObjWithCallback(text, callback, &callback_state, nullptr, &warnings, &errors);
-}
-
-std::vector<std::string> parse_mtl(std::istream& text) {
-  std::map<std::string, int> numbers;
-  std::vector<tinyobj::material_t> materials;
-  std::string warnings, errors;
-  tinyobj::LoadMtl(&numbers, &materials, &text, &warnings, &errors);
-  std::vector<std::string> names;
-  for (const tinyobj::material_t& m : materials) {
-    names.push_back(m.name);
-  }
-  return names;
 }
 
 }  // namespace transillum

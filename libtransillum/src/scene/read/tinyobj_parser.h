@@ -5,7 +5,6 @@
 #include <istream>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "transillum/vec3.h"
 
@@ -20,8 +19,5 @@ struct ObjEvents {
   std::function<void(const std::string&)> material;
 };
 void parse_obj(std::istream& text, const ObjEvents& events);
-
-/// The names of the materials in an MTL text, in order.
-std::vector<std::string> parse_mtl(std::istream& text);
 
 }  // namespace transillum
