@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/power_of_two.h"
 #include "radiosity/form_factors/form_factor_rows.h"
 #include "radiosity/memory_limit.h"
 #include "transillum/at.h"
@@ -36,12 +37,14 @@ struct DrawnPiece {
   double offset, radius;
 };
 
-/// The geometry that all hemicubes draw; immutable.
+/// The geometry that all hemicubes draw; immutable. Its unit of length is a power of two near the
+/// scene's diagonal, so that depths fit single precision whatever the size of the scene.
 struct HemicubeScene {
   const Scene& scene;
   const Cancellation& cancellation;
   int resolution;
-  double min_distance;  ///< distances from a plane up to this count as 0, m
+  double scale;         ///< from meters to units
+  double min_distance;  ///< distances from a plane up to this count as 0, units
   bool fronts_only;     ///< no back side is visible from any front side
   std::vector<Vec3> corners;
   std::vector<DrawnPiece> pieces;          ///< of coincident pieces, the covering one is last
@@ -53,7 +56,8 @@ struct HemicubeScene {
       : scene(*seen),
         cancellation(stop),
         resolution(pixels),
-        min_distance(coplanar_tolerance * seen->bounds().diagonal()),
+        scale(scale_to_one(seen->bounds().diagonal())),
+        min_distance(coplanar_tolerance * (scale * seen->bounds().diagonal())),
         fronts_only(fronts_see_no_backs(seen, tree)) {
     for (const Piece& piece : scene.pieces()) {
       add(piece);
@@ -101,7 +105,7 @@ struct HemicubeScene {
   void add(const Piece& piece) {
     DrawnPiece drawn{piece.patch, static_cast<std::uint32_t>(corners.size()), 0, {}, {}, 0, 0};
     for (const PointId p : scene.corners(piece)) {
-      corners.push_back(scene.point(p));
+      corners.push_back(scale * scene.point(p));
     }
     drawn.end = static_cast<std::uint32_t>(corners.size());
     drawn.normal = scene.patch(piece.patch).normal;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
 
+#include "base/power_of_two.h"
 #include "transillum/solve_errors.h"
 
 namespace {
@@ -80,8 +81,10 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   solver.setTolerance(tolerance);
   solver.setMaxIterations(1000);
   solver.compute(matrix);
-  const Eigen::VectorXd solution =
-      solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), size));
+  const Eigen::Map<const Eigen::VectorXd> known(right.data(), size);
+  // Scaled, because the squares of very large or very small numbers are out of range.
+  const double scale = size > 0 ? scale_to_one(known.cwiseAbs().maxCoeff()) : 1.0;
+  const Eigen::VectorXd solution = solver.solve(scale * known) / scale;
   if (solver.info() != Eigen::Success || !solution.allFinite()) {
     throw NotConvergent(
         "conjugate gradients do not converge: the row sums of the form factors are too large",
