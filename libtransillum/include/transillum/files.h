@@ -19,20 +19,32 @@
 
 namespace transillum {
 
-/// Writes `path` through a temporary file in the same folder.
+/// Writes `path` through a temporary file in the same folder. A symbolic link stays, and what it
+/// refers to is written, whether that exists or not. A device, and an open file of this process
+/// (such as /dev/stdout or /dev/fd/3), is written to directly, at its current position.
 /// @param path the file to write.
 /// @param write fills the stream; if it throws, no file is left behind.
 /// @throws std::runtime_error if the file cannot be written.
 void write_file_whole(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& write);
 
-/// Writes the description as OBJ, and its materials as an MTL file of the same stem beside it.
-/// @throws std::runtime_error if a file cannot be written.
+/// The MTL file that write_obj() writes beside an OBJ file: the same stem.
+std::filesystem::path materials_file_of(const std::filesystem::path& obj);
+/// Writes the description as OBJ, and its materials as materials_file_of() it.
+/// @throws InputError where either is one of SceneDescription::files; std::runtime_error if a file
+/// cannot be written.
 void write_obj(const std::filesystem::path& path, const SceneDescription& description);
 
 /// Checks, before a long computation, that a file can be written.
-/// @throws InputError where `path` is a folder, or its folder is missing or not writable.
+/// @throws InputError where `path` is a folder, a pipe, a loop of links or write-protected, or its
+/// folder is missing or not writable.
 void check_writable(const std::filesystem::path& path);
+/// Checks that no output is the same file as an input or another output, by whatever paths and
+/// links. Files that do not exist yet are the same if folder and name are. Devices and pipes may
+/// be outputs several times.
+/// @throws InputError naming both.
+void check_distinct(const std::vector<std::string>& outputs,
+                    const std::vector<std::string>& inputs);
 
 /// Checks that `path` is writable and ends in .csv, .vtp, .ply or .obj.
 /// @throws InputError
@@ -41,7 +53,8 @@ void check_result_path(const std::filesystem::path& path);
 /// @throws InputError
 void check_statistics_path(const std::filesystem::path& path);
 /// Writes a solution in the format given by the extension of `path`.
-/// @throws InputError for another extension; std::runtime_error if it cannot be written.
+/// @throws InputError for another extension, or where `path` is a file of the scene;
+/// std::runtime_error if it cannot be written.
 void write_result(const std::filesystem::path& path, const Solution& solution);
 
 /// Whether `path` ends in .vtp, the format that read_result() reads.

@@ -28,6 +28,9 @@ std::string empty_map_reason(const Scene& scene, const VisibilityMap& map);
 /// @throws InputError
 void check_map_path(const std::filesystem::path& path);
 
+/// Whether `path` ends in .svg or .png, to which MapPictureOptions apply.
+bool is_map_picture(const std::filesystem::path& path);
+
 /// Writes the map in the format given by the extension of `path`, completely or not at all.
 ///
 /// - .svg: a figure with title, legend and scale bar; one path per patch, of class
@@ -44,7 +47,8 @@ void check_map_path(const std::filesystem::path& path);
 /// @param scene the scene of `map`.
 /// @param map any.
 /// @param options of pictures.
-/// @throws InputError as check_map_path; std::runtime_error if the file cannot be written.
+/// @throws InputError as check_map_path, or where `path` is a file of the scene; std::runtime_error
+/// if the file cannot be written.
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options = {});
 

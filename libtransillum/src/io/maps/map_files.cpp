@@ -57,9 +57,15 @@ void check_map_path(const std::filesystem::path& path) {
   check_writable(path);
 }
 
+bool is_map_picture(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  return ending == ".svg" || ending == ".png";
+}
+
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options) {
   const MapWriter write = writer_for(path, options);
+  check_distinct({path.string()}, scene.files());
   write_file_whole(path, [&](std::ostream& out) { write(out, scene, map); });
 }
 

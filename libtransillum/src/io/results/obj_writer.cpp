@@ -80,9 +80,14 @@ void write_faces(std::ostream& stream, const SceneDescription& description,
 
 }  // namespace
 
+std::filesystem::path materials_file_of(const std::filesystem::path& obj) {
+  return std::filesystem::path(obj).replace_extension(".mtl");
+}
+
 void write_obj(const std::filesystem::path& path, const SceneDescription& description) {
   const std::vector<std::string> names = written_names(description.materials);
-  const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
+  const std::filesystem::path library = materials_file_of(path);
+  check_distinct({path.string(), library.string()}, description.files);
   write_file_whole(path, [&](std::ostream& stream) {
     write_faces(stream, description, library.filename().string(), names);
     // Both or neither: the MTL is renamed into place after all of the OBJ is written, and the OBJ

@@ -48,6 +48,7 @@ void check_statistics_path(const std::filesystem::path& path) {
 
 void write_result(const std::filesystem::path& path, const Solution& solution) {
   const ResultWriter write = writer_for(path);
+  check_distinct({path.string()}, solution.scene->files());
   write_file_whole(path, [&](std::ostream& out) { write(out, solution); });
 }
 
