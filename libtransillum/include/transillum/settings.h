@@ -6,6 +6,8 @@
 
 namespace transillum {
 
+struct SolveOptions;
+
 /// A setting of a solve run, described once for all user interfaces: the help of both programs and
 /// the viewer's panels, list of settings, lessons and session files.
 struct Setting {
@@ -22,5 +24,8 @@ const std::vector<Setting>& settings();
 /// Setting::description of a setting.
 /// @throws std::out_of_range where there is no setting `name`
 const char* description_of(const std::string& name);
+/// Why a setting changes nothing in any of these solves, as "used only with engine painter"; empty
+/// if it has an effect. For front ends, to refuse options that would silently do nothing.
+std::string why_unused(const std::string& name, const std::vector<SolveOptions>& solves);
 
 }  // namespace transillum
