@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "sequence_options.h"
+#include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -17,6 +18,7 @@ namespace transillum::cli {
 namespace {
 
 struct BoundsCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   SequenceOptions sequence;
@@ -25,24 +27,38 @@ struct BoundsCall {
   std::string out;
 };
 
+void check_options(const BoundsCall& call) {
+  check_seed(*call.command, call.sequence);
+  for (const char* option : {"--two-sided", "--max-patch-area"}) {
+    refuse_unless(!call.scene.empty(), *call.command, option, "used only with a SCENE");
+  }
+  for (const char* option : {"--directions", "--tolerance"}) {
+    refuse_unless(!call.scene.empty() || call.options.rho, *call.command, option,
+                  "used only with a SCENE or --reflectance, for the prediction");
+  }
+}
+
 int run(const BoundsCall& call) {
+  check_options(call);
   if (!call.out.empty()) {
     check_statistics_path(call.out);
   }
-  check_output_files(call.out.empty() ? std::vector<std::string>() : std::vector{call.out},
-                     call.scene);
+  const std::vector<std::string> outputs = given_files({call.out});
+  check_output_files(outputs);
+  if (!call.options.run.empty()) {
+    check_distinct(outputs, {call.options.run});
+  }
   const Cancellation& cancellation = cancel_on_signals();
   BoundsOptions options = call.options;
   options.directions = call.sequence.directions;
   options.sets = {call.sequence.sampling, call.sequence.seed, call.sequence.rotation,
                   !call.one_way};
   if (!call.scene.empty()) {
-    options.scene = load_scene(call.scene, call.scene_options, cancellation);
-    print_warnings(*options.scene);
+    options.scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
   }
   const BoundsReport report = make_bounds_report(options, cancellation);
   if (call.out.empty()) {
-    fmt::print("{}", text_of(report));
+    print_results(text_of(report));
   } else {
     write_bounds_report(call.out, report);
   }
@@ -92,6 +108,7 @@ Run add_bounds_command(CLI::App& program) {
       "bounds", "Prints how many directions an accuracy requires, guaranteed and estimated");
   command.add_option("SCENE", call->scene, "scene that defines the largest reflectance and R2/A")
       ->type_name("");
+  call->command = &command;
   add_bounds_options(command, call->options);
   add_sequence_options(command, call->sequence);
   command.add_flag("--one-way", call->one_way, "use the directions without their opposites");

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 #include <utility>
 
 #include "commands.h"
@@ -11,6 +11,7 @@
 #include "messages.h"
 #include "output_files.h"
 #include "sequence_options.h"
+#include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -21,6 +22,7 @@ namespace {
 constexpr int max_measured = 1 << 20;
 
 struct DirectionsCall {
+  const CLI::App* command = nullptr;
   SequenceOptions sequence;
   std::string out;
   CLI::Option* stats = nullptr;
@@ -28,16 +30,13 @@ struct DirectionsCall {
   std::string scene;
 };
 
-void check_call(const DirectionsCall& call) {
-  std::vector<std::string> files;
-  if (!call.out.empty()) {
-    files.push_back(call.out);
-  }
+std::vector<std::string> checked_outputs(const DirectionsCall& call) {
+  check_seed(*call.command, call.sequence);
   if (!call.stats_file.empty()) {
     check_statistics_path(call.stats_file);
-    files.push_back(call.stats_file);
   }
-  check_output_files(files, call.scene);
+  std::vector<std::string> files = given_files({call.out, call.stats_file});
+  check_output_files(files);
   const bool measured = call.stats->count() > 0;
   if (!call.scene.empty() && !measured) {
     throw InputError("--scene requires --stats");
@@ -46,37 +45,38 @@ void check_call(const DirectionsCall& call) {
     throw InputError(fmt::format("--stats: {} directions exceed the limit of {}",
                                  call.sequence.directions, max_measured));
   }
+  return files;
 }
 
-void measure(const DirectionsCall& call, const std::vector<DirectionSample>& samples) {
+void measure(const DirectionsCall& call, const std::vector<DirectionSample>& samples,
+             const std::vector<std::string>& outputs) {
   const Cancellation& cancellation = cancel_on_signals();
   std::shared_ptr<const Scene> scene;
   if (!call.scene.empty()) {
-    scene = load_scene(call.scene, {}, cancellation);
-    print_warnings(*scene);
+    scene = load_input_scene(call.scene, {}, outputs, cancellation);
   }
   const auto statistics = measure_directions(call.sequence, samples, scene, cancellation);
   if (call.stats_file.empty()) {
-    fmt::print("{}", text_of(statistics));
+    print_results(text_of(statistics));
   } else {
     write_direction_statistics(call.stats_file, statistics);
   }
 }
 
 int run(const DirectionsCall& call) {
-  check_call(call);
+  const std::vector<std::string> outputs = checked_outputs(call);
   const SequenceOptions& sequence = call.sequence;
   auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
   if (sequence.rotation) {
     samples = rotated(std::move(samples), *sequence.rotation);
   }
   if (call.stats->count() > 0) {
-    measure(call, samples);
+    measure(call, samples, outputs);
   }
   if (!call.out.empty()) {
     write_directions_csv(call.out, samples);
   } else if (call.stats->count() == 0) {
-    write_directions_csv(std::cout, samples);
+    print_results([&](std::ostream& out) { write_directions_csv(out, samples); });
   }
   return success;
 }
@@ -87,6 +87,7 @@ Run add_directions_command(CLI::App& program) {
   auto call = std::make_shared<DirectionsCall>();
   CLI::App& command = *program.add_subcommand(
       "directions", "Writes the points and directions of a sequence, or measures their quality");
+  call->command = &command;
   add_sequence_options(command, call->sequence);
   command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: standard output)")
       ->type_name("FILE.csv");

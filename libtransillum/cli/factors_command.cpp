@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 #include "commands.h"
 #include "interruption.h"
@@ -11,6 +11,7 @@
 #include "output_files.h"
 #include "progress_display.h"
 #include "sequence_options.h"
+#include "standard_output.h"
 #include "transillum/files.h"
 #include "transillum/hemicube.h"
 
@@ -18,12 +19,12 @@ namespace transillum::cli {
 namespace {
 
 struct FactorsCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   SequenceOptions sequence;
   SolveOptions passes;
   GatherOptions rays;
-  HemicubeOptions hemicubes;
   std::string out;
 };
 
@@ -36,25 +37,37 @@ FormFactors gather_by_rays(const FactorsCall& call, const Scene& scene,
                              [&](double share) { display.show("tracing rays", share); });
 }
 
-FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
-                           const Cancellation& cancellation, ProgressDisplay& display) {
-  HemicubeOptions options = call.hemicubes;
+HemicubeOptions hemicube_options(const FactorsCall& call) {
+  HemicubeOptions options;
+  if (call.passes.engine_options.resolution > 0) {
+    options.resolution = call.passes.engine_options.resolution;
+  }
   options.memory = call.passes.memory;
   options.threads = call.passes.threads;
+  return options;
+}
+
+FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
+                           const Cancellation& cancellation, ProgressDisplay& display) {
+  HemicubeOptions options = hemicube_options(call);
   return hemicube_form_factors(scene, options, cancellation,
                                [&](double share) { display.show("drawing hemicubes", share); });
 }
 
-FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
-                       const Cancellation& cancellation, ProgressDisplay& display) {
+SolveOptions pass_options(const FactorsCall& call) {
   SolveOptions options = call.passes;
   options.directions = call.sequence.directions;
   options.sampling = call.sequence.sampling;
   options.seed = call.sequence.seed;
   options.rotation = call.sequence.rotation;
   options.iterations = 1;
+  return options;
+}
+
+FormFactors sum_passes(const FactorsCall& call, const std::shared_ptr<const Scene>& scene,
+                       const Cancellation& cancellation, ProgressDisplay& display) {
   const auto tree = build_tree(*scene, cancellation, display);
-  RadiositySolver solver(scene, options, tree, cancellation);
+  RadiositySolver solver(scene, pass_options(call), tree, cancellation);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
     display.show_passes("", watched.progress());
     return true;
@@ -74,18 +87,34 @@ FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<
   }
 }
 
+void check_options(const FactorsCall& call) {
+  const Engine engine = call.passes.engine;
+  refuse_unless(engine == Engine::rays, *call.command, "--rays", "used only with engine rays");
+  if (engine == Engine::hemicube) {
+    hemicube_options(call).validate();
+  }
+  if (engine != Engine::rays) {
+    refuse_unused(*call.command, {pass_options(call)});
+    return;
+  }
+  // Here its rays start at patches: there is no direction, no plane of pixels, no memory limit.
+  for (const char* option :
+       {"--directions", "--sampling", "--rotate", "--resolution", "--memory"}) {
+    refuse_unless(false, *call.command, option, "not used with engine rays");
+  }
+}
+
 int run(const FactorsCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  if (!call.out.empty()) {
-    check_output_files({call.out}, call.scene);
-  }
-  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
-  print_warnings(*scene);
+  check_options(call);
+  const std::vector<std::string> outputs = given_files({call.out});
+  check_output_files(outputs);
+  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
   ProgressDisplay display;
   const FormFactors form_factors = compute_form_factors(call, scene, cancellation, display);
   display.clear();
   if (call.out.empty()) {
-    write_form_factors_csv(std::cout, form_factors);
+    print_results([&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
   } else {
     write_form_factors_csv(call.out, form_factors);
   }
@@ -98,6 +127,7 @@ Run add_factors_command(CLI::App& program) {
   auto call = std::make_shared<FactorsCall>();
   CLI::App& command =
       *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
+  call->command = &command;
   add_scene_argument(command, call->scene);
   add_sequence_options(command, call->sequence);
   add_parsed_option(
@@ -115,12 +145,11 @@ Run add_factors_command(CLI::App& program) {
       });
   add_parsed_option(
       command, "--resolution", "R",
-      fmt::format("engine hemicube: pixels along a side of the cube, even (default {})",
-                  call->hemicubes.resolution),
+      fmt::format("hemicube: pixels along a side of the cube, even (default {}); zbuffer, painter: "
+                  "pixels along the longer side of the projected scene (default {})",
+                  HemicubeOptions().resolution, EngineOptions::default_resolution),
       [call](const std::string& text) {
-        call->hemicubes.resolution =
-            static_cast<int>(parse_whole_number("--resolution", text, 2, 2048));
-        call->hemicubes.validate();
+        call->passes.engine_options.resolution = parse_resolution("--resolution", text);
       });
   add_scene_options(command, call->scene_options);
   add_machine_limits(command, call->passes.memory, call->passes.threads);

@@ -13,6 +13,7 @@
 #include "option_values.h"
 #include "progress_display.h"
 #include "report_text.h"
+#include "standard_output.h"
 #include "transillum/at.h"
 #include "transillum/coplanar_overlap.h"
 #include "transillum/radiosity.h"
@@ -35,7 +36,7 @@ struct InfoCall {
 };
 
 void print_row(const std::string& name, const std::string& value) {
-  fmt::print("{}", report_row(name, value));
+  print_results(report_row(name, value));
 }
 
 std::string point_text(const Vec3& p) {
@@ -123,7 +124,8 @@ void print_faces_seen(const std::vector<FaceSeenFromBehind>& faces) {
                   faces.size() > max_listed_faces ? fmt::format("; the first {}:", max_listed_faces)
                                                   : ":"));
   for (std::size_t k = 0; k < std::min(faces.size(), max_listed_faces); ++k) {
-    fmt::print("  face {:<11} {:.3g} % of its back visible\n", faces[k].face, 100 * faces[k].share);
+    print_results(fmt::format("  face {:<11} {:.3g} % of its back visible\n", faces[k].face,
+                              100 * faces[k].share));
   }
 }
 
@@ -139,8 +141,8 @@ void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& over
                                                 : ":"));
   for (std::size_t k = 0; k < std::min(overlaps.size(), max_listed_faces); ++k) {
     const auto& [upper, lower, area] = overlaps[k];
-    fmt::print("  face {:<11} overlaps face {}, {:.3g} m2\n", scene.patch(upper).face,
-               scene.patch(lower).face, area);
+    print_results(fmt::format("  face {:<11} overlaps face {}, {:.3g} m2\n",
+                              scene.patch(upper).face, scene.patch(lower).face, area));
   }
 }
 

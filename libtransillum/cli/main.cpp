@@ -5,15 +5,13 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <iostream>
-#include <system_error>
+#include <new>
 
 #include "commands.h"
 #include "help_format.h"
 #include "interruption.h"
 #include "messages.h"
+#include "standard_output.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
 #include "transillum/scene.h"
@@ -172,6 +170,17 @@ int report(const Program& program, const CLI::ParseError& error) {
   return wrong_call;
 }
 
+/// Refuses empty values, as in --out "": they would be taken for options that are not given.
+void check_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (option->get_items_expected_min() > 0 &&
+        std::find(values.begin(), values.end(), "") != values.end()) {
+      throw InputError(option->get_name() + ": the value is empty");
+    }
+  }
+}
+
 int run(int argc, char** argv) {
   Program program;
   std::vector<std::string> arguments = joined_directions(argc, argv);
@@ -183,12 +192,23 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report(program, error);
   }
-  return program.chosen()->second();
+  const auto& [command, run_command] = *program.chosen();
+  check_values(*command);
+  return run_command();
 }
 
 int run_reporting_errors(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (status == success) {
+      flush_results();
+    }
+    return status;
+  } catch (const StandardOutputError& error) {
+    if (!error.no_reader()) {
+      print_message(error.what());
+    }
+    return failure;
   } catch (const InputError& error) {
     print_message(error.what());
     return wrong_call;
@@ -198,26 +218,13 @@ int run_reporting_errors(int argc, char** argv) {
   } catch (const Canceled&) {
     print_message("interrupted; nothing to save yet");
     return interrupted;
+  } catch (const std::bad_alloc&) {
+    print_message("not enough memory");  // no string is made here, which could fail again
+    return failure;
   } catch (const std::exception& error) {
     print_message(error_text(error));
     return failure;
   }
-}
-
-/// Flushes standard output; results are written only if that succeeds.
-int after_flush(int status) {
-  errno = 0;
-  std::cout.flush();
-  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
-  if (written || status != success) {
-    return status;
-  }
-  // No message if a reader such as `head` has closed the pipe.
-  if (errno != EPIPE) {
-    print_message("standard output: cannot be written" +
-                  (errno ? ": " + std::generic_category().message(errno) : std::string()));
-  }
-  return failure;
 }
 
 }  // namespace
@@ -226,7 +233,9 @@ int after_flush(int status) {
 int main(int argc, char** argv) {
   using namespace transillum::cli;
   occupy_closed_streams();
-  // A closed pipe is a write error; it must not end the program before results are saved to files.
+  // A closed pipe and a file over the limit of `ulimit -f` are write errors; they must not end the
+  // program before the other results are saved.
   ::signal(SIGPIPE, SIG_IGN);
-  return after_flush(run_reporting_errors(argc, argv));
+  ::signal(SIGXFSZ, SIG_IGN);
+  return run_reporting_errors(argc, argv);
 }

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@ namespace transillum::cli {
 namespace {
 
 struct MapCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   Vec3 direction;
@@ -92,15 +94,23 @@ void add_pixel_options(CLI::App& command, MapCall& call) {
   command.add_flag("--difference", call.difference, "mark pixels that differ from the exact map");
 }
 
+void check_options(const MapCall& call) {
+  refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
+  refuse_unless(call.engine != Engine::local, *call.command, "--difference",
+                "used only with engine zbuffer, painter or rays");
+  const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
+  refuse_unless(pictures, *call.command, "--size", "used only with .svg and .png files");
+}
+
 int run(const MapCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
+  check_options(call);
   for (const std::string& file : call.out) {
     check_map_path(file);
   }
-  check_output_files(call.out, call.scene);
-  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  check_output_files(call.out);
+  const auto scene = load_input_scene(call.scene, call.scene_options, call.out, cancellation);
   check_receiver(call, *scene);
-  print_warnings(*scene);
   const VisibilityMap map = make_map(call, scene, cancellation);
   const std::string reason = empty_map_reason(*scene, map);
   if (!reason.empty()) {
@@ -119,6 +129,7 @@ Run add_map_command(CLI::App& program) {
   auto call = std::make_shared<MapCall>();
   CLI::App& command =
       *program.add_subcommand("map", "Writes or draws the visibility map of one direction");
+  call->command = &command;
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
   add_parsed_option(command, "--receiver", "I",

@@ -1,19 +1,34 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "messages.h"
 
-#include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
 #include <new>
 
 namespace transillum::cli {
 
-void print_message(const std::string& text) {
-  std::string line = text;
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  fmt::print(stderr, "transillum: {}\n", line);
+void print_diagnostics(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+    if (written > 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || errno != EINTR) {
+      return;
+    }
+  }
+}
+
+void print_message(std::string_view text) noexcept {
+  try {
+    std::string line = "transillum: " + std::string(text);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    print_diagnostics(line + "\n");
+  } catch (const std::bad_alloc&) {
+    print_diagnostics("transillum: not enough memory\n");
+  }
 }
 
 std::string remedy_hint(Remedy remedy) {
@@ -33,9 +48,6 @@ std::string remedy_hint(Remedy remedy) {
 }
 
 std::string error_text(const std::exception& error) {
-  if (dynamic_cast<const std::bad_alloc*>(&error)) {
-    return "not enough memory";
-  }
   const auto* solve_error = dynamic_cast<const SolveError*>(&error);
   return error.what() + remedy_hint(solve_error ? solve_error->remedy() : Remedy::none);
 }

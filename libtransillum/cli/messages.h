@@ -3,14 +3,18 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "transillum/scene.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum::cli {
 
+/// Writes `text` to stderr. All progress, warnings, summaries and errors go through this function:
+/// if stderr is closed, full or a pipe without a reader, the text is lost and nothing else.
+void print_diagnostics(std::string_view text) noexcept;
 /// Prints `text` on stderr as one line; control characters become blanks.
-void print_message(const std::string& text);
+void print_message(std::string_view text) noexcept;
 /// The option that may help, as " (try …)"; empty for Remedy::none.
 std::string remedy_hint(Remedy remedy);
 /// The text of an error, with the hint of a SolveError.

@@ -119,6 +119,26 @@ std::string choice_help(const std::string& setting, const std::vector<std::strin
                      default_name);
 }
 
+void refuse_unless(bool used, const CLI::App& command, const std::string& option,
+                   const std::string& why) {
+  const CLI::Option* known = command.get_option_no_throw(option);
+  if (!used && known != nullptr && known->count() > 0) {
+    throw InputError(option + ": " + why);
+  }
+}
+
+void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& solves,
+                   const std::string& except) {
+  for (const Setting& setting : settings()) {
+    const std::string name = setting.name;
+    const std::string why = name == except ? std::string() : why_unused(name, solves);
+    refuse_unless(why.empty(), command, "--" + name, why);
+    if (name == "two-way") {
+      refuse_unless(why.empty(), command, "--one-way", why);
+    }
+  }
+}
+
 void add_scene_argument(CLI::App& command, std::string& scene) {
   command
       .add_option("SCENE", scene,

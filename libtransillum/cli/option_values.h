@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "transillum/engine.h"
+#include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/settings.h"
 
@@ -36,6 +37,20 @@ std::string help_of(const std::string& setting, const Default& value) {
 /// The same with the list of valid names.
 std::string choice_help(const std::string& setting, const std::vector<std::string>& names,
                         const std::string& default_name);
+
+// Options that would do nothing are refused.
+
+/// Refuses an option that is given but not used.
+/// @param option with its dashes; the command need not have it
+/// @param why as "used only with engine rays"
+/// @throws InputError
+void refuse_unless(bool used, const CLI::App& command, const std::string& option,
+                   const std::string& why);
+/// Refuses every setting that is given but has no effect in any of these solves.
+/// @param except a setting that the command uses in another way
+/// @throws InputError
+void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& solves,
+                   const std::string& except = {});
 
 // Options that several commands share.
 

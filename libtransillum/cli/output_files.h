@@ -1,13 +1,26 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+
 namespace transillum::cli {
 
-/// Checks before a long computation that each file is writable, given once and not the scene file.
+/// Those of the files that have a name.
+std::vector<std::string> given_files(std::vector<std::string> files);
+
+/// Checks before a long computation that each file is writable and given once.
 /// @throws InputError
-void check_output_files(const std::vector<std::string>& files, const std::string& scene);
+void check_output_files(const std::vector<std::string>& files);
+
+/// Loads a scene, checks that no output would overwrite one of its files, and prints its warnings.
+/// @throws InputError, Canceled
+std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const SceneOptions& options,
+                                              const std::vector<std::string>& outputs,
+                                              const Cancellation& cancellation);
 
 }  // namespace transillum::cli

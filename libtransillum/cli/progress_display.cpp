@@ -7,10 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <system_error>
 
+#include "messages.h"
 #include "report_text.h"
 
 namespace transillum::cli {
@@ -41,6 +42,11 @@ std::string bar(double share, int cells) {
 ProgressDisplay::ProgressDisplay(bool quiet)
     : quiet_(quiet), terminal_(can_redraw_stderr()), last_(Clock::now()) {}
 
+ProgressDisplay::~ProgressDisplay() {
+  repeater_ = {};
+  clear();
+}
+
 bool ProgressDisplay::due() {
   using namespace std::chrono_literals;
   const auto now = Clock::now();
@@ -52,54 +58,96 @@ bool ProgressDisplay::due() {
 }
 
 void ProgressDisplay::show(const std::string& what, double share, const std::string& detail) {
+  const std::lock_guard lock(mutex_);
+  passes_ = {};
+  show_if_due({what, share, detail});
+}
+
+void ProgressDisplay::show_if_due(const Line& line) {
   if (quiet_ || !due()) {
     return;
   }
   if (terminal_) {
-    redraw(what, share, detail);
+    redraw(line);
     return;
   }
-  std::string line = what;
-  if (share >= 0) {
-    line += fmt::format(", {:.0f} %", 100 * std::min(share, 1.0));
+  std::string text = line.what;
+  if (line.share >= 0) {
+    text += fmt::format(", {:.0f} %", 100 * std::min(line.share, 1.0));
   }
-  if (!detail.empty()) {
-    line += ", " + detail;
+  if (!line.detail.empty()) {
+    text += ", " + line.detail;
   }
-  fmt::print(stderr, "{}\n", line);
+  print_diagnostics(text + "\n");
 }
 
 void ProgressDisplay::show_passes(const std::string& label, const SolveProgress& progress) {
   if (progress.direction == 0) {
     return;
   }
-  show(fmt::format("{}pass {}/{}", label, progress.direction, progress.passes),
-       static_cast<double>(progress.direction) / progress.passes,
-       rate_text(progress.passes_per_second, progress.seconds_left));
+  const std::lock_guard lock(mutex_);
+  passes_ = {fmt::format("{}pass {}/{}", label, progress.direction, progress.passes),
+             static_cast<double>(progress.direction) / progress.passes,
+             rate_text(progress.passes_per_second, progress.seconds_left)};
+  last_pass_ = Clock::now();
+  show_if_due(passes_);
 }
 
-void ProgressDisplay::redraw(const std::string& what, double share, const std::string& detail) {
-  std::string line = what;
-  if (share >= 0) {
-    const double shown = std::min(share, 1.0);
-    line += fmt::format(" {} {:3.0f} %", bar(shown, 16), 100 * shown);
+void ProgressDisplay::expect_passes(const std::string& label, int passes) {
+  if (quiet_) {
+    return;
   }
-  if (!detail.empty()) {
-    line += "  " + detail;
+  const std::lock_guard lock(mutex_);
+  passes_ = {fmt::format("{}pass 0/{}", label, passes), 0, {}};
+  last_pass_ = Clock::now();
+  if (repeater_.joinable()) {
+    return;
+  }
+  try {
+    repeater_ =
+        std::jthread([this](const std::stop_token& stop) { repeat_while_passes_take_long(stop); });
+  } catch (const std::system_error&) {
+    // No more threads: then there is less progress to read.
+  }
+}
+
+void ProgressDisplay::repeat_while_passes_take_long(const std::stop_token& stop) {
+  using namespace std::chrono_literals;
+  std::unique_lock lock(mutex_);
+  while (!stopping_.wait_for(lock, stop, 1s, [] { return false; }) && !stop.stop_requested()) {
+    const std::chrono::duration<double> waiting = Clock::now() - last_pass_;
+    if (passes_.what.empty() || waiting < 1s) {
+      continue;
+    }
+    Line line = passes_;
+    line.detail += fmt::format("{}next pass under way for {}", line.detail.empty() ? "" : ", ",
+                               time_text(waiting.count()));
+    show_if_due(line);
+  }
+}
+
+void ProgressDisplay::redraw(const Line& line) {
+  std::string text = line.what;
+  if (line.share >= 0) {
+    const double shown = std::min(line.share, 1.0);
+    text += fmt::format(" {} {:3.0f} %", bar(shown, 16), 100 * shown);
+  }
+  if (!line.detail.empty()) {
+    text += "  " + line.detail;
   }
   // A line that wraps cannot be redrawn in place.
-  line.resize(std::min(line.size(), terminal_width() - 1));
-  fmt::print(stderr, "\r{}\033[K", line);
-  std::fflush(stderr);
+  text.resize(std::min(text.size(), terminal_width() - 1));
+  print_diagnostics("\r" + text + "\033[K");
   drawn_ = true;
 }
 
 void ProgressDisplay::clear() {
+  const std::lock_guard lock(mutex_);
+  passes_ = {};
   if (!drawn_) {
     return;
   }
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  print_diagnostics("\r\033[K");
   drawn_ = false;
 }
 

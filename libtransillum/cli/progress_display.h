@@ -2,8 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
@@ -12,14 +15,15 @@
 namespace transillum::cli {
 
 /// Progress on stderr: one line redrawn in place on a terminal, otherwise plain lines at most once
-/// per second. Tasks that finish sooner show nothing.
+/// per second. Tasks that finish sooner show nothing. A thread of its own repeats the last line
+/// about passes while the next pass takes long.
 ///
-/// Threads: not thread-safe.
+/// Threads: only one may call it.
 class ProgressDisplay {
  public:
   /// @param quiet shows nothing
   explicit ProgressDisplay(bool quiet = false);
-  ~ProgressDisplay() { clear(); }
+  ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
@@ -28,18 +32,33 @@ class ProgressDisplay {
   void show(const std::string& what, double share, const std::string& detail = {});
   /// Shows label and number of the pass, with rate and time left; nothing between iterations.
   void show_passes(const std::string& label, const SolveProgress& progress);
+  /// Passes begin, of which the first may take minutes.
+  void expect_passes(const std::string& label, int passes);
   /// Clears the line, before other text is printed.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// What the line says.
+  struct Line {
+    std::string what;
+    double share = -1;
+    std::string detail;
+  };
   bool due();
-  void redraw(const std::string& what, double share, const std::string& detail);
+  void show_if_due(const Line& line);
+  void redraw(const Line& line);
+  void repeat_while_passes_take_long(const std::stop_token& stop);
 
   bool quiet_;
   bool terminal_;
+  std::mutex mutex_;  ///< of what follows
   bool drawn_ = false;
   Clock::time_point last_;
+  Line passes_;  ///< repeated; empty while no passes are under way
+  Clock::time_point last_pass_;
+  std::condition_variable_any stopping_;
+  std::jthread repeater_;
 };
 
 /// "12.3 passes/s, 1:15 min left"

@@ -8,6 +8,7 @@
 #include "interruption.h"
 #include "messages.h"
 #include "option_values.h"
+#include "output_files.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -25,8 +26,10 @@ int run(const SceneCall& call) {
   if (out.extension() != ".obj") {
     throw InputError(fmt::format("{}: the name of a scene file must end in .obj", call.out));
   }
-  check_writable(out);
+  const std::vector<std::string> outputs{call.out, materials_file_of(out).string()};
+  check_output_files(outputs);
   const SceneDescription description = describe_scene(call.scene, cancellation);
+  check_distinct(outputs, description.files);
   for (const std::string& note : description.notes) {
     print_message("warning: " + note);
   }

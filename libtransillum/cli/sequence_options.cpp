@@ -25,4 +25,9 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
       [&options](const std::string& text) { options.rotation = parse_seed("--rotate", text); });
 }
 
+void check_seed(const CLI::App& command, const SequenceOptions& options) {
+  refuse_unless(is_seeded(options.sampling), command, "--seed",
+                "used only with sampling random, sobol or scrambled-hammersley");
+}
+
 }  // namespace transillum::cli

@@ -20,4 +20,8 @@ struct SequenceOptions {
 /// -m, --sampling, --seed, --rotate
 void add_sequence_options(CLI::App& command, SequenceOptions& options);
 
+/// Refuses --seed where only the sampling could use it and does not.
+/// @throws InputError
+void check_seed(const CLI::App& command, const SequenceOptions& options);
+
 }  // namespace transillum::cli

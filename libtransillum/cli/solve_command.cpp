@@ -15,6 +15,7 @@
 #include "progress_display.h"
 #include "sequence_options.h"
 #include "solve_summary.h"
+#include "standard_output.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/hemicube.h"
@@ -30,6 +31,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 struct SolveCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   SequenceOptions sequence;
@@ -41,7 +43,7 @@ struct SolveCall {
   bool quiet = false;
 };
 
-void check_outputs(const SolveCall& call) {
+std::vector<std::string> checked_outputs(const SolveCall& call) {
   for (const std::string& file : call.out) {
     check_result_path(file);
   }
@@ -50,7 +52,8 @@ void check_outputs(const SolveCall& call) {
     check_statistics_path(call.stats);
     files.push_back(call.stats);
   }
-  check_output_files(files, call.scene);
+  check_output_files(files);
+  return files;
 }
 
 SolveOptions solve_options(const SolveCall& call) {
@@ -65,6 +68,7 @@ SolveOptions solve_options(const SolveCall& call) {
     options.iterations = options.burn_in + default_averaged_iterations;
   }
   options.validate();
+  refuse_unused(*call.command, {options});
   return options;
 }
 
@@ -106,6 +110,7 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
   const double seconds_bsp = seconds_since(start);
   const auto shot = shoot_first(scene, options, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation, shot.light);
+  display.expect_passes("iteration 1, ", solver.progress().passes);
   try {
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
       show_progress(display, watched);
@@ -165,13 +170,12 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
 
 int run(const SolveCall& call) {
   const auto start = Clock::now();
-  check_outputs(call);
+  const std::vector<std::string> outputs = checked_outputs(call);
   const SolveOptions options = solve_options(call);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
-  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
   const double seconds_load = seconds_since(start);
-  print_warnings(*scene);
 
   const auto solve_scene =
       takes_directions(options.engine) ? solve_by_passes : solve_with_hemicubes;
@@ -183,9 +187,9 @@ int run(const SolveCall& call) {
 
   const std::string summary = solve_summary(solution);
   if (call.out.empty()) {
-    fmt::print("{}", summary);
+    print_results(summary);
   } else if (!call.quiet) {
-    fmt::print(stderr, "{}", summary);
+    print_diagnostics(summary);
   }
   if (solution.complete) {
     return success;
@@ -269,6 +273,7 @@ void add_outputs(CLI::App& command, SolveCall& call) {
 Run add_solve_command(CLI::App& program) {
   auto call = std::make_shared<SolveCall>();
   CLI::App& command = *program.add_subcommand("solve", "Computes the radiosity of every patch");
+  call->command = &command;
   add_scene_argument(command, call->scene);
   add_sequence_options(command, call->sequence);
   add_estimator(command, *call);

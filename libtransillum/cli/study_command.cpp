@@ -11,8 +11,10 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "standard_output.h"
 #include "study_summary.h"
 #include "transillum/errors.h"
+#include "transillum/files.h"
 #include "transillum/reference_cache.h"
 #include "transillum/study.h"
 #include "transillum/study_files.h"
@@ -28,6 +30,7 @@ struct StudiedEngine {
 };
 
 struct StudyCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   std::vector<int> directions{16, 64, 256, 1024};
@@ -104,11 +107,30 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
   return all;
 }
 
+/// Refuses options that do nothing for any of the series.
+void check_options(const StudyCall& call, const StudyOptions& options) {
+  const CLI::App& command = *call.command;
+  std::vector<SolveOptions> solves;
+  for (const StudySeries& series : options.series) {
+    solves.push_back(options.solve_options(series, options.directions.front()));
+  }
+  const bool own_resolutions = std::all_of(call.engines.begin(), call.engines.end(),
+                                           [](const auto& one) { return one.resolution > 0; });
+  refuse_unless(!own_resolutions, command, "--resolution", "every engine has its own");
+  const bool by_passes = std::any_of(solves.begin(), solves.end(), [](const SolveOptions& solve) {
+    return takes_directions(solve.engine);
+  });
+  refuse_unused(command, solves, by_passes && options.rotations > 1 ? "seed" : "");
+  refuse_unless(by_passes, command, "--rotations", "not used with engine hemicube");
+  refuse_unless(!call.plots.empty(), command, "--against", "used only with --plot");
+}
+
 StudyOptions study_options(const StudyCall& call) {
   StudyOptions options = call.study;
   options.directions = call.directions;
   options.series = all_series(call);
   options.validate();
+  check_options(call, options);
   return options;
 }
 
@@ -149,17 +171,18 @@ int run(const StudyCall& call) {
     check_chart_path(file);
   }
   std::vector<std::string> files = call.plots;
-  if (!call.out.empty()) {
-    files.push_back(call.out);
-  }
-  check_output_files(files, call.scene);
+  files.push_back(call.out);
+  files = given_files(files);
+  check_output_files(files);
 
   StudyContext context{{}, {}, cancel_on_signals(), ProgressDisplay(call.quiet)};
-  context.scene = load_scene(call.scene, call.scene_options, context.cancellation);
-  print_warnings(*context.scene);
+  context.scene = load_input_scene(call.scene, call.scene_options, files, context.cancellation);
+  const SolveOptions reference_options = options.reference(call.reference);
+  check_distinct(
+      files, given_files(
+                 {ReferenceCache(call.cache).file_of(*context.scene, reference_options).string()}));
   context.tree = build_tree(*context.scene, context.cancellation, context.display);
-  const std::vector<Rgb> reference =
-      reference_radiosity(call, options.reference(call.reference), context);
+  const std::vector<Rgb> reference = reference_radiosity(call, reference_options, context);
   const std::vector<std::string> names = names_of(options.series);
   const Study study = run_study(
       context.scene, context.tree, options, reference,
@@ -182,9 +205,9 @@ int run(const StudyCall& call) {
   }
   const std::string summary = study_summary(*context.scene, options, study, call.error);
   if (call.out.empty()) {
-    fmt::print("{}", summary);
+    print_results(summary);
   } else if (!call.quiet) {
-    fmt::print(stderr, "{}", summary);
+    print_diagnostics(summary);
   }
   if (study.complete) {
     return success;
@@ -328,6 +351,7 @@ Run add_study_command(CLI::App& program) {
   auto call = std::make_shared<StudyCall>();
   CLI::App& command =
       *program.add_subcommand("study", "Measures the error of B against the number of passes");
+  call->command = &command;
   add_scene_argument(command, call->scene);
   add_series_options(command, *call);
   add_error_options(command, *call);

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 #include "commands.h"
 #include "interruption.h"
@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "standard_output.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
@@ -19,6 +20,7 @@ namespace transillum::cli {
 namespace {
 
 struct TransfersCall {
+  const CLI::App* command = nullptr;
   std::string scene;
   SceneOptions scene_options;
   Vec3 direction;
@@ -33,18 +35,17 @@ int run(const TransfersCall& call) {
     throw InputError(fmt::format("--engine: {} has no directions (try solve, factors or study)",
                                  name_of(call.engine)));
   }
-  if (!call.out.empty()) {
-    check_output_files({call.out}, call.scene);
-  }
-  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
-  print_warnings(*scene);
+  refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
+  const std::vector<std::string> outputs = given_files({call.out});
+  check_output_files(outputs);
+  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
   ProgressDisplay progress;
   const auto tree = build_tree(*scene, cancellation, progress);
   const TransferEngine engine = make_engine(call.engine, scene, tree, call.engine_options);
   const Transfers transfers = engine(call.direction, cancellation);
   progress.clear();
   if (call.out.empty()) {
-    write_transfers_csv(std::cout, transfers);
+    print_results([&](std::ostream& out) { write_transfers_csv(out, transfers); });
   } else {
     write_transfers_csv(call.out, transfers);
   }
@@ -57,6 +58,7 @@ Run add_transfers_command(CLI::App& program) {
   auto call = std::make_shared<TransfersCall>();
   CLI::App& command =
       *program.add_subcommand("transfers", "Writes the areas A(i,j,omega) of one direction");
+  call->command = &command;
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
   add_engine_options(command, call->engine, call->engine_options);

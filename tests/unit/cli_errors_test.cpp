@@ -194,7 +194,7 @@ TEST(CliErrors, SceneFileIsNotOverwritten) {
   const std::string scene = folder / "furnace.obj";
   ASSERT_EQ(run_program({"scene", "furnace", "--out", scene}).status, 0);
   const std::string before = read_file(scene);
-  expect_refused({"solve", scene, "--out", scene}, "would overwrite the scene file");
+  expect_refused({"solve", scene, "--out", scene}, "would overwrite the input file");
   EXPECT_EQ(read_file(scene), before);
 }
 

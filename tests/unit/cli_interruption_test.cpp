@@ -29,8 +29,21 @@ void wait_for_passes(const RunningProgram& program) {
   }
 }
 
+/// Sets what SIGHUP does; programs inherit that it is ignored.
+class DispositionOfHangUp {
+ public:
+  explicit DispositionOfHangUp(sighandler_t disposition) : before_(::signal(SIGHUP, disposition)) {}
+  ~DispositionOfHangUp() { ::signal(SIGHUP, before_); }
+  DispositionOfHangUp(const DispositionOfHangUp&) = delete;
+  DispositionOfHangUp& operator=(const DispositionOfHangUp&) = delete;
+
+ private:
+  sighandler_t before_;
+};
+
 TEST(CliInterruption, SavesResultsSoFarAndExitsWith130) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const DispositionOfHangUp as_usual(SIG_DFL);
     const TemporaryFolder folder;
     RunningProgram program(long_solve(folder));
     wait_for_passes(program);
@@ -45,6 +58,31 @@ TEST(CliInterruption, SavesResultsSoFarAndExitsWith130) {
     EXPECT_TRUE(json.at("energy_defect").is_null());
     EXPECT_EQ(line_count(read_file(folder / "a.csv")), 1 + json.at("patches").get<std::size_t>());
   }
+}
+
+/// After `nohup`, closing the terminal changes nothing.
+TEST(CliInterruption, AnIgnoredHangUpStaysIgnored) {
+  const DispositionOfHangUp ignored(SIG_IGN);
+  const TemporaryFolder folder;
+  RunningProgram program(long_solve(folder));
+  wait_for_passes(program);
+  EXPECT_TRUE(program.catches(SIGTERM));
+  EXPECT_FALSE(program.catches(SIGHUP));
+  program.send(SIGTERM);
+  EXPECT_EQ(program.wait().status, 130);
+}
+
+// A pass of engine global takes minutes on large scenes; nothing was shown before the first ended.
+TEST(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
+  RunningProgram program({"solve", "sphere-flake", "--engine", "global", "--two-sided", "-m", "2"});
+  const std::string expected = "iteration 1, pass 0/2, 0 %, next pass under way for ";
+  for (int k = 0; k < 600 && program.err_so_far().find("pass ") == std::string::npos; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(expected));
 }
 
 TEST(CliInterruption, WritesNothingBeforeTheFirstPass) {

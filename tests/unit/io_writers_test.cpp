@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Files of results, statistics and transfers, and writing files completely or not at all.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -252,13 +253,6 @@ TEST(IoWholeFiles, ASymbolicLinkIsKept) {
   EXPECT_EQ(read_file(folder / "target"), "new");
 }
 
-TEST(IoWholeFiles, LongNamesAreWritten) {
-  const TemporaryFolder folder;
-  const std::string name(255, 'n');
-  write_file_whole(folder / name, [](std::ostream& out) { out << "x"; });
-  EXPECT_THAT(folder.names(), ElementsAre(name));
-}
-
 std::string failure_of(const std::string& path) {
   try {
     write_file_whole(path, [](std::ostream& out) { out << std::string(100000, 'x'); });
@@ -266,6 +260,96 @@ std::string failure_of(const std::string& path) {
     return error.what();
   }
   return {};
+}
+
+TEST(IoWholeFiles, ALinkToNothingIsWrittenThrough) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "results");
+  std::filesystem::create_symlink("results/second", folder / "first");
+  std::filesystem::create_symlink("target", folder / "results/second");
+  write_file_whole(folder / "first", [](std::ostream& out) { out << "new"; });
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "results/second"));
+  EXPECT_EQ(read_file(folder / "results/target"), "new");
+}
+
+TEST(IoWholeFiles, ALoopOfLinksIsAnError) {
+  const TemporaryFolder folder;
+  const std::string a = folder / "a", b = folder / "b";
+  std::filesystem::create_symlink(a, b);
+  std::filesystem::create_symlink(b, a);
+  EXPECT_THAT(failure_of(a), HasSubstr("Too many levels of symbolic links"));
+  EXPECT_THROW(check_writable(a), InputError);
+  EXPECT_TRUE(std::filesystem::is_symlink(a));
+  EXPECT_THAT(folder.names(), ElementsAre("a", "b"));
+}
+
+/// It has no name before it is complete, where the file system can do that.
+TEST(IoWholeFiles, AKilledProgramLeavesNoTemporaryFile) {
+  const TemporaryFolder folder;
+  const int unnamed = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (unnamed < 0) {
+    GTEST_SKIP() << "the file system has no unnamed files";
+  }
+  ::close(unnamed);
+  write_file_whole(folder / "a.csv", [&](std::ostream& out) {
+    out << "new" << std::flush;
+    EXPECT_THAT(folder.names(), IsEmpty());
+  });
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
+}
+
+TEST(IoWholeFiles, OpenFilesAreWrittenAtTheirPosition) {
+  const TemporaryFolder folder;
+  write_text(folder / "log", "as it was, ");
+  const int log = ::open((folder / "log").c_str(), O_WRONLY | O_APPEND);
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  for (const int descriptor : {log, ends[1]}) {
+    for (const std::string name : {"/dev/fd/", "/proc/self/fd/"}) {
+      EXPECT_NO_THROW(check_writable(name + std::to_string(descriptor)));
+      write_file_whole(name + std::to_string(descriptor), [](std::ostream& out) { out << "new "; });
+    }
+    ::close(descriptor);
+  }
+  EXPECT_EQ(read_file(folder / "log"), "as it was, new new ");
+  std::string read(100, ' ');
+  read.resize(static_cast<std::size_t>(::read(ends[0], read.data(), read.size())));
+  EXPECT_EQ(read, "new new ");
+  EXPECT_THROW(check_writable("/dev/fd/" + std::to_string(ends[0])), InputError);
+  ::close(ends[0]);
+  EXPECT_THAT(folder.names(), ElementsAre("log"));
+}
+
+TEST(IoWholeFiles, WriteProtectedFilesAreKept) {
+  if (::geteuid() == 0) {
+    GTEST_SKIP() << "nothing is write-protected for root";
+  }
+  const TemporaryFolder folder;
+  write_text(folder / "a.csv", "old");
+  ::chmod((folder / "a.csv").c_str(), 0444);
+  EXPECT_THROW(check_writable(folder / "a.csv"), InputError);
+  EXPECT_THAT(failure_of(folder / "a.csv"), HasSubstr("Permission denied"));
+  EXPECT_EQ(read_file(folder / "a.csv"), "old");
+}
+
+TEST(IoWholeFiles, FilesOfASceneAreNotOverwritten) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
+  write_text(folder / "a.obj", "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const SceneDescription description = describe_scene(folder / "a.obj");
+  EXPECT_THAT(description.files, ElementsAre(folder / "a.obj", folder / "m.mtl"));
+  EXPECT_THROW(write_obj(folder / "a.obj", description), InputError);
+  EXPECT_THROW(write_obj(folder / "m.obj", description), InputError);
+  EXPECT_NO_THROW(write_obj(folder / "b.obj", description));
+  EXPECT_THAT(read_file(folder / "m.mtl"), HasSubstr("newmtl a\nKd 0.5 0.5 0.5\n"));
+}
+
+TEST(IoWholeFiles, LongNamesAreWritten) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file_whole(folder / name, [](std::ostream& out) { out << "x"; });
+  EXPECT_THAT(folder.names(), ElementsAre(name));
 }
 
 TEST(IoWholeFiles, FailuresNameTheFileAndTheReason) {

@@ -49,20 +49,42 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& out) {
+namespace {
+
+/// Makes a process start with stream `number` going to `target`.
+void redirect(posix_spawn_file_actions_t& actions, int number, const std::string& target) {
+  if (target == closed_stream) {
+    posix_spawn_file_actions_addclose(&actions, number);
+  } else if (target == pipe_without_reader) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) {
+      throw std::runtime_error("no pipe");
+    }
+    posix_spawn_file_actions_adddup2(&actions, ends[1], number);
+    ::close(ends[0]);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, number, target.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
+  }
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& out,
+                               const std::string& err, const std::string& folder) {
   std::vector<char*> argv{const_cast<char*>(TRANSILLUM_PROGRAM)};
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
   argv.push_back(nullptr);
-  const std::string out_file = out.empty() ? streams_ / "out" : out;
-  const std::string err_file = streams_ / "err";
-  constexpr int writing = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_addopen(&streams, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&streams, 1, out_file.c_str(), writing, 0600);
-  posix_spawn_file_actions_addopen(&streams, 2, err_file.c_str(), writing, 0600);
+  redirect(streams, 1, out.empty() ? streams_ / "out" : out);
+  redirect(streams, 2, err.empty() ? streams_ / "err" : err);
+  if (!folder.empty()) {
+    posix_spawn_file_actions_addchdir_np(&streams, folder.c_str());
+  }
   const int error = ::posix_spawn(&process_, argv[0], &streams, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&streams);
   if (error != 0) {

@@ -35,11 +35,19 @@ struct ProgramResult {
   std::string out, err;
 };
 
+/// Where a stream of the program goes, besides files.
+inline const std::string closed_stream = "(closed)";
+inline const std::string pipe_without_reader = "(pipe without a reader)";
+
 /// A process of the program `transillum`; its output is stored in files.
 class RunningProgram {
  public:
-  /// @param out file for standard output; empty: ProgramResult::out
-  explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {});
+  /// @param out file to which standard output is appended, or one of the above; empty:
+  /// ProgramResult::out
+  /// @param err the same for standard error and ProgramResult::err
+  /// @param folder where the program runs; empty: the current folder
+  explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {},
+                          const std::string& err = {}, const std::string& folder = {});
   void send(int signal) const;
   /// Whether the process has installed a handler for the signal.
   bool catches(int signal) const;
@@ -53,8 +61,9 @@ class RunningProgram {
 };
 
 inline ProgramResult run_program(const std::vector<std::string>& arguments,
-                                 const std::string& out = {}) {
-  return RunningProgram(arguments, out).wait();
+                                 const std::string& out = {}, const std::string& err = {},
+                                 const std::string& folder = {}) {
+  return RunningProgram(arguments, out, err, folder).wait();
 }
 
 std::size_t line_count(const std::string& text);

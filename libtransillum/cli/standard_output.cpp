@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "standard_output.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <iostream>
+#include <system_error>
+
+namespace transillum::cli {
+
+StandardOutputError::StandardOutputError(int error_number)
+    : std::runtime_error(
+          "standard output: cannot be written" +
+          (error_number ? ": " + std::generic_category().message(error_number) : std::string())),
+      no_reader_(error_number == EPIPE) {}
+
+void print_results(const std::function<void(std::ostream&)>& write) {
+  errno = 0;
+  write(std::cout);
+  if (!std::cout) {
+    throw StandardOutputError(errno);
+  }
+}
+
+void print_results(const std::string& text) {
+  print_results([&text](std::ostream& out) { out << text; });
+}
+
+void flush_results() {
+  print_results([](std::ostream& out) {
+    out.flush();
+    if (std::fflush(stdout) != 0) {
+      out.setstate(std::ios::badbit);
+    }
+  });
+}
+
+}  // namespace transillum::cli

@@ -1,0 +1,155 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Output files: no command overwrites a file that it reads, or writes a file twice; links, pipes
+// and files that cannot be written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+/// A folder with a.obj, which uses mats.mtl, and the statistics s.json of a solve.
+class CliOutputs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run({"scene", "furnace", "--out", "mats.obj"}).status, 0);
+    fs::rename(folder_ / "mats.obj", folder_ / "a.obj");
+    ASSERT_EQ(run({"solve", "furnace", "-m", "64", "--replicas", "4", "--stats", "s.json"}).status,
+              0);
+    names_ = folder_.names();
+    for (const std::string& name : names_) {
+      contents_.push_back(read_file(folder_ / name));
+    }
+  }
+
+  ProgramResult run(const std::vector<std::string>& arguments) const {
+    return run_program(arguments, {}, {}, folder_.path().string());
+  }
+
+  /// Exit status 2, one line, and every file as it was.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(expected));
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      EXPECT_EQ(read_file(folder_ / names_[k]), contents_[k]) << names_[k];
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> names_, contents_;
+};
+
+TEST_F(CliOutputs, NoCommandOverwritesAFileThatItReads) {
+  fs::create_symlink("a.obj", folder_ / "link.obj");
+  fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.csv");
+  fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.svg");
+  fs::create_hard_link(folder_ / "mats.mtl", folder_ / "hard.json");
+  fs::create_symlink(folder_.path(), folder_ / "folder");
+  const std::string obj = "would overwrite the input file a.obj";
+  const std::string mtl = "would overwrite the input file mats.mtl";
+  expect_refused({"scene", "a.obj", "--out", "a.obj"}, obj);
+  expect_refused({"scene", "a.obj", "--out", "folder/../folder/./a.obj"}, obj);
+  expect_refused({"scene", "a.obj", "--out", "link.obj"}, obj);
+  expect_refused({"scene", "a.obj", "--out", "mats.obj"}, "mats.mtl: " + mtl);
+  expect_refused({"solve", "a.obj", "-m", "8", "--out", "link.obj"}, obj);
+  expect_refused({"solve", "a.obj", "-m", "8", "--out", "hard.csv"}, mtl);
+  expect_refused({"solve", "a.obj", "-m", "8", "--stats", "hard.json"}, mtl);
+  expect_refused({"factors", "a.obj", "-m", "8", "-o", "mats.mtl"}, mtl);
+  expect_refused({"factors", "link.obj", "-m", "8", "-o", "a.obj"}, "input file link.obj");
+  expect_refused({"transfers", "a.obj", "--direction", "0,0,1", "-o", "mats.mtl"}, mtl);
+  expect_refused({"map", "a.obj", "--direction", "0,0,1", "-o", "hard.svg"}, mtl);
+  expect_refused({"study", "a.obj", "-m", "8", "--no-cache", "-o", "folder/mats.mtl"}, mtl);
+  expect_refused({"study", "a.obj", "-m", "8", "--no-cache", "--plot", "hard.svg"}, mtl);
+  expect_refused({"directions", "-m", "8", "--stats", "--scene", "a.obj", "-o", "a.obj"}, obj);
+  expect_refused({"bounds", "a.obj", "-o", "hard.json"}, mtl);
+  expect_refused({"bounds", "--run", "s.json", "-o", "./s.json"}, "input file s.json");
+}
+
+TEST_F(CliOutputs, NoCommandWritesAFileTwice) {
+  write_text(folder_ / "old.csv", "old");
+  fs::create_hard_link(folder_ / "old.csv", folder_ / "again.csv");
+  fs::create_symlink("new.csv", folder_ / "to-new.csv");
+  const std::string twice = "given twice as an output file";
+  expect_refused({"solve", "furnace", "-m", "8", "-o", "old.csv", "-o", "again.csv"}, twice);
+  expect_refused({"solve", "furnace", "-m", "8", "-o", "to-new.csv", "-o", "new.csv"}, twice);
+  expect_refused({"study", "furnace", "-m", "8", "-o", "new.svg", "--plot", "./new.svg"}, twice);
+  fs::create_symlink("b.mtl", folder_ / "b.obj");
+  expect_refused({"scene", "furnace", "-o", "b.obj"}, twice);
+  EXPECT_EQ(run({"directions", "-m", "8", "-o", "/dev/null", "--stats"}).status, 0);
+}
+
+TEST_F(CliOutputs, ALoopOfLinksIsRefused) {
+  fs::create_symlink("y.csv", folder_ / "x.csv");
+  fs::create_symlink("x.csv", folder_ / "y.csv");
+  expect_refused({"solve", "furnace", "-m", "8", "-o", "x.csv"},
+                 "x.csv: cannot be written: Too many levels of symbolic links");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "x.csv"));
+}
+
+TEST_F(CliOutputs, ALinkToNothingIsWrittenThrough) {
+  fs::create_directory(folder_ / "results");
+  fs::create_symlink("results/r.csv", folder_ / "r.csv");
+  EXPECT_EQ(run({"directions", "-m", "4", "-o", "r.csv"}).status, 0);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "r.csv"));
+  EXPECT_EQ(line_count(read_file(folder_ / "results/r.csv")), 5U);
+  fs::create_symlink("missing/r.csv", folder_ / "s.csv");
+  expect_refused({"directions", "-m", "4", "-o", "s.csv"}, "there is no folder");
+}
+
+TEST_F(CliOutputs, EmptyNamesAreRefused) {
+  expect_refused({"directions", "-m", "4", "-o", ""}, "--out: the value is empty");
+  expect_refused({"solve", "furnace", "-m", "4", "--stats", ""}, "--stats: the value is empty");
+  expect_refused({"study", "furnace", "-m", "4", "--plot", ""}, "--plot: the value is empty");
+  expect_refused({"bounds", "--run", ""}, "--run: the value is empty");
+}
+
+TEST_F(CliOutputs, UnusualNamesAreWritten) {
+  for (const std::string name :
+       {"two words.csv", "two\nlines.csv", "\xff\xfe.csv", "-x.csv", "=.csv"}) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(run({"solve", "furnace", "-q", "-m", "8", "--out=" + name}).status, 0);
+    EXPECT_EQ(line_count(read_file(folder_ / name)), 13U);
+  }
+}
+
+/// Sets the limit of the size of files; programs inherit it.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Otherwise SIGXFSZ would end the program, and a temporary file would stay.
+TEST_F(CliOutputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNothing) {
+  ProgramResult result;
+  {
+    const FileSizeLimit limit(20000);
+    result = run({"directions", "-m", "1000", "-o", "d.csv"});
+  }
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err, "transillum: d.csv: cannot be written: File too large\n");
+  EXPECT_EQ(folder_.names(), names_);
+}
+
+}  // namespace
+}  // namespace transillum::testing

@@ -1,0 +1,155 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Options that would do nothing are refused; the same options are accepted where they have an
+// effect.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program_run.h"
+#include "transillum/radiosity.h"
+#include "transillum/settings.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+using Call = std::vector<std::string>;
+
+Call joined(Call first, const Call& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+const Call solve{"solve", "furnace", "-q", "-m", "8"};
+const Call by_hemicubes{"solve", "furnace", "-q", "--engine", "hemicube"};
+const Call transfers{"transfers", "furnace", "--direction", "1,2,3"};
+const Call map{"map", "furnace", "--direction", "1,2,3"};
+const Call factors{"factors", "furnace"};
+const Call study{"study", "furnace", "-q", "--no-cache", "-m", "8", "--sampling", "fibonacci"};
+const Call study_hemicubes{"study", "furnace", "-q", "--no-cache", "--engines", "hemicube:16"};
+
+/// A call, and options of which the last is not used.
+struct Unused {
+  Call call, options;
+  std::string expected;
+};
+
+const Unused unused[] = {
+    {solve, {"--resolution", "64"}, "--resolution: used only with engine zbuffer, painter"},
+    {solve, {"--order", "newell"}, "--order: used only with engine painter"},
+    {solve, {"--engine", "zbuffer", "--order", "bsp"}, "--order: used only with engine painter"},
+    {solve, {"--lines", "10"}, "--lines: used only with engine rays"},
+    {solve, {"--engine", "rays", "--resolution", "64", "--lines", "10"}, "without a resolution"},
+    {solve, {"--random-lines"}, "--random-lines: used only with engine rays"},
+    {solve, {"--burn-in", "2"}, "--burn-in: used only with scheme semi-iterative"},
+    {solve, {"--seed", "2"}, "--seed: used only with sampling random"},
+    {solve, {"--seed", "1"}, "--seed: used only with"},
+    {solve, {"--replicas", "2", "--rotate", "3", "--seed", "2"}, "--seed: used only with"},
+    {solve,
+     {"--scheme", "semi-iterative", "--sampling", "hammersley", "--seed", "2"},
+     "--seed: used only with"},
+    {by_hemicubes, {"--sampling", "fibonacci"}, "--sampling: not used with engine hemicube"},
+    {by_hemicubes, {"--one-way"}, "--one-way: not used with engine hemicube"},
+    {by_hemicubes, {"--two-way"}, "--two-way: not used with engine hemicube"},
+    {by_hemicubes, {"-m", "64"}, "--directions: not used with engine hemicube"},
+    {by_hemicubes, {"--rotate", "2"}, "--rotate: not used with engine hemicube"},
+    {by_hemicubes, {"--seed", "2"}, "--seed: used only with"},
+    {transfers, {"--resolution", "64"}, "--resolution: used only with"},
+    {transfers, {"--order", "newell"}, "--order: used only with"},
+    {transfers, {"--lines", "10"}, "--lines: used only with"},
+    {transfers, {"--random-lines"}, "--random-lines: used only with"},
+    {map, {"--out", "m.svg", "--resolution", "64"}, "--resolution: used only with"},
+    {map, {"--out", "m.svg", "--order", "newell"}, "--order: used only with"},
+    {map, {"--out", "m.svg", "--difference"}, "--difference: used only with"},
+    {map, {"--out", "m.json", "--size", "300"}, "--size: used only with .svg and .png"},
+    {factors, {"--rays", "10"}, "--rays: used only with engine rays"},
+    {factors, {"--resolution", "10"}, "--resolution: used only with"},
+    {factors, {"--seed", "2"}, "--seed: used only with"},
+    {factors, {"--engine", "rays", "-m", "8"}, "--directions: not used with engine rays"},
+    {factors, {"--engine", "rays", "--sampling", "random"}, "--sampling: not used with"},
+    {factors, {"--engine", "rays", "--rotate", "2"}, "--rotate: not used with engine rays"},
+    {factors, {"--engine", "rays", "--resolution", "8"}, "--resolution: not used with"},
+    {factors, {"--engine", "rays", "--memory", "1G"}, "--memory: not used with engine rays"},
+    {factors, {"--engine", "hemicube", "-m", "8"}, "--directions: not used with engine hemicube"},
+    {factors, {"--engine", "hemicube", "--sampling", "random"}, "--sampling: not used with"},
+    {factors, {"--engine", "hemicube", "--seed", "2"}, "--seed: used only with"},
+    {{"directions", "-m", "4"}, {"--seed", "2"}, "--seed: used only with sampling random, sobol"},
+    {{"bounds"}, {"--seed", "2"}, "--seed: used only with sampling"},
+    {{"bounds"}, {"--two-sided"}, "--two-sided: used only with a SCENE"},
+    {{"bounds"}, {"--max-patch-area", "1"}, "--max-patch-area: used only with a SCENE"},
+    {{"bounds"}, {"-m", "64"}, "--directions: used only with a SCENE or --reflectance"},
+    {{"bounds"}, {"--tolerance", "0.1"}, "--tolerance: used only with a SCENE or --reflectance"},
+    {study, {"--seed", "2"}, "--seed: used only with"},
+    {study, {"--resolution", "64"}, "--resolution: used only with"},
+    {study, {"--order", "newell"}, "--order: used only with"},
+    {study, {"--lines", "10"}, "--lines: used only with"},
+    {study, {"--random-lines"}, "--random-lines: used only with"},
+    {study, {"--engines", "zbuffer:64", "--resolution", "32"}, "every engine has its own"},
+    {study, {"--against", "seconds"}, "--against: used only with --plot"},
+    {study_hemicubes, {"--one-way"}, "--one-way: not used with engine hemicube"},
+    {study_hemicubes, {"--sampling", "random"}, "--sampling: not used with engine hemicube"},
+    {study_hemicubes, {"--rotations", "2"}, "--rotations: not used with engine hemicube"},
+};
+
+TEST(CliUnusedOptions, AreRefused) {
+  const TemporaryFolder folder;
+  for (const Unused& one : unused) {
+    const Call arguments = joined(one.call, one.options);
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const ProgramResult result = run_program(arguments, {}, {}, folder.path().string());
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(one.expected));
+  }
+  EXPECT_THAT(folder.names(), ::testing::IsEmpty());
+}
+
+TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
+  const Call calls[] = {
+      joined(solve, {"--engine", "rays", "--resolution", "64", "--seed", "2", "--random-lines"}),
+      joined(solve, {"--engine", "rays", "--lines", "10"}),
+      joined(solve, {"--engine", "painter", "--order", "newell", "--resolution", "64"}),
+      joined(solve, {"--sampling", "sobol", "--seed", "2", "--one-way"}),
+      joined(solve, {"--replicas", "2", "--seed", "2"}),
+      joined(solve,
+             {"--scheme", "semi-iterative", "--iterations", "9", "--burn-in", "2", "--seed", "2"}),
+      joined(by_hemicubes, {"--resolution", "16", "--iterations", "3", "--scheme", "fixed"}),
+      joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", "64"}),
+      joined(factors, {"--engine", "rays", "--rays", "10", "--seed", "2"}),
+      joined(factors, {"--engine", "hemicube", "--resolution", "16"}),
+      joined(map, {"--out", "m.svg", "--out", "m.json", "--size", "300"}),
+      {"directions", "-m", "4", "--sampling", "random", "--seed", "2"},
+      {"bounds", "--reflectance", "0.5", "-m", "64", "--tolerance", "0.1"},
+      joined(study, {"--rotations", "2", "--seed", "2"}),
+      joined(study,
+             {"--engines", "fast,zbuffer:64,painter", "--resolution", "32", "--order", "bsp"}),
+  };
+  const TemporaryFolder folder;
+  for (const Call& arguments : calls) {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const ProgramResult result = run_program(arguments, {}, {}, folder.path().string());
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+}
+
+TEST(CliUnusedOptions, ZbufferFormFactorsDependOnTheResolution) {
+  const auto with = [](const std::string& resolution) {
+    return run_program(
+               joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", resolution}))
+        .out;
+  };
+  EXPECT_NE(with("16"), with("64"));
+}
+
+/// Every setting is known: a misspelled name in the table would never be found.
+TEST(CliUnusedOptions, TheTableNamesSettings) {
+  std::size_t count = 0;
+  for (const Setting& setting : settings()) {
+    count += why_unused(setting.name, {}).empty() ? 0 : 1;
+  }
+  EXPECT_EQ(count, 10U);
+}
+
+}  // namespace
+}  // namespace transillum::testing
