@@ -147,5 +147,15 @@ TEST(ReaderLimits, MessagesQuoteTheBeginningOfLongNames) {
   EXPECT_LT(message.size(), 300u);
 }
 
+// The suggested name was written to the terminal as it was in the file.
+TEST(ReaderLimits, MessagesContainNoControlCharacters) {
+  const test::TemporaryFolder folder;
+  folder.write("s.mtl", "newmtl whit\x1b\nKd .5 .5 .5\n");
+  const std::string message = test::refusal([&] {
+    read_obj(folder.write("s.obj", "mtllib s.mtl\n" + square + "usemtl white\nf 1 2 3\n"));
+  });
+  EXPECT_THAT(message, testing::EndsWith("s.obj:6: material `white` is not defined"));
+}
+
 }  // namespace
 }  // namespace transillum

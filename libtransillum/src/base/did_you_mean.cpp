@@ -47,7 +47,11 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(word, names);
-  return nearest.empty() ? std::string() : fmt::format("; did you mean \"{}\"?", nearest);
+  // Names of a damaged file may contain control characters, which are not for a terminal.
+  const bool printable = std::none_of(nearest.begin(), nearest.end(),
+                                      [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  return nearest.empty() || !printable ? std::string()
+                                       : fmt::format("; did you mean \"{}\"?", nearest);
 }
 
 }  // namespace transillum
