@@ -63,9 +63,9 @@ SolveOptions solve_options(const SolveCall& call) {
   options.seed = options.engine_options.seed = call.sequence.seed;
   options.rotation = call.sequence.rotation;
   options.two_way = !call.one_way;
-  // Its changes decrease as 1 / iterations: the default tolerance would take days.
+  // Its error decreases as 1 / sqrt(iterations): the default tolerance would take days.
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
-    options.iterations = options.burn_in + default_averaged_iterations;
+    options.averaged_iterations = default_averaged_iterations;
   }
   options.validate();
   refuse_unused(*call.command, {options});
@@ -240,11 +240,13 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
       choice_help("first-shot", {"none", fmt::format("auto ({})", small_source_ratio), "a number"},
                   "none"),
       [&options](const std::string& text) { options.first_shot = first_shot_from_name(text); });
-  add_parsed_option(command, "--burn-in", "N", help_of("burn-in", options.burn_in),
-                    [&options](const std::string& text) {
-                      options.burn_in =
-                          static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
-                    });
+  add_parsed_option(
+      command, "--burn-in", "N", help_of("burn-in", "auto"), [&options](const std::string& text) {
+        options.burn_in.reset();
+        if (text != "auto") {
+          options.burn_in = static_cast<int>(parse_whole_number("--burn-in", text, 0, 1'000'000));
+        }
+      });
   add_parsed_option(command, "--replicas", "R", help_of("replicas", "1: no error estimate"),
                     [&options](const std::string& text) {
                       options.replicas =

@@ -49,8 +49,12 @@ std::string convergence_text(const SolveStatistics& statistics) {
   if (statistics.iteration_records.empty()) {
     return "none finished";
   }
-  return fmt::format("{}, last change {:.2e}{}", statistics.iterations,
-                     statistics.iteration_records.back().change,
+  const IterationRecord& last = statistics.iteration_records.back();
+  const std::string result =
+      last.error ? fmt::format("{} in the mean, estimated error of the mean {:.2e}",
+                               statistics.iterations - statistics.burn_in, *last.error)
+                 : fmt::format("last change {:.2e}", last.change);
+  return fmt::format("{}, {}{}", statistics.iterations, result,
                      statistics.converged ? ", converged" : "");
 }
 

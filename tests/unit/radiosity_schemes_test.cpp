@@ -73,6 +73,23 @@ TEST(Schemes, ConjugateGradientsEqualTheIteration) {
   }
 }
 
+/// One direction sees some walls twice as large as they are: at high reflectance the light would
+/// grow without limit, and the linear system has a solution below 0.
+TEST(Schemes, ConjugateGradientsReportWhereTheIterationDiverges) {
+  SceneDescription description = describe_scene("furnace");
+  for (Material& material : description.materials) {
+    material.reflectance = {0.99, 0.99, 0.99};
+  }
+  const auto scene = std::make_shared<const Scene>(description);
+  for (const Scheme scheme : {Scheme::fixed, Scheme::conjugate_gradients}) {
+    for (const int directions : {1, 2}) {
+      const SolveOptions options{.directions = directions, .scheme = scheme};
+      EXPECT_THROW(solve(scene, options), NotConvergent) << name_of(scheme) << ' ' << directions;
+    }
+    EXPECT_NO_THROW(solve(scene, {.directions = 512, .scheme = scheme}));
+  }
+}
+
 TEST(Schemes, SemiIterativeMeansConverge) {
   SolveOptions options{
       .directions = 16, .sampling = Sampling::random, .scheme = Scheme::semi_iterative};
@@ -272,7 +289,8 @@ TEST(SchemeOptions, ReportInvalidCombinations) {
     return test::refusal([&] { options.validate(); });
   };
   EXPECT_THAT(message({.replicas = 65}), HasSubstr("replicas: 65 is not in the range 1 to 64"));
-  EXPECT_THAT(message({.directions = 3, .replicas = 4}), HasSubstr("exceeds the number of directions, 3"));
+  EXPECT_THAT(message({.directions = 3, .replicas = 4}),
+              HasSubstr("exceeds the number of directions, 3"));
   EXPECT_THAT(message({.burn_in = -1}), HasSubstr("burn-in: -1"));
   EXPECT_THAT(message({.scheme = Scheme::semi_iterative, .burn_in = 5, .iterations = 5}),
               HasSubstr("leave none for the mean"));

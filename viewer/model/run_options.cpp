@@ -53,7 +53,9 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   read_named(object, "normalize", solve.normalize, normalization_from_name);
   read_named(object, "scheme", solve.scheme, scheme_from_name);
   read_named(object, "first-shot", solve.first_shot, first_shot_from_name);
-  object.read("burn-in", solve.burn_in, 0, 1'000'000);
+  if (object.find("burn-in")) {
+    object.read("burn-in", solve.burn_in.emplace(), 0, 1'000'000);
+  }
   object.read("replicas", solve.replicas, 1, 64);
   object.read("iterations", solve.iterations, 0, 1'000'000);
   object.read("tolerance", solve.tolerance);
@@ -83,7 +85,7 @@ json to_json(const RunOptions& options) {
           {"normalize", name_of(solve.normalize)},
           {"scheme", name_of(solve.scheme)},
           {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
-          {"burn-in", solve.burn_in},
+          {"burn-in", solve.burn_in ? json(*solve.burn_in) : json()},
           {"replicas", solve.replicas},
           {"iterations", solve.iterations},
           {"tolerance", solve.tolerance},

@@ -153,16 +153,21 @@ void StudyChoices::show_cost() {
     cost_->setText(tr("Choose a sampling, what a pass serves, and a number of directions"));
     return;
   }
+  // How many iterations burn-in takes depends on the scene's reflectances.
+  bool exact = true;
   std::int64_t passes = 0;
   for (const StudySeries& series : options.series) {
     for (const int m : options.directions) {
       const SolveOptions solve = options.solve_options(series, m);
-      passes += std::int64_t{m} *
-                (solve.scheme == Scheme::semi_iterative ? std::int64_t{solve.iterations} : 1);
+      const double iterations = expected_iterations_with_passes(solve, 0);
+      passes += std::int64_t{m} * static_cast<std::int64_t>(iterations);
+      exact = exact && (solve.scheme != Scheme::semi_iterative || solve.burn_in.has_value());
     }
   }
-  cost_->setText(tr("%1 passes, plus %2 for the reference unless it is in the cache")
-                     .arg(count_text(passes), count_text(options.reference().directions)));
+  cost_->setText(
+      (exact ? tr("%1 passes, plus %2 for the reference unless it is in the cache")
+             : tr("More than %1 passes, plus %2 for the reference unless it is in the cache"))
+          .arg(count_text(passes), count_text(options.reference().directions)));
 }
 
 }  // namespace transillum::viewer

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <ostream>
+#include <string>
 
 #include "model/run_options.h"
 #include "transillum/errors.h"
@@ -14,7 +15,7 @@ namespace {
 
 // As the command line keeps them, before names become enumerators.
 struct Names {
-  std::string sampling, engine, normalize, scheme, first_shot = "none";
+  std::string sampling, engine, normalize, scheme, first_shot = "none", burn_in = "auto";
   bool one_way = false, two_way = false;
 };
 
@@ -49,7 +50,9 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("--first-shot", names.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
       ->capture_default_str();
-  app.add_option("--burn-in", solve.burn_in, description_of("burn-in"))->capture_default_str();
+  app.add_option("--burn-in", names.burn_in, description_of("burn-in"))
+      ->check(CLI::IsMember({"auto"}) | CLI::Range(0, 1'000'000))
+      ->capture_default_str();
   app.add_option("--replicas", solve.replicas, description_of("replicas"))->capture_default_str();
   auto* iterations = app.add_option("--iterations", solve.iterations, description_of("iterations"))
                          ->check(CLI::PositiveNumber);
@@ -74,6 +77,9 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   solve.normalize = normalization_from_name(names.normalize);
   solve.scheme = scheme_from_name(names.scheme);
   solve.first_shot = first_shot_from_name(names.first_shot);
+  if (names.burn_in != "auto") {
+    solve.burn_in = std::stoi(names.burn_in);
+  }
   solve.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty() && line.lesson.empty()) {

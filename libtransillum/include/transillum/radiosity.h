@@ -70,11 +70,17 @@ struct SolveOptions {
   /// R²/A from which sources are small and, if bright, are shot before the first iteration
   /// (find_small_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
-  int burn_in = 8;     ///< semi_iterative: iterations omitted from the mean
+  /// semi_iterative: iterations omitted from the mean; nothing: until what is left of the start
+  /// counts for less than the differences between iterations, or than a tenth of the tolerance; at
+  /// most half of `iterations`
+  std::optional<int> burn_in = {};
   int replicas = 1;    ///< 2 … 64: split the M directions into this many sets with independent
                        ///< rotations, whose spread gives an error estimate. At most M
-  int iterations = 0;  ///< number of iterations; 0: by tolerance
-  double tolerance = 1e-6;   ///< relative change of B in the maximum norm (eq. 25)
+  int iterations = 0;  ///< number of iterations; 0: by averaged_iterations or tolerance
+  /// semi_iterative: number of iterations in the mean, after which it stops; 0: by tolerance
+  int averaged_iterations = 0;
+  /// Relative change of B in the maximum norm (eq. 25); semi_iterative: IterationRecord::error
+  double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
 
@@ -86,9 +92,15 @@ struct SolveOptions {
 
 /// One finished iteration of eq. 11.
 struct IterationRecord {
-  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm
-  double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first
+  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm; of no mean
+  double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first.
+                           ///< semi_iterative: factor per iteration by which the influence of the
+                           ///< start decreases
   double seconds = 0;      ///< wall time
+  /// semi_iterative, from the eighth iteration in the mean on: largest error of the mean over its
+  /// largest value: 95 % of the spread of iterations, and all that is left of the start. The sets of
+  /// directions must differ: Sampling::hammersley and centered_hammersley have the error of one set.
+  std::optional<double> error = {};
 };
 
 /// The state of a solver.
@@ -106,7 +118,8 @@ struct SolveProgress {
 /// The error of B due to the finite number of directions, estimated from the spread of
 /// independently rotated replicas; no reference is needed. A random rotation makes each replica
 /// unbiased (eq. 47), so B ± quantile * standard error contains the B of infinitely many directions
-/// in 95 % of all runs. The first shot's own error is not included.
+/// in 95 % of all runs. In the semi-iterative scheme the bound of what is left of the start is
+/// included, as the root of the sum of squares. The first shot's own error is not included.
 struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
@@ -125,6 +138,7 @@ struct SolveStatistics {
   std::int64_t passes_made = 0;       ///< by the engine, in all iterations
   std::int64_t hemicubes = 0;         ///< drawn instead of passes; a direction is then one pixel
   int iterations = 0;                 ///< finished
+  int burn_in = 0;                    ///< semi_iterative: those omitted from the mean
   int threads = 0;                    ///< used
   std::int64_t transfers = 0;         ///< exchanges found, over all different directions
   std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed

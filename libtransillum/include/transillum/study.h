@@ -64,8 +64,14 @@ struct StudySeries {
 /// `hammersley/one-way/rows`.
 std::vector<std::string> names_of(std::span<const StudySeries> series);
 
-/// Default number of iterations in the mean of the semi-iterative scheme, after those of burn_in.
+/// Default number of iterations in the mean of the semi-iterative scheme, after the burn-in.
 inline constexpr int default_averaged_iterations = 16;
+
+/// Estimate of the number of iterations in which a solve makes passes: 1, or in the semi-iterative
+/// scheme all of them.
+/// @param options of the solve; of the semi-iterative scheme not those that stop by tolerance
+/// @param rho_max largest reflectance of the scene, below 1
+double expected_iterations_with_passes(const SolveOptions& options, double rho_max);
 
 /// Options of run_study().
 struct StudyOptions {
@@ -76,7 +82,7 @@ struct StudyOptions {
   int rotations = 1;
   /// Omit emitting patches from the errors: their known exitance may dominate everything else.
   bool without_sources = false;
-  /// Settings common to all series. In the semi-iterative scheme iterations = 0 means burn_in +
+  /// Settings common to all series. In the semi-iterative scheme averaged_iterations = 0 means
   /// default_averaged_iterations.
   SolveOptions solve{.tolerance = 1e-8};
 

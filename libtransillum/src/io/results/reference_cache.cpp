@@ -104,7 +104,8 @@ void add_options(Hash& hash, const SolveOptions& options) {
   hash.add(static_cast<int>(options.two_way));
   hash.add(name_of(options.normalize));
   hash.add(name_of(options.scheme));
-  hash.add(options.burn_in);
+  hash.add(options.burn_in.value_or(-1));
+  hash.add(options.averaged_iterations);
   hash.add(options.replicas);
   hash.add(options.iterations);
   hash.add(options.first_shot.value_or(-1));

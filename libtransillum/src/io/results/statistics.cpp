@@ -24,12 +24,16 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["two_way"] = options.two_way;
   json["normalize"] = name_of(options.normalize);
   json["scheme"] = name_of(options.scheme);
-  json["burn_in"] = options.scheme == Scheme::semi_iterative ? Json(options.burn_in) : Json();
+  const bool averages = options.scheme == Scheme::semi_iterative;
+  json["burn_in"] = averages && options.burn_in ? Json(*options.burn_in) : Json();
   json["replicas"] = options.replicas;
   json["first_shot"] = options.first_shot ? Json(*options.first_shot) : Json();
-  // The stopping rule is one of them; the other is null.
-  json["iterations"] = options.iterations > 0 ? Json(options.iterations) : Json();
-  json["tolerance"] = options.iterations > 0 ? Json() : Json(options.tolerance);
+  // The stopping rule is one of them; the others are null.
+  const bool by_number = options.iterations > 0;
+  const bool by_mean = averages && !by_number && options.averaged_iterations > 0;
+  json["iterations"] = by_number ? Json(options.iterations) : Json();
+  json["averaged_iterations"] = by_mean ? Json(options.averaged_iterations) : Json();
+  json["tolerance"] = by_number || by_mean ? Json() : Json(options.tolerance);
   json["memory"] = options.memory > 0 ? Json(options.memory) : Json();
   json["threads"] = options.threads > 0 ? Json(options.threads) : Json();
   json["two_sided"] = scene_options.two_sided;
@@ -72,6 +76,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["passes"] = statistics.passes;
   json["passes_made"] = statistics.passes_made;
   json["iterations"] = statistics.iterations;
+  json["burn_in"] = statistics.burn_in;
   json["threads"] = statistics.threads;
   json["transfers"] = statistics.transfers;
   json["form_factors"] = statistics.form_factors;
@@ -89,6 +94,8 @@ Json statistics_json(const SolveStatistics& statistics) {
   const auto& steps = statistics.iteration_records;
   json["change"] = list_of(steps, [](const IterationRecord& s) { return s.change; });
   json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
+  json["error"] =
+      list_of(steps, [](const IterationRecord& s) { return s.error ? Json(*s.error) : Json(); });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
   const PassCounts& counts = statistics.counts;
   json["counters"] = {{"pairs", counts.pairs},

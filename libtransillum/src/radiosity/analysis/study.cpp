@@ -16,6 +16,7 @@
 
 #include "base/bit_mixing.h"
 #include "base/choice.h"
+#include "base/power_of_two.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -57,12 +58,6 @@ std::string engine_text(Engine engine, int resolution) {
   return resolution > 0 ? fmt::format("{}:{}", name_of(engine), resolution) : name_of(engine);
 }
 
-/// Number of passes in all iterations of a solve that keeps its form factors.
-std::int64_t passes_of(const SolveOptions& options) {
-  return std::int64_t{options.directions} *
-         (options.scheme == Scheme::semi_iterative ? options.iterations : 1);
-}
-
 /// Runs the solves of a study one after the other; measures errors and time, reports progress.
 class StudyRun {
  public:
@@ -82,8 +77,7 @@ class StudyRun {
         continue;
       }
       for (const int m : options.directions) {
-        all_passes_ +=
-            static_cast<double>(passes_of(options.solve_options(series, m))) * options.rotations;
+        all_passes_ += passes_expected(options.solve_options(series, m)) * options.rotations;
       }
     }
     if (std::all_of(reference_.begin(), reference_.end(),
@@ -107,14 +101,13 @@ class StudyRun {
     const SolveOptions solve = options_.solve_options(options_.series[series], m);
     StudyPoint point;
     point.series = series;
-    point.passes = passes_of(solve);
-    point.directions = point.passes * (solve.two_way ? 2 : 1);
-    point.bound = homogeneous_error_bound(
-        rho_max_, quadrature_error_bound(static_cast<double>(point.passes)));
+    point.passes = solve.directions;
     try {
+      double passes = 0;
       for (int rotation = 0; rotation < options_.rotations; ++rotation) {
-        add_solve(point, m, rotation);
+        passes += add_solve(point, m, rotation);
       }
+      point.passes = std::llround(passes / options_.rotations);
       point.rms_error = std::sqrt(point.rms_error);
       if (!std::isfinite(point.rms_error)) {
         throw NotConvergent("B exceeds the range of numbers", Remedy::directions);
@@ -129,6 +122,9 @@ class StudyRun {
       point.rms_error = point.max_error = std::numeric_limits<double>::quiet_NaN();
       point.failure = error.what();
     }
+    point.directions = point.passes * (solve.two_way ? 2 : 1);
+    point.bound = homogeneous_error_bound(
+        rho_max_, quadrature_error_bound(static_cast<double>(point.passes)));
     return point;
   }
 
@@ -153,28 +149,40 @@ class StudyRun {
     return point;
   }
 
-  /// Adds the contribution of one solve to the means in `point`.
-  void add_solve(StudyPoint& point, int m, int rotation) {
+  /// Number of passes in all iterations of a solve that keeps its form factors.
+  double passes_expected(const SolveOptions& options) const {
+    return options.directions * expected_iterations_with_passes(options, rho_max_);
+  }
+
+  /// Adds the contribution of one solve to the means in `point`. Returns its number of passes: M,
+  /// or in the semi-iterative scheme M times the iterations.
+  double add_solve(StudyPoint& point, int m, int rotation) {
     const double start = processor_seconds();
     const auto options = options_.solve_options(options_.series[point.series], m, rotation);
     RadiositySolver solver(scene_, options, tree_, cancellation_);
-    const double before = done_passes_;
+    const double before = done_passes_, expected = passes_expected(options);
     solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-      report(point, m, before, watched.progress());
+      report(point, before, expected, watched);
       return true;
     });
-    done_passes_ = before + static_cast<double>(point.passes);
+    done_passes_ = before + expected;
     const RadiosityError error = radiosity_error(compared(solver.radiosity()), reference_);
     const double share = 1.0 / options_.rotations;
     point.rms_error += share * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
     point.seconds += share * (processor_seconds() - start);
+    const double iterations =
+        options.scheme == Scheme::semi_iterative ? solver.progress().iteration : 1;
+    return m * iterations;
   }
 
-  void report(const StudyPoint& point, int m, double before, const SolveProgress& progress) {
-    const bool renews = options_.series[point.series].scheme == Scheme::semi_iterative;
+  void report(const StudyPoint& point, double before, double expected,
+              const RadiositySolver& solver) {
+    const SolveProgress progress = solver.progress();
+    const int m = solver.options().directions;
+    const bool renews = solver.options().scheme == Scheme::semi_iterative;
     const double in_solve = progress.direction + (renews ? double(progress.iteration) * m : 0.0);
-    done_passes_ = std::max(done_passes_, before + std::min(in_solve, double(point.passes)));
+    done_passes_ = std::max(done_passes_, before + std::min(in_solve, expected));
     report(point.series, m);
   }
 
@@ -210,13 +218,17 @@ class StudyRun {
 }  // namespace
 
 RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference) {
-  double squares = 0, reference_squares = 0, largest = 0, reference_largest = 0;
+  double largest = 0, reference_largest = 0;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    const Rgb difference = b[i] - reference[i];
-    squares += sum_of_squares(difference);
-    reference_squares += sum_of_squares(reference[i]);
-    largest = std::max(largest, max_abs(difference));
+    largest = std::max(largest, max_abs(b[i] - reference[i]));
     reference_largest = std::max(reference_largest, max_abs(reference[i]));
+  }
+  // The squares of very large or very small radiosities are out of range.
+  const double scale = scale_to_one(reference_largest);
+  double squares = 0, reference_squares = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    squares += sum_of_squares(scale * (b[i] - reference[i]));
+    reference_squares += sum_of_squares(scale * reference[i]);
   }
   return {std::sqrt(squares / reference_squares), largest / reference_largest};
 }
@@ -284,8 +296,8 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.first_shot = of.first_shot;
   options.engine = of.engine;
   options.engine_options.resolution = of.resolution;
-  if (of.scheme == Scheme::semi_iterative && options.iterations == 0) {
-    options.iterations = options.burn_in + default_averaged_iterations;
+  if (of.scheme == Scheme::semi_iterative && options.averaged_iterations == 0) {
+    options.averaged_iterations = default_averaged_iterations;
   }
   if (rotations > 1) {
     options.seed = mixed(solve.seed + golden_step * static_cast<std::uint64_t>(rotation));
@@ -293,6 +305,20 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
     options.rotation = mixed(options.seed);
   }
   return options;
+}
+
+double expected_iterations_with_passes(const SolveOptions& options, double rho_max) {
+  if (options.scheme != Scheme::semi_iterative) {
+    return 1;
+  }
+  if (options.iterations > 0) {
+    return options.iterations;
+  }
+  // Until the start counts for a thousandth.
+  constexpr double share = 1e-3;
+  const double burn_in =
+      options.burn_in ? *options.burn_in : std::ceil(iterations_to(share, rho_max).value_or(0));
+  return burn_in + options.averaged_iterations;
 }
 
 SolveOptions StudyOptions::reference(int passes) const {

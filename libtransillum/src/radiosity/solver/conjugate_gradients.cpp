@@ -85,7 +85,12 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   // Scaled, because the squares of very large or very small numbers are out of range.
   const double scale = size > 0 ? scale_to_one(known.cwiseAbs().maxCoeff()) : 1.0;
   const Eigen::VectorXd solution = solver.solve(scale * known) / scale;
-  if (solver.info() != Eigen::Success || !solution.allFinite()) {
+  // A matrix I - K, K >= 0, takes some x below 0 to a right side >= 0 exactly where the sum of the
+  // powers of K diverges: x is then no limit of the iteration. Less than `rounding` is no sign.
+  constexpr double rounding = 1e-3;
+  const bool negative =
+      size > 0 && solution.minCoeff() < -rounding * solution.cwiseAbs().maxCoeff();
+  if (solver.info() != Eigen::Success || !solution.allFinite() || negative) {
     throw NotConvergent(
         "conjugate gradients do not converge: the row sums of the form factors are too large",
         Remedy::directions_or_symmetric_normalization);

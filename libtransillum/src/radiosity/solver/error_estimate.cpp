@@ -1,9 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "radiosity/solver/error_estimate.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "base/power_of_two.h"
+#include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -11,30 +14,30 @@ namespace {
 
 constexpr double confidence = 0.95;
 
-/// Mean of independent values and its standard error.
-struct Mean {
-  Rgb value, standard_error;
-};
-
+/// Standard error of the mean of independent values.
+/// @param scale brings the values near 1, so that their squares are in range
 template <class ValueOf>
-Mean mean_of(std::size_t count, ValueOf value_of) {
+Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
   const auto n = static_cast<double>(count);
-  Mean mean;
+  Rgb mean;
   for (std::size_t r = 0; r < count; ++r) {
-    mean.value += (1 / n) * value_of(r);
+    mean += (1 / n) * value_of(r);
   }
   Rgb squares;
   for (std::size_t r = 0; r < count; ++r) {
-    const Rgb off = value_of(r) - mean.value;
+    const Rgb off = scale * (value_of(r) - mean);
     squares += off * off;
   }
   const double share = 1 / (n * (n - 1));
-  mean.standard_error = {std::sqrt(share * squares.r), std::sqrt(share * squares.g),
-                         std::sqrt(share * squares.b)};
-  return mean;
+  return (1 / scale) * Rgb{std::sqrt(share * squares.r), std::sqrt(share * squares.g),
+                           std::sqrt(share * squares.b)};
 }
 
 double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
+
+Rgb root_of_squares(const Rgb& a, const Rgb& b) {
+  return {std::hypot(a.r, b.r), std::hypot(a.g, b.g), std::hypot(a.b, b.b)};
+}
 
 Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   Rgb power;
@@ -55,13 +58,14 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   const boost::math::students_t student(error.replicas - 1);
   error.quantile = quantile(student, (1 + confidence) / 2);
   error.standard_error.reserve(b.size());
+  const double scale = scale_to_one(max_norm(b));
   double errors = 0, values = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto patch = static_cast<std::size_t>(i);
-    const Mean mean = mean_of(replicas.size(), [&](std::size_t r) { return replicas[r][patch]; });
-    error.standard_error.push_back(mean.standard_error);
-    errors += sum_of_squares(mean.standard_error);
-    values += sum_of_squares(b[patch]);
+    error.standard_error.push_back(standard_error_of(
+        replicas.size(), scale, [&](std::size_t r) { return replicas[r][patch]; }));
+    errors += sum_of_squares(scale * error.standard_error.back());
+    values += sum_of_squares(scale * b[patch]);
   }
   error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
   std::vector<Rgb> means;
@@ -70,8 +74,24 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   }
   error.mean_radiosity = mean_over_area(scene, b);
   error.mean_standard_error =
-      mean_of(means.size(), [&](std::size_t r) { return means[r]; }).standard_error;
+      standard_error_of(means.size(), scale, [&](std::size_t r) { return means[r]; });
   return error;
+}
+
+void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
+                  const std::vector<Rgb>& bias) {
+  if (error.replicas == 0 || bias.empty()) {
+    return;
+  }
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    error.standard_error[i] = root_of_squares(error.standard_error[i], bias[i]);
+  }
+  error.mean_standard_error =
+      root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
+  const double unit = max_norm(b);
+  if (unit > 0) {
+    error.rms = std::hypot(error.rms, root_of_squares(bias, unit) / root_of_squares(b, unit));
+  }
 }
 
 }  // namespace transillum

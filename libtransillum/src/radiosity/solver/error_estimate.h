@@ -13,4 +13,10 @@ namespace transillum {
 ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
                              const std::vector<std::vector<Rgb>>& replicas);
 
+/// Adds to an estimate what else `b` may be off by, as the root of the sum of squares: intervals
+/// then contain the true value at least as often. Nothing without an estimate.
+/// @param bias bound of a bias of `b`, W/m², one per patch; empty: none
+void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
+                  const std::vector<Rgb>& bias);
+
 }  // namespace transillum

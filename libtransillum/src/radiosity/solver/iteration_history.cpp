@@ -7,80 +7,81 @@
 #include <utility>
 
 #include "radiosity/ratio.h"
+#include "radiosity/solver/norms.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
 
-double max_norm(const std::vector<Rgb>& b) {
-  double largest = 0;
-  for (const Rgb& value : b) {
-    largest = std::max(largest, max_abs(value));
-  }
-  return largest;
-}
-
-double max_distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, max_abs(a[i] - b[i]));
-  }
-  return largest;
+/// Whether directions_of_iteration() has other directions for each iteration. Where it has not, the
+/// mean converges to B of that one set, and the spread of iterations says nothing about its error.
+bool sets_differ(Sampling sampling) {
+  return sampling != Sampling::hammersley && sampling != Sampling::centered_hammersley;
 }
 
 }  // namespace
 
-IterationHistory::IterationHistory(const SolveOptions& options, const RadiosityIterate& first)
-    : options_(options), b_(first.b()), h_(first.h()) {}
+IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
+    : options_(input.options), b_(first.b()), h_(first.h()), mean_(input.options), start_(input) {}
 
 Rgb IterationHistory::with(std::size_t i, const Rgb& value) const {
-  if (!averaged()) {
-    return value;
-  }
-  return (1.0 / (mean_b_.count + 1)) * (mean_b_.sum[i] + value);
+  return averaged() ? mean_.with(i, value) : value;
 }
 
-double IterationHistory::update(const RadiosityIterate& iterate, double change) {
-  if (semi_iterative()) {
-    return update_mean(iterate);
-  }
-  b_ = iterate.b();
-  h_ = iterate.h();
-  return change;
+std::vector<Rgb> IterationHistory::left() const {
+  return averaged() ? mean_.left() : start_.left();
 }
 
-double IterationHistory::update_mean(const RadiosityIterate& iterate) {
-  if (past_burn_in()) {
-    mean_b_.add(iterate.b());
-    mean_h_.add(iterate.h());
-  }
-  std::vector<Rgb> next = averaged() ? mean_b_.mean() : iterate.b();
-  h_ = averaged() ? mean_h_.mean() : iterate.h();
-  const double change = max_distance(next, b_);
-  b_ = std::move(next);
-  return change;
-}
-
-void IterationHistory::record(double change, double seconds, bool complete, double energy_defect) {
-  IterationRecord record;
-  record.change = ratio_or_zero(change, max_norm(b_));
+void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord record,
+                              bool complete) {
+  const double change = record.change;
+  record.change = ratio_or_zero(change, max_norm(iterate.b()));
   record.contraction = records_.empty() ? 0.0 : ratio_or_zero(change, last_change_);
-  record.seconds = seconds;
   last_change_ = change;
-  energy_defect_ = energy_defect;
+  if (semi_iterative()) {
+    start_.finish(iterate);
+    mean_.add(iterate, b_, start_);
+    left_to_do_ = mean_.error(start_);
+    record.error = sets_differ(options_.sampling) ? left_to_do_ : std::nullopt;
+    record.contraction = records_.empty() ? 0.0 : start_.contraction();
+  }
+  b_ = averaged() ? mean_.b() : iterate.b();
+  h_ = averaged() ? mean_.h() : iterate.h();
   records_.push_back(record);
-  const bool in_burn_in = semi_iterative() && !averaged();
-  converged_ = complete && record.change <= options_.tolerance && !in_burn_in;
-  finished_ = options_.iterations > 0 ? size() >= options_.iterations : converged_;
+  if (!all_finite(b_)) {
+    throw NotConvergent(
+        fmt::format("the iteration does not converge for M = {}: B exceeds the range of numbers",
+                    options_.directions),
+        Remedy::directions_or_row_normalization);
+  }
+  stop(complete);
+}
+
+void IterationHistory::stop(bool complete) {
+  const IterationRecord& last = records_.back();
+  const bool reached =
+      complete && (semi_iterative() ? left_to_do_ && *left_to_do_ <= options_.tolerance
+                                    : last.change <= options_.tolerance);
+  converged_ = reached && (!semi_iterative() || last.error);
+  if (options_.iterations > 0) {
+    finished_ = size() >= options_.iterations;
+  } else if (semi_iterative() && options_.averaged_iterations > 0) {
+    finished_ = mean_.count() >= options_.averaged_iterations;
+  } else {
+    finished_ = reached;
+  }
   check_contraction();
 }
 
 void IterationHistory::check_contraction() const {
-  constexpr std::ptrdiff_t patience = 20;
+  constexpr std::ptrdiff_t least = 20;
+  // What is left of the start decreases irregularly, and after as many iterations at least to 1/e⁴.
+  const double patience =
+      semi_iterative() ? static_cast<double>(least) + 4 / (1 - start_.rho_max()) : least;
   if (finished_ || size() < patience) {
     return;
   }
-  const bool growing = std::all_of(records_.end() - patience / 2, records_.end(),
+  const bool growing = std::all_of(records_.end() - least / 2, records_.end(),
                                    [](const IterationRecord& r) { return r.contraction >= 1; });
   if (growing) {
     throw NotConvergent(

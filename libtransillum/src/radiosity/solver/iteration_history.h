@@ -1,22 +1,26 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "radiosity/solver/iteration_mean.h"
 #include "radiosity/solver/radiosity_iterate.h"
-#include "radiosity/solver/running_mean.h"
+#include "radiosity/solver/solver_input.h"
+#include "radiosity/solver/start_remainder.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
 
 /// The finished iterations: their records, B and H they lead to, and whether the solve is done.
 ///
-/// B and H are those of the last iteration; of the semi-iterative scheme after burn_in iterations
-/// the mean over those since (eq. 45).
+/// B and H are those of the last iteration; of the semi-iterative scheme after the burn-in the mean
+/// over the iterations since (eq. 45).
 class IterationHistory {
  public:
+  /// Keeps references to the scene and the first shot of `input`.
   /// @param first B before any iteration
-  IterationHistory(const SolveOptions& options, const RadiosityIterate& first);
+  IterationHistory(const SolverInput& input, const RadiosityIterate& first);
 
   int size() const { return static_cast<int>(records_.size()); }
   const std::vector<IterationRecord>& records() const { return records_; }
@@ -24,36 +28,40 @@ class IterationHistory {
   const std::vector<Rgb>& h() const { return h_; }  ///< W/m²
   bool finished() const { return finished_; }       ///< no iteration is left to do
   bool converged() const { return converged_; }
-  double energy_defect() const { return energy_defect_; }  ///< of the last iteration
 
-  /// Whether b() is a mean over iterations.
-  bool averaged() const { return mean_b_.count > 0; }
+  /// Whether b() is a mean over iterations, and the iterations before those in the mean, so far.
+  bool averaged() const { return mean_.count() > 0; }
+  int burn_in() const { return mean_.burn_in(); }
   /// Whether the iteration under way will count in the mean.
-  bool past_burn_in() const { return semi_iterative() && size() >= options_.burn_in; }
+  bool past_burn_in() const { return semi_iterative() && mean_.begins(); }
   /// What b()[i] becomes if the iteration under way ends with B_i = `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
+  /// Upper bound of what the solution exceeds b() by, because of the start of the iteration: W/m²,
+  /// one per patch. Empty in schemes other than semi_iterative and before the first iteration.
+  std::vector<Rgb> left() const;
 
-  /// Sets B and H after an iteration that ended with `iterate`. Returns the largest change of B.
-  /// @param change largest change of iterate.b()
-  double update(const RadiosityIterate& iterate, double change);
-  /// Records the iteration and applies the stopping rule of eq. 25.
-  /// @param change largest change of B, as update() returned it
+  /// What is left of the start, to be given the passes too.
+  StartRemainder& start() { return start_; }
+  /// Sets B and H after an iteration that ended with `iterate`, records it and applies the stopping
+  /// rule: of eq. 25, or of the error of the mean.
+  /// @param record `change`, largest of iterate.b(), W/m², and `seconds`
   /// @param complete whether the iteration used all M directions
   /// @throws NotConvergent where changes have grown for several iterations
-  void record(double change, double seconds, bool complete, double energy_defect);
+  void update(const RadiosityIterate& iterate, IterationRecord record, bool complete);
 
  private:
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
-  double update_mean(const RadiosityIterate& iterate);
+  void stop(bool complete);
   /// rho times the row sums of F is above 1 where there are too few directions.
   void check_contraction() const;
 
   SolveOptions options_;
   std::vector<Rgb> b_, h_;
-  RunningMean mean_b_, mean_h_;  ///< semi-iterative scheme
+  IterationMean mean_;    ///< semi-iterative scheme
+  StartRemainder start_;  ///< semi-iterative scheme
   std::vector<IterationRecord> records_;
-  double last_change_ = 0;  ///< absolute, W/m²
-  double energy_defect_ = 0;
+  double last_change_ = 0;            ///< absolute, W/m²
+  std::optional<double> left_to_do_;  ///< semi-iterative scheme: compared with the tolerance
   bool finished_ = false, converged_ = false;
 };
 

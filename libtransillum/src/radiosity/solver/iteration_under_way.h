@@ -16,6 +16,7 @@ struct IterationUnderWay {
   std::vector<Rgb> estimate;     ///< of B, W/m²; between iterations B itself
   std::vector<double> changes;   ///< of the estimate, relative, at each pass made
   double seconds = 0;            ///< wall time so far
+  double energy_defect = 0;      ///< of the last finished iteration
 
   /// Ends the iteration, which leads to `b`.
   void end(const std::vector<Rgb>& b) {

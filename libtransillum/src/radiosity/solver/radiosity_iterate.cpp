@@ -48,6 +48,12 @@ RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& optio
   projected_.resize(patches);
 }
 
+void RadiosityIterate::start_from(const Rgb& gathered) {
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    set_radiosity(i, radiosity(i, irradiance(i, gathered)));
+  }
+}
+
 void RadiosityIterate::begin() {
   std::fill(gathered_.begin(), gathered_.end(), Rgb{});
   std::fill(projected_.begin(), projected_.end(), 0.0);

@@ -29,6 +29,9 @@ class RadiosityIterate {
   const std::vector<Rgb>& gathered() const { return gathered_; }
   int passes() const { return passes_; }  ///< of the iteration under way
 
+  /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to that
+  /// of the first shot, W/m².
+  void start_from(const Rgb& gathered);
   /// Begins an iteration with nothing gathered.
   void begin();
   /// Begins an iteration with what the passes of `sums` gather; keep() must have been called.

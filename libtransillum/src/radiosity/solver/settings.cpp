@@ -65,14 +65,17 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        "treat small bright sources separately before the iteration: those with R2/A of at least "
        "this ratio, R the scene's diagonal and A the source's area",
        "none"},
-      {"burn-in", "a number", "semi-iterative: first iterations to exclude from the mean",
-       fmt::to_string(solve.burn_in)},
+      {"burn-in", "a number, or auto",
+       "semi-iterative: first iterations to exclude from the mean; auto: until what is left of the "
+       "start counts for less than the differences between iterations",
+       "auto"},
       {"replicas", "a number", "split M into this many rotated sets; their spread gives error bars",
        fmt::to_string(solve.replicas)},
       {"iterations", "a number, 0: none", "stop after this many iterations",
        fmt::to_string(solve.iterations)},
       {"tolerance", "a number",
-       "stop when no patch changes by more than this fraction of the largest B",
+       "stop when no patch changes by more than this fraction of the largest B; semi-iterative: "
+       "when the estimated error of the mean, 95 % confidence, is at most that",
        fmt::to_string(solve.tolerance)},
   };
 }

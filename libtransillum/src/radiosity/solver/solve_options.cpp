@@ -46,12 +46,15 @@ void SolveOptions::validate() const {
   if (!(tolerance > 0) || !(tolerance < 1)) {
     throw InputError(fmt::format("tolerance: {} is not between 0 and 1", tolerance));
   }
-  if (burn_in < 0 || burn_in > 1'000'000) {
-    throw InputError(fmt::format("burn-in: {} is not in the range 0 to 1000000", burn_in));
+  if (averaged_iterations < 0) {
+    throw InputError(fmt::format("iterations in the mean: {} is less than 0", averaged_iterations));
   }
-  if (scheme == Scheme::semi_iterative && iterations > 0 && burn_in >= iterations) {
+  if (burn_in && (*burn_in < 0 || *burn_in > 1'000'000)) {
+    throw InputError(fmt::format("burn-in: {} is not in the range 0 to 1000000", *burn_in));
+  }
+  if (scheme == Scheme::semi_iterative && iterations > 0 && burn_in.value_or(0) >= iterations) {
     throw InputError(
-        fmt::format("burn-in: {} of {} iterations leave none for the mean", burn_in, iterations));
+        fmt::format("burn-in: {} of {} iterations leave none for the mean", *burn_in, iterations));
   }
   if (replicas < 1 || replicas > 64) {
     throw InputError(fmt::format("replicas: {} is not in the range 1 to 64", replicas));

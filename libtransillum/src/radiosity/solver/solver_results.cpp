@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "radiosity/ratio.h"
+#include "radiosity/solver/error_estimate.h"
 #include "radiosity/solver/solver_state.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
@@ -65,9 +66,10 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.form_factors = static_cast<std::int64_t>(kept.size());
   statistics.write_to(result);
   result.iterations = history.size();
+  result.burn_in = history.burn_in();
   result.iteration_records = history.records();
   result.converged = history.converged();
-  result.energy_defect = history.energy_defect();
+  result.energy_defect = iteration.energy_defect;
   add_scene_figures(*input.scene, history.h(), result);
   result.shot_sources = std::ssize(input.shot->sources);
   result.shot_power_share = input.shot->power_share;
@@ -101,7 +103,9 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
                          : iteration.begun  ? Radiosity::running_estimate
                                             : Radiosity::finished_iteration;
   const auto& b = kind == Radiosity::running_estimate ? iteration.estimate : history.b();
-  return replicas.error_estimate(*input.scene, b, kind);
+  ErrorEstimate error = replicas.error_estimate(*input.scene, b, kind);
+  include_bias(error, *input.scene, b, history.left());
+  return error;
 }
 
 SolveProgress RadiositySolver::progress() const { return impl_->progress(); }

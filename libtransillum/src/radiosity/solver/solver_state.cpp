@@ -24,7 +24,7 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
       replicas(input),
       kept(input, plan.renews()),
       statistics(*input.scene, input.options.two_way),
-      history(input.options, whole) {
+      history(input, whole) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
 }
@@ -49,6 +49,7 @@ void RadiositySolver::Impl::begin_iteration() {
       iterate.begin();
     }
   });
+  history.start().begin();
   iteration.begun = true;
   iteration.from_kept_sums = whole.passes();
   if (iteration.from_kept_sums > 0) {
@@ -123,6 +124,7 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
   }
   whole.add(pass.transfers);
   replicas.add(k, pass.transfers);
+  history.start().add(pass.transfers);
   if (first) {
     statistics.add(pass);
     kept.add_areas(pass.transfers);
@@ -152,19 +154,18 @@ void RadiositySolver::Impl::finish_iteration() {
     }
   }
   kept.check_available();
-  const double defect = energy_defect();
+  iteration.energy_defect = energy_defect();
   const bool complete = whole.passes() == input.options.directions;
-  double change = whole.finish();
+  const double change = whole.finish();
   replicas.finish();
   if (history.past_burn_in()) {
     replicas.add_to_means();
   }
-  change = history.update(whole, change);
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
-  const double iteration_seconds = iteration.seconds + seconds;
+  const IterationRecord record{.change = change, .seconds = iteration.seconds + seconds};
+  history.update(whole, record, complete);
   iteration.end(history.b());
-  history.record(change, iteration_seconds, complete, defect);
 }
 
 double RadiositySolver::Impl::energy_defect() const {

@@ -1,0 +1,49 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// Largest magnitude over patches and channels.
+inline double max_norm(const std::vector<Rgb>& values) {
+  double largest = 0;
+  for (const Rgb& value : values) {
+    largest = std::max(largest, max_abs(value));
+  }
+  return largest;
+}
+
+/// Whether no value is infinite or not a number.
+inline bool all_finite(const std::vector<Rgb>& values) {
+  return std::all_of(values.begin(), values.end(), [](const Rgb& v) {
+    return std::isfinite(v.r) && std::isfinite(v.g) && std::isfinite(v.b);
+  });
+}
+
+/// a - b, of the same length.
+inline std::vector<Rgb> difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  std::vector<Rgb> result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    result[i] = a[i] - b[i];
+  }
+  return result;
+}
+
+/// Root of the sum of the squares over patches and channels, over `unit`.
+/// @param unit above 0; of the size of the values, so that the squares stay in range
+inline double root_of_squares(const std::vector<Rgb>& values, double unit) {
+  double squares = 0;
+  for (const Rgb& value : values) {
+    const Rgb v = (1 / unit) * value;
+    squares += v.r * v.r + v.g * v.g + v.b * v.b;
+  }
+  return std::sqrt(squares);
+}
+
+}  // namespace transillum
