@@ -76,9 +76,14 @@ void ConvergenceView::show_position() {
 }
 
 void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
-  std::vector<double> changes;
+  // Of the semi-iterative scheme: the change is that of an iteration, the error that of the mean.
+  const bool averages = snapshot.options.scheme == Scheme::semi_iterative;
+  std::vector<double> changes, mean_errors;
   for (const IterationRecord& iteration : snapshot.statistics.iteration_records) {
     changes.push_back(iteration.change);
+    if (averages) {
+      mean_errors.push_back(iteration.error.value_or(0));
+    }
   }
   std::vector<LogChart::Level> levels;
   if (snapshot.options.iterations == 0) {
@@ -87,7 +92,9 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
   }
   iteration_chart_->show_lines(
       {{tr("change"), theme::accent, std::move(changes), true},
-       {tr("eq. 25"), theme::good, predicted_changes(snapshot), false, ChartDashes::dash_dot}},
+       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
+                : LogChart::Line{tr("eq. 25"), theme::good, predicted_changes(snapshot), false,
+                                 ChartDashes::dash_dot}},
       std::move(levels), std::max(snapshot.options.iterations, 8));
 
   direction_chart_->set_title(
