@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "transillum/discrepancy.h"
 #include "transillum/errors.h"
+#include "transillum/json_text.h"
 
 namespace transillum::cli {
 namespace {
@@ -77,11 +77,9 @@ Sampling sampling_of(const std::string& name, const std::string& path) {
 }
 
 RunEstimate read_run(const std::string& path, double accuracy) {
-  std::ifstream in(path);
-  if (!in) {
-    throw InputError(path + ": cannot be read");
-  }
-  const Json json = Json::parse(in, nullptr, false);
+  const std::string text = read_json_file(path);
+  check_json(text, path);
+  const Json json = Json::parse(text);
   const auto fail = [&path](const char* what) -> double {
     throw InputError(fmt::format("{}: {}", path, what));
   };

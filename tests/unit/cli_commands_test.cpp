@@ -504,8 +504,11 @@ TEST(CliBounds, EstimatesDirectionsFromASolveRun) {
 
   write_text(folder / "plain.json",
              R"({"passes": 400, "options": {"sampling": "random"}, "error_estimate": null})");
-  for (const char* file : {"plain.json", "none.json"}) {
-    const ProgramResult wrong = run_program({"bounds", "--run", folder / file});
+  write_text(folder / "deep.json", std::string(2'000'000, '['));
+  const std::string files[] = {folder / "plain.json", folder / "none.json", folder / "deep.json",
+                               "/dev/zero"};
+  for (const std::string& file : files) {
+    const ProgramResult wrong = run_program({"bounds", "--run", file});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_THAT(wrong.err, HasSubstr(file));
   }

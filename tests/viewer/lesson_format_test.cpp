@@ -25,6 +25,14 @@ QString description() {
   return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
 }
 
+std::string repeated(const std::string& text, int count) {
+  std::string all;
+  for (int k = 0; k < count; ++k) {
+    all += text;
+  }
+  return all;
+}
+
 std::string page(const std::string& show) { return R"({"text": "x", "show": {)" + show + "}}"; }
 
 }  // namespace
@@ -108,8 +116,19 @@ class LessonFormatTest : public QObject {
     const auto row = [](const char* name, const std::string& text, const char* expected) {
       QTest::newRow(name) << QString::fromStdString(text) << QString(expected);
     };
-    row("no JSON", "{\n\"title\": \"T\"\n\"pages\": []}", "bad.json, line 3: ");
-    row("empty", "", "bad.json, line 1: ");
+    row("no JSON", "{\n\"title\": \"T\"\n\"pages\": []}", "bad.json, line 3, column 7: ");
+    row("empty", "", "bad.json: an empty file");
+    row("deep",
+        lesson(page("\"panels\": " + std::string(2'000'000, '[') + std::string(2'000'000, ']'))),
+        "more than 64 lists and objects inside each other");
+    row("number", lesson(page(R"("select": 1e999)")), "the number `1e999` is out of range");
+    row("twice", lesson(page(R"("select": 1, "select": 2)")), "the key `select` occurs twice");
+    row("long key", lesson(page("\"" + std::string(1000, 'k') + "\\n\": 1")), "unknown key \"kkkk");
+    row("much",
+        lesson(page("\"panels\": [\"" + std::string(100'000, 'p') + "\"]") +
+               repeated(", {\"text\": \"\"}", 200)),
+        "too much: the pages up to here set more than 16 MiB together");
+    row("many pages", lesson(page("") + repeated(",{\"text\":\"\"}", 300'000)), "too much: ");
     row("no object", "[]", "bad.json: must be an object");
     row("no title", R"({"pages": []})", "bad.json, title: is missing");
     row("no pages", R"({"title": "T"})", "bad.json, pages: ");

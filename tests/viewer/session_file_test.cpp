@@ -194,6 +194,15 @@ class SessionFileTest : public QObject {
                            << "bad.json, notes";
     QTest::newRow("key") << R"({"show": {}, "note": ""})"
                          << "\"note\"";
+    QTest::newRow("number") << R"({"show": {"scene": "cornell-box"}, "notes": 1e999})"
+                            << "line 1, column 50: the number `1e999` is out of range";
+    QTest::newRow("twice") << R"({"show": {}, "notes": "a", "notes": "b"})"
+                           << "the key `notes` occurs twice";
+    QTest::newRow("deep") << R"({"show": {}, "notes": )" + QString(2'000'000, '[')
+                          << "more than 64 lists and objects";
+    QTest::newRow("many") << R"({"show": {}, "breakpoints": [0)" + QString(",0").repeated(1000) +
+                                 "]}"
+                          << "breakpoints: must be a list of at most 1000";
   }
   void errors_name_file_and_key() {
     QFETCH(QString, text);
@@ -205,6 +214,27 @@ class SessionFileTest : public QObject {
     window->files().try_open(path);
     QVERIFY2(window->banner_text().contains(expected), qPrintable(window->banner_text()));
     QVERIFY(!window->snapshot());
+  }
+
+  void what_is_no_text_file_is_refused() {
+    const QTemporaryDir folder;
+    QVERIFY(QDir(folder.path()).mkdir("folder.json"));
+    QVERIFY(QFile::link("/dev/zero", folder.filePath("endless.json")));
+    write(folder.filePath("zero.json"), QByteArray("{\0}", 3));
+    write(folder.filePath("utf16.json"), QByteArray("\xff\xfe{\0}\0", 6));
+    const auto window = make_window();
+    for (const char* name : {"folder.json", "endless.json", "zero.json", "utf16.json"}) {
+      window->files().try_open(folder.filePath(name));
+      QVERIFY2(window->banner_text().contains(name), qPrintable(window->banner_text()));
+      QVERIFY(!window->snapshot());
+    }
+    QVERIFY(window->banner_text().contains("UTF-16"));
+  }
+
+  void a_byte_order_mark_is_accepted() {
+    const Session session =
+        session_from_text("\xef\xbb\xbf{\"show\": {}, \"notes\": \"ω\"}", "s.json", "");
+    QCOMPARE(session.notes, std::string("ω"));
   }
 
   void recent_files_are_listed() {

@@ -4,11 +4,12 @@
 #include "lessons/lesson.h"
 
 #include <QDir>
+#include <QFile>
 #include <QFileInfo>
 #include <algorithm>
 
-#include "lessons/session_file.h"
 #include "support/json_object.h"
+#include "transillum/json_text.h"
 
 // Resources of a static library have to be registered explicitly; outside any namespace, as the
 // macro requires.
@@ -19,6 +20,23 @@ namespace transillum::viewer {
 using nlohmann::json;
 
 namespace {
+
+// Limit of the states of all pages together, bytes. Each page holds what earlier pages set.
+constexpr std::size_t most_state_bytes = 16 << 20;
+
+/// About what a value takes in a page's state. Recursion is as deep as check_json() allows.
+std::size_t bytes_of(const json& value) {
+  std::size_t bytes = sizeof(json);
+  if (value.is_string()) {
+    bytes += value.get_ref<const std::string&>().size();
+  }
+  if (value.is_structured()) {
+    for (const auto& item : value.items()) {
+      bytes += item.key().size() + bytes_of(item.value());
+    }
+  }
+  return bytes;
+}
 
 // A string, or a list of strings, one per line.
 std::string text_from(const json* value, const JsonObject& page) {
@@ -75,6 +93,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
   object.done();
 
   json state = json::object();
+  std::size_t state_bytes = 0;
   for (const json& value : *pages) {
     const std::string where = name + ", page " + std::to_string(lesson.pages.size() + 1);
     JsonObject page_object(value, where);
@@ -88,13 +107,17 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       apply_changes(state, *show);
     }
     page_object.done();
+    state_bytes += sizeof(Lesson::Page) + bytes_of(state);
+    if (state_bytes > most_state_bytes) {
+      page_object.fail("too much: the pages up to here set more than 16 MiB together");
+    }
     page.state = view_state_from_json(state, where, folder);
   }
   return lesson;
 }
 
 Lesson read_lesson(const std::string& path) {
-  return lesson_from_text(text_of_file(path), path,
+  return lesson_from_text(read_json_file(path), path,
                           QFileInfo(QString::fromStdString(path)).path().toStdString());
 }
 
@@ -121,8 +144,9 @@ const std::vector<Lesson>& built_in_lessons() {
     std::vector<Lesson> all;
     const QDir folder(QStringLiteral(":/lessons"));
     for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) {
-      all.push_back(
-          lesson_from_text(text_of_file(folder.filePath(name).toStdString()), name.toStdString()));
+      QFile file(folder.filePath(name));
+      file.open(QIODevice::ReadOnly);
+      all.push_back(lesson_from_text(file.readAll().toStdString(), name.toStdString()));
     }
     return all;
   }();

@@ -4,7 +4,6 @@
 // opened by the user.
 #include "lessons/session_file.h"
 
-#include <QFile>
 #include <cmath>
 #include <filesystem>
 
@@ -17,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 constexpr int largest_patch_id = 1 << 30;
-constexpr qint64 largest_file = 16 << 20;  // bytes
+constexpr std::size_t longest_list = 1000;
 
 Breakpoint breakpoint_from(const json& value, const std::string& where) {
   Breakpoint breakpoint;
@@ -26,7 +25,7 @@ Breakpoint breakpoint_from(const json& value, const std::string& where) {
   object.read("kind", kind);
   const auto known = breakpoint_kind(kind);
   if (!known) {
-    object.fail_at("kind", "unknown kind \"" + kind + "\"");
+    object.fail_at("kind", "unknown kind " + in_quotes(kind));
   }
   breakpoint.kind = *known;
   object.read("patch", breakpoint.patch, 0, largest_patch_id);
@@ -64,6 +63,9 @@ void read_list(JsonObject& object, const char* key, const std::string& item,
   }
   if (!list->is_array()) {
     object.fail_at(key, "must be a list [ … ]");
+  }
+  if (list->size() > longest_list) {
+    object.fail_at(key, "must be a list of at most " + std::to_string(longest_list));
   }
   for (const json& value : *list) {
     items.push_back(from(value, object.where(item + ' ' + std::to_string(items.size() + 1))));
@@ -141,17 +143,6 @@ JsonFile kind_of_json(const std::string& text, const std::string& name) {
     return JsonFile::session;
   }
   throw InputError(name + ": neither a session (with \"show\") nor a lesson (with \"pages\")");
-}
-
-std::string text_of_file(const std::string& path) {
-  QFile file(QString::fromStdString(path));
-  if (!file.open(QIODevice::ReadOnly)) {
-    throw InputError(path + ": " + file.errorString().toStdString());
-  }
-  if (file.size() > largest_file) {
-    throw InputError(path + ": larger than 16 MiB, the limit for lessons and sessions");
-  }
-  return file.readAll().toStdString();
 }
 
 }  // namespace transillum::viewer

@@ -34,7 +34,4 @@ std::string to_text(const Session& session, const std::string& folder);
 enum class JsonFile { session, lesson };
 JsonFile kind_of_json(const std::string& text, const std::string& name);
 
-/// Reads a file. @throws InputError if it cannot be read or is larger than 16 MiB
-std::string text_of_file(const std::string& path);
-
 }  // namespace transillum::viewer

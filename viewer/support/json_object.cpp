@@ -1,8 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "support/json_object.h"
 
+#include <QString>
 #include <algorithm>
 #include <cmath>
+
+#include "transillum/json_text.h"
 
 namespace transillum::viewer {
 
@@ -69,8 +72,20 @@ void JsonObject::done() const {
     for (const std::string& key : known_) {
       keys += (keys.empty() ? "" : ", ") + key;
     }
-    fail("unknown key \"" + item.key() + "\"; known keys: " + keys);
+    fail("unknown key " + in_quotes(item.key()) + "; known keys: " + keys);
   }
+}
+
+std::string in_quotes(const std::string& text) {
+  constexpr int longest = 40;
+  QString shown = QString::fromStdString(text);
+  for (QChar& c : shown) {
+    c = c.isPrint() || c.isSurrogate() ? c : QLatin1Char('?');
+  }
+  if (shown.size() > longest) {
+    shown = shown.left(longest - 1) + QChar(0x2026);
+  }
+  return '"' + shown.toStdString() + '"';
 }
 
 Vec3 vec3_from_json(const json& value, const std::string& where) {
@@ -86,14 +101,8 @@ Vec3 vec3_from_json(const json& value, const std::string& where) {
 json to_json(const Vec3& v) { return json::array({v.x, v.y, v.z}); }
 
 json parse_json(const std::string& text, const std::string& name) {
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(name + ", line " + std::to_string(line) + ": invalid JSON (see " +
-                     "https://www.json.org): check commas, quotes and brackets");
-  }
+  check_json(text, name);
+  return json::parse(text);
 }
 
 }  // namespace transillum::viewer

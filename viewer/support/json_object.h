@@ -55,11 +55,14 @@ class JsonObject {
   std::set<std::string> known_;
 };
 
+/// A string of a file in quotes, for a message: one line of at most 40 characters.
+std::string in_quotes(const std::string& text);
+
 /// Reads [x, y, z]. @throws InputError that begins with `where`
 Vec3 vec3_from_json(const nlohmann::json& value, const std::string& where);
 nlohmann::json to_json(const Vec3& v);
 
-/// Parses the text of a file. @throws InputError with the file name and line of a syntax error
+/// Parses the text of a file after check_json(). @throws InputError as check_json() does
 nlohmann::json parse_json(const std::string& text, const std::string& name);
 
 }  // namespace transillum::viewer

@@ -18,6 +18,7 @@
 #include "solve/settings_panel.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
+#include "transillum/json_text.h"
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
@@ -124,7 +125,7 @@ void FileActions::open(const QString& path, std::optional<Goal> goal) {
     return;
   }
   const std::string name = path.toStdString();
-  if (kind_of_json(text_of_file(name), name) == JsonFile::lesson) {
+  if (kind_of_json(read_json_file(name), name) == JsonFile::lesson) {
     open_lesson(name);
   } else {
     open_session(path);
@@ -174,7 +175,7 @@ void FileActions::open_lesson(const std::string& which, int page) {
 void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
   session_.restore(
-      session_from_text(text_of_file(name), name, QFileInfo(path).path().toStdString()));
+      session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString()));
 }
 
 void FileActions::choose_session() {

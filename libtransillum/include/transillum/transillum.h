@@ -61,8 +61,9 @@ namespace transillum {}
 #include "transillum/reference_cache.h"
 #include "transillum/study.h"
 
-// Files: results, maps, charts.
+// Files: results, maps, charts, JSON.
 #include "transillum/files.h"
+#include "transillum/json_text.h"
 #include "transillum/line_chart.h"
 #include "transillum/map_files.h"
 #include "transillum/study_files.h"
