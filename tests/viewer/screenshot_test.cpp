@@ -12,8 +12,14 @@ class ScreenshotTest : public QObject {
     int status = -1;
     QByteArray error;
   };
-  static Outcome run(const QStringList& arguments) {
+  /// @param setting  of one environment variable, as NAME=VALUE
+  static Outcome run(const QStringList& arguments, const QString& setting = {}) {
     QProcess process;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    if (!setting.isEmpty()) {
+      environment.insert(setting.section('=', 0, 0), setting.section('=', 1));
+    }
+    process.setProcessEnvironment(environment);
     process.start(TRANSILLUM_VIEWER, arguments);
     Outcome outcome;
     if (!process.waitForFinished(90000) || process.exitStatus() != QProcess::NormalExit) {
@@ -55,6 +61,26 @@ class ScreenshotTest : public QObject {
     QCOMPARE(outcome.status, 2);
     QCOMPARE(outcome.error.count('\n'), 1);
     QVERIFY2(outcome.error.contains("no-such-scene"), outcome.error.constData());
+    QVERIFY(QDir(folder.path()).entryList(QDir::Files).isEmpty());
+  }
+
+  void without_a_screen_it_says_so_data() {
+    QTest::addColumn<QString>("setting");
+    QTest::addColumn<QByteArray>("expected");
+    QTest::newRow("display") << "DISPLAY=:9999" << QByteArray("no display: cannot open \":9999\"");
+    QTest::newRow("platform") << "QT_QPA_PLATFORM=nonsense"
+                              << QByteArray("no display: cannot open \"nonsense\"");
+    QTest::newRow("OpenGL") << "QT_XCB_GL_INTEGRATION=none" << QByteArray("no OpenGL 3.2");
+  }
+  void without_a_screen_it_says_so() {
+    QFETCH(const QString, setting);
+    QFETCH(const QByteArray, expected);
+    const QTemporaryDir folder;
+    const Outcome outcome =
+        run({"furnace", "--screenshot", folder.filePath("window.png")}, setting);
+    QCOMPARE(outcome.status, 1);
+    QCOMPARE(outcome.error.count('\n'), 1);
+    QVERIFY2(outcome.error.contains(expected), outcome.error.constData());
     QVERIFY(QDir(folder.path()).entryList(QDir::Files).isEmpty());
   }
 

@@ -16,6 +16,7 @@
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/settings_panel.h"
+#include "support/number_text.h"
 #include "widgets/banner.h"
 #include "widgets/theme.h"
 #include "window/file_actions.h"
@@ -96,6 +97,7 @@ inline void save_picture(QWidget& window, const QString& name) {
     QStandardPaths::setTestModeEnabled(true);                                  \
     QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat()); \
     QApplication application(argc, argv);                                      \
+    transillum::viewer::use_decimal_point();                                   \
     transillum::viewer::theme::apply(application);                             \
     TestClass test;                                                            \
     return QTest::qExec(&test, argc, argv);                                    \

@@ -1,10 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "support/number_text.h"
 
+#include <QLocale>
 #include <QStringList>
+#include <clocale>
 #include <cmath>
 
 namespace transillum::viewer {
+
+void use_decimal_point() {
+  QLocale::setDefault(QLocale::c());
+  std::setlocale(LC_NUMERIC, "C");
+}
 
 QString count_text(std::int64_t value) {
   QString digits = QString::number(value < 0 ? -value : value);

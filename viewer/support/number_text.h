@@ -8,6 +8,11 @@
 
 namespace transillum::viewer {
 
+/// Sets a decimal point, without separators of thousands, for all widgets and for C functions, so
+/// that numbers look as they do in files, whatever the user's locale. To be called once there is a
+/// QCoreApplication, which sets the user's locale, and before the first widget.
+void use_decimal_point();
+
 /// Up to four significant digits: 0.01234, 1.234 × 10⁻⁶, 19 976; "–" if not finite.
 QString number_text(double value);
 /// With thin spaces between groups of thousands: 19 976.

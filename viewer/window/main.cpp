@@ -2,6 +2,8 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include <QApplication>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
 #include <QSurfaceFormat>
 #include <cstdlib>
 #include <iostream>
@@ -10,6 +12,8 @@
 #include <string>
 
 #include "solve/settings_panel.h"
+#include "support/failure_text.h"
+#include "support/number_text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "widgets/theme.h"
@@ -38,6 +42,37 @@ bool has_display() {
 
 void print_error(const QString& message) {
   std::cerr << "transillum-viewer: " << message.toStdString() << std::endl;
+}
+
+/// Handles Qt's messages until display and OpenGL are known to work. Qt's only fatal error is a
+/// display that it cannot use; it would print several lines and abort.
+void exit_without_display(QtMsgType type, const QMessageLogContext&, const QString&) {
+  if (type == QtFatalMsg) {
+    print_error(QStringLiteral("no display: cannot open \"%1\"; set DISPLAY, or run it under "
+                               "xvfb-run -a")
+                    .arg(qEnvironmentVariable(qEnvironmentVariableIsSet("QT_QPA_PLATFORM")
+                                                  ? "QT_QPA_PLATFORM"
+                                                  : "DISPLAY")));
+    std::_Exit(1);
+  }
+}
+
+/// Whether an OpenGL context that VTK can use can be made. On X11, VTK needs GLX; Qt would also do
+/// with EGL.
+bool has_opengl() {
+  QOffscreenSurface surface;
+  surface.create();
+  QOpenGLContext context;
+  if (!context.create() || !context.makeCurrent(&surface) ||
+      context.format().version() < qMakePair(3, 2)) {
+    return false;
+  }
+#if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
+  return QGuiApplication::platformName() != QLatin1String("xcb") ||
+         QByteArray(context.nativeHandle().typeName()) == "QGLXNativeContext";
+#else
+  return true;
+#endif
 }
 
 /// The scene to open; without arguments, one that shows a solve at work.
@@ -105,7 +140,17 @@ int main(int argc, char** argv) {
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   // Qt would take arguments that it knows; ours are not for it.
   int qt_argc = 1;
+  const QtMessageHandler usual_handler = qInstallMessageHandler(exit_without_display);
   QApplication application(qt_argc, argv);
+  const bool can_draw = has_opengl();
+  qInstallMessageHandler(usual_handler);
+  if (!can_draw) {
+    print_error(
+        "no OpenGL 3.2 on this display: install a driver, such as Mesa's software renderer "
+        "(package libgl1-mesa-dri)");
+    return 1;
+  }
+  use_decimal_point();
   QApplication::setOrganizationName("transillum");
   QApplication::setApplicationName("transillum-viewer");
   theme::apply(application);
@@ -124,6 +169,9 @@ int main(int argc, char** argv) {
   } catch (const transillum::InputError& error) {
     print_error(QString::fromStdString(error.what()));
     return 2;
+  } catch (const std::exception& error) {
+    print_error(failure_text(error));
+    return 1;
   }
   return QApplication::exec();
 }
