@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -116,10 +117,14 @@ int run(const MapCall& call) {
   if (!reason.empty()) {
     print_message("note: the map is empty: " + reason);
   }
+  std::vector<std::function<void()>> writers;
   for (const std::string& file : call.out) {
-    cancellation.throw_if_canceled();
-    write_map(file, *scene, map, call.picture);
+    writers.emplace_back([&] {
+      cancellation.throw_if_canceled();
+      write_map(file, *scene, map, call.picture);
+    });
   }
+  write_all(writers);
   return success;
 }
 

@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "output_files.h"
 
+#include <exception>
+
 #include "messages.h"
 #include "transillum/files.h"
 
@@ -25,6 +27,22 @@ std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const Sce
   check_distinct(outputs, scene->files());
   print_warnings(*scene);
   return scene;
+}
+
+void write_all(const std::vector<std::function<void()>>& writers) {
+  std::exception_ptr first_failure;
+  for (const auto& write : writers) {
+    try {
+      write();
+    } catch (const std::exception&) {
+      if (!first_failure) {
+        first_failure = std::current_exception();
+      }
+    }
+  }
+  if (first_failure) {
+    std::rethrow_exception(first_failure);
+  }
 }
 
 }  // namespace transillum::cli

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,5 +23,9 @@ void check_output_files(const std::vector<std::string>& files);
 std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const SceneOptions& options,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation);
+
+/// Runs all of these, even if some fail, then rethrows the first error: results that took long are
+/// not lost because one of several files cannot be written.
+void write_all(const std::vector<std::function<void()>>& writers);
 
 }  // namespace transillum::cli

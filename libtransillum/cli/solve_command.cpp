@@ -4,7 +4,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <memory>
 
 #include "commands.h"
@@ -145,27 +145,21 @@ Solution solve_with_hemicubes(const std::shared_ptr<const Scene>& scene,
   }
 }
 
-/// Writes all files, even if one of them cannot be written, then rethrows the first error.
+/// Writes the files and the summary.
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
-  std::exception_ptr first_failure;
-  const auto attempt = [&](const auto& write) {
-    try {
-      write();
-    } catch (const std::exception&) {
-      if (!first_failure) {
-        first_failure = std::current_exception();
-      }
-    }
-  };
+  std::vector<std::function<void()>> writers;
   for (const std::string& file : call.out) {
-    attempt([&] { write_result(file, solution); });
+    writers.emplace_back([&] { write_result(file, solution); });
   }
   if (!call.stats.empty()) {
-    attempt([&] { write_statistics(call.stats, options, solution); });
+    writers.emplace_back([&] { write_statistics(call.stats, options, solution); });
   }
-  if (first_failure) {
-    std::rethrow_exception(first_failure);
+  if (call.out.empty()) {
+    writers.emplace_back([&] { print_results(solve_summary(solution)); });
+  } else if (!call.quiet) {
+    writers.emplace_back([&] { print_diagnostics(solve_summary(solution)); });
   }
+  write_all(writers);
 }
 
 int run(const SolveCall& call) {
@@ -184,13 +178,6 @@ int run(const SolveCall& call) {
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
   write_outputs(call, options, solution);
-
-  const std::string summary = solve_summary(solution);
-  if (call.out.empty()) {
-    print_results(summary);
-  } else if (!call.quiet) {
-    print_diagnostics(summary);
-  }
   if (solution.complete) {
     return success;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "commands.h"
@@ -165,6 +166,28 @@ void report_failures(const Study& study, const std::vector<std::string>& names) 
   }
 }
 
+/// Writes the files and the table.
+void write_outputs(const StudyCall& call, const StudyOptions& options, const Study& study,
+                   const Scene& scene) {
+  std::vector<std::function<void()>> writers;
+  if (!call.out.empty()) {
+    writers.emplace_back([&] { write_study_csv(call.out, options.series, study); });
+  }
+  for (const std::string& file : call.plots) {
+    writers.emplace_back([&] {
+      write_charts(file,
+                   {study_chart(call.scene, options.series, study, call.error, call.against)});
+    });
+  }
+  const std::string summary = study_summary(scene, options, study, call.error);
+  if (call.out.empty()) {
+    writers.emplace_back([&] { print_results(summary); });
+  } else if (!call.quiet) {
+    writers.emplace_back([&] { print_diagnostics(summary); });
+  }
+  write_all(writers);
+}
+
 int run(const StudyCall& call) {
   const StudyOptions options = study_options(call);
   for (const std::string& file : call.plots) {
@@ -197,18 +220,7 @@ int run(const StudyCall& call) {
   }
 
   report_failures(study, names);
-  if (!call.out.empty()) {
-    write_study_csv(call.out, options.series, study);
-  }
-  for (const std::string& file : call.plots) {
-    write_charts(file, {study_chart(call.scene, options.series, study, call.error, call.against)});
-  }
-  const std::string summary = study_summary(*context.scene, options, study, call.error);
-  if (call.out.empty()) {
-    print_results(summary);
-  } else if (!call.quiet) {
-    print_diagnostics(summary);
-  }
+  write_outputs(call, options, study, *context.scene);
   if (study.complete) {
     return success;
   }

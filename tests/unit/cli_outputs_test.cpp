@@ -123,6 +123,31 @@ TEST_F(CliOutputs, UnusualNamesAreWritten) {
   }
 }
 
+/// One file that cannot be written does not lose the others, nor the summary.
+TEST_F(CliOutputs, TheOtherFilesAreWrittenIfOneFails) {
+  fs::create_symlink("/dev/full", folder_ / "full.csv");
+  fs::create_symlink("/dev/full", folder_ / "full.svg");
+  const std::string full = ": cannot be written: No space left on device";
+  const ProgramResult solve = run({"solve", "furnace", "-m", "8", "-o", "full.csv", "-o", "b.csv"});
+  EXPECT_EQ(solve.status, 1);
+  EXPECT_THAT(solve.err, HasSubstr("full.csv" + full));
+  EXPECT_THAT(solve.err, HasSubstr("B mean, W/m2"));
+  EXPECT_EQ(line_count(read_file(folder_ / "b.csv")), 13U);
+
+  const ProgramResult study = run({"study", "furnace", "-m", "8", "--sampling", "fibonacci",
+                                   "--no-cache", "-o", "full.csv", "--plot", "p.svg"});
+  EXPECT_EQ(study.status, 1);
+  EXPECT_THAT(study.err, HasSubstr("full.csv" + full));
+  EXPECT_THAT(study.err, HasSubstr("fibonacci"));
+  EXPECT_THAT(read_file(folder_ / "p.svg"), HasSubstr("</svg>"));
+
+  const ProgramResult map =
+      run({"map", "furnace", "--direction", "1,2,3", "-o", "full.svg", "-o", "m.svg"});
+  EXPECT_EQ(map.status, 1);
+  EXPECT_THAT(map.err, HasSubstr("full.svg" + full));
+  EXPECT_THAT(read_file(folder_ / "m.svg"), HasSubstr("</svg>"));
+}
+
 /// Sets the limit of the size of files; programs inherit it.
 class FileSizeLimit {
  public:
