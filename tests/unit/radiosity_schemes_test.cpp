@@ -278,6 +278,26 @@ TEST(Replicas, IntervalsOfLargerReplicasContainItToo) {
   EXPECT_GE(coverage.means, 34);
 }
 
+/// After 3 iterations most of the light of a furnace is missing in all replicas alike.
+TEST(Replicas, IncludeWhatFurtherIterationsWouldChange) {
+  SceneDescription description = describe_scene("furnace");
+  for (Material& material : description.materials) {
+    material.reflectance = {0.9, 0.9, 0.9};
+  }
+  const auto scene = std::make_shared<const Scene>(description);
+  for (const Scheme scheme : {Scheme::fixed, Scheme::growing}) {
+    for (const int iterations : {3, 12}) {
+      const Solution solution = solve(
+          scene, {.directions = 512, .scheme = scheme, .replicas = 8, .iterations = iterations});
+      EXPECT_FALSE(solution.statistics.converged);
+      const double off = 10 - solution.radiosity.front().r;
+      EXPECT_GT(off, 1);
+      EXPECT_LE(off, solution.error.quantile * solution.error.standard_error.front().r);
+      EXPECT_LE(off, solution.error.quantile * solution.error.mean_standard_error.r);
+    }
+  }
+}
+
 TEST(Replicas, GiveNoEstimateUnlessRequested) {
   const Solution solution = solve(box(), {.directions = 20});
   EXPECT_EQ(solution.error.replicas, 0);

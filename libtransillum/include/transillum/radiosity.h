@@ -118,8 +118,9 @@ struct SolveProgress {
 /// The error of B due to the finite number of directions, estimated from the spread of
 /// independently rotated replicas; no reference is needed. A random rotation makes each replica
 /// unbiased (eq. 47), so B ± quantile * standard error contains the B of infinitely many directions
-/// in 95 % of all runs. In the semi-iterative scheme the bound of what is left of the start is
-/// included, as the root of the sum of squares. The first shot's own error is not included.
+/// in 95 % of all runs. Bounds of what is left of the start (semi-iterative scheme), or of what
+/// further iterations would change (others, unless converged), are included as the root of the sum
+/// of squares. The first shot's own error is not included.
 struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch

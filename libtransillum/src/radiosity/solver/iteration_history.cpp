@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "radiosity/ratio.h"
 #include "radiosity/solver/norms.h"
+#include "transillum/at.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
@@ -22,14 +24,35 @@ bool sets_differ(Sampling sampling) {
 }  // namespace
 
 IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
-    : options_(input.options), b_(first.b()), h_(first.h()), mean_(input.options), start_(input) {}
+    : scene_(*input.scene),
+      options_(input.options),
+      b_(first.b()),
+      h_(first.h()),
+      mean_(input.options),
+      start_(input) {}
 
 Rgb IterationHistory::with(std::size_t i, const Rgb& value) const {
   return averaged() ? mean_.with(i, value) : value;
 }
 
 std::vector<Rgb> IterationHistory::left() const {
-  return averaged() ? mean_.left() : start_.left();
+  if (semi_iterative()) {
+    return averaged() ? mean_.left() : start_.left();
+  }
+  if (converged_ || records_.empty()) {
+    return {};
+  }
+  // B_i - E_i = rho_i H_i, and H is off by at most the error of B before the last iteration, which
+  // is at most the last change / (1 - contraction) by eq. 23.
+  const double contraction = std::max(records_.back().contraction, start_.rho_max());
+  const double error = contraction < 1 ? last_change_ / (1 - contraction) : HUGE_VAL;
+  std::vector<Rgb> left(b_.size());
+  for (PatchId i = 0; i < scene_.patch_count() && error > 0; ++i) {
+    const Rgb& rho = scene_.reflectance(i);
+    const auto share = [error](double r) { return r > 0 ? r * error : 0.0; };
+    at(left, i) = {share(rho.r), share(rho.g), share(rho.b)};
+  }
+  return left;
 }
 
 void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord record,

@@ -36,8 +36,9 @@ class IterationHistory {
   bool past_burn_in() const { return semi_iterative() && mean_.begins(); }
   /// What b()[i] becomes if the iteration under way ends with B_i = `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
-  /// Upper bound of what the solution exceeds b() by, because of the start of the iteration: W/m²,
-  /// one per patch. Empty in schemes other than semi_iterative and before the first iteration.
+  /// Bound of what b() is off by because the iteration has not ended: W/m², one per patch. Of the
+  /// semi-iterative scheme what is left of the start; empty where others have converged, and before
+  /// the first iteration.
   std::vector<Rgb> left() const;
 
   /// What is left of the start, to be given the passes too.
@@ -55,6 +56,7 @@ class IterationHistory {
   /// rho times the row sums of F is above 1 where there are too few directions.
   void check_contraction() const;
 
+  const Scene& scene_;
   SolveOptions options_;
   std::vector<Rgb> b_, h_;
   IterationMean mean_;    ///< semi-iterative scheme
