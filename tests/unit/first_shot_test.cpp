@@ -7,6 +7,7 @@
 
 #include "support/scenes.h"
 #include "transillum/at.h"
+#include "visibility/pairs/patch_exchange.h"
 
 namespace transillum {
 namespace {
@@ -85,6 +86,61 @@ TEST(Shoot, IsTheSameForAnyNumberOfThreads) {
   for (const int threads : {2, 5}) {
     EXPECT_TRUE(shoot(*scene, sources, threads).irradiance == one.irradiance);
   }
+}
+
+/// Two large plates, and between them many triangles, so that one pair takes long: the plates are
+/// compared at thousands of points, past every triangle.
+std::shared_ptr<const Scene> cluttered() {
+  Sketch sketch;
+  const int lamp = sketch.material(0.5, 1), thing = sketch.material(0.5, 0);
+  sketch.face({{0, 0, 1.1}, {0, 1, 1.1}, {1, 1, 1.1}, {1, 0, 1.1}}, lamp);
+  sketch.face({{0, 0, -.1}, {1, 0, -.1}, {1, 1, -.1}, {0, 1, -.1}}, thing);
+  sketch.triangles(50, 0.05, 3, thing);
+  return sketch.scene();
+}
+
+// Progress used to be reported after 64 patches per thread, and the cancellation was checked
+// between pairs, of which one can take minutes.
+TEST(Shoot, ReportsProgressAndIsCanceledWithinAPair) {
+  const auto scene = cluttered();
+  int reports = 0, reports_of_pairs = 0;
+  double last = 0;
+  shoot(*scene, {0}, 1, {}, [&](double share) {
+    EXPECT_GE(share, last);
+    EXPECT_LE(share, 1);
+    reports_of_pairs += share > last ? 1 : 0;
+    last = share;
+    ++reports;
+  });
+  EXPECT_EQ(last, 1);
+  EXPECT_GT(reports, 2 * reports_of_pairs) << "most are made within a pair";
+
+  for (const int until : {1, 2, reports / 2}) {
+    const Cancellation cancellation;
+    int seen = 0;
+    EXPECT_THROW(shoot(*scene, {0}, 1, cancellation,
+                       [&](double) {
+                         if (++seen == until) {
+                           cancellation.cancel();
+                         }
+                       }),
+                 Canceled);
+    EXPECT_EQ(seen, until) << "nothing is reported after it was canceled";
+  }
+}
+
+TEST(ExactFormFactors, AreCanceledWithinAPair) {
+  const auto scene = cluttered();
+  const ExchangeFinder exchange(*scene);
+  int ticks = 0;
+  const auto stop = [&] {
+    if (++ticks == 10) {
+      throw Canceled();
+    }
+  };
+  EXPECT_THROW(exchange(0, 1, stop), Canceled);
+  EXPECT_EQ(ticks, 10);
+  EXPECT_EQ(exchange(0, 1, [] {}).area, exchange(0, 1).area);
 }
 
 TEST(Shoot, CanBeCanceledAndReportsProgress) {

@@ -50,7 +50,8 @@ struct DirectLight {
 /// @param sources find_small_sources(), or any emitting patches, ascending.
 /// @param threads 0: all cores; the result does not depend on it.
 /// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @param progress if set, called at intervals with the share of pairs done, in [0,1], on this
+/// thread; also while one pair takes long.
 /// @throws Canceled
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads = 0,
                   const Cancellation& cancellation = {},

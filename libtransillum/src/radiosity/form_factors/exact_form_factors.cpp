@@ -12,10 +12,11 @@ std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
   const ExchangeFinder exchange(scene, cancellation);
   const double area = scene.patch(i).area;
   std::vector<double> factors(scene.patches().size());
+  const std::function<void()> check = [&] { cancellation.throw_if_canceled(); };
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
-    cancellation.throw_if_canceled();
+    check();
     if (j != i) {
-      at(factors, j) = exchange(i, j).area / area;
+      at(factors, j) = exchange(i, j, check).area / area;
     }
     if (progress && j % 64 == 0) {
       progress(static_cast<double>(j) / scene.patch_count());

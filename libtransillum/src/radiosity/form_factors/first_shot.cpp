@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <thread>
 
 #include "radiosity/for_each_index.h"
 #include "transillum/at.h"
@@ -19,9 +21,6 @@
 
 namespace transillum {
 namespace {
-
-/// Receiving patches per thread between reports of progress.
-constexpr PatchId batch = 64;
 
 double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
@@ -82,18 +81,50 @@ auto part_of(std::vector<DirectLight::Part>& parts, int material) {
                           [](const DirectLight::Part& part, int m) { return part.material < m; });
 }
 
+/// Counts pairs of patches, checks the cancellation and reports progress, also within a pair: one
+/// may take minutes.
+///
+/// Threads: any thread may call it; reports come on the thread that made it.
+class ShotProgress {
+ public:
+  ShotProgress(double pairs, const Cancellation& cancellation,
+               const std::function<void(double)>& report)
+      : pairs_(pairs), cancellation_(cancellation), report_(report) {}
+
+  /// To be called often.
+  /// @throws Canceled
+  void check() {
+    cancellation_.throw_if_canceled();
+    if (report_ && std::this_thread::get_id() == owner_ && checks_++ % checks_per_report == 0) {
+      report_(static_cast<double>(done_) / pairs_);
+    }
+  }
+  void add_pair() { ++done_; }
+
+ private:
+  static constexpr std::int64_t checks_per_report = 256;
+
+  double pairs_;
+  const Cancellation& cancellation_;
+  const std::function<void(double)>& report_;
+  std::thread::id owner_ = std::this_thread::get_id();
+  std::int64_t checks_ = 0;  ///< by the owner
+  std::atomic<std::int64_t> done_{0};
+};
+
 /// Computes the irradiance of patch i from all sources.
-void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i,
-             const Cancellation& cancellation, DirectLight& light) {
+void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
+             DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
   Rgb power;
   for (const PatchId j : light.sources) {
-    cancellation.throw_if_canceled();
+    progress.check();
+    progress.add_pair();
     if (j == i) {
       continue;
     }
-    const double area = exchange(i, j).area;
+    const double area = exchange(i, j, [&] { progress.check(); }).area;
     power += area * scene.exitance(j);
     const auto part = part_of(light.parts, scene.patch(j).material);
     if (part != light.parts.end()) {
@@ -178,15 +209,13 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
     return light;
   }
   const ExchangeFinder exchange(scene, cancellation);
-  threads = thread_count(threads);
-  WorkerThreads workers(threads);
-  for (PatchId first = 0; first < scene.patch_count(); first += batch * threads) {
-    const PatchId end = std::min(first + batch * threads, scene.patch_count());
-    for_each_index(workers, first, end,
-                   [&](PatchId i) { receive(scene, exchange, i, cancellation, light); });
-    if (progress) {
-      progress(static_cast<double>(end) / scene.patch_count());
-    }
+  WorkerThreads workers(thread_count(threads));
+  ShotProgress shot(static_cast<double>(patches) * static_cast<double>(sources.size()),
+                    cancellation, progress);
+  for_each_index(workers, PatchId{0}, scene.patch_count(),
+                 [&](PatchId i) { receive(scene, exchange, i, shot, light); });
+  if (progress) {
+    progress(1);
   }
   count_power(scene, scene.materials(), light);
   return light;

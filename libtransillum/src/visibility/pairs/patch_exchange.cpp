@@ -81,9 +81,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
   const BoxTree pieces(boxes);
   std::vector<std::vector<Corners>> parts(static_cast<std::size_t>(scene.patch_count()));
   for (std::size_t k = 0; k < scene.pieces().size(); ++k) {
-    if (k % 1024 == 0) {
-      cancellation.throw_if_canceled();
-    }
+    cancellation.throw_if_canceled();
     auto& of_patch = at(parts, scene.pieces()[k].patch);
     for (Corners& part : open_parts(k, pieces)) {
       of_patch.push_back(std::move(part));
@@ -181,7 +179,8 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 
 /// The exchange of two polygons past blockers, by points of the smaller polygon.
 double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
-                                        const std::vector<Corners>& blockers) const {
+                                        const std::vector<Corners>& blockers,
+                                        const std::function<void()>& tick) const {
   constexpr double min_divisions = 0.2, max_divisions = 32;
   const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
   const double radius_p = radius_about(middle_p, facing.p);
@@ -197,12 +196,14 @@ double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
                             : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, max_divisions));
   PointView view(large, blockers);
   double sum = 0;
-  for_points_of(small, divisions,
-                [&](const Vec3& x, double weight) { sum += weight * view.form_factor(x, normal); });
+  for_points_of(small, divisions, [&](const Vec3& x, double weight) {
+    sum += weight * view.form_factor(x, normal, tick);
+  });
   return sum;
 }
 
-PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j) const {
+PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
+                                         const std::function<void()>& tick) const {
   PatchExchange exchange;
   std::vector<Corners> blockers;
   for (const Corners& p : parts_of(i)) {
@@ -220,7 +221,7 @@ PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j) const {
             std::any_of(blockers.begin(), blockers.end(),
                         [&](const Corners& blocker) { return is_hidden(facing, blocker); });
         if (!hidden) {
-          exchange.area += partial_exchange(facing, blockers);
+          exchange.area += partial_exchange(facing, blockers, tick);
         }
       }
     }

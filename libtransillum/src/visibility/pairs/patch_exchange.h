@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,9 @@ class ExchangeFinder {
   explicit ExchangeFinder(const Scene& scene, const Cancellation& cancellation = {},
                           double density = 16);
 
-  PatchExchange operator()(PatchId i, PatchId j) const;
+  /// Past thousands of blockers, one pair takes minutes.
+  /// @param tick if set, called often, on this thread; may throw to abandon the query.
+  PatchExchange operator()(PatchId i, PatchId j, const std::function<void()>& tick = {}) const;
 
  private:
   std::vector<Corners> open_parts(std::size_t piece, const BoxTree& pieces) const;
@@ -45,7 +48,8 @@ class ExchangeFinder {
   Corners corners_of(const Piece& piece) const;
   void collect_blockers(const FacingPolygons& facing, std::vector<Corners>& blockers) const;
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
-  double partial_exchange(const FacingPolygons& facing, const std::vector<Corners>& blockers) const;
+  double partial_exchange(const FacingPolygons& facing, const std::vector<Corners>& blockers,
+                          const std::function<void()>& tick) const;
   std::span<const Corners> parts_of(PatchId i) const {
     const auto k = static_cast<std::size_t>(i);
     return {parts_.data() + part_begin_[k], part_begin_[k + 1] - part_begin_[k]};

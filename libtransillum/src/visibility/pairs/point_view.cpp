@@ -46,7 +46,8 @@ PointView::PointView(Outline polygon, std::span<const Corners> blockers)
   }
 }
 
-double PointView::form_factor(const Vec3& x, const Vec3& normal) {
+double PointView::form_factor(const Vec3& x, const Vec3& normal,
+                              const std::function<void()>& tick) {
   const Vec3 at = frame_.coordinates(x);
   if (at.z >= 0) {
     return 0;
@@ -57,6 +58,9 @@ double PointView::form_factor(const Vec3& x, const Vec3& normal) {
   }
   region_.assign({projected_.data(), projected_.size()});
   for (const Corners& blocker : blockers_) {
+    if (tick) {
+      tick();
+    }
     subtract(blocker, at);
     if (region_.empty()) {
       return 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/container/small_vector.hpp>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,8 @@ class PointView {
 
   /// Form factor from an area element at x to the visible part of the polygon.
   /// @param normal unit, of the element.
-  double form_factor(const Vec3& x, const Vec3& normal);
+  /// @param tick if set, called for each blocker; may throw to abandon the query.
+  double form_factor(const Vec3& x, const Vec3& normal, const std::function<void()>& tick = {});
 
  private:
   void subtract(const Corners& blocker, const Vec3& x);
