@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <string_view>
 #include <system_error>
 
@@ -104,8 +105,13 @@ void ProgressDisplay::expect_passes(const std::string& label, int passes) {
     return;
   }
   try {
-    repeater_ =
-        std::jthread([this](const std::stop_token& stop) { repeat_while_passes_take_long(stop); });
+    repeater_ = std::jthread([this](const std::stop_token& stop) {
+      try {
+        repeat_while_passes_take_long(stop);
+      } catch (const std::bad_alloc&) {
+        // No more memory: then the passes fail, or nothing is repeated.
+      }
+    });
   } catch (const std::system_error&) {
     // No more threads: then there is less progress to read.
   }
