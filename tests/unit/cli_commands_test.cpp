@@ -504,7 +504,9 @@ TEST(CliBounds, EstimatesDirectionsFromASolveRun) {
 
   write_text(folder / "plain.json",
              R"({"passes": 400, "options": {"sampling": "random"}, "error_estimate": null})");
-  write_text(folder / "deep.json", std::string(2'000'000, '['));
+  std::string deep;
+  deep.resize(2'000'000, '[');
+  write_text(folder / "deep.json", deep);
   const std::string files[] = {folder / "plain.json", folder / "none.json", folder / "deep.json",
                                "/dev/zero"};
   for (const std::string& file : files) {

@@ -20,6 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+// Not by the constructor of std::string: with constant arguments, compilers try to evaluate it.
 std::string repeated(const std::string& text, std::size_t count) {
   std::string all;
   all.reserve(count * text.size());
@@ -93,7 +94,7 @@ TEST(JsonText, SizeIsLimited) {
               HasSubstr("more than 1000000 values"));
   EXPECT_THAT(message("[" + repeated("0,", 7'000'000) + "0]"),
               HasSubstr("more than 1000000 values"));
-  EXPECT_THAT(message("\"" + std::string(largest_json_file, 'a') + "\""),
+  EXPECT_THAT(message("\"" + repeated("a", largest_json_file) + "\""),
               HasSubstr("16777218 bytes of JSON; the limit is 16777216"));
 }
 
@@ -106,7 +107,7 @@ TEST(JsonText, FilesAreReadWithinLimits) {
   EXPECT_THAT(refused(folder.path() / "none.json"), HasSubstr("none.json: no such file"));
   EXPECT_THAT(refused(folder.path()), HasSubstr("not a regular file"));
   EXPECT_THAT(refused("/dev/zero"), HasSubstr("/dev/zero: not a regular file"));
-  EXPECT_THAT(refused(folder.write("large.json", std::string(largest_json_file + 1, ' '))),
+  EXPECT_THAT(refused(folder.write("large.json", repeated(" ", largest_json_file + 1))),
               HasSubstr("the limit is 16777216"));
   EXPECT_THAT(refused(folder.write("utf16.json", std::string("\xff\xfe{\0}\0", 6))),
               HasSubstr("utf16.json: text in UTF-16; save it as UTF-8"));

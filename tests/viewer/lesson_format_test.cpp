@@ -118,14 +118,13 @@ class LessonFormatTest : public QObject {
     };
     row("no JSON", "{\n\"title\": \"T\"\n\"pages\": []}", "bad.json, line 3, column 7: ");
     row("empty", "", "bad.json: an empty file");
-    row("deep",
-        lesson(page("\"panels\": " + std::string(2'000'000, '[') + std::string(2'000'000, ']'))),
+    row("deep", lesson(page("\"panels\": " + repeated("[", 2'000'000) + repeated("]", 2'000'000))),
         "more than 64 lists and objects inside each other");
     row("number", lesson(page(R"("select": 1e999)")), "the number `1e999` is out of range");
     row("twice", lesson(page(R"("select": 1, "select": 2)")), "the key `select` occurs twice");
-    row("long key", lesson(page("\"" + std::string(1000, 'k') + "\\n\": 1")), "unknown key \"kkkk");
+    row("long key", lesson(page("\"" + repeated("k", 1000) + "\\n\": 1")), "unknown key \"kkkk");
     row("much",
-        lesson(page("\"panels\": [\"" + std::string(100'000, 'p') + "\"]") +
+        lesson(page("\"panels\": [\"" + repeated("p", 100'000) + "\"]") +
                repeated(", {\"text\": \"\"}", 200)),
         "too much: the pages up to here set more than 16 MiB together");
     row("many pages", lesson(page("") + repeated(",{\"text\":\"\"}", 300'000)), "too much: ");
