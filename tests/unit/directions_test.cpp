@@ -290,6 +290,15 @@ TEST(DirectionsOfIteration, ConsecutivePartsOfASequenceViolateEquation46) {
   }
 }
 
+TEST(DirectionsOfIteration, DifferWhereTheySaySo) {
+  for (const std::string& name : sampling_names()) {
+    const Sampling sampling = sampling_from_name(name);
+    const Vec3 first = directions_of_iteration(sampling, 16, 1, 0).front().direction;
+    const Vec3 second = directions_of_iteration(sampling, 16, 1, 1).front().direction;
+    EXPECT_EQ(differs_by_iteration(sampling), !(first == second)) << name;
+  }
+}
+
 /// The mean over iterations then has the error of all points of the sequence together.
 TEST(DirectionsOfIteration, SetsOfOneSequenceUseEveryPointOnce) {
   for (const Sampling sampling : {Sampling::halton, Sampling::sobol}) {

@@ -59,6 +59,23 @@ TEST(FirstShot, LeavesTheFurnaceExact) {
   }
 }
 
+/// All replicas add the same shot, whose error does not show in their spread.
+TEST(FirstShot, IsIncludedInTheErrorFromReplicas) {
+  const Solution solution = solve(load_scene("furnace"), {.directions = 128,
+                                                          .normalize = Normalization::rows,
+                                                          .first_shot = 0,
+                                                          .replicas = 8,
+                                                          .tolerance = 1e-10});
+  double largest = 0;
+  for (std::size_t i = 0; i < solution.radiosity.size(); ++i) {
+    const double off = std::abs(solution.radiosity[i].g - 2);
+    EXPECT_LE(off, solution.error.quantile * solution.error.standard_error[i].g) << i;
+    EXPECT_LT(solution.error.standard_error[i].g, 1e-2) << i;
+    largest = std::max(largest, off);
+  }
+  EXPECT_GT(largest, 1e-6) << "there is an error to include";
+}
+
 TEST(FirstShot, DoesNotDependOnSchemeThreadsOrPauses) {
   const auto scene = load_scene("stars:n=2");
   SolveOptions options{.directions = 128, .tolerance = 1e-10};

@@ -64,6 +64,35 @@ TEST(Shoot, ConservesPower) {
   }
 }
 
+/// Where all patches emit 1 W/m² and enclose, H = 1 W/m².
+TEST(Shoot, EstimatesItsError) {
+  for (const char* spec : {"furnace", "cornell-box"}) {
+    SceneDescription description = describe_scene(spec);
+    for (Material& material : description.materials) {
+      material.exitance = {1, 2, 0};
+    }
+    const Scene scene(description);
+    const DirectLight light = shoot(scene, find_small_sources(scene, 0));
+    ASSERT_THAT(light.irradiance_error, SizeIs(scene.patches().size()));
+    double largest = 0;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      const Rgb& error = at(light.irradiance_error, i);
+      const double off = std::abs(at(light.irradiance, i).r - 1);
+      EXPECT_LE(off, 2 * error.r + 1e-12) << spec << ' ' << i;
+      EXPECT_LT(error.r, 1e-2) << spec << ' ' << i;
+      EXPECT_DOUBLE_EQ(error.g, 2 * error.r);
+      EXPECT_EQ(error.b, 0);
+      largest = std::max(largest, error.r);
+    }
+    EXPECT_GT(largest, 1e-6);
+  }
+  Sketch empty;
+  empty.box({0, 0, 0}, {1, 1, 1}, true, empty.material(0.5, 1));
+  for (const Rgb& error : shoot(*empty.scene(), {0, 1, 2}).irradiance_error) {
+    EXPECT_EQ(max_abs(error), 0) << "all pairs see each other wholly";
+  }
+}
+
 TEST(Shoot, MatchesTheFormulaForIrradiance) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 7);

@@ -18,6 +18,15 @@ using Until = RadiositySolver::Until;
 
 std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
 
+/// The furnace with other reflectance: B = 1 / (1 - rho) on all patches.
+std::shared_ptr<const Scene> furnace(double rho) {
+  SceneDescription description = describe_scene("furnace");
+  for (Material& material : description.materials) {
+    material.reflectance = {rho, rho, rho};
+  }
+  return std::make_shared<const Scene>(description);
+}
+
 /// RMS of a - b over patches and channels, over the RMS of b.
 double distance(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
   double apart = 0, size = 0;
@@ -76,17 +85,76 @@ TEST(Schemes, ConjugateGradientsEqualTheIteration) {
 /// One direction sees some walls twice as large as they are: at high reflectance the light would
 /// grow without limit, and the linear system has a solution below 0.
 TEST(Schemes, ConjugateGradientsReportWhereTheIterationDiverges) {
-  SceneDescription description = describe_scene("furnace");
-  for (Material& material : description.materials) {
-    material.reflectance = {0.99, 0.99, 0.99};
-  }
-  const auto scene = std::make_shared<const Scene>(description);
+  const auto scene = furnace(0.99);
   for (const Scheme scheme : {Scheme::fixed, Scheme::conjugate_gradients}) {
     for (const int directions : {1, 2}) {
       const SolveOptions options{.directions = directions, .scheme = scheme};
       EXPECT_THROW(solve(scene, options), NotConvergent) << name_of(scheme) << ' ' << directions;
     }
     EXPECT_NO_THROW(solve(scene, {.directions = 512, .scheme = scheme}));
+  }
+}
+
+/// In a furnace whose rows sum to 1 nothing is off but what further iterations would change.
+TEST(Schemes, ReportWhatFurtherIterationsWouldChange) {
+  for (const double rho : {0.5, 0.9, 0.999}) {
+    const auto scene = furnace(rho);
+    for (const double tolerance : {0.5, 0.02, 1e-3, 1e-8}) {
+      const Solution solution = solve(
+          scene, {.directions = 32, .normalize = Normalization::rows, .tolerance = tolerance});
+      EXPECT_TRUE(solution.statistics.converged);
+      const double b = solution.radiosity.front().r;
+      const double missing = (1 / (1 - rho) - b) / b;
+      EXPECT_NEAR(solution.statistics.iteration_records.back().remainder / missing, 1, 1e-3)
+          << rho << ' ' << tolerance;
+    }
+  }
+}
+
+/// The first iteration changes B by less than the tolerance, and is nowhere near the solution.
+TEST(Schemes, ConjugateGradientsMeetLooseTolerances) {
+  for (const double rho : {0.5, 0.9, 0.999}) {
+    for (const double tolerance : {0.9, 0.25, 0.01}) {
+      SolveOptions options{.directions = 512,
+                           .normalize = Normalization::symmetric,
+                           .scheme = Scheme::conjugate_gradients,
+                           .tolerance = tolerance};
+      const Solution solution = solve(furnace(rho), options);
+      const SolveStatistics& s = solution.statistics;
+      EXPECT_TRUE(s.converged);
+      EXPECT_EQ(s.iterations, 2);
+      EXPECT_LE(s.iteration_records.back().change, tolerance);
+      EXPECT_LE(s.iteration_records.back().remainder, tolerance);
+      EXPECT_NEAR(solution.radiosity.front().r * (1 - rho), 1, tolerance);
+    }
+  }
+}
+
+/// Rounding ends an iteration whose tolerance is below it, and is no divergence.
+TEST(Schemes, EndAtRounding) {
+  for (const Scheme scheme : {Scheme::fixed, Scheme::growing, Scheme::conjugate_gradients}) {
+    SolveOptions options{.directions = 64, .scheme = scheme, .tolerance = 1e-12};
+    const Solution precise = solve(box(), options);
+    options.tolerance = 1e-300;
+    const Solution rounded = solve(box(), options);
+    EXPECT_TRUE(rounded.statistics.converged);
+    EXPECT_LT(rounded.statistics.iterations, 200);
+    EXPECT_LT(distance(rounded.radiosity, precise.radiosity), 1e-11);
+    for (const Normalization normalize : {Normalization::none, Normalization::symmetric}) {
+      for (const int replicas : {1, 4}) {
+        options = {.directions = 128,
+                   .sampling = Sampling::random,
+                   .normalize = normalize,
+                   .scheme = scheme,
+                   .first_shot = 0,
+                   .replicas = replicas,
+                   .iterations = 90};
+        const Solution many = solve(load_scene("furnace"), options);
+        EXPECT_EQ(many.statistics.iterations, 90);
+        EXPECT_LT(many.statistics.iteration_records.back().remainder, 1e-12);
+        EXPECT_LT(many.error.rms, 1);
+      }
+    }
   }
 }
 
@@ -214,7 +282,8 @@ struct Coverage {
   int means = 0;       ///< number of runs whose interval of the mean B does
   double rms = 0;      ///< estimated RMS error over the actual one
 };
-Coverage coverage_of(int runs, int directions_a_replica) {
+Coverage coverage_of(int runs, int directions_a_replica, double tolerance = 1e-6,
+                     Scheme scheme = Scheme::fixed) {
   const auto& truth = box_reference();
   const auto scene = box();
   const auto tree = std::make_shared<const BspTree>(*scene);
@@ -232,8 +301,9 @@ Coverage coverage_of(int runs, int directions_a_replica) {
     RadiositySolver solver(scene,
                            {.directions = 8 * directions_a_replica,
                             .seed = static_cast<std::uint64_t>(1000 * run),
+                            .scheme = scheme,
                             .replicas = 8,
-                            .tolerance = 1e-6},
+                            .tolerance = tolerance},
                            tree);
     solver.advance(Until::finished);
     const ErrorEstimate error = solver.error_estimate();
@@ -280,11 +350,7 @@ TEST(Replicas, IntervalsOfLargerReplicasContainItToo) {
 
 /// After 3 iterations most of the light of a furnace is missing in all replicas alike.
 TEST(Replicas, IncludeWhatFurtherIterationsWouldChange) {
-  SceneDescription description = describe_scene("furnace");
-  for (Material& material : description.materials) {
-    material.reflectance = {0.9, 0.9, 0.9};
-  }
-  const auto scene = std::make_shared<const Scene>(description);
+  const auto scene = furnace(0.9);
   for (const Scheme scheme : {Scheme::fixed, Scheme::growing}) {
     for (const int iterations : {3, 12}) {
       const Solution solution = solve(
@@ -295,6 +361,32 @@ TEST(Replicas, IncludeWhatFurtherIterationsWouldChange) {
       EXPECT_LE(off, solution.error.quantile * solution.error.standard_error.front().r);
       EXPECT_LE(off, solution.error.quantile * solution.error.mean_standard_error.r);
     }
+  }
+}
+
+/// A loose tolerance stops long before the light of a bright furnace has been gathered.
+TEST(Replicas, IncludeWhatALooseToleranceLeaves) {
+  const auto scene = furnace(0.99);
+  for (const Scheme scheme : {Scheme::fixed, Scheme::growing}) {
+    const Solution solution = solve(scene, {.directions = 512,
+                                            .normalize = Normalization::rows,
+                                            .scheme = scheme,
+                                            .replicas = 8,
+                                            .tolerance = 5e-3});
+    EXPECT_TRUE(solution.statistics.converged);
+    const double off = 100 - solution.radiosity.front().r;
+    EXPECT_GT(off, 20);
+    EXPECT_LE(off, solution.error.quantile * solution.error.standard_error.front().r);
+    EXPECT_LE(off, solution.error.quantile * solution.error.mean_standard_error.r);
+    EXPECT_GE(solution.error.rms, 0.4);
+  }
+}
+
+TEST(Replicas, IntervalsOfLooseTolerancesContainTheTrueValueToo) {
+  for (const Scheme scheme : {Scheme::fixed, Scheme::growing}) {
+    const Coverage coverage = coverage_of(4, 64, 0.03, scheme);
+    EXPECT_GT(coverage.patches, 0.91) << name_of(scheme);
+    EXPECT_EQ(coverage.means, 4);
   }
 }
 

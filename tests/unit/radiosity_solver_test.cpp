@@ -111,6 +111,15 @@ TEST(RadiositySolver, GivesItsSolutionAtAnyTime) {
   EXPECT_TRUE(solver.solution().complete);
 }
 
+TEST(RadiositySolver, ReportsTheChangeOfTheLastIteration) {
+  RadiositySolver solver(small_scene(), {.directions = 20});
+  EXPECT_EQ(solver.progress().change, 0);
+  while (solver.advance(RadiositySolver::Until::iteration)) {
+    EXPECT_GT(solver.progress().change, 0);
+    EXPECT_EQ(solver.progress().change, solver.statistics().iteration_records.back().change);
+  }
+}
+
 TEST(RadiositySolver, GivesTheRunningEstimateAsSolutionWithinAnIteration) {
   RadiositySolver solver(small_scene(), {.directions = 20});
   solver.advance(RadiositySolver::Until::direction);

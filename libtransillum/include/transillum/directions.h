@@ -70,6 +70,10 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int e
 std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int count,
                                                      std::uint64_t seed, int iteration);
 
+/// Whether directions_of_iteration() gives every iteration other directions: not for hammersley and
+/// centered_hammersley.
+bool differs_by_iteration(Sampling sampling);
+
 /// The directions under one random rotation, uniform among all rotations, with recomputed points
 /// of the unit square. No seed gives the identity.
 std::vector<DirectionSample> rotated(std::vector<DirectionSample> samples, std::uint64_t seed);

@@ -41,6 +41,9 @@ struct DirectLight {
   std::vector<PatchId> sources;  ///< ascending
   double power_share = 0;        ///< power of the sources over all power emitted
   std::vector<Part> parts;       ///< sorted by material; empty if they would exceed 256 MiB
+  /// Estimated error of `irradiance`, W/m², one per patch: that of partly hidden pairs, which are
+  /// computed by points. Empty: unknown (with_materials()).
+  std::vector<Rgb> irradiance_error = {};
 };
 
 /// Distributes the emission of `sources` to all patches by exact form factors: of whole polygons

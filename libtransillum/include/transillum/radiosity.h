@@ -46,7 +46,8 @@ enum class Scheme {
   growing,         ///< twice as many in each iteration, up to M; each computed once (eq. 44)
   semi_iterative,  ///< M new directions in each iteration; B is the mean over iterations (eq. 45)
   conjugate_gradients,  ///< the equations of `fixed` in symmetric form, solved by conjugate
-                        ///< gradients. Requires two_way; not with Normalization::rows
+                        ///< gradients to within the tolerance of the limit of the iteration, in
+                        ///< the second iteration. Requires two_way; not with Normalization::rows
 };
 /// The names of the schemes as in options and files, in the order of the enumeration.
 const std::vector<std::string>& scheme_names();
@@ -79,7 +80,8 @@ struct SolveOptions {
   int iterations = 0;  ///< number of iterations; 0: by averaged_iterations or tolerance
   /// semi_iterative: number of iterations in the mean, after which it stops; 0: by tolerance
   int averaged_iterations = 0;
-  /// Relative change of B in the maximum norm (eq. 25); semi_iterative: IterationRecord::error
+  /// Relative change of B in the maximum norm (eq. 25), which IterationRecord::remainder may exceed
+  /// by 1 / (1 - rho_max); semi_iterative: IterationRecord::error
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
@@ -101,6 +103,10 @@ struct IterationRecord {
   /// largest value: 95 % of the spread of iterations, and all that is left of the start. The sets of
   /// directions must differ: Sampling::hammersley and centered_hammersley have the error of one set.
   std::optional<double> error = {};
+  /// Bound of what further iterations would change, over the largest B: rho_max change / (1 - c) by
+  /// eq. 23, c being the larger of rho_max and the contraction; infinite where c is not below 1.
+  /// semi_iterative: bound of what is left of the start
+  double remainder = 0;
 };
 
 /// The state of a solver.
@@ -109,6 +115,7 @@ struct SolveProgress {
   int direction = 0;      ///< passes finished in the current iteration
   int passes = 0;         ///< passes of the current iteration: M, or fewer in Scheme::growing
   bool finished = false;  ///< converged, or all iterations done
+  double change = 0;      ///< IterationRecord::change of the last finished iteration
   double seconds_transfers = 0;  ///< wall time of all passes so far
   double passes_per_second = 0;  ///< in the current iteration
   double seconds_left = 0;       ///< of the current iteration, estimated
@@ -119,8 +126,8 @@ struct SolveProgress {
 /// independently rotated replicas; no reference is needed. A random rotation makes each replica
 /// unbiased (eq. 47), so B ± quantile * standard error contains the B of infinitely many directions
 /// in 95 % of all runs. Bounds of what is left of the start (semi-iterative scheme), or of what
-/// further iterations would change (others, unless converged), are included as the root of the sum
-/// of squares. The first shot's own error is not included.
+/// further iterations would change (others, converged or not), and the estimated error of the first
+/// shot (DirectLight::irradiance_error) are included as the root of the sum of squares.
 struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
@@ -144,7 +151,7 @@ struct SolveStatistics {
   std::int64_t transfers = 0;         ///< exchanges found, over all different directions
   std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed
   bool kept_form_factors = false;     ///< the exchange sums of all passes are in memory
-  bool converged = false;             ///< the tolerance was reached
+  bool converged = false;             ///< the tolerance was reached, or rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
   double escaped = 0;                 ///< share of all projected area with nothing above; 0: closed

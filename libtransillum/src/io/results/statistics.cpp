@@ -96,6 +96,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["contraction"] = list_of(steps, [](const IterationRecord& s) { return s.contraction; });
   json["error"] =
       list_of(steps, [](const IterationRecord& s) { return s.error ? Json(*s.error) : Json(); });
+  json["remainder"] = list_of(steps, [](const IterationRecord& s) { return s.remainder; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
   const PassCounts& counts = statistics.counts;
   json["counters"] = {{"pairs", counts.pairs},

@@ -14,6 +14,7 @@
 #include <set>
 #include <thread>
 
+#include "radiosity/error_bounds.h"
 #include "radiosity/for_each_index.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -112,26 +113,47 @@ class ShotProgress {
   std::atomic<std::int64_t> done_{0};
 };
 
+/// Adds up errors of which it is unknown whether they are independent.
+class ErrorSum {
+ public:
+  void add(const Rgb& error) {
+    sum_ += error;
+    root_ = root_of_squares(root_, error);
+  }
+  /// The larger of both sums, since errors of one sign add up, and others may cancel by chance.
+  Rgb largest() const {
+    return {std::max(std::abs(sum_.r), root_.r), std::max(std::abs(sum_.g), root_.g),
+            std::max(std::abs(sum_.b), root_.b)};
+  }
+
+ private:
+  Rgb sum_, root_;
+};
+
 /// Computes the irradiance of patch i from all sources.
 void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, ShotProgress& progress,
              DirectLight& light) {
   const auto row = static_cast<std::size_t>(i);
   const double unit = 1 / scene.patch(i).area;
   Rgb power;
+  ErrorSum errors;
   for (const PatchId j : light.sources) {
     progress.check();
     progress.add_pair();
     if (j == i) {
       continue;
     }
-    const double area = exchange(i, j, [&] { progress.check(); }).area;
+    const PatchExchange found = exchange(i, j, [&] { progress.check(); });
+    const double area = found.area;
     power += area * scene.exitance(j);
+    errors.add(unit * found.error * scene.exitance(j));
     const auto part = part_of(light.parts, scene.patch(j).material);
     if (part != light.parts.end()) {
       part->irradiance[row] += unit * area;
     }
   }
   light.irradiance[row] = unit * power;
+  light.irradiance_error[row] = errors.largest();
 }
 
 /// Sets the exitance of the sources and their share of all emitted power.
@@ -203,8 +225,8 @@ std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
                   const Cancellation& cancellation, const std::function<void(double)>& progress) {
   const auto patches = scene.patches().size();
-  DirectLight light{std::vector<Rgb>(patches), std::vector<Rgb>(patches), sources, 0,
-                    empty_parts(scene, sources)};
+  DirectLight light{std::vector<Rgb>(patches),   std::vector<Rgb>(patches), sources, 0,
+                    empty_parts(scene, sources), std::vector<Rgb>(patches)};
   if (sources.empty()) {
     return light;
   }

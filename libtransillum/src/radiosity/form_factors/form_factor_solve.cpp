@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/seconds_since.h"
+#include "radiosity/error_bounds.h"
 #include "radiosity/for_each_index.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
@@ -61,7 +62,10 @@ void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& c
 void JacobiIteration::run(int limit, double tolerance, const Cancellation& cancellation) {
   using Clock = std::chrono::steady_clock;
   std::vector<Rgb> next(b.size());
-  double last_change = 0;
+  double last_change = 0, rho_max = 0;
+  for (const Patch& patch : scene_.patches()) {
+    rho_max = std::max(rho_max, max_abs(at(materials_, patch.material).reflectance));
+  }
   while (!converged && std::ssize(records) < limit) {
     const auto start = Clock::now();
     for_each_row(cancellation, [&](std::size_t i) {
@@ -84,6 +88,8 @@ void JacobiIteration::run(int limit, double tolerance, const Cancellation& cance
     IterationRecord record;
     record.change = largest > 0 ? change / largest : 0;
     record.contraction = records.empty() || last_change == 0 ? 0 : change / last_change;
+    const double factor = std::max(rho_max, record.contraction);
+    record.remainder = largest > 0 ? rho_max * distance_to_limit(change, factor) / largest : 0;
     record.seconds = seconds_since(start);
     records.push_back(record);
     last_change = change;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
+#include <limits>
 
 #include "base/power_of_two.h"
 #include "transillum/solve_errors.h"
@@ -78,7 +79,8 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   Eigen::ConjugateGradient<ProductMatrix, Eigen::Lower | Eigen::Upper,
                            Eigen::IdentityPreconditioner>
       solver;
-  solver.setTolerance(tolerance);
+  constexpr double least_tolerance = 16 * std::numeric_limits<double>::epsilon();
+  solver.setTolerance(std::max(tolerance, least_tolerance));
   solver.setMaxIterations(1000);
   solver.compute(matrix);
   const Eigen::Map<const Eigen::VectorXd> known(right.data(), size);

@@ -8,7 +8,7 @@ namespace transillum {
 
 /// Solves K x = right for a symmetric positive definite matrix K.
 /// @param product computes y = K x; both are as long as `right`
-/// @param tolerance norm of the residual over that of `right`
+/// @param tolerance norm of the residual over that of `right`; not below what rounding permits
 /// @throws NotConvergent where the tolerance is not reached; what `product` throws
 void solve_by_conjugate_gradients(const std::function<void(const double* x, double* y)>& product,
                                   const std::vector<double>& right, double tolerance,

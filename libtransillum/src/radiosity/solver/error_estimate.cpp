@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/power_of_two.h"
+#include "radiosity/error_bounds.h"
 #include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 
@@ -34,10 +35,6 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
 }
 
 double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
-
-Rgb root_of_squares(const Rgb& a, const Rgb& b) {
-  return {std::hypot(a.r, b.r), std::hypot(a.g, b.g), std::hypot(a.b, b.b)};
-}
 
 Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   Rgb power;
@@ -92,6 +89,25 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
   if (unit > 0) {
     error.rms = std::hypot(error.rms, root_of_squares(bias, unit) / root_of_squares(b, unit));
   }
+}
+
+/// An error D of H makes B wrong by X = rho D + rho F X. F X is taken as the mean of X over the
+/// area, the mean of rho D over 1 - the mean of rho.
+std::vector<Rgb> bias_of_shot(const Scene& scene, const DirectLight& shot) {
+  std::vector<Rgb> bias(shot.irradiance_error.size()), rho(bias.size());
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    rho[i] = scene.reflectance(static_cast<PatchId>(i));
+    bias[i] = rho[i] * shot.irradiance_error[i];
+  }
+  if (bias.empty() || !(max_norm(bias) > 0)) {
+    return {};
+  }
+  const Rgb direct = mean_over_area(scene, bias), mean = mean_over_area(scene, rho);
+  const Rgb gathered{direct.r / (1 - mean.r), direct.g / (1 - mean.g), direct.b / (1 - mean.b)};
+  for (std::size_t i = 0; i < bias.size(); ++i) {
+    bias[i] += rho[i] * gathered;
+  }
+  return bias;
 }
 
 }  // namespace transillum

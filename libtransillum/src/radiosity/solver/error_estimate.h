@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -18,5 +19,9 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
 /// @param bias bound of a bias of `b`, W/m², one per patch; empty: none
 void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rgb>& b,
                   const std::vector<Rgb>& bias);
+
+/// Estimate of what B is off by because of the error of the first shot, W/m², one per patch; empty
+/// if there is none or it is unknown.
+std::vector<Rgb> bias_of_shot(const Scene& scene, const DirectLight& shot);
 
 }  // namespace transillum

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "radiosity/error_bounds.h"
 #include "radiosity/ratio.h"
 #include "radiosity/solver/norms.h"
 #include "transillum/at.h"
@@ -15,11 +16,8 @@
 namespace transillum {
 namespace {
 
-/// Whether directions_of_iteration() has other directions for each iteration. Where it has not, the
-/// mean converges to B of that one set, and the spread of iterations says nothing about its error.
-bool sets_differ(Sampling sampling) {
-  return sampling != Sampling::hammersley && sampling != Sampling::centered_hammersley;
-}
+/// Share of the largest B at which changes may be rounding.
+constexpr double rounding = 1e-12;
 
 }  // namespace
 
@@ -39,13 +37,11 @@ std::vector<Rgb> IterationHistory::left() const {
   if (semi_iterative()) {
     return averaged() ? mean_.left() : start_.left();
   }
-  if (converged_ || records_.empty()) {
+  if (records_.empty()) {
     return {};
   }
-  // B_i - E_i = rho_i H_i, and H is off by at most the error of B before the last iteration, which
-  // is at most the last change / (1 - contraction) by eq. 23.
-  const double contraction = std::max(records_.back().contraction, start_.rho_max());
-  const double error = contraction < 1 ? last_change_ / (1 - contraction) : HUGE_VAL;
+  // B_i - E_i = rho_i H_i, and H is off by at most the error of B before the last iteration.
+  const double error = distance_to_limit(last_change_, contraction());
   std::vector<Rgb> left(b_.size());
   for (PatchId i = 0; i < scene_.patch_count() && error > 0; ++i) {
     const Rgb& rho = scene_.reflectance(i);
@@ -53,6 +49,14 @@ std::vector<Rgb> IterationHistory::left() const {
     at(left, i) = {share(rho.r), share(rho.g), share(rho.b)};
   }
   return left;
+}
+
+/// The largest reflectance, or the measured factor, which is larger where row sums exceed 1. In
+/// other schemes than `fixed` changes have other reasons too.
+double IterationHistory::contraction() const {
+  const IterationRecord& last = records_.back();
+  const bool measured = options_.scheme == Scheme::fixed && last.change > rounding;
+  return measured ? std::max(last.contraction, start_.rho_max()) : start_.rho_max();
 }
 
 void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord record,
@@ -65,7 +69,9 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
     start_.finish(iterate);
     mean_.add(iterate, b_, start_);
     left_to_do_ = mean_.error(start_);
-    record.error = sets_differ(options_.sampling) ? left_to_do_ : std::nullopt;
+    // With equal sets the mean converges to B of that one set, and the spread of iterations says
+    // nothing about its error.
+    record.error = differs_by_iteration(options_.sampling) ? left_to_do_ : std::nullopt;
     record.contraction = records_.empty() ? 0.0 : start_.contraction();
   }
   b_ = averaged() ? mean_.b() : iterate.b();
@@ -77,15 +83,26 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
                     options_.directions),
         Remedy::directions_or_row_normalization);
   }
+  records_.back().remainder = ratio_or_zero(max_norm(left()), max_norm(b_));
   stop(complete);
 }
 
-void IterationHistory::stop(bool complete) {
+bool IterationHistory::reached_tolerance() const {
+  if (semi_iterative()) {
+    return left_to_do_ && *left_to_do_ <= options_.tolerance;
+  }
+  // Conjugate gradients solve in the second iteration.
+  if (options_.scheme == Scheme::conjugate_gradients && size() < 2) {
+    return false;
+  }
   const IterationRecord& last = records_.back();
-  const bool reached =
-      complete && (semi_iterative() ? left_to_do_ && *left_to_do_ <= options_.tolerance
-                                    : last.change <= options_.tolerance);
-  converged_ = reached && (!semi_iterative() || last.error);
+  const bool rounded = last.change <= rounding && last.contraction >= 1;
+  return last.change <= options_.tolerance || rounded;
+}
+
+void IterationHistory::stop(bool complete) {
+  const bool reached = complete && reached_tolerance();
+  converged_ = reached && (!semi_iterative() || records_.back().error);
   if (options_.iterations > 0) {
     finished_ = size() >= options_.iterations;
   } else if (semi_iterative() && options_.averaged_iterations > 0) {
@@ -101,7 +118,7 @@ void IterationHistory::check_contraction() const {
   // What is left of the start decreases irregularly, and after as many iterations at least to 1/e⁴.
   const double patience =
       semi_iterative() ? static_cast<double>(least) + 4 / (1 - start_.rho_max()) : least;
-  if (finished_ || size() < patience) {
+  if (finished_ || size() < patience || records_.back().change <= rounding) {
     return;
   }
   const bool growing = std::all_of(records_.end() - least / 2, records_.end(),

@@ -36,9 +36,9 @@ class IterationHistory {
   bool past_burn_in() const { return semi_iterative() && mean_.begins(); }
   /// What b()[i] becomes if the iteration under way ends with B_i = `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
-  /// Bound of what b() is off by because the iteration has not ended: W/m², one per patch. Of the
-  /// semi-iterative scheme what is left of the start; empty where others have converged, and before
-  /// the first iteration.
+  /// Bound of what b() is off by because the iteration has ended, converged or not: W/m², one per
+  /// patch; empty before the first iteration. Of the semi-iterative scheme what is left of the
+  /// start.
   std::vector<Rgb> left() const;
 
   /// What is left of the start, to be given the passes too.
@@ -52,6 +52,9 @@ class IterationHistory {
 
  private:
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
+  /// Bound of the factor by which an iteration brings B nearer to its limit.
+  double contraction() const;
+  bool reached_tolerance() const;
   void stop(bool complete);
   /// rho times the row sums of F is above 1 where there are too few directions.
   void check_contraction() const;

@@ -46,6 +46,9 @@ SolveProgress RadiositySolver::Impl::progress() const {
     progress.passes_per_second = made / iteration.seconds;
     progress.seconds_left = (progress.passes - passes_done()) / progress.passes_per_second;
   }
+  if (history.size() > 0) {
+    progress.change = history.records().back().change;
+  }
   if (passes_done() > 0) {
     progress.last_direction = at(iteration.directions, passes_done() - 1);
   } else if (history.size() > 0) {
@@ -105,6 +108,7 @@ ErrorEstimate RadiositySolver::Impl::error_estimate() const {
   const auto& b = kind == Radiosity::running_estimate ? iteration.estimate : history.b();
   ErrorEstimate error = replicas.error_estimate(*input.scene, b, kind);
   include_bias(error, *input.scene, b, history.left());
+  include_bias(error, *input.scene, b, bias_of_shot(*input.scene, *input.shot));
   return error;
 }
 

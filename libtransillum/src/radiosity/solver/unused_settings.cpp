@@ -15,16 +15,11 @@ bool has_pixels(const SolveOptions& solve) {
          solve.engine == Engine::rays || solve.engine == Engine::hemicube;
 }
 
-/// Whether directions_of_iteration() differ.
-bool has_sets(Sampling sampling) {
-  return sampling != Sampling::hammersley && sampling != Sampling::centered_hammersley;
-}
-
 bool draws_random_numbers(const SolveOptions& solve) {
   const bool seeded_rotations = solve.replicas > 1 && !solve.rotation;
   return has_directions(solve) &&
          (is_seeded(solve.sampling) || solve.engine == Engine::rays || seeded_rotations ||
-          (solve.scheme == Scheme::semi_iterative && has_sets(solve.sampling)));
+          (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.sampling)));
 }
 
 /// A setting that only some solves read; all solves read the others.

@@ -177,10 +177,9 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
   return true;
 }
 
-/// The exchange of two polygons past blockers, by points of the smaller polygon.
-double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
-                                        const std::vector<Corners>& blockers,
-                                        const std::function<void()>& tick) const {
+/// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
+void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector<Corners>& blockers,
+                                 const std::function<void()>& tick, PatchExchange& exchange) const {
   constexpr double min_divisions = 0.2, max_divisions = 32;
   const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
   const double radius_p = radius_about(middle_p, facing.p);
@@ -189,17 +188,23 @@ double ExchangeFinder::partial_exchange(const FacingPolygons& facing,
   const Outline small = p_is_smaller ? facing.p : facing.q;
   const Outline large = p_is_smaller ? facing.q : facing.p;
   const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
-  const double ideal =
-      density_ * std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
+  const double size =
+      std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
+  const double ideal = density_ * size;
   const int divisions = ideal < min_divisions
                             ? 0
                             : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, max_divisions));
   PointView view(large, blockers);
-  double sum = 0;
-  for_points_of(small, divisions, [&](const Vec3& x, double weight) {
-    sum += weight * view.form_factor(x, normal, tick);
-  });
-  return sum;
+  const auto by_points = [&](int number) {
+    double sum = 0;
+    for_points_of(small, number, [&](const Vec3& x, double weight) {
+      sum += weight * view.form_factor(x, normal, tick);
+    });
+    return sum;
+  };
+  const double area = by_points(divisions);
+  exchange.area += area;
+  exchange.error += divisions == 0 ? size * size * area : area - by_points(divisions / 2);
 }
 
 PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
@@ -221,7 +226,7 @@ PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
             std::any_of(blockers.begin(), blockers.end(),
                         [&](const Corners& blocker) { return is_hidden(facing, blocker); });
         if (!hidden) {
-          exchange.area += partial_exchange(facing, blockers, tick);
+          add_partial(facing, blockers, tick, exchange);
         }
       }
     }
