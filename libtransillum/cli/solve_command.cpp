@@ -77,9 +77,8 @@ void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
   if (progress.direction > 0) {
     display.show_passes(fmt::format("iteration {}, ", progress.iteration + 1), progress);
   } else if (progress.iteration > 0) {
-    const double change = solver.statistics().iteration_records.back().change;
     display.show(fmt::format("iteration {}", progress.iteration), -1,
-                 fmt::format("change {:.1e}", change));
+                 fmt::format("change {:.1e}", progress.change));
   }
 }
 
@@ -177,6 +176,9 @@ int run(const SolveCall& call) {
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
+  for (const std::string& warning : solve_warnings(solution)) {
+    print_message("warning: " + warning);
+  }
   write_outputs(call, options, solution);
   if (solution.complete) {
     return success;

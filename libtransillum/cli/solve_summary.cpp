@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "messages.h"
 #include "report_text.h"
 #include "transillum/at.h"
 
@@ -53,7 +56,10 @@ std::string convergence_text(const SolveStatistics& statistics) {
   const std::string result =
       last.error ? fmt::format("{} in the mean, estimated error of the mean {:.2e}",
                                statistics.iterations - statistics.burn_in, *last.error)
-                 : fmt::format("last change {:.2e}", last.change);
+                 : fmt::format("last change {:.2e}, all further ones {}", last.change,
+                               std::isfinite(last.remainder)
+                                   ? fmt::format("at most {:.2e}", last.remainder)
+                                   : "not bounded");
   return fmt::format("{}, {}{}", statistics.iterations, result,
                      statistics.converged ? ", converged" : "");
 }
@@ -113,6 +119,35 @@ std::string solve_summary(const Solution& solution) {
                                          time_text(s.seconds_iterate)));
   text += report_row("peak memory", fmt::format("{:.0f} MiB", peak_memory_mebibytes()));
   return text;
+}
+
+std::vector<std::string> solve_warnings(const Solution& solution) {
+  const SolveStatistics& s = solution.statistics;
+  std::vector<std::string> warnings;
+  if (s.iteration_records.empty()) {
+    return warnings;
+  }
+  const auto is_dark = [](const Rgb& value) { return max_abs(value) == 0; };
+  const bool emits = std::any_of(solution.radiosity.begin(), solution.radiosity.end(),
+                                 [&](const Rgb& b) { return !is_dark(b); });
+  if (emits && std::all_of(solution.irradiance.begin(), solution.irradiance.end(), is_dark)) {
+    warnings.push_back("no patch receives light from another: B = E" +
+                       remedy_hint(Remedy::directions));
+  }
+  // Half way from rho_max, which exact form factors of closed scenes have, to divergence.
+  const auto is_slow = [&](const IterationRecord& r) {
+    return r.change > 1e-12 && r.contraction > (1 + s.rho_max) / 2;
+  };
+  constexpr std::ptrdiff_t least = 8;
+  if (std::ssize(s.iteration_records) >= least &&
+      std::all_of(s.iteration_records.end() - least / 2, s.iteration_records.end(), is_slow)) {
+    warnings.push_back(
+        fmt::format("the changes decrease by a factor of only {:.6g} per iteration, although no "
+                    "reflectance exceeds {:.3g}: form factors and B are too large",
+                    s.iteration_records.back().contraction, s.rho_max) +
+        remedy_hint(Remedy::directions_or_row_normalization));
+  }
+  return warnings;
 }
 
 }  // namespace transillum::cli
