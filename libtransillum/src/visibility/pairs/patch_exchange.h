@@ -24,9 +24,10 @@ struct PatchExchange {
 /// Otherwise the smaller patch is sampled by points, and the form factor from each point to the
 /// visible part of the larger patch is computed exactly: the error decreases about as the square of
 /// the distance between points, or in proportion to it if a blocker touches the smaller patch. It
-/// is estimated by what a quarter of the points give: too large by a factor of about 3, or right.
-/// Where one point suffices, it is taken as the square of the patch's size over the distance. Among
-/// coplanar patches with the same normal, those cover others that do so in BspTree::order().
+/// is estimated, for the former, from what a quarter of the points give; where one point suffices,
+/// as the square of the patch's size over the distance.
+///
+/// Among coplanar patches with the same normal, those cover others that do so in BspTree::order().
 /// Surfaces closer to each other than 1e-12 of the scene's size are treated as touching, and then
 /// as back to back or side by side.
 ///
