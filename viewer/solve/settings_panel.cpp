@@ -6,12 +6,14 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QDoubleValidator>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPushButton>
+#include <QRegularExpression>
+#include <QRegularExpressionValidator>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QStackedWidget>
@@ -35,6 +37,11 @@ bool same(const SceneOptions& a, const SceneOptions& b) {
 QString tip(const char* setting) {
   const QString sentence = capitalized(SettingsPanel::tr(description_of(setting)));
   return QStringLiteral("<span>%1</span>").arg(sentence.toHtmlEscaped());
+}
+
+// The shortest digits that read back bit for bit.
+QString exact_text(double value) {
+  return QString::number(value, 'g', QLocale::FloatingPointShortest);
 }
 
 }  // namespace
@@ -75,8 +82,10 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
     sampling_->addItem(capitalized(QString::fromStdString(name)));
   }
   sampling_->setToolTip(tip("sampling"));
-  seed_ = new QSpinBox;
-  seed_->setRange(0, std::numeric_limits<int>::max());
+  seed_ = new QLineEdit;
+  seed_->setObjectName("seed");
+  seed_->setValidator(
+      new QRegularExpressionValidator(QRegularExpression(QStringLiteral("[0-9]{1,20}")), seed_));
   seed_->setToolTip(tip("seed"));
   form.addRow(tr("Directions M"), directions_);
   form.addRow(tr("Sampling"), sampling_);
@@ -143,7 +152,7 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   tolerance_->setMinimumWidth(60);
   tolerance_->setToolTip(tip("tolerance"));
   iterations_ = new QSpinBox;
-  iterations_->setRange(1, 1'000'000);
+  iterations_->setRange(1, std::numeric_limits<int>::max());
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
@@ -160,27 +169,29 @@ void SettingsPanel::connect_solve_rows() {
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
   }
-  for (QSpinBox* box : {directions_, seed_, resolution_, replicas_, iterations_}) {
+  for (QSpinBox* box : {directions_, resolution_, replicas_, iterations_}) {
     connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
   }
-  connect(tolerance_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+  for (QLineEdit* line : {seed_, tolerance_}) {
+    connect(line, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
+  }
 }
 
 void SettingsPanel::add_scene_rows(QFormLayout& form) {
-  max_patch_area_ = new QDoubleSpinBox;
-  max_patch_area_->setDecimals(6);
-  max_patch_area_->setRange(0, 1e9);
-  max_patch_area_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  max_patch_area_->setSpecialValueText(tr("Faces not divided"));
-  max_patch_area_->setSuffix(tr(" m²"));
+  max_patch_area_ = new QLineEdit;
+  max_patch_area_->setObjectName("max_patch_area");
+  auto* area = new QDoubleValidator(max_patch_area_);
+  area->setBottom(0);
+  area->setLocale(QLocale::c());
+  max_patch_area_->setValidator(area);
+  max_patch_area_->setPlaceholderText(tr("Faces not divided"));
   max_patch_area_->setToolTip(tip("max-patch-area"));
   two_sided_ = new QCheckBox(tr("Two-sided faces"));
   two_sided_->setObjectName("two_sided");
   two_sided_->setToolTip(tip("two-sided"));
-  form.addRow(tr("Patch area"), max_patch_area_);
+  form.addRow(tr("Patch area, m²"), max_patch_area_);
   form.addRow(QString(), two_sided_);
-  connect(max_patch_area_, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
-          &SettingsPanel::show_state);
+  connect(max_patch_area_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
   connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
 }
 
@@ -188,10 +199,9 @@ SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
   options.directions = directions_->value();
   options.sampling = static_cast<Sampling>(sampling_->currentIndex());
-  // The box shows its maximum for a larger seed from the command line: keep that seed.
-  const auto shown = static_cast<std::uint64_t>(seed_->value());
-  if (shown < static_cast<std::uint64_t>(seed_->maximum())) {
-    options.seed = shown;
+  bool number = false;
+  if (const qulonglong seed = seed_->text().toULongLong(&number); number) {
+    options.seed = seed;
   }
   options.engine = engine_of(*engine_);
   options.engine_options.resolution = resolution_->value();
@@ -201,7 +211,6 @@ SolveOptions SettingsPanel::solve_options() const {
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
   options.replicas = replicas_->value();
   options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
-  bool number = false;
   const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
   if (number && tolerance > 0) {
     options.tolerance = tolerance;
@@ -210,15 +219,15 @@ SolveOptions SettingsPanel::solve_options() const {
 }
 
 SceneOptions SettingsPanel::scene_options() const {
-  return {two_sided_->isChecked(), max_patch_area_->value()};
+  // No number, as in an empty field, reads as 0: faces are not divided.
+  return {two_sided_->isChecked(), QLocale::c().toDouble(max_patch_area_->text())};
 }
 
 void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
   base_ = solve;
   directions_->setValue(solve.directions);
   sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
-  seed_->setValue(static_cast<int>(
-      std::min<std::uint64_t>(solve.seed, static_cast<std::uint64_t>(seed_->maximum()))));
+  seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
   order_->setCurrentIndex(static_cast<int>(solve.engine_options.order));
@@ -228,9 +237,9 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   replicas_->setValue(solve.replicas);
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
-  tolerance_->setText(QString::number(solve.tolerance, 'g', 15));
+  tolerance_->setText(exact_text(solve.tolerance));
   two_sided_->setChecked(scene.two_sided);
-  max_patch_area_->setValue(scene.max_patch_area);
+  max_patch_area_->setText(scene.max_patch_area > 0 ? exact_text(scene.max_patch_area) : QString());
   show_state();
 }
 

@@ -8,7 +8,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
 class QLineEdit;
 class QPushButton;
@@ -55,7 +54,7 @@ class SettingsPanel : public QWidget {
   QFormLayout* form_;
   QSpinBox* directions_;
   QComboBox* sampling_;
-  QSpinBox* seed_;
+  QLineEdit* seed_;
   QComboBox* engine_;
   QSpinBox* resolution_;
   QComboBox* order_;
@@ -68,7 +67,7 @@ class SettingsPanel : public QWidget {
   QSpinBox* replicas_ = nullptr;
   QSpinBox* iterations_;
   QCheckBox* two_sided_;
-  QDoubleSpinBox* max_patch_area_;
+  QLineEdit* max_patch_area_;
   QPushButton* restart_ = nullptr;
 };
 
