@@ -270,6 +270,30 @@ class WorkerExceptionsTest : public QObject {
     }
   }
 
+  // Starting a run cancels the solver of the run before, which cannot go on any more.
+  void a_run_that_could_not_start_is_tried_again() {
+    Watched w;
+    w.open({Goal::Kind::direction});
+    QVERIFY(wait_for([&] { return w.runner.state() == RunState::paused && w.snapshot; }));
+    SolveOptions impossible = with_replicas(8);
+    impossible.replicas = 9;
+    for (const bool again : {false, true}) {
+      w.failure.clear();
+      if (again) {
+        w.runner.run();
+      } else {
+        w.runner.restart(impossible, {Goal::Kind::finished});
+      }
+      QVERIFY(wait_for([&] { return !w.failure.isEmpty(); }, 10000));
+      QVERIFY2(w.failure.contains("replicas"), qPrintable(w.failure));
+      QVERIFY(wait_for([&] { return w.runner.state() == RunState::paused; }));
+    }
+    w.failure.clear();
+    w.runner.restart(with_replicas(24), {Goal::Kind::finished});
+    QVERIFY(w.finishes_with(24));
+    QCOMPARE(w.failure, QString());
+  }
+
   void the_painter_goes_on_after_any_exception_data() {
     QTest::addColumn<int>("exception");
     for (int exception = 0; exception < 3; ++exception) {

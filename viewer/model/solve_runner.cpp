@@ -268,10 +268,19 @@ void SolveRunner::start_solve(const SolveOptions& options) {
     return;
   }
   try {
+    // The old solver has been canceled: if this fails, the next goal tries again.
+    failed_start_ = options;
+    more_to_do_ = true;
     replace_solver(std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
                                                      solve_cancellation_));
     post_snapshot();
   } catch (...) {
+    if (failed_start_) {
+      const std::lock_guard lock(mutex_);
+      if (!open_request_ && !restart_request_) {
+        goal_ = {};
+      }
+    }
     post_current_failure();
   }
 }
@@ -286,6 +295,7 @@ void SolveRunner::replace_solver(std::unique_ptr<RadiositySolver> solver) {
   form_factors_passes_ = 0;
   form_factors_fit_ = true;
   more_to_do_ = true;
+  failed_start_.reset();
 }
 
 void SolveRunner::store_radiosity() {
@@ -322,7 +332,11 @@ std::int64_t SolveRunner::passes_so_far() const {
 }
 
 void SolveRunner::advance(const Goal& goal) {
-  if (!solver_ || !more_to_do_) {
+  if (failed_start_) {
+    const SolveOptions options = *failed_start_;
+    start_solve(options);
+  }
+  if (!solver_ || !more_to_do_ || failed_start_) {
     return;
   }
   if (goal.kind == Goal::Kind::passes && passes_so_far() >= goal.passes) {

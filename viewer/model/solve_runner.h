@@ -137,6 +137,7 @@ class SolveRunner : public QObject {
   std::int64_t form_factors_passes_ = 0;  // number of passes in form_factors_
   bool form_factors_fit_ = true;
   bool more_to_do_ = false;
+  std::optional<SolveOptions> failed_start_;  // of a run that failed to start; solver_ is canceled
   QElapsedTimer since_snapshot_;
   double snapshot_cost_ms_ = 0;
   std::vector<double> iteration_changes_;  // of the newest iteration with all its passes
