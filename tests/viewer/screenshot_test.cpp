@@ -70,7 +70,11 @@ class ScreenshotTest : public QObject {
     QTest::newRow("display") << "DISPLAY=:9999" << QByteArray("no display: cannot open \":9999\"");
     QTest::newRow("platform") << "QT_QPA_PLATFORM=nonsense"
                               << QByteArray("no display: cannot open \"nonsense\"");
-    QTest::newRow("OpenGL") << "QT_XCB_GL_INTEGRATION=none" << QByteArray("no OpenGL 3.2");
+    for (const char* setting :
+         {"QT_XCB_GL_INTEGRATION=none", "QT_XCB_GL_INTEGRATION=xcb_egl", "LIBGL_ALWAYS_INDIRECT=1",
+          "MESA_GL_VERSION_OVERRIDE=1.4", "QT_QPA_PLATFORM=minimal"}) {
+      QTest::newRow(setting) << setting << QByteArray("no OpenGL 3.2");
+    }
   }
   void without_a_screen_it_says_so() {
     QFETCH(const QString, setting);

@@ -3,7 +3,9 @@
 // Session files in the viewer's window: saving, opening and errors; recent files; exports.
 #include <QAction>
 #include <QDir>
+#include <QDockWidget>
 #include <QPlainTextEdit>
+#include <QSettings>
 #include <QTemporaryDir>
 
 #include "lessons/session_file.h"
@@ -155,6 +157,134 @@ class SessionFileTest : public QObject {
     QCOMPARE(window->colors.scale().low, 1.0);
     QVERIFY(window->parts().page.bookmarks().all().empty());
     QVERIFY(window->colors.exposure_is_automatic());
+  }
+
+  void a_damaged_layout_is_not_restored() {
+    const auto window = make_window(16);
+    DockLayouts& docks = window->parts().docks;
+    const int layout = static_cast<int>(docks.current());
+    const QByteArray saved = docks.state();
+    QVERIFY(docks.restore(layout, saved));
+    for (int k = 0; k < saved.size(); ++k) {
+      QByteArray damaged = saved;
+      damaged[k] = static_cast<char>(damaged[k] ^ 1);
+      QVERIFY2(!docks.restore(layout, damaged), qPrintable(QString::number(k)));
+      QVERIFY(!docks.restore(layout, saved.left(k)));
+    }
+    QVERIFY(!docks.restore(layout, window->saveState()));
+    QVERIFY(docks.restore(layout, saved));
+  }
+
+  void a_session_with_a_damaged_layout_opens_with_a_warning() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("damaged.json");
+    write(path, R"({"show": {"scene": "furnace", "options": {"directions": 16}, "layout": "debug"},
+                    "docks": "AAAA/wAAAAf9AAAAAwAAAAAAAAFe"})");
+    const auto window = make_window(16);
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QVERIFY2(window->banner_text().startsWith("docks: damaged"), qPrintable(window->banner_text()));
+    QVERIFY(window->parts().docks.current() == Layout::debug);
+    QVERIFY(window->findChild<QDockWidget*>("algorithm_dock")->isVisible());
+  }
+
+  void a_position_that_cannot_be_reached_is_reported_data() {
+    QTest::addColumn<QByteArray>("show");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("iteration, paused")
+        << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, "solve": 3,
+                         "focus": {"iteration": 15})")
+        << "focus: there is no iteration 15; the run has 1 to 1";
+    QTest::newRow("iteration, nothing solved")
+        << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, "solve": 0,
+                         "focus": {"iteration": 2})")
+        << "focus: there is no iteration 2; the run has 1 to 1";
+    QTest::newRow("iteration, finished")
+        << QByteArray(R"("scene": "furnace", "options": {"directions": 16, "iterations": 2},
+                         "focus": {"iteration": 3})")
+        << "focus: there is no iteration 3; the run has 1 to 2";
+    QTest::newRow("direction")
+        << QByteArray(R"("scene": "furnace", "options": {"directions": 16}, "solve": 20,
+                         "focus": {"iteration": 2, "direction": 17})")
+        << "focus: there is no direction 17; the run has 1 to 16";
+    QTest::newRow("no scene") << QByteArray(R"("focus": {"iteration": 3})")
+                              << "scene: is missing, and no scene is open";
+  }
+  void a_position_that_cannot_be_reached_is_reported() {
+    QFETCH(const QByteArray, show);
+    QFETCH(const QString, expected);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("far.json");
+    write(path, R"({"show": {)" + show + "}}");
+    const auto window = make_window(16);
+    const auto& applier = *window->findChild<ViewStateApplier*>();
+    QStringList messages;
+    connect(&applier, &ViewStateApplier::unreachable, this,
+            [&](const QString& message) { messages << message; });
+    window->files().open(path);
+    QVERIFY(wait_for([&] { return !messages.isEmpty() && applier.arrived(); }));
+    QCOMPARE(messages, QStringList{expected});
+    QCOMPARE(window->banner_text(), expected);
+  }
+
+  // Until the iteration begins, each snapshot would undo what the user does.
+  void waiting_for_an_iteration_leaves_the_view_alone() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("long.json");
+    write(path, R"({"show": {"scene": "furnace", "options": {"directions": 1000000},
+                             "focus": {"iteration": 2}, "select": 1}})");
+    const auto window = make_window(16);
+    int snapshots = 0;
+    connect(&window->scene, &OpenScene::snapshot_shown, this, [&] { ++snapshots; });
+    window->files().open(path);
+    QVERIFY(wait_for([&] { return window->selection.patch() == 1; }));
+    window->selection.select(3);
+    const int before = snapshots;
+    QVERIFY(wait_for([&] { return snapshots >= before + 3; }));
+    QVERIFY(!window->findChild<ViewStateApplier*>()->arrived());
+    QCOMPARE(window->selection.patch(), PatchId{3});
+  }
+
+  void a_scene_without_a_snapshot_is_saved_and_reloaded_by_its_name() {
+    const auto window = make_window(24);
+    auto& applier = *window->findChild<ViewStateApplier*>();
+    int scenes = 0;
+    ViewState state;
+    connect(&window->scene, &OpenScene::scene_shown, this, [&] {
+      QVERIFY(!window->snapshot());
+      if (++scenes == 1) {
+        state = applier.state();
+        window->findChild<QAction*>("reload")->trigger();
+      }
+    });
+    window->open("furnace");
+    QVERIFY(wait_for([&] { return scenes == 2; }));
+    QVERIFY(settles(*window));
+    QCOMPARE(state.scene, std::string("furnace"));
+    QCOMPARE(state.options.solve.directions, 24);
+    QCOMPARE(window->scene.spec(), std::string("furnace"));
+    QCOMPARE(window->snapshot()->options.directions, 24);
+  }
+
+  void notes_survive_a_signal() {
+    const QTemporaryDir folder;
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder.path());
+    QCoreApplication::setOrganizationName("transillum");
+    QString path;
+    {
+      SharedState state;
+      MainWindow window(state, true);
+      window.show();
+      auto* notes = window.findChild<QPlainTextEdit*>("notes");
+      QTest::keyClicks(notes, "to be kept");
+      path = window.close_without_questions();
+      QVERIFY(!window.isVisible());
+    }
+    QVERIFY2(QFile::exists(path), qPrintable(path));
+    const Session session = session_from_text(contents(path).toStdString(), "s.json", "");
+    QCOMPARE(session.notes, std::string("to be kept"));
+    QVERIFY(QSettings().contains("window/state"));
+    QVERIFY(QFile::remove(path));
   }
 
   void a_session_and_its_scene_move_together() {

@@ -17,7 +17,7 @@ struct Session {
   std::vector<Breakpoint> breakpoints;
   std::vector<CameraBookmarks::Bookmark> saved_views;
   std::string notes;  ///< free text
-  QByteArray docks;   ///< QMainWindow::saveState() of state.layout; empty: its default
+  QByteArray docks;   ///< DockLayouts::state() of state.layout; empty: its default
 };
 
 /// Parses the text of a session file.

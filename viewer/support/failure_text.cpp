@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <new>
+#include <system_error>
 
 namespace transillum::viewer {
 
@@ -31,6 +32,10 @@ QString remedy_hint(Remedy remedy) {
 QString failure_text(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) {
     return tr("Not enough memory");
+  }
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  if (system && system->code() == std::errc::resource_unavailable_try_again) {
+    return tr("Not enough memory, or too many threads, to start a thread");
   }
   const QString text = QString::fromUtf8(error.what());
   const auto* solve_error = dynamic_cast<const SolveError*>(&error);

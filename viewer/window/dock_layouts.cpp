@@ -8,8 +8,10 @@
 #include <QTabBar>
 #include <QTimer>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "support/checked_bytes.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -143,14 +145,15 @@ bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
-QByteArray DockLayouts::state() const { return window_.saveState(layout_version); }
+QByteArray DockLayouts::state() const { return with_checksum(window_.saveState(layout_version)); }
 
 bool DockLayouts::restore(int layout, const QByteArray& state) {
-  if (layout < 0 || layout > static_cast<int>(Layout::debug) || state.isEmpty()) {
+  const std::optional<QByteArray> checked = without_checksum(state);
+  if (layout < 0 || layout > static_cast<int>(Layout::debug) || !checked) {
     return false;
   }
   arrange(static_cast<Layout>(layout));
-  return window_.restoreState(state, layout_version);
+  return window_.restoreState(*checked, layout_version);
 }
 
 void DockLayouts::add_to(QMenu& menu) {

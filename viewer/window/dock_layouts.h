@@ -36,7 +36,8 @@ class DockLayouts : public QObject {
   void follow_type();
   /// The places and sizes of all docks, for restore().
   QByteArray state() const;
-  /// Restores a state saved in layout number `layout`. False where it does not fit this version.
+  /// Restores a state saved in layout number `layout`. False where it is damaged or does not fit
+  /// this version.
   bool restore(int layout, const QByteArray& state);
   /// The layout arranged last.
   Layout current() const { return current_; }

@@ -2,12 +2,14 @@
 #include "window/file_actions.h"
 
 #include <QAction>
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenu>
 #include <QSaveFile>
 #include <QSettings>
+#include <QStandardPaths>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@
 #include "lessons/lesson_panel.h"
 #include "lessons/session_file.h"
 #include "solve/settings_panel.h"
+#include "support/failure_text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/json_text.h"
@@ -114,7 +117,7 @@ void FileActions::try_open(const QString& path) {
   try {
     open(path);
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(failure_text(error));
   }
 }
 
@@ -138,6 +141,15 @@ void FileActions::open_scene(const QString& spec, Goal goal) {
   parts_.scene.open(spec.toStdString(), parts_.settings.options(), goal);
 }
 
+QString FileActions::save_unasked() {
+  const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+  QDir().mkpath(folder);
+  const QString path = folder + QStringLiteral("/unsaved-session.json");
+  save_session(path);
+  remember(path);
+  return path;
+}
+
 void FileActions::choose_lesson() {
   const QString path = QFileDialog::getOpenFileName(&parts_.window, tr("Open a lesson"), {},
                                                     tr("Lessons (*.json);;All files (*)"));
@@ -146,8 +158,8 @@ void FileActions::choose_lesson() {
   }
   try {
     open_lesson(path.toStdString());
-  } catch (const InputError& error) {
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+  } catch (const std::exception& error) {
+    parts_.notifier.show_failure(failure_text(error));
   }
 }
 
@@ -189,7 +201,7 @@ void FileActions::choose_session() {
     remember(path);
     parts_.notifier.show_written(path);
   } catch (const std::exception& error) {
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
+    parts_.notifier.show_failure(failure_text(error));
   }
 }
 

@@ -1,15 +1,18 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <QVTKOpenGLNativeWidget.h>
 
-#include <QApplication>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QSurfaceFormat>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "solve/settings_panel.h"
 #include "support/failure_text.h"
@@ -17,10 +20,13 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "widgets/theme.h"
+#include "window/application.h"
 #include "window/command_line.h"
+#include "window/ending_signals.h"
 #include "window/file_actions.h"
 #include "window/main_window.h"
 #include "window/screenshot.h"
+#include "window/view_state_applier.h"
 
 using namespace transillum::viewer;
 
@@ -75,6 +81,23 @@ bool has_opengl() {
 #endif
 }
 
+/// For an exception that has left a function that must not throw: also the report may fail.
+[[noreturn]] void end_with_line() {
+  const char* text = "unknown error";
+  try {
+    if (std::current_exception()) {
+      throw;
+    }
+  } catch (const std::bad_alloc&) {
+    text = "not enough memory";
+  } catch (const std::exception& error) {
+    text = error.what();
+  } catch (...) {
+  }
+  std::fprintf(stderr, "transillum-viewer: %s\n", text);
+  std::_Exit(1);
+}
+
 /// The scene to open; without arguments, one that shows a solve at work.
 std::string scene_of(const CommandLine& command_line) {
   return command_line.scene.empty() && command_line.lesson.empty() ? "sphere-flake"
@@ -96,9 +119,12 @@ std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunne
                                             const std::string& path) {
   auto screenshot = std::make_unique<Screenshot>(
       window, [&window] { return window.settled(); }, QString::fromStdString(path));
-  const auto fail = [](const QString& message, int exit_status) {
-    print_error(message);
-    QApplication::exit(exit_status);
+  const auto fail = [failed = std::make_shared<bool>(false)](const QString& message,
+                                                             int exit_status) {
+    if (!std::exchange(*failed, true)) {
+      print_error(message);
+      QApplication::exit(exit_status);
+    }
   };
   QObject::connect(screenshot.get(), &Screenshot::done, qApp, &QApplication::quit);
   QObject::connect(screenshot.get(), &Screenshot::failed, qApp,
@@ -106,6 +132,10 @@ std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunne
   QObject::connect(
       &runner, &SolveRunner::failed, qApp,
       [fail](const QString& message, bool bad_input) { fail(message, bad_input ? 2 : 1); });
+  // Later: before the event loop, exit() has no effect.
+  QObject::connect(
+      &window.applier(), &ViewStateApplier::unreachable, qApp,
+      [fail](const QString& message) { fail(message, 2); }, Qt::QueuedConnection);
   return screenshot;
 }
 
@@ -120,9 +150,54 @@ void open_arguments(MainWindow& window, const CommandLine& command_line) {
   }
 }
 
+/// Closes the window; the message, if any, is for a user who may no longer see it.
+void end_by_signal(MainWindow& window, int number) {
+  try {
+    if (const QString notes = window.close_without_questions(); !notes.isEmpty()) {
+      print_error(QStringLiteral("the notes are in %1").arg(notes));
+    }
+  } catch (const std::exception& error) {
+    print_error(QStringLiteral("the notes could not be saved: ") + failure_text(error));
+  }
+  QApplication::exit(128 + number);
+}
+
+/// Shows the window until it is closed. @returns the exit status
+int run(Application& application, const CommandLine& command_line) {
+  EndingSignals signals_of_user;
+  const bool for_screenshot = !command_line.screenshot.empty();
+  SharedState state;
+  MainWindow window(state, !for_screenshot);
+  window.parts().settings.set_options(command_line.solve_options, command_line.scene_options);
+  QObject::connect(&signals_of_user, &EndingSignals::received, &window,
+                   [&window](int number) { end_by_signal(window, number); });
+  std::unique_ptr<Screenshot> screenshot;
+  if (for_screenshot) {
+    screenshot = take_screenshot(window, state.runner, command_line.screenshot);
+  }
+  window.show();
+  try {
+    open_arguments(window, command_line);
+  } catch (const transillum::InputError& error) {
+    print_error(QString::fromStdString(error.what()));
+    return 2;
+  }
+  application.on_failure = [&](const QString& message) {
+    if (for_screenshot) {
+      print_error(message);
+      std::_Exit(1);
+    }
+    window.show_failure(message);
+  };
+  const int status = QApplication::exec();
+  application.on_failure = nullptr;
+  return signals_of_user.number() > 0 ? 128 + signals_of_user.number() : status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(end_with_line);
   const ParsedCommandLine parsed = parse_command_line(argc, argv, std::cout, std::cerr);
   if (parsed.exit_now) {
     return parsed.exit_status;
@@ -141,7 +216,7 @@ int main(int argc, char** argv) {
   // Qt would take arguments that it knows; ours are not for it.
   int qt_argc = 1;
   const QtMessageHandler usual_handler = qInstallMessageHandler(exit_without_display);
-  QApplication application(qt_argc, argv);
+  Application application(qt_argc, argv);
   const bool can_draw = has_opengl();
   qInstallMessageHandler(usual_handler);
   if (!can_draw) {
@@ -154,24 +229,10 @@ int main(int argc, char** argv) {
   QApplication::setOrganizationName("transillum");
   QApplication::setApplicationName("transillum-viewer");
   theme::apply(application);
-
-  const bool for_screenshot = !command_line.screenshot.empty();
-  SharedState state;
-  MainWindow window(state, !for_screenshot);
-  window.parts().settings.set_options(command_line.solve_options, command_line.scene_options);
-  std::unique_ptr<Screenshot> screenshot;
-  if (for_screenshot) {
-    screenshot = take_screenshot(window, state.runner, command_line.screenshot);
-  }
-  window.show();
   try {
-    open_arguments(window, command_line);
-  } catch (const transillum::InputError& error) {
-    print_error(QString::fromStdString(error.what()));
-    return 2;
+    return run(application, command_line);
   } catch (const std::exception& error) {
     print_error(failure_text(error));
     return 1;
   }
-  return QApplication::exec();
 }

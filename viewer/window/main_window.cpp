@@ -15,6 +15,7 @@
 #include <QStatusBar>
 #include <QTimer>
 #include <QToolBar>
+#include <exception>
 
 #include "directions/direction_view.h"
 #include "directions/received_view.h"
@@ -38,6 +39,7 @@
 #include "stepping/step_panel.h"
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
+#include "support/checked_bytes.h"
 #include "transillum/reference_cache.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
@@ -235,7 +237,10 @@ void MainWindow::connect_scene() {
     for (const std::string& warning : loaded->scene->report().warnings) {
       warnings << QString::fromStdString(warning);
     }
-    notifier_->show_warnings(warnings);
+    // Older messages were dismissed when the scene was requested.
+    if (!warnings.isEmpty()) {
+      notifier_->show_warnings(warnings);
+    }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
     settings_->set_in_effect(snapshot->options, state_.scene.options());
@@ -372,17 +377,29 @@ void MainWindow::restore_layout() {
   state_.breakpoints.load(settings);
   appearance_.load(settings);
   files_->load(settings);
-  restoreGeometry(settings.value("window/geometry").toByteArray());
+  const QByteArray saved = settings.value("window/state").toByteArray();
+  const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
+  if (geometry) {
+    restoreGeometry(*geometry);
+  }
   // The saved state may not fit after an update of Qt or of the docks.
   const int layout = settings.value("window/layout", -1).toInt();
-  if (!docks_.restore(layout, settings.value("window/state").toByteArray())) {
-    docks_.arrange(Layout::inspect);
+  if (docks_.restore(layout, saved)) {
+    return;
+  }
+  docks_.arrange(Layout::inspect);
+  if (!saved.isEmpty()) {
+    // Later: opening the first scene dismisses messages.
+    QTimer::singleShot(0, notifier_, [this] {
+      notifier_->show_warnings(
+          {tr("The saved layout is damaged, or of another version; the usual one is used")});
+    });
   }
 }
 
 void MainWindow::save_layout() {
   QSettings settings;
-  settings.setValue("window/geometry", saveGeometry());
+  settings.setValue("window/geometry", with_checksum(saveGeometry()));
   settings.setValue("window/state", docks_.state());
   settings.setValue("window/layout", static_cast<int>(docks_.current()));
   state_.breakpoints.save(settings);
@@ -402,6 +419,8 @@ bool MainWindow::may_close() {
   }
   return answer == QMessageBox::Discard || !session_->has_unsaved_notes();
 }
+
+void MainWindow::show_failure(const QString& message) { notifier_->show_failure(message); }
 
 bool MainWindow::settled() const {
   const bool idle =
@@ -425,8 +444,26 @@ void MainWindow::dropEvent(QDropEvent* event) {
   files_->try_open(file);
 }
 
+QString MainWindow::close_without_questions() {
+  asks_ = false;
+  QString written;
+  std::exception_ptr failure;
+  if (remember_ && session_->has_unsaved_notes()) {
+    try {
+      written = files_->save_unasked();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  close();
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  return written;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (remember_ && !may_close()) {
+  if (remember_ && asks_ && !may_close()) {
     event->ignore();
     return;
   }

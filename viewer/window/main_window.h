@@ -43,8 +43,14 @@ class MainWindow : public QMainWindow {
 
   WindowParts parts();
   FileActions& files() { return *files_; }
+  ViewStateApplier& applier() { return *applier_; }
+  void show_failure(const QString& message);
   /// Whether the solver is idle and every view shows the newest state.
   bool settled() const;
+  /// Closes the window without a dialog. Notes that have not been saved are written to a session
+  /// file, whose path is returned; empty: there are none.
+  /// @throws std::runtime_error where that file cannot be written; the window is closed
+  QString close_without_questions();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -70,6 +76,7 @@ class MainWindow : public QMainWindow {
 
   SharedState& state_;
   const bool remember_;
+  bool asks_ = true;  ///< about unsaved notes, when the window closes
   DockLayouts docks_{*this};
   FullScreen full_screen_{*this};
   AppearanceActions appearance_{this};

@@ -11,10 +11,12 @@ OpenScene::OpenScene(SolveRunner& runner, Relighting& relighting)
     : runner_(runner), relighting_(relighting) {
   connect(&runner_, &SolveRunner::scene_loaded, this, &OpenScene::take_scene);
   connect(&runner_, &SolveRunner::snapshot_ready, this, &OpenScene::take_snapshot);
+  connect(&runner_, &SolveRunner::failed, this, [this] { opening_ = false; });
   connect(&relighting_, &Relighting::changed, this, &OpenScene::show_again);
 }
 
 void OpenScene::open(const std::string& spec, const RunOptions& options, Goal goal) {
+  opening_ = true;
   emit opening();
   requested_spec_ = spec;
   requested_options_ = options.scene;
@@ -43,6 +45,7 @@ void OpenScene::show_again() {
 }
 
 void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
+  opening_ = false;
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;
   spec_ = requested_spec_;

@@ -35,6 +35,8 @@ class OpenScene : public QObject {
   /// The snapshot shown; null until the first one of a scene arrives.
   std::shared_ptr<const SolverSnapshot> snapshot() const { return shown_; }
 
+  /// Whether a scene has been requested and has neither been loaded nor failed to load.
+  bool is_opening() const { return opening_; }
   /// Whether `spec` is open, read with `options`.
   bool is_open(const std::string& spec, const SceneOptions& options) const;
   /// Whether the solve has processed no direction yet.
@@ -64,6 +66,7 @@ class OpenScene : public QObject {
   Relighting& relighting_;
   std::string requested_spec_, spec_;
   SceneOptions requested_options_, options_;
+  bool opening_ = false;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> newest_;  ///< as the solver posted it
   std::shared_ptr<const SolverSnapshot> shown_;   ///< with the light of changed materials

@@ -116,7 +116,11 @@ void ViewStateApplier::reload() {
   if (parts_.scene.spec().empty()) {
     return;
   }
-  requested_ = state();
+  // A request that nothing has been applied of yet is repeated.
+  const bool pending = awaits_ == Awaits::scene || awaits_ == Awaits::run;
+  if (!pending || requested_.scene.empty()) {
+    requested_ = state();
+  }
   awaits_ = Awaits::scene;
   opened_here_ = true;
   parts_.settings.set_options(requested_.options.solve, requested_.options.scene);
@@ -126,6 +130,11 @@ void ViewStateApplier::reload() {
 void ViewStateApplier::start_run() {
   // A state without a scene applies to whichever scene is open.
   if (requested_.scene.empty()) {
+    if (!parts_.scene.loaded() && !parts_.scene.is_opening()) {
+      awaits_ = Awaits::nothing;
+      fail(tr("scene: is missing, and no scene is open"));
+      return;
+    }
     awaits_ = Awaits::run;
     on_snapshot();
     return;
@@ -149,6 +158,7 @@ void ViewStateApplier::start_run() {
       requested_.solve.kind != Goal::Kind::finished &&
       passes_done(snapshot->progress, snapshot->kept_passes) > requested_.solve.passes;
   if (beyond || !(snapshot->options == solve)) {
+    run_before_ = snapshot->kept_directions.front();
     parts_.runner.restart(solve, requested_.solve);
   } else {
     parts_.runner.set_goal(requested_.solve);
@@ -188,23 +198,47 @@ bool ViewStateApplier::run_has_started() const {
     return true;
   }
   return snapshot->options == requested_.options.solve &&
-         (requested_.solve.kind == Goal::Kind::finished ||
-          passes_done(snapshot->progress, snapshot->kept_passes) <= requested_.solve.passes);
+         snapshot->kept_directions.front() != run_before_;
 }
 
-bool ViewStateApplier::requested_iteration_exists() const {
-  return !requested_.focus || requested_.focus->iteration < parts_.focus.iterations() ||
-         parts_.runner.state() == RunState::finished;
+// Judged by the snapshot: the runner's state may still be that of the previous run.
+bool ViewStateApplier::run_is_over() const {
+  const SolverSnapshot& snapshot = *parts_.scene.snapshot();
+  if (snapshot.progress.finished) {
+    return true;
+  }
+  if (requested_.scene.empty()) {
+    return parts_.runner.state() != RunState::running && parts_.runner.state() != RunState::loading;
+  }
+  return requested_.solve.kind != Goal::Kind::finished &&
+         passes_done(snapshot.progress, snapshot.kept_passes) >= requested_.solve.passes;
+}
+
+void ViewStateApplier::fail(const QString& message) {
+  parts_.notifier.show_failure(message);
+  emit unreachable(message);
 }
 
 void ViewStateApplier::on_snapshot() {
-  if (awaits_ != Awaits::run || !run_has_started()) {
+  if (awaits_ == Awaits::run && run_has_started()) {
+    run_before_ = nullptr;
+    apply_view();
+    awaits_ = Awaits::iteration;
+  }
+  if (awaits_ != Awaits::iteration) {
     return;
   }
-  apply_view();
-  if (requested_iteration_exists()) {
-    apply_focus();
+  const int iterations = parts_.focus.iterations();
+  const bool exists = !requested_.focus || requested_.focus->iteration < iterations;
+  if (!exists && !run_is_over()) {
+    return;
   }
+  if (!exists) {
+    fail(tr("focus: there is no iteration %1; the run has 1 to %2")
+             .arg(requested_.focus->iteration + 1)
+             .arg(iterations));
+  }
+  apply_focus();
 }
 
 void ViewStateApplier::apply_view() {
@@ -253,10 +287,10 @@ void ViewStateApplier::apply_focus() {
   }
   awaits_ = Awaits::direction;
   const int passes = focus.passes_of(requested_.focus->iteration);
-  if (requested_.focus->direction >= passes) {
-    parts_.notifier.show_failure(tr("focus: there is no direction %1; the run has 1 to %2")
-                                     .arg(requested_.focus->direction + 1)
-                                     .arg(passes));
+  if (requested_.focus->iteration < focus.iterations() && requested_.focus->direction >= passes) {
+    fail(tr("focus: there is no direction %1; the run has 1 to %2")
+             .arg(requested_.focus->direction + 1)
+             .arg(passes));
   }
   const auto* step = std::get_if<std::int32_t>(&requested_.focus->step);
   focus.go_to({requested_.focus->iteration, requested_.focus->direction, step ? *step : -1});
@@ -279,15 +313,19 @@ bool ViewStateApplier::arrived() const {
 }
 
 ViewState ViewStateApplier::state() const {
-  const auto snapshot = parts_.scene.snapshot();
-  if (!snapshot) {
+  if (!parts_.scene.loaded()) {
     return {};
   }
   ViewState state = appearance();
   state.scene = parts_.scene.spec();
-  state.options = {snapshot->options, parts_.scene.options()};
+  // A scene that has just been loaded has no snapshot yet.
+  const auto snapshot = parts_.scene.snapshot();
+  state.options = {snapshot ? snapshot->options : parts_.settings.solve_options(),
+                   parts_.scene.options()};
   const RunState run = parts_.runner.state();
-  if (run != RunState::finished && run != RunState::running) {
+  if (parts_.scene.loaded()->stored && !snapshot) {
+    state.solve = {};
+  } else if (snapshot && run != RunState::finished && run != RunState::running) {
     const std::int64_t passes = passes_done(snapshot->progress, snapshot->kept_passes);
     state.solve = passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{};
   }

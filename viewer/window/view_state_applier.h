@@ -2,7 +2,9 @@
 #pragma once
 
 #include <QObject>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "lessons/view_state.h"
 #include "window/window_parts.h"
@@ -32,8 +34,13 @@ class ViewStateApplier : public QObject {
   /// What the window shows now.
   ViewState state() const;
 
+ signals:
+  /// A part of the newest request does not exist; the nearest one is shown.
+  /// @param message as in the window
+  void unreachable(const QString& message);
+
  private:
-  enum class Awaits { nothing, scene, run, direction };
+  enum class Awaits { nothing, scene, run, iteration, direction };
 
   void apply(const ViewState& state);
   /// Colors, overlays, labels.
@@ -45,7 +52,8 @@ class ViewStateApplier : public QObject {
   void on_snapshot();
   void on_direction();
   bool run_has_started() const;
-  bool requested_iteration_exists() const;
+  bool run_is_over() const;
+  void fail(const QString& message);
   void apply_view();
   void apply_selection();
   void apply_focus();
@@ -56,6 +64,9 @@ class ViewStateApplier : public QObject {
   RunOptions applied_options_;              ///< in the settings panel after the last request
   bool leaving_ = false;                    ///< leave_lesson() was called for the next scene
   Awaits awaits_ = Awaits::nothing;
+  /// The first directions of the run that the requested one replaces; null: none. Each run has its
+  /// own copy.
+  std::shared_ptr<const std::vector<Vec3>> run_before_;
   bool opened_here_ = false;  ///< the scene being loaded was requested by this object
 };
 

@@ -24,7 +24,11 @@ void WindowSession::restore(const Session& session) {
   parts_.notifier.dismiss();
   applier_.show(session.state);
   if (session.state.layout && !session.docks.isEmpty()) {
-    parts_.docks.restore(static_cast<int>(*session.state.layout), session.docks);
+    if (!parts_.docks.restore(static_cast<int>(*session.state.layout), session.docks)) {
+      parts_.docks.arrange(*session.state.layout);
+      parts_.notifier.show_warnings(
+          {tr("docks: damaged, or of another version; the panels are in their usual places")});
+    }
   }
   parts_.breakpoints.set_list(session.breakpoints);
   parts_.page.bookmarks().set(session.saved_views);

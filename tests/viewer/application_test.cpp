@@ -1,0 +1,60 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Exceptions in event handlers and in slots.
+#include "window/application.h"
+
+#include <QTest>
+#include <QTimer>
+#include <new>
+#include <stdexcept>
+
+using namespace transillum::viewer;
+
+class ApplicationTest : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit ApplicationTest(Application& application) : application_(application) {}
+
+ private slots:
+  void an_exception_becomes_a_message_data() {
+    QTest::addColumn<int>("exception");
+    QTest::addColumn<QString>("message");
+    QTest::newRow("memory") << 0 << "Not enough memory";
+    QTest::newRow("named") << 1 << "no such thing";
+    QTest::newRow("unknown") << 2 << "Unknown error";
+  }
+  void an_exception_becomes_a_message() {
+    QFETCH(const int, exception);
+    QFETCH(const QString, message);
+    QStringList messages;
+    application_.on_failure = [&](const QString& text) { messages << text; };
+    const auto fail = [exception] {
+      switch (exception) {
+        case 0:
+          throw std::bad_alloc();
+        case 1:
+          throw std::runtime_error("no such thing");
+        default:
+          throw 7;  // NOLINT(hicpp-exception-baseclass)
+      }
+    };
+    bool later = false;
+    QTimer::singleShot(0, this, fail);
+    QMetaObject::invokeMethod(this, fail, Qt::QueuedConnection);
+    QTimer::singleShot(0, this, [&] { later = true; });
+    QVERIFY(QTest::qWaitFor([&] { return later && messages.size() == 2; }));
+    QCOMPARE(messages, (QStringList{message, message}));
+    application_.on_failure = nullptr;
+  }
+
+ private:
+  Application& application_;
+};
+
+int main(int argc, char** argv) {
+  Application application(argc, argv);
+  ApplicationTest test(application);
+  return QTest::qExec(&test, argc, argv);
+}
+#include "application_test.moc"
