@@ -113,7 +113,7 @@ TEST(ObjReader, ReportsWhatItIgnoresOrAssumes) {
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:6: keyword `l` is not supported; line ignored")));
   EXPECT_THAT(d.notes,
               Contains(HasSubstr("s.obj:8: keyword `curv` is not supported; line ignored")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture map map_Kd is ignored")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture map `map_Kd` is ignored")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:3: material `a` is already defined")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:1: material `a` has no Kd")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("1 of 1 faces have no material (usemtl); rho = 0.5")));

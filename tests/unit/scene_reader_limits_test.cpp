@@ -69,7 +69,8 @@ TEST(ReaderLimits, ContinuedLinesTakeLinearTime) {
 
 TEST(ReaderLimits, CommentsAreRecognizedInContinuedLines) {
   const std::string text = " \\\n\\\n # a comment \\\nv 1\\\n 2\n\\\n#last\\";
-  LineReader lines(text, {});
+  const Cancellation never;
+  LineReader lines(text, never);
   const auto line = lines.next();
   ASSERT_TRUE(line.has_value());
   EXPECT_EQ(line->keyword, "v");
