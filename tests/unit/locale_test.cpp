@@ -56,7 +56,8 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
   write_text(folder / "room.obj", obj);
   write_text(folder / "room.mtl", mtl);
   const auto path = [&](const char* name) { return std::filesystem::path(folder / name); };
-  const SceneDescription description = describe_scene(folder / "room.obj");
+  SceneDescription description = describe_scene(folder / "room.obj");
+  description.name = "room";  // instead of the path, which differs from call to call
   write_obj(path("copy.obj"), description);
   const Scene scene(description);
   for (const char* name : {"r.vtp", "r.csv", "r.ply", "r.obj"}) {

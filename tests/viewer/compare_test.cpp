@@ -2,8 +2,10 @@
 // The panel that compares two engines on one direction.
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLineEdit>
 #include <QSpinBox>
 #include <QWheelEvent>
+#include <limits>
 
 #include "map/compare_view.h"
 #include "map/difference_picture.h"
@@ -141,6 +143,23 @@ class CompareTest : public QObject {
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
+  }
+
+  void settings_keep_every_value() {
+    SettingsPanel panel;
+    SolveOptions solve;
+    solve.seed = std::numeric_limits<std::uint64_t>::max();
+    solve.tolerance = 0.1 + 0.2;
+    solve.iterations = 2'000'000;
+    panel.set_options(solve, {false, 1e-9});
+    QVERIFY(panel.solve_options() == solve);
+    QCOMPARE(panel.scene_options().max_patch_area, 1e-9);
+    QCOMPARE(panel.findChild<QLineEdit*>("max_patch_area")->text(), QString("1e-09"));
+    QCOMPARE(panel.findChild<QLineEdit*>("seed")->text(), QString("18446744073709551615"));
+    panel.findChild<QLineEdit*>("seed")->setText("7");
+    panel.findChild<QLineEdit*>("max_patch_area")->clear();
+    QCOMPARE(panel.solve_options().seed, std::uint64_t{7});
+    QCOMPARE(panel.scene_options().max_patch_area, 0.0);
   }
 
   void settings_show_the_options_of_an_engine() {
