@@ -9,6 +9,7 @@
 #include "messages.h"
 #include "option_values.h"
 #include "output_files.h"
+#include "progress_display.h"
 #include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
@@ -56,7 +57,10 @@ int run(const BoundsCall& call) {
   if (!call.scene.empty()) {
     options.scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
   }
-  const BoundsReport report = make_bounds_report(options, cancellation);
+  ProgressDisplay display;
+  const BoundsReport report = make_bounds_report(
+      options, [&display](const std::string& task) { display.begin(task); }, cancellation);
+  display.clear();
   if (call.out.empty()) {
     print_results(text_of(report));
   } else {

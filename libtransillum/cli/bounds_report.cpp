@@ -35,7 +35,7 @@ void add_paper_figures(BoundsRow& row, const BoundsOptions& options, double size
 }
 
 BoundsRow make_row(double rho, const BoundsOptions& options, double size_ratio,
-                   const Cancellation& cancellation) {
+                   const BoundsTask& begin, const Cancellation& cancellation) {
   const DirectionSetFamily& sets = options.sets;
   const double accuracy = options.accuracy;
   BoundsRow row;
@@ -44,8 +44,14 @@ BoundsRow make_row(double rho, const BoundsOptions& options, double size_ratio,
   row.contract = directions_to_contract(rho);
   row.homogeneous = directions_if_homogeneous(rho, accuracy);
   row.heterogeneous = directions_if_heterogeneous(rho, accuracy, size_ratio);
+  const auto begin_table = [&](int table) {
+    begin(fmt::format("directions for Table {}, rho {}", table, rho));
+  };
+  begin_table(1);
   row.actual_contract = actual_directions_to_contract(sets, rho, cancellation);
+  begin_table(2);
   row.actual_homogeneous = actual_directions_if_homogeneous(sets, rho, accuracy, cancellation);
+  begin_table(3);
   row.estimated_heterogeneous =
       estimated_directions_if_heterogeneous(sets, rho, accuracy, size_ratio, cancellation);
   return row;
@@ -110,13 +116,15 @@ RunEstimate read_run(const std::string& path, double accuracy) {
 
 }  // namespace
 
-BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation& cancellation) {
+BoundsReport make_bounds_report(const BoundsOptions& options, const BoundsTask& begin,
+                                const Cancellation& cancellation) {
   BoundsReport report;
   report.options = options;
   if (!options.run.empty()) {
     report.run = read_run(options.run, options.accuracy);
   }
   if (options.scene) {
+    begin("measuring the scene");
     report.measures = measure(*options.scene, cancellation);
   }
   report.size_ratio = options.size_ratio.value_or(report.measures ? report.measures->size_ratio
@@ -126,7 +134,7 @@ BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation
     rho = report.measures->rho_max;
   }
   const auto add_row = [&](double r) {
-    report.rows.push_back(make_row(r, options, report.size_ratio, cancellation));
+    report.rows.push_back(make_row(r, options, report.size_ratio, begin, cancellation));
   };
   if (rho) {
     add_row(*rho);
@@ -136,6 +144,7 @@ BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation
     }
   }
   if (rho) {
+    begin("quadrature error");
     report.prediction = predict(*rho, options, report.size_ratio, cancellation);
   }
   return report;

@@ -4,6 +4,7 @@
 // The report of `transillum bounds`: Tables 1 to 3 of the paper and predictions for one
 // reflectance.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,9 +65,13 @@ struct BoundsReport {
   std::optional<RunEstimate> run;
 };
 
+/// Receives the name of each part of the report before it is computed.
+using BoundsTask = std::function<void(const std::string&)>;
+
 /// Computes the report.
 /// @throws InputError, Canceled
-BoundsReport make_bounds_report(const BoundsOptions& options, const Cancellation& cancellation);
+BoundsReport make_bounds_report(const BoundsOptions& options, const BoundsTask& begin,
+                                const Cancellation& cancellation);
 
 /// The report as text.
 std::string text_of(const BoundsReport& report);

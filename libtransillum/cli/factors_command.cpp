@@ -153,6 +153,8 @@ Run add_factors_command(CLI::App& program) {
       });
   add_scene_options(command, call->scene_options);
   add_machine_limits(command, call->passes.memory, call->passes.threads);
+  command.get_option("--memory")
+      ->description("largest memory for form factors (default: a quarter of the machine's)");
   command
       .add_option("-o,--out", call->out,
                   "CSV: i,j,F for every F > 0, sorted by i, then j (default: standard output)")

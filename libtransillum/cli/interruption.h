@@ -19,8 +19,9 @@ class NothingToSave : public Canceled {
   std::string why_;
 };
 
-/// From now on the first SIGINT, SIGTERM or, unless it is ignored, SIGHUP (the terminal is closed)
-/// cancels the returned Cancellation, and the second ends the program immediately. Call it once, before threads start.
+/// From now on the first SIGINT, SIGTERM or SIGHUP (the terminal is closed) cancels the returned
+/// Cancellation, and the second ends the program immediately. A signal that the caller of the
+/// program ignores stays ignored. Call it once, before threads start.
 const Cancellation& cancel_on_signals();
 
 }  // namespace transillum::cli

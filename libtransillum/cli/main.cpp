@@ -1,8 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 // The program `transillum`: finds the command, reports errors as one line and sets the exit status.
+#include <execinfo.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <vtkObject.h>
 
 #include <algorithm>
 #include <new>
@@ -28,6 +30,13 @@ void occupy_closed_streams() {
       ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
     }
   }
+}
+
+/// Loads what glibc needs to end a thread early or to unwind; without memory for it, glibc would
+/// end the program.
+void load_unwinder() {
+  void* frame = nullptr;
+  ::backtrace(&frame, 1);
 }
 
 std::string built_in_text(const BuiltInScene& scene) {
@@ -154,6 +163,17 @@ std::string unexpected_argument_text(const CLI::App& command) {
   return fmt::format("unknown option \"{}\"{}", word, did_you_mean(word, names));
 }
 
+/// The message for an option that was given several times.
+std::string repeated_option_text(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const auto given = static_cast<int>(option->results().size());
+    if (given > option->get_items_expected_max()) {
+      return fmt::format("{}: given {} times, but it has one value", option->get_name(), given);
+    }
+  }
+  return {};
+}
+
 /// Prints an error of CLI11 as one line, with a reference to the help.
 int report(const Program& program, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
@@ -162,9 +182,11 @@ int report(const Program& program, const CLI::ParseError& error) {
   const auto* chosen = program.chosen();
   const CLI::App& command = chosen ? *chosen->first : program.app;
   const bool unexpected = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-  const std::string text = unexpected ? unexpected_argument_text(command)
-                           : !chosen  ? std::string("no command given")
-                                      : std::string(error.what());
+  const std::string repeated = repeated_option_text(command);
+  const std::string text = unexpected          ? unexpected_argument_text(command)
+                           : !chosen           ? std::string("no command given")
+                           : !repeated.empty() ? repeated
+                                               : std::string(error.what());
   print_message(fmt::format("{} (see transillum {}--help)", text,
                             chosen ? command.get_name() + " " : std::string()));
   return wrong_call;
@@ -233,6 +255,8 @@ int run_reporting_errors(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace transillum::cli;
   occupy_closed_streams();
+  load_unwinder();
+  vtkObject::GlobalWarningDisplayOff();  // failures are reported once, by this program
   // A closed pipe and a file over the limit of `ulimit -f` are write errors; they must not end the
   // program before the other results are saved.
   ::signal(SIGPIPE, SIG_IGN);

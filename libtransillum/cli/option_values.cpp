@@ -70,6 +70,14 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
   return number;
 }
 
+std::optional<double> parse_first_shot(const std::string& option, const std::string& text) {
+  try {
+    return first_shot_from_name(text);
+  } catch (const InputError&) {
+    refuse(option, text, "none, auto or a number of at least 0");
+  }
+}
+
 std::uint64_t parse_seed(const std::string& option, const std::string& text) {
   std::uint64_t number = 0;
   if (!reads_as(without_plus(text), number)) {

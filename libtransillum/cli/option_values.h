@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace transillum::cli {
 
 std::int64_t parse_whole_number(const std::string& option, const std::string& text,
                                 std::int64_t low, std::int64_t high);
+std::optional<double> parse_first_shot(const std::string& option, const std::string& text);
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 /// A finite number.
 double parse_number(const std::string& option, const std::string& text);

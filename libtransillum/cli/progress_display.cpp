@@ -60,7 +60,7 @@ bool ProgressDisplay::due() {
 
 void ProgressDisplay::show(const std::string& what, double share, const std::string& detail) {
   const std::lock_guard lock(mutex_);
-  passes_ = {};
+  repeated_ = {};
   show_if_due({what, share, detail});
 }
 
@@ -87,29 +87,35 @@ void ProgressDisplay::show_passes(const std::string& label, const SolveProgress&
     return;
   }
   const std::lock_guard lock(mutex_);
-  passes_ = {fmt::format("{}pass {}/{}", label, progress.direction, progress.passes),
-             static_cast<double>(progress.direction) / progress.passes,
-             rate_text(progress.passes_per_second, progress.seconds_left)};
-  last_pass_ = Clock::now();
-  show_if_due(passes_);
+  repeated_ = {fmt::format("{}pass {}/{}", label, progress.direction, progress.passes),
+               static_cast<double>(progress.direction) / progress.passes,
+               rate_text(progress.passes_per_second, progress.seconds_left)};
+  since_ = Clock::now();
+  show_if_due(repeated_);
 }
 
 void ProgressDisplay::expect_passes(const std::string& label, int passes) {
+  repeat({fmt::format("{}pass 0/{}", label, passes), 0, {}});
+}
+
+void ProgressDisplay::begin(const std::string& what) { repeat({what, -1, {}}); }
+
+void ProgressDisplay::repeat(const Line& line) {
   if (quiet_) {
     return;
   }
   const std::lock_guard lock(mutex_);
-  passes_ = {fmt::format("{}pass 0/{}", label, passes), 0, {}};
-  last_pass_ = Clock::now();
+  repeated_ = line;
+  since_ = Clock::now();
   if (repeater_.joinable()) {
     return;
   }
   try {
     repeater_ = std::jthread([this](const std::stop_token& stop) {
       try {
-        repeat_while_passes_take_long(stop);
+        repeat_while_it_takes_long(stop);
       } catch (const std::bad_alloc&) {
-        // No more memory: then the passes fail, or nothing is repeated.
+        // No more memory: then the task fails, or nothing is repeated.
       }
     });
   } catch (const std::system_error&) {
@@ -117,17 +123,17 @@ void ProgressDisplay::expect_passes(const std::string& label, int passes) {
   }
 }
 
-void ProgressDisplay::repeat_while_passes_take_long(const std::stop_token& stop) {
+void ProgressDisplay::repeat_while_it_takes_long(const std::stop_token& stop) {
   using namespace std::chrono_literals;
   std::unique_lock lock(mutex_);
   while (!stopping_.wait_for(lock, stop, 1s, [] { return false; }) && !stop.stop_requested()) {
-    const std::chrono::duration<double> waiting = Clock::now() - last_pass_;
-    if (passes_.what.empty() || waiting < 1s) {
+    const std::chrono::duration<double> waiting = Clock::now() - since_;
+    if (repeated_.what.empty() || waiting < 1s) {
       continue;
     }
-    Line line = passes_;
-    line.detail += fmt::format("{}next pass under way for {}", line.detail.empty() ? "" : ", ",
-                               time_text(waiting.count()));
+    Line line = repeated_;
+    line.detail += fmt::format("{}{}under way for {}", line.detail.empty() ? "" : ", ",
+                               line.share < 0 ? "" : "next pass ", time_text(waiting.count()));
     show_if_due(line);
   }
 }
@@ -149,7 +155,7 @@ void ProgressDisplay::redraw(const Line& line) {
 
 void ProgressDisplay::clear() {
   const std::lock_guard lock(mutex_);
-  passes_ = {};
+  repeated_ = {};
   if (!drawn_) {
     return;
   }

@@ -16,7 +16,7 @@ namespace transillum::cli {
 
 /// Progress on stderr: one line redrawn in place on a terminal, otherwise plain lines at most once
 /// per second. Tasks that finish sooner show nothing. A thread of its own repeats the last line
-/// about passes while the next pass takes long.
+/// about passes, or the task begun, while they take long.
 ///
 /// Threads: only one may call it.
 class ProgressDisplay {
@@ -34,6 +34,8 @@ class ProgressDisplay {
   void show_passes(const std::string& label, const SolveProgress& progress);
   /// Passes begin, of which the first may take minutes.
   void expect_passes(const std::string& label, int passes);
+  /// A task begins whose share is unknown and which may take long: its name is repeated.
+  void begin(const std::string& what);
   /// Clears the line, before other text is printed.
   void clear();
 
@@ -48,15 +50,16 @@ class ProgressDisplay {
   bool due();
   void show_if_due(const Line& line);
   void redraw(const Line& line);
-  void repeat_while_passes_take_long(const std::stop_token& stop);
+  void repeat(const Line& line);
+  void repeat_while_it_takes_long(const std::stop_token& stop);
 
   bool quiet_;
   bool terminal_;
   std::mutex mutex_;  ///< of what follows
   bool drawn_ = false;
   Clock::time_point last_;
-  Line passes_;  ///< repeated; empty while no passes are under way
-  Clock::time_point last_pass_;
+  Line repeated_;            ///< empty while neither passes nor a task begun are under way
+  Clock::time_point since_;  ///< when repeated_ was set
   std::condition_variable_any stopping_;
   std::jthread repeater_;
 };

@@ -196,15 +196,16 @@ void add_stopping_rules(CLI::App& command, SolveCall& call) {
             static_cast<int>(parse_whole_number("--iterations", text, 1, 1'000'000));
         call.stop_given = true;
       });
-  auto* tolerance = add_parsed_option(
-      command, "--tolerance", "T", help_of("tolerance", call.options.tolerance),
-      [&call](const std::string& text) {
-        call.options.tolerance = parse_number("--tolerance", text);
-        call.stop_given = true;
-        if (!(call.options.tolerance > 0 && call.options.tolerance < 1)) {
-          throw InputError(fmt::format("--tolerance: \"{}\" is not between 0 and 1", text));
-        }
-      });
+  auto* tolerance =
+      add_parsed_option(command, "--tolerance", "T", help_of("tolerance", call.options.tolerance),
+                        [&call](const std::string& text) {
+                          call.options.tolerance = parse_number("--tolerance", text);
+                          call.stop_given = true;
+                          if (!(call.options.tolerance > 0 && call.options.tolerance < 1)) {
+                            throw InputError(fmt::format(
+                                "--tolerance: \"{}\" is not greater than 0 and less than 1", text));
+                          }
+                        });
   iterations->excludes(tolerance);
 }
 
@@ -228,7 +229,9 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
       command, "--first-shot", "RATIO",
       choice_help("first-shot", {"none", fmt::format("auto ({})", small_source_ratio), "a number"},
                   "none"),
-      [&options](const std::string& text) { options.first_shot = first_shot_from_name(text); });
+      [&options](const std::string& text) {
+        options.first_shot = parse_first_shot("--first-shot", text);
+      });
   add_parsed_option(
       command, "--burn-in", "N", help_of("burn-in", "auto"), [&options](const std::string& text) {
         options.burn_in.reset();

@@ -305,8 +305,9 @@ void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(command, "--first-shot", "RATIO,...",
                   "none | auto | a number: treat small bright sources separately, as in solve; the "
                   "reference does so if any series does (default none)",
-                  call.first_shots,
-                  [](const std::string& text) { return std::vector{first_shot_from_name(text)}; });
+                  call.first_shots, [](const std::string& text) {
+                    return std::vector{parse_first_shot("--first-shot", text)};
+                  });
   add_parsed_option(
       command, "--rotations", "R",
       "solve with R rotated sets per point; gives the RMS of their errors and the largest "

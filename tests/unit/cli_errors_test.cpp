@@ -128,6 +128,11 @@ const InvalidCall invalid_calls[] = {
     {{"bounds", "--accuracy", "0"}, "--accuracy"},
     {{"bounds", "--size-ratio", "nan"}, "--size-ratio"},
     {{"bounds", "--out", "b.txt"}, ".json"},
+    {{"solve", "furnace", "--tolerance", "0"}, "\"0\" is not greater than 0 and less than 1"},
+    {{"solve", "furnace", "--first-shot", "-1"}, "--first-shot: \"-1\" is not none, auto or"},
+    {{"study", "furnace", "--first-shot", "-1"}, "--first-shot: \"-1\" is not none, auto or"},
+    {{"solve", "furnace", "-m", "1", "-m", "2"}, "--directions: given 2 times, but it has one"},
+    {{"solve", "furnace", "furnace"}, "unexpected argument"},
 };
 
 TEST(CliErrors, InvalidArgumentsGiveOneLineAndStatus2) {

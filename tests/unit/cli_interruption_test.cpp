@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "program_run.h"
 
@@ -29,21 +30,26 @@ void wait_for_passes(const RunningProgram& program) {
   }
 }
 
-/// Sets what SIGHUP does; programs inherit that it is ignored.
-class DispositionOfHangUp {
- public:
-  explicit DispositionOfHangUp(sighandler_t disposition) : before_(::signal(SIGHUP, disposition)) {}
-  ~DispositionOfHangUp() { ::signal(SIGHUP, before_); }
-  DispositionOfHangUp(const DispositionOfHangUp&) = delete;
-  DispositionOfHangUp& operator=(const DispositionOfHangUp&) = delete;
+/// Programs inherit that a signal is ignored: this one may have been started in the background.
+class CliInterruption : public ::testing::Test {
+ protected:
+  CliInterruption() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      before_.emplace_back(signal, ::signal(signal, SIG_DFL));
+    }
+  }
+  ~CliInterruption() override {
+    for (const auto& [signal, disposition] : before_) {
+      ::signal(signal, disposition);
+    }
+  }
 
  private:
-  sighandler_t before_;
+  std::vector<std::pair<int, sighandler_t>> before_;
 };
 
-TEST(CliInterruption, SavesResultsSoFarAndExitsWith130) {
+TEST_F(CliInterruption, SavesResultsSoFarAndExitsWith130) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const DispositionOfHangUp as_usual(SIG_DFL);
     const TemporaryFolder folder;
     RunningProgram program(long_solve(folder));
     wait_for_passes(program);
@@ -60,20 +66,33 @@ TEST(CliInterruption, SavesResultsSoFarAndExitsWith130) {
   }
 }
 
-/// After `nohup`, closing the terminal changes nothing.
-TEST(CliInterruption, AnIgnoredHangUpStaysIgnored) {
-  const DispositionOfHangUp ignored(SIG_IGN);
+/// After `nohup`, closing the terminal changes nothing; a script may ignore Ctrl-C likewise.
+TEST_F(CliInterruption, IgnoredSignalsStayIgnored) {
   const TemporaryFolder folder;
-  RunningProgram program(long_solve(folder));
+  RunningProgram program(long_solve(folder), {}, {}, {}, "trap '' INT HUP");
   wait_for_passes(program);
   EXPECT_TRUE(program.catches(SIGTERM));
+  EXPECT_FALSE(program.catches(SIGINT));
   EXPECT_FALSE(program.catches(SIGHUP));
   program.send(SIGTERM);
   EXPECT_EQ(program.wait().status, 130);
 }
 
+// Measuring sets of random directions takes a minute.
+TEST_F(CliInterruption, BoundsReportWhatIsUnderWay) {
+  RunningProgram program({"bounds", "--sampling", "random"});
+  for (int k = 0; k < 600 && program.err_so_far().find("under way") == std::string::npos; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  program.send(SIGINT);
+  const ProgramResult result = program.wait();
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("directions for Table "));
+  EXPECT_THAT(result.err, HasSubstr(", under way for "));
+}
+
 // A pass of engine global takes minutes on large scenes; nothing was shown before the first ended.
-TEST(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
+TEST_F(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
   RunningProgram program({"solve", "sphere-flake", "--engine", "global", "--two-sided", "-m", "2"});
   const std::string expected = "iteration 1, pass 0/2, 0 %, next pass under way for ";
   for (int k = 0; k < 600 && program.err_so_far().find("pass ") == std::string::npos; ++k) {
@@ -85,7 +104,7 @@ TEST(CliInterruption, ReportsThatTheFirstPassIsUnderWay) {
   EXPECT_THAT(result.err, HasSubstr(expected));
 }
 
-TEST(CliInterruption, WritesNothingBeforeTheFirstPass) {
+TEST_F(CliInterruption, WritesNothingBeforeTheFirstPass) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=3", "--out", folder / "a.csv"});
   for (int k = 0; k < 6000 && !program.catches(SIGINT); ++k) {
@@ -99,7 +118,7 @@ TEST(CliInterruption, WritesNothingBeforeTheFirstPass) {
 }
 
 /// B requires the complete matrix.
-TEST(CliInterruption, HemicubesSaveNothingAndReportWhy) {
+TEST_F(CliInterruption, HemicubesSaveNothingAndReportWhy) {
   const TemporaryFolder folder;
   RunningProgram program({"solve", "sphere-flake:levels=1", "--engine", "hemicube", "--resolution",
                           "1024", "--out", folder / "a.csv"});

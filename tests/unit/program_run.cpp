@@ -71,8 +71,17 @@ void redirect(posix_spawn_file_actions_t& actions, int number, const std::string
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::string& out,
-                               const std::string& err, const std::string& folder) {
-  std::vector<char*> argv{const_cast<char*>(TRANSILLUM_PROGRAM)};
+                               const std::string& err, const std::string& folder,
+                               const std::string& shell) {
+  std::vector<std::string> starter;
+  if (!shell.empty()) {
+    starter = {"/bin/sh", "-c", shell + "; exec \"$0\" \"$@\""};
+  }
+  starter.emplace_back(TRANSILLUM_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& word : starter) {
+    argv.push_back(word.data());
+  }
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
   }

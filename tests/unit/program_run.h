@@ -46,8 +46,10 @@ class RunningProgram {
   /// ProgramResult::out
   /// @param err the same for standard error and ProgramResult::err
   /// @param folder where the program runs; empty: the current folder
+  /// @param shell commands of the shell that starts it, such as `ulimit -v 200000`; empty: no shell
   explicit RunningProgram(const std::vector<std::string>& arguments, const std::string& out = {},
-                          const std::string& err = {}, const std::string& folder = {});
+                          const std::string& err = {}, const std::string& folder = {},
+                          const std::string& shell = {});
   void send(int signal) const;
   /// Whether the process has installed a handler for the signal.
   bool catches(int signal) const;

@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <new>
 #include <ostream>
 #include <stdexcept>
 #include <system_error>
@@ -109,7 +110,11 @@ void fill(int file, const fs::path& path, const std::function<void(std::ostream&
   __gnu_cxx::stdio_filebuf<char> buffer(copy, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
   errno = 0;
-  write(out);
+  try {
+    write(out);
+  } catch (const std::bad_alloc&) {
+    fail(path, ENOMEM);
+  }
   out.flush();
   const int error = errno;
   if (!out) {

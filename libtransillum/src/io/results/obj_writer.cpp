@@ -6,7 +6,6 @@
 
 #include <ostream>
 #include <set>
-#include <stdexcept>
 
 #include "io/text_buffer.h"
 #include "transillum/files.h"
@@ -93,7 +92,7 @@ void write_obj(const std::filesystem::path& path, const SceneDescription& descri
     // Both or neither: the MTL is renamed into place after all of the OBJ is written, and the OBJ
     // directly after it.
     if (!stream.flush()) {
-      throw std::runtime_error(path.string() + ": cannot be written: input/output error");
+      return;  // the caller knows the reason
     }
     write_file_whole(library, [&](std::ostream& materials) {
       write_materials(materials, description.materials, names);

@@ -15,7 +15,9 @@
 #include <fstream>
 #include <memory>
 #include <ostream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -187,7 +189,12 @@ void ReferenceCache::store(const Scene& scene, const SolveOptions& options,
   if (folder_.empty()) {
     return;
   }
-  fs::create_directories(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be created: {}", folder_.string(), error.message()));
+  }
   const std::string key = key_of(scene, options);
   write_file_whole(folder_ / (key + ".reference"), [&](std::ostream& out) {
     out << first_line(key);

@@ -13,6 +13,7 @@ namespace transillum {
 
 TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
                             std::shared_ptr<const BspTree> tree) {
+  let_exact_numbers_throw();
   return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
                                                             const Cancellation& cancellation) {
     return LocalMap<Rational, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();

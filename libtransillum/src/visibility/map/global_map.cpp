@@ -24,6 +24,7 @@
 
 #include <map>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "base/invariant.h"
@@ -151,6 +152,17 @@ std::vector<Map::Halfedge_handle> edges_to_neighbors(const Map::Face_handle& reg
   return edges;
 }
 
+std::unique_ptr<Map> make_map(const std::vector<MapTraits::Curve_2>& curves) {
+  auto map = std::make_unique<Map>();
+  try {
+    CGAL::insert(*map, curves.begin(), curves.end());
+  } catch (const std::bad_alloc&) {
+    (void)map.release();  // CGAL cannot destroy a map that is incomplete
+    throw;
+  }
+  return map;
+}
+
 /// The global visibility map of one direction.
 class GlobalMap {
  public:
@@ -208,9 +220,8 @@ class GlobalMap {
   /// Visits all regions of a tile depth-first, from neighbor to neighbor and back.
   void visit_regions(const std::vector<TilePolygon>& tile) {
     const TileEdges edges(tile);
-    const auto curves = edges.curves();
-    Map map;
-    CGAL::insert(map, curves.begin(), curves.end());
+    const std::unique_ptr<Map> owner = make_map(edges.curves());
+    Map& map = *owner;
     for (auto region = map.faces_begin(); region != map.faces_end(); ++region) {
       region->set_data(false);
     }
@@ -320,6 +331,7 @@ class GlobalMap {
 
 TransferEngine global_map_engine(std::shared_ptr<const Scene> scene,
                                  std::shared_ptr<const BspTree> tree) {
+  let_exact_numbers_throw();
   return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
                                                             const Cancellation& cancellation) {
     return GlobalMap(*scene, *tree, omega, cancellation).run();

@@ -15,6 +15,10 @@ namespace transillum {
 /// synchronization: each number must stay in one thread.
 using Rational = CGAL::Gmpq;
 
+/// From now on GMP throws std::bad_alloc where it would end the program: when there is no memory.
+/// Call it before numbers are computed in other threads; again it does nothing.
+void let_exact_numbers_throw();
+
 /// A sum of exact areas, m²: an integer multiple of 2^-1200, which is finer than any double. (The
 /// denominator of a sum of fractions would be the product of theirs.)
 class ExactArea {
