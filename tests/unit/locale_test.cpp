@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <regex>
 
 #include "base/text_file.h"
 #include "program_run.h"
@@ -76,7 +77,8 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
   write_directions_csv(path("d.csv"), std::vector<DirectionSample>{{}});
   std::map<std::string, std::string> contents;
   for (const std::string& name : folder.names()) {
-    contents[name] = read_file(folder / name);
+    // Cairo numbers the surfaces of a process.
+    contents[name] = std::regex_replace(read_file(folder / name), std::regex("surface[0-9]+"), "");
   }
   return contents;
 }
