@@ -55,7 +55,7 @@ class ProgressDisplay {
 
   bool quiet_;
   bool terminal_;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< guards the members below
   bool drawn_ = false;
   Clock::time_point last_;
   Line repeated_;            ///< empty while neither passes nor a task begun are under way

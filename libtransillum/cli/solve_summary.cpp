@@ -134,7 +134,7 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
     warnings.push_back("no patch receives light from another: B = E" +
                        remedy_hint(Remedy::directions));
   }
-  // Half way from rho_max, which exact form factors of closed scenes have, to divergence.
+  // Halfway between rho_max (that of exact form factors of a closed scene) and 1.
   const auto is_slow = [&](const IterationRecord& r) {
     return r.change > 1e-12 && r.contraction > (1 + s.rho_max) / 2;
   };

@@ -10,7 +10,7 @@ namespace transillum::cli {
 
 /// A short table for people.
 std::string solve_summary(const Solution& solution);
-/// What the user should know about a result that is none of the errors: too few directions.
+/// Warnings about a result that is not an error, such as too few directions.
 std::vector<std::string> solve_warnings(const Solution& solution);
 
 }  // namespace transillum::cli

@@ -81,7 +81,7 @@ bool has_opengl() {
 #endif
 }
 
-/// For an exception that has left a function that must not throw: also the report may fail.
+/// For an exception that has left a function that must not throw: even the report may fail.
 [[noreturn]] void end_with_line() {
   const char* text = "unknown error";
   try {
@@ -150,7 +150,7 @@ void open_arguments(MainWindow& window, const CommandLine& command_line) {
   }
 }
 
-/// Closes the window; the message, if any, is for a user who may no longer see it.
+/// Closes the window; prints where unsaved notes are, or why they could not be saved.
 void end_by_signal(MainWindow& window, int number) {
   try {
     if (const QString notes = window.close_without_questions(); !notes.isEmpty()) {

@@ -30,7 +30,7 @@ void write_file_whole(const std::filesystem::path& path,
 
 /// The MTL file that write_obj() writes beside an OBJ file: the same stem.
 std::filesystem::path materials_file_of(const std::filesystem::path& obj);
-/// Writes the description as OBJ, and its materials as materials_file_of() it.
+/// Writes the description as OBJ, and its materials in materials_file_of(path).
 /// @throws InputError where either is one of SceneDescription::files; std::runtime_error if a file
 /// cannot be written.
 void write_obj(const std::filesystem::path& path, const SceneDescription& description);

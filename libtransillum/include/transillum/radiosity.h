@@ -71,9 +71,9 @@ struct SolveOptions {
   /// R²/A from which sources are small and, if bright, are shot before the first iteration
   /// (find_small_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
-  /// semi_iterative: iterations omitted from the mean; nothing: until what is left of the start
-  /// counts for less than the differences between iterations, or than a tenth of the tolerance; at
-  /// most half of `iterations`
+  /// semi_iterative: iterations omitted from the mean; unset: until what is left of the start is
+  /// below a quarter of the RMS change per iteration, or a tenth of the tolerance; at most half of
+  /// `iterations`
   std::optional<int> burn_in = {};
   int replicas = 1;    ///< 2 … 64: split the M directions into this many sets with independent
                        ///< rotations, whose spread gives an error estimate. At most M
@@ -94,14 +94,15 @@ struct SolveOptions {
 
 /// One finished iteration of eq. 11.
 struct IterationRecord {
-  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm; of no mean
+  double change = 0;       ///< ||B(n+1) - B(n)|| / ||B(n+1)||, maximum norm; not of the mean
   double contraction = 0;  ///< absolute change over that of the iteration before; 0 in the first.
                            ///< semi_iterative: factor per iteration by which the influence of the
                            ///< start decreases
   double seconds = 0;      ///< wall time
   /// semi_iterative, from the eighth iteration in the mean on: largest error of the mean over its
-  /// largest value: 95 % of the spread of iterations, and all that is left of the start. The sets of
-  /// directions must differ: Sampling::hammersley and centered_hammersley have the error of one set.
+  /// largest value: 95 % of the spread of iterations, and all that is left of the start. The sets
+  /// of directions must differ: Sampling::hammersley and centered_hammersley have the error of one
+  /// set.
   std::optional<double> error = {};
   /// Bound of what further iterations would change, over the largest B: rho_max change / (1 - c) by
   /// eq. 23, c being the larger of rho_max and the contraction; infinite where c is not below 1.
@@ -146,12 +147,12 @@ struct SolveStatistics {
   std::int64_t passes_made = 0;       ///< by the engine, in all iterations
   std::int64_t hemicubes = 0;         ///< drawn instead of passes; a direction is then one pixel
   int iterations = 0;                 ///< finished
-  int burn_in = 0;                    ///< semi_iterative: those omitted from the mean
+  int burn_in = 0;                    ///< semi_iterative: iterations omitted from the mean
   int threads = 0;                    ///< used
   std::int64_t transfers = 0;         ///< exchanges found, over all different directions
   std::int64_t form_factors = 0;      ///< kept entries; 0 where they are recomputed
   bool kept_form_factors = false;     ///< the exchange sums of all passes are in memory
-  bool converged = false;             ///< the tolerance was reached, or rounding
+  bool converged = false;             ///< the tolerance was reached, or changes are rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
   double escaped = 0;                 ///< share of all projected area with nothing above; 0: closed

@@ -113,7 +113,7 @@ class Scene {
 
   /// SceneDescription::name.
   const std::string& name() const { return name_; }
-  /// SceneDescription::files: those that nothing may overwrite.
+  /// SceneDescription::files, which must not be overwritten.
   const std::vector<std::string>& files() const { return files_; }
   /// Number of patches.
   PatchId patch_count() const { return static_cast<PatchId>(patches_.size()); }

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Checks JSON texts with nlohmann's parser, which reports one event per token and builds no
-// document. Its own stack grows by a bit per level.
+// document. Its own stack grows by one bit per level.
 #include "transillum/json_text.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Iterates over a text and tells its owner how far the parser has read.
+/// Iterates over a text and records how far the parser has read.
 class Reader {
  public:
   using iterator_category = std::input_iterator_tag;

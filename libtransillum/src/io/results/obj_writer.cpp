@@ -92,7 +92,7 @@ void write_obj(const std::filesystem::path& path, const SceneDescription& descri
     // Both or neither: the MTL is renamed into place after all of the OBJ is written, and the OBJ
     // directly after it.
     if (!stream.flush()) {
-      return;  // the caller knows the reason
+      return;  // the caller reports the reason
     }
     write_file_whole(library, [&](std::ostream& materials) {
       write_materials(materials, description.materials, names);

@@ -88,7 +88,8 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   const double scale = size > 0 ? scale_to_one(known.cwiseAbs().maxCoeff()) : 1.0;
   const Eigen::VectorXd solution = solver.solve(scale * known) / scale;
   // A matrix I - K, K >= 0, takes some x below 0 to a right side >= 0 exactly where the sum of the
-  // powers of K diverges: x is then no limit of the iteration. Less than `rounding` is no sign.
+  // powers of K diverges: x is then no limit of the iteration. Values above -`rounding` are
+  // not taken as negative.
   constexpr double rounding = 1e-3;
   const bool negative =
       size > 0 && solution.minCoeff() < -rounding * solution.cwiseAbs().maxCoeff();

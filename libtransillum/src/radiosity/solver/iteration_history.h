@@ -41,7 +41,7 @@ class IterationHistory {
   /// start.
   std::vector<Rgb> left() const;
 
-  /// What is left of the start, to be given the passes too.
+  /// What is left of the start; it gathers along the same passes.
   StartRemainder& start() { return start_; }
   /// Sets B and H after an iteration that ended with `iterate`, records it and applies the stopping
   /// rule: of eq. 25, or of the error of the mean.
@@ -52,7 +52,7 @@ class IterationHistory {
 
  private:
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
-  /// Bound of the factor by which an iteration brings B nearer to its limit.
+  /// Bound on the factor by which an iteration reduces the distance of B to its limit.
   double contraction() const;
   bool reached_tolerance() const;
   void stop(bool complete);

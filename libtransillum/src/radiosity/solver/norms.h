@@ -19,7 +19,7 @@ inline double max_norm(const std::vector<Rgb>& values) {
   return largest;
 }
 
-/// Whether no value is infinite or not a number.
+/// Whether all values are finite.
 inline bool all_finite(const std::vector<Rgb>& values) {
   return std::all_of(values.begin(), values.end(), [](const Rgb& v) {
     return std::isfinite(v.r) && std::isfinite(v.g) && std::isfinite(v.b);

@@ -37,8 +37,8 @@ void RadiositySolver::Impl::begin_iteration() {
   }
   const bool from_sums = kept.available() && statistics.areas().passes > 0;
   if (from_sums && input.options.scheme == Scheme::conjugate_gradients && history.size() == 1) {
-    // The error is up to 1 / (1 - rho_max) times the residual. A larger one than 1e-6 could not be
-    // told from a solution below 0.
+    // The error is up to 1 / (1 - rho_max) times the residual. One above 1e-6 could make B
+    // negative.
     const double residual =
         std::min(0.1 * input.options.tolerance, 1e-6) * (1 - history.start().rho_max());
     for_each_iterate([&](RadiosityIterate& iterate, const KeptSums& sums) {
