@@ -116,7 +116,7 @@ TEST(ReaderLimits, DifferentMaterialsTakeASmallMultipleOfTheirFile) {
   EXPECT_EQ(read_obj(path).materials.size(), 200'000u);
 }
 
-// Each mention was read anew, and its materials were reported as repeated.
+// Each mention was read again, and its materials were reported as repeated.
 TEST(ReaderLimits, AMaterialFileIsReadOnce) {
   const test::TemporaryFolder folder;
   folder.write("s.mtl", white);

@@ -131,7 +131,7 @@ struct Watched {
   }
 };
 
-/// Stops the worker's thread in its n-th snapshot (from 0) until it is told to go on.
+/// Stops the worker's thread in its n-th snapshot (from 0) until it is released.
 class Stopper {
  public:
   explicit Stopper(int n) {

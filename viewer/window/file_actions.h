@@ -53,7 +53,7 @@ class FileActions : public QObject {
   void open_session(const QString& path);
   /// Written whole or not at all. @throws std::runtime_error
   void save_session(const QString& path) const;
-  /// Saves the session in the user's folder for data of the program, when nobody can be asked
+  /// Saves the session in the user's folder for data of the program, when no question can be asked
   /// where.
   /// @returns the path, which is also a recent file  @throws std::runtime_error
   QString save_unasked();
