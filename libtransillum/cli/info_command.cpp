@@ -176,7 +176,7 @@ void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancel
 
 int run(const InfoCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  const auto scene = load_scene(call.scene, call.scene_options, cancellation);
+  const auto scene = load_scene(call.scene, call.scene_options, {}, cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
   probe(scene, cancellation);

@@ -23,7 +23,7 @@ void check_output_files(const std::vector<std::string>& files) {
 std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const SceneOptions& options,
                                               const std::vector<std::string>& outputs,
                                               const Cancellation& cancellation) {
-  auto scene = load_scene(spec, options, cancellation);
+  auto scene = load_scene(spec, options, {}, cancellation);
   check_distinct(outputs, scene->files());
   print_warnings(*scene);
   return scene;

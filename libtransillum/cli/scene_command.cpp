@@ -28,7 +28,7 @@ int run(const SceneCall& call) {
   }
   const std::vector<std::string> outputs{call.out, materials_file_of(out).string()};
   check_output_files(outputs);
-  const SceneDescription description = describe_scene(call.scene, cancellation);
+  const SceneDescription description = describe_scene(call.scene, {}, cancellation);
   check_distinct(outputs, description.files);
   for (const std::string& note : description.notes) {
     print_message("warning: " + note);

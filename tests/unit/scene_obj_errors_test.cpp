@@ -229,7 +229,7 @@ TEST(ObjFile, ReadingStopsWhenCanceled) {
   }
   const Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(load_scene(folder.write("s.obj", text), {}, cancellation), Canceled);
+  EXPECT_THROW(load_scene(folder.write("s.obj", text), {}, {}, cancellation), Canceled);
 }
 
 }  // namespace

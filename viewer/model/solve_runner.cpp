@@ -212,7 +212,7 @@ void SolveRunner::read_scene(const OpenRequest& request, LoadedScene& loaded,
     loaded.scene = loaded.stored->scene;
     loaded.file = request.spec;
   } else {
-    loaded.scene = load_scene(request.spec, request.scene_options, cancellation);
+    loaded.scene = load_scene(request.spec, request.scene_options, {}, cancellation);
   }
   loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
   loaded.measures = measure(*loaded.scene, cancellation);

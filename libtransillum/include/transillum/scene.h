@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ using PatchId = std::int32_t;
 inline constexpr PatchId no_patch = -1;
 /// Index into Scene::points().
 using PointId = std::int32_t;
+/// No group, in SceneDescription::face_group and Patch::group.
+inline constexpr std::int32_t no_group = -1;
 
 /// Optical properties of a diffuse surface.
 struct Material {
@@ -41,6 +44,9 @@ struct SceneDescription {
   std::vector<std::uint32_t> face_begin;    ///< index in `corners` where face f starts
   std::vector<std::int32_t> face_material;  ///< index in `materials` of face f
   std::vector<std::int32_t> face_line;      ///< line of face f in the file; 0: none
+  std::vector<std::string> groups;          ///< names of groups of faces (OBJ: `g` and `o`)
+  std::vector<std::int32_t> face_group;     ///< index in `groups` of face f, or no_group; empty:
+                                            ///< no face has a group
   std::vector<std::string> notes;           ///< the reader's warnings, for Scene::report()
   std::vector<std::string> files;           ///< read for it: the OBJ, then its MTL files
 
@@ -52,17 +58,46 @@ struct SceneDescription {
     const std::size_t end = face + 1 < face_begin.size() ? face_begin[face + 1] : corners.size();
     return {corners.data() + begin, end - begin};
   }
+  /// Index in `groups` of face number `face`, or no_group.
+  std::int32_t group_of(std::size_t face) const {
+    return face_group.empty() ? no_group : at(face_group, face);
+  }
   /// Appends a face.
   /// @param outline indices into `points`, counter-clockwise seen from the front side, which is
   /// the side that emits and receives.
   /// @param material index into `materials`.
   /// @param line line number for error messages; 0: none.
-  void add_face(std::span<const PointId> outline, int material, int line = 0) {
+  /// @param group index into `groups`, or no_group.
+  void add_face(std::span<const PointId> outline, int material, int line = 0,
+                int group = no_group) {
+    if (group != no_group || !face_group.empty()) {
+      face_group.resize(face_count(), no_group);
+      face_group.push_back(group);
+    }
     face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
     corners.insert(corners.end(), outline.begin(), outline.end());
     face_material.push_back(material);
     face_line.push_back(line);
   }
+};
+
+/// How a file is read: what replaces missing or impossible values, and the unit of its lengths.
+struct ReadOptions {
+  /// The reflectance an MTL file's value of 1 and more is lowered to, if nothing else is asked for.
+  static constexpr double default_max_reflectance = 0.98;
+
+  /// rho of faces whose material is missing, not defined or has no name, and of textured
+  /// materials without a readable texture; 0 <= rho < 1.
+  double default_reflectance = 0.5;
+  /// Largest rho per channel, 0 <= max < 1: larger values of a file are lowered to it. Unset:
+  /// values of 1 and more, and those within 1e-6 of 1, are lowered to default_max_reflectance, and
+  /// others are kept. Built-in scenes are not changed.
+  std::optional<double> max_reflectance = std::nullopt;
+  /// Meters per unit of the coordinates, > 0; built-in scenes are scaled too.
+  double scale = 1;
+
+  /// @throws InputError naming the value and the valid range
+  void validate() const;
 };
 
 /// How faces become patches.
@@ -78,6 +113,7 @@ struct Patch {
   Vec3 center;                      ///< centroid, m
   std::int32_t face = 0;            ///< 0-based number of its face in the description
   std::int32_t material = 0;        ///< index into Scene::materials()
+  std::int32_t group = no_group;    ///< index into Scene::groups(), or no_group
   std::uint32_t outline_begin = 0;  ///< first index in the scene's outline corners
   std::uint32_t outline_end = 0;    ///< one past the last index
 };
@@ -89,15 +125,24 @@ struct Piece {
   std::uint32_t end = 0;     ///< one past the last index
 };
 
+/// A face on the same points as an earlier one.
+struct CoincidentFace {
+  std::int32_t face = 0;     ///< 0-based number of the later face
+  std::int32_t earlier = 0;  ///< 0-based number of the first face with these points
+  bool hidden = false;  ///< both face the same way, so that the later one gets no light: H = 0 and
+                        ///< B = E; with SceneOptions::two_sided always
+};
+
 /// What was found and repaired when faces became patches.
 struct SceneReport {
-  std::vector<std::string> warnings;    ///< sentences for the user, at most a few dozen
-  std::int64_t faces = 0;               ///< faces in the description
-  std::int64_t removed_degenerate = 0;  ///< faces without area, removed
-  std::int64_t cut_non_planar = 0;      ///< faces cut into triangles
-  std::int64_t refined = 0;             ///< faces subdivided by SceneOptions::max_patch_area
-  std::int64_t unused_points = 0;       ///< points that no face refers to
-  std::int64_t coincident_faces = 0;    ///< faces with the same points as an earlier one
+  std::vector<std::string> warnings;       ///< sentences for the user, at most a few dozen
+  std::int64_t faces = 0;                  ///< faces in the description
+  std::int64_t removed_degenerate = 0;     ///< faces without area, removed
+  std::int64_t cut_non_planar = 0;         ///< faces cut into triangles
+  std::int64_t refined = 0;                ///< faces subdivided by SceneOptions::max_patch_area
+  std::int64_t unused_points = 0;          ///< points that no face refers to
+  std::int64_t coincident_faces = 0;       ///< faces with the same points as an earlier one
+  std::vector<CoincidentFace> coincident;  ///< these faces, by number
 };
 
 /// A scene of patches: checked once, then never changed.
@@ -138,12 +183,16 @@ class Scene {
   }
   /// All materials; Patch::material is an index into them.
   const std::vector<Material>& materials() const { return materials_; }
+  /// Names of all groups of faces; Patch::group is an index into them.
+  const std::vector<std::string>& groups() const { return groups_; }
   /// Material of patch i.
   const Material& material(PatchId i) const { return at(materials_, patch(i).material); }
   /// E of patch i, W/m².
   const Rgb& exitance(PatchId i) const { return material(i).exitance; }
   /// rho of patch i.
   const Rgb& reflectance(PatchId i) const { return material(i).reflectance; }
+  /// Whether any patch emits: without light, every solve gives B = 0. Time: linear in the patches.
+  bool has_light() const;
   /// Bounding box of all points, m.
   const Bounds& bounds() const { return bounds_; }
   /// Warnings and counts from the checks.
@@ -157,6 +206,7 @@ class Scene {
   SceneOptions options_;
   std::vector<Vec3> points_;
   std::vector<Material> materials_;
+  std::vector<std::string> groups_;
   std::vector<Patch> patches_;
   std::vector<PointId> outline_corners_;
   std::vector<Piece> pieces_;
@@ -168,14 +218,18 @@ class Scene {
 /// Reads a file or generates a built-in scene.
 /// @param spec a path ending in .obj, or the name of a built-in scene (built_in_scenes()), with
 /// parameters as in `sphere-flake:levels=2,slices=17,stacks=8`.
+/// @param read what replaces missing values, and the unit of lengths. What was replaced is told in
+/// SceneDescription::notes.
 /// @param cancellation checked while reading.
 /// @throws InputError; for an unknown name similar to a known one the message suggests it.
 /// @throws Canceled
-SceneDescription describe_scene(const std::string& spec, const Cancellation& cancellation = {});
+SceneDescription describe_scene(const std::string& spec, const ReadOptions& read = {},
+                                const Cancellation& cancellation = {});
 
 /// describe_scene(), then Scene.
 /// @throws InputError, Canceled
 std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOptions& options = {},
+                                        const ReadOptions& read = {},
                                         const Cancellation& cancellation = {});
 
 /// Name and parameters of a built-in scene, for lists and help.

@@ -37,6 +37,12 @@ void check_points(const SceneDescription& description) {
 void check_faces(const SceneDescription& description) {
   const auto point_count = static_cast<std::int64_t>(description.points.size());
   const auto material_count = static_cast<std::int32_t>(description.materials.size());
+  const auto group_count = static_cast<std::int32_t>(description.groups.size());
+  if (!description.face_group.empty() &&
+      description.face_group.size() != description.face_count()) {
+    throw InputError(fmt::format("{}: groups of {} faces, but there are {} faces", description.name,
+                                 description.face_group.size(), description.face_count()));
+  }
   for (std::size_t f = 0; f < description.face_count(); ++f) {
     for (const PointId p : description.outline(f)) {
       if (p < 0 || p >= point_count) {
@@ -48,6 +54,11 @@ void check_faces(const SceneDescription& description) {
     if (material < 0 || material >= material_count) {
       throw InputError(fmt::format("{}material {} is out of range; there are {} materials",
                                    face_place(description, f), material, material_count));
+    }
+    const std::int32_t group = description.group_of(f);
+    if (group != no_group && (group < 0 || group >= group_count)) {
+      throw InputError(fmt::format("{}group {} is out of range; there are {} groups",
+                                   face_place(description, f), group, group_count));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/build/description_check.h"
@@ -15,7 +16,8 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
     : name_(description.name),
       files_(description.files),
       options_(options),
-      materials_(description.materials) {
+      materials_(description.materials),
+      groups_(description.groups) {
   if (!(options.max_patch_area >= 0 && std::isfinite(options.max_patch_area))) {
     throw InputError(fmt::format("the maximum patch area is {} m², but must be finite and >= 0",
                                  options.max_patch_area));
@@ -25,6 +27,9 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   builder.build();
   points_ = builder.table.take();
   patches_ = std::move(builder.patches);
+  for (Patch& patch : patches_) {
+    patch.group = description.group_of(static_cast<std::size_t>(patch.face));
+  }
   outline_corners_ = std::move(builder.outline_corners);
   pieces_ = std::move(builder.pieces);
   piece_corners_ = std::move(builder.piece_corners);
@@ -34,9 +39,29 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   }
 }
 
+bool Scene::has_light() const {
+  return std::any_of(patches_.begin(), patches_.end(), [this](const Patch& patch) {
+    return max_abs(at(materials_, patch.material).exitance) > 0;
+  });
+}
+
+void ReadOptions::validate() const {
+  const auto check = [](const char* what, double rho) {
+    if (!(rho >= 0 && rho < 1)) {
+      throw InputError(fmt::format("the {} is {}, but must be >= 0 and < 1", what, rho));
+    }
+  };
+  check("default reflectance", default_reflectance);
+  check("maximum reflectance", max_reflectance.value_or(default_max_reflectance));
+  if (!(scale > 0 && std::isfinite(scale))) {
+    throw InputError(fmt::format("the scale is {}, but must be finite and > 0", scale));
+  }
+}
+
 std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOptions& options,
-                                        const Cancellation& cancellation) {
-  return std::make_shared<const Scene>(describe_scene(spec, cancellation), options, cancellation);
+                                        const ReadOptions& read, const Cancellation& cancellation) {
+  return std::make_shared<const Scene>(describe_scene(spec, read, cancellation), options,
+                                       cancellation);
 }
 
 }  // namespace transillum

@@ -114,7 +114,9 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   return all;
 }
 
-SceneDescription describe_scene(const std::string& spec, const Cancellation& cancellation) {
+SceneDescription describe_scene(const std::string& spec, const ReadOptions& read,
+                                const Cancellation& cancellation) {
+  read.validate();
   const std::size_t colon = std::min(spec.find(':'), spec.size());
   const std::string name = spec.substr(0, colon);
   for (const BuiltIn& b : registry()) {

@@ -1,0 +1,49 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+// Changes of materials by name, before a Scene is made of a description: a light for a scene that
+// has none, another reflectance for a group of faces. Files, command lines and windows name what
+// to change in the same way.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// New values for the material of some faces.
+struct MaterialChange {
+  /// Which faces: the name of a material, the name of a group of faces, or `face:N`, the face with
+  /// the 0-based number N. A name that is both means the material; `material:NAME` and `group:NAME`
+  /// say which. Names are found without regard to case where none is spelled exactly so.
+  std::string target;
+  std::optional<Rgb> reflectance = std::nullopt;  ///< rho, 0 <= rho < 1 per channel; unset: kept
+  std::optional<Rgb> exitance = std::nullopt;     ///< E, W/m², >= 0; unset: kept
+
+  /// Exact comparison.
+  friend bool operator==(const MaterialChange&, const MaterialChange&) = default;
+};
+
+/// Applies changes in their order: of two for the same face and value, the later one holds. All
+/// targets refer to the description as it is before the first change, so a change of a material
+/// also reaches those of its faces that an earlier change gave another exitance.
+///
+/// Where a change is for a part of a material's faces, these get a new material, named after the
+/// material and the target. Materials in use keep their numbers; new ones are appended. A target
+/// that is both a material and a group, or a material that no face uses, is told in
+/// SceneDescription::notes. Faces, groups and points are not changed.
+///
+/// Time: linear in the faces, for each change of a group or a material.
+/// @throws InputError naming the target and, if a name of the scene is similar, that name; the
+/// value and the valid range. Then nothing is changed.
+void change_materials(SceneDescription& description, std::span<const MaterialChange> changes);
+
+/// A target for a change that gives the scene its first light: a material in use or a group whose
+/// name suggests a lamp ("Light", "lampe", "bulb" …), else the material with the smallest area
+/// in use that faces have; `face:0` where materials have no usable name.
+std::string suggested_light(const SceneDescription& description);
+
+}  // namespace transillum

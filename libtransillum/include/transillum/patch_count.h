@@ -1,0 +1,33 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+// How many patches a limit of their area makes, and which limit makes about a given number: known
+// before the refined scene is made.
+
+#include <cstdint>
+
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// The number of patches that the description of `unrefined` gives with
+/// SceneOptions::max_patch_area = `max_patch_area` (m², > 0) and otherwise the same options.
+/// @param unrefined a scene made with max_patch_area = 0.
+/// Time: linear in the faces. No limit is checked: the number may be too large for a Scene, and is
+/// then at least 2^62.
+std::int64_t count_patches(const Scene& unrefined, double max_patch_area);
+
+/// A limit for patch areas with which the scene has about `patches` patches (m²).
+///
+/// Faces are cut into grids of nearly equal cells, all by the same limit, so not every number is
+/// possible: a cube has 6, 12, 24 … The number reached is between half and twice the number asked
+/// for, mostly within a few percent where faces are many or different.
+/// @param unrefined a scene made with max_patch_area = 0.
+/// @param patches > 0; where the unrefined scene has as many or more, the result is 0: no limit.
+/// @throws InputError where `patches` is less than 1 or more than a Scene may have
+/// @throws Canceled
+double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
+                          const Cancellation& cancellation = {});
+
+}  // namespace transillum
