@@ -37,18 +37,20 @@ struct Material {
 
 /// Unchecked polygons, as a reader or a generator delivers them.
 struct SceneDescription {
-  std::string name;                         ///< file or built-in scene; used in error messages
-  std::vector<Vec3> points;                 ///< m
-  std::vector<Material> materials;          ///< referred to by face_material
-  std::vector<PointId> corners;             ///< the outlines of all faces, concatenated
-  std::vector<std::uint32_t> face_begin;    ///< index in `corners` where face f starts
-  std::vector<std::int32_t> face_material;  ///< index in `materials` of face f
-  std::vector<std::int32_t> face_line;      ///< line of face f in the file; 0: none
-  std::vector<std::string> groups;          ///< names of groups of faces (OBJ: `g` and `o`)
-  std::vector<std::int32_t> face_group;     ///< index in `groups` of face f, or no_group; empty:
-                                            ///< no face has a group
-  std::vector<std::string> notes;           ///< the reader's warnings, for Scene::report()
-  std::vector<std::string> files;           ///< read for it: the OBJ, then its MTL files
+  std::string name;                          ///< file or built-in scene; used in error messages
+  std::vector<Vec3> points;                  ///< m
+  std::vector<Material> materials;           ///< referred to by face_material
+  std::vector<PointId> corners;              ///< the outlines of all faces, concatenated
+  std::vector<std::uint32_t> face_begin;     ///< index in `corners` where face f starts
+  std::vector<std::int32_t> face_material;   ///< index in `materials` of face f
+  std::vector<std::int32_t> face_line;       ///< line of face f in the file; 0: none
+  std::vector<std::string> groups;           ///< names of groups of faces (OBJ: `g` and `o`)
+  std::vector<std::int32_t> face_group;      ///< index in `groups` of face f, or no_group; empty:
+                                             ///< no face has a group
+  std::vector<std::uint8_t> face_two_sided;  ///< 1: face f gives two opposite patches, front first;
+                                             ///< 0: one; empty: all give one
+  std::vector<std::string> notes;            ///< the reader's warnings, for Scene::report()
+  std::vector<std::string> files;            ///< read for it: the OBJ, then its MTL files
 
   /// Number of faces.
   std::size_t face_count() const { return face_begin.size(); }
@@ -62,7 +64,11 @@ struct SceneDescription {
   std::int32_t group_of(std::size_t face) const {
     return face_group.empty() ? no_group : at(face_group, face);
   }
-  /// Appends a face.
+  /// Whether face number `face` lights and receives on both sides.
+  bool is_two_sided(std::size_t face) const {
+    return !face_two_sided.empty() && at(face_two_sided, face) != 0;
+  }
+  /// Appends a one-sided face.
   /// @param outline indices into `points`, counter-clockwise seen from the front side, which is
   /// the side that emits and receives.
   /// @param material index into `materials`.
@@ -73,6 +79,9 @@ struct SceneDescription {
     if (group != no_group || !face_group.empty()) {
       face_group.resize(face_count(), no_group);
       face_group.push_back(group);
+    }
+    if (!face_two_sided.empty()) {
+      face_two_sided.resize(face_count() + 1, 0);
     }
     face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
     corners.insert(corners.end(), outline.begin(), outline.end());

@@ -24,6 +24,7 @@ namespace transillum {}
 // Scenes: from a file, a generator or arrays to patches.
 #include "transillum/coplanar_overlap.h"
 #include "transillum/material_changes.h"
+#include "transillum/orientation.h"
 #include "transillum/patch_count.h"
 #include "transillum/picking.h"
 #include "transillum/scene.h"

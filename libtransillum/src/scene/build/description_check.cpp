@@ -43,6 +43,11 @@ void check_faces(const SceneDescription& description) {
     throw InputError(fmt::format("{}: groups of {} faces, but there are {} faces", description.name,
                                  description.face_group.size(), description.face_count()));
   }
+  if (!description.face_two_sided.empty() &&
+      description.face_two_sided.size() != description.face_count()) {
+    throw InputError(fmt::format("{}: sides of {} faces, but there are {} faces", description.name,
+                                 description.face_two_sided.size(), description.face_count()));
+  }
   for (std::size_t f = 0; f < description.face_count(); ++f) {
     for (const PointId p : description.outline(f)) {
       if (p < 0 || p >= point_count) {

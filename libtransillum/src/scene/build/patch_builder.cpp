@@ -213,7 +213,7 @@ void PatchBuilder::refine(std::size_t face, const Outline& outline, const Polygo
 }
 
 void PatchBuilder::check_patch_limit(std::size_t face, std::int64_t more) const {
-  const std::int64_t sides = options_.two_sided ? 2 : 1;
+  const std::int64_t sides = is_two_sided(face) ? 2 : 1;
   if (static_cast<std::int64_t>(patches.size()) + sides * more > max_patches) {
     throw InputError(
         fmt::format("{}more than {} patches; is the maximum patch area of {} m² too small?",
@@ -242,7 +242,7 @@ void PatchBuilder::add_patch(std::size_t face, const Outline& outline, const Pol
     piece.end = static_cast<std::uint32_t>(piece_corners.size());
     pieces.push_back(piece);
   }
-  if (options_.two_sided) {
+  if (is_two_sided(face)) {
     add_opposite();
   }
 }

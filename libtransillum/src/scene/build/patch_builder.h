@@ -51,7 +51,10 @@ class PatchBuilder {
   void refine(std::size_t face, const Outline& outline, const PolygonShape& shape);
   void add_patch(std::size_t face, const Outline& outline, const PolygonShape& shape,
                  const std::vector<CornerList>& parts);
-  /// Adds the back side of the last patch (SceneOptions::two_sided).
+  bool is_two_sided(std::size_t face) const {
+    return options_.two_sided || description_.is_two_sided(face);
+  }
+  /// Adds the back side of the last patch, of a two-sided face.
   void add_opposite();
   /// @throws InputError if `more` patches would exceed max_patches.
   void check_patch_limit(std::size_t face, std::int64_t more) const;
