@@ -109,6 +109,12 @@ struct ReadOptions {
   void validate() const;
 };
 
+/// Names of units of length that ReadOptions::scale can be given by: mm, cm, m, in, ft.
+std::vector<std::string> length_unit_names();
+/// Meters per unit.
+/// @throws InputError with the valid names
+double length_unit_from_name(const std::string& name);
+
 /// How faces become patches.
 struct SceneOptions {
   bool two_sided = false;     ///< every face gives two opposite patches, front first

@@ -97,21 +97,28 @@ std::string face_place(const SceneDescription& description, std::size_t face) {
   return fmt::format("{}: face {}: ", description.name, face);
 }
 
-void check_material(const Material& material, const std::string& place) {
-  for (const auto& [channel, rho] : channels(material.reflectance)) {
+void check_reflectance(const Rgb& reflectance, const std::string& place) {
+  for (const auto& [channel, rho] : channels(reflectance)) {
     if (!(rho >= 0 && rho < 1)) {
-      throw InputError(
-          fmt::format("{}material {}: {} reflectance rho (Kd) is {}, but must be >= 0 and < 1",
-                      place, in_quotes(material.name), channel, rho));
+      throw InputError(fmt::format("{}{} reflectance rho (Kd) is {}, but must be >= 0 and < 1",
+                                   place, channel, rho));
     }
   }
-  for (const auto& [channel, e] : channels(material.exitance)) {
+}
+
+void check_exitance(const Rgb& exitance, const std::string& place) {
+  for (const auto& [channel, e] : channels(exitance)) {
     if (!(e >= 0 && e <= largest_exitance)) {
-      throw InputError(
-          fmt::format("{}material {}: {} exitance E (Ke) is {}, but must be >= 0 and at most {}",
-                      place, in_quotes(material.name), channel, e, largest_exitance));
+      throw InputError(fmt::format("{}{} exitance E (Ke) is {}, but must be >= 0 and at most {}",
+                                   place, channel, e, largest_exitance));
     }
   }
+}
+
+void check_material(const Material& material, const std::string& place) {
+  const std::string named = fmt::format("{}material {}: ", place, in_quotes(material.name));
+  check_reflectance(material.reflectance, named);
+  check_exitance(material.exitance, named);
 }
 
 void check_description(const SceneDescription& description) {

@@ -18,6 +18,12 @@ inline constexpr double largest_exitance = 1e170, smallest_exitance = 1e-170;
 /// the results.
 std::string face_place(const SceneDescription& description, std::size_t face);
 
+/// Checks 0 <= rho < 1 per channel.
+/// @throws InputError beginning with `place`.
+void check_reflectance(const Rgb& reflectance, const std::string& place);
+/// Checks 0 <= E <= largest_exitance per channel.
+/// @throws InputError beginning with `place`.
+void check_exitance(const Rgb& exitance, const std::string& place);
 /// Checks 0 <= rho < 1 and 0 <= E <= largest_exitance.
 /// @throws InputError beginning with `place`.
 void check_material(const Material& material, const std::string& place);

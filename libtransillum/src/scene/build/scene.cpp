@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "base/text_file.h"
 #include "scene/build/description_check.h"
 #include "scene/build/patch_builder.h"
 
@@ -56,6 +58,31 @@ void ReadOptions::validate() const {
   if (!(scale > 0 && std::isfinite(scale))) {
     throw InputError(fmt::format("the scale is {}, but must be finite and > 0", scale));
   }
+}
+
+namespace {
+
+constexpr std::array<std::pair<const char*, double>, 5> length_units{
+    {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}, {"ft", 0.3048}}};
+
+}  // namespace
+
+std::vector<std::string> length_unit_names() {
+  std::vector<std::string> names;
+  for (const auto& unit : length_units) {
+    names.emplace_back(unit.first);
+  }
+  return names;
+}
+
+double length_unit_from_name(const std::string& name) {
+  for (const auto& [unit, meters] : length_units) {
+    if (name == unit) {
+      return meters;
+    }
+  }
+  throw InputError(fmt::format("unknown unit of length {}; choose one of {}", in_quotes(name),
+                               fmt::join(length_unit_names(), ", ")));
 }
 
 std::shared_ptr<const Scene> load_scene(const std::string& spec, const SceneOptions& options,

@@ -1,0 +1,366 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Changes of materials by the name of a material, a group or a face. All names are resolved before
+// anything is changed; then each change selects faces, and where these are only some of a
+// material's faces, they get a copy of the material.
+#include "transillum/material_changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <set>
+
+#include "base/text_file.h"
+#include "scene/build/description_check.h"
+#include "transillum/at.h"
+#include "transillum/did_you_mean.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t listed_names = 8;
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text;
+}
+
+/// What a change applies to.
+struct Target {
+  enum class Kind { material, group, face } kind = Kind::face;
+  std::vector<bool> members;  ///< by material or group: whether it is meant
+  std::size_t face = 0;
+};
+
+/// Finds what targets mean in a description.
+class TargetFinder {
+ public:
+  explicit TargetFinder(const SceneDescription& description) : description_(description) {
+    for (const Material& m : description.materials) {
+      materials_.push_back(m.name);
+    }
+    used_.resize(materials_.size());
+    for (const std::int32_t m : description.face_material) {
+      at(used_, m) = true;
+    }
+  }
+
+  Target find(const std::string& name) {
+    if (auto found = find_spelled(name, false)) {
+      return *found;
+    }
+    if (auto found = find_by_prefix(name)) {
+      return *found;
+    }
+    if (auto found = find_spelled(name, true)) {
+      return *found;
+    }
+    throw InputError(fmt::format("{}: no material, group or face:N is named {}{}",
+                                 description_.name, in_quotes(name), known_names(name)));
+  }
+  /// Remarks for SceneDescription::notes.
+  std::vector<std::string> notes;
+
+ private:
+  using Names = std::vector<std::string>;
+
+  static std::optional<std::vector<bool>> members(const Names& names, const std::string& name,
+                                                  bool ignore_case) {
+    std::vector<bool> found(names.size());
+    const std::string wanted = ignore_case ? lower_case(name) : name;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      found[i] = (ignore_case ? lower_case(names[i]) : names[i]) == wanted;
+    }
+    if (std::find(found.begin(), found.end(), true) == found.end()) {
+      return {};
+    }
+    return found;
+  }
+  std::optional<Target> find_material(const std::string& name, bool ignore_case) {
+    auto found = members(materials_, name, ignore_case);
+    if (!found) {
+      return {};
+    }
+    bool in_use = false;
+    for (std::size_t m = 0; m < found->size(); ++m) {
+      in_use = in_use || ((*found)[m] && used_[m]);
+    }
+    if (!in_use) {
+      notes.push_back(fmt::format("{}: material {} is changed, but no face uses it",
+                                  description_.name, in_quotes(name)));
+    }
+    return Target{Target::Kind::material, *std::move(found)};
+  }
+  std::optional<Target> find_group(const std::string& name, bool ignore_case) const {
+    auto found = members(description_.groups, name, ignore_case);
+    return found ? std::optional(Target{Target::Kind::group, *std::move(found)}) : std::nullopt;
+  }
+  std::optional<Target> find_spelled(const std::string& name, bool ignore_case) {
+    std::optional<Target> material = find_material(name, ignore_case);
+    std::optional<Target> group = find_group(name, ignore_case);
+    if (material && group) {
+      notes.push_back(fmt::format(
+          "{}: {} is a material and a group; the material is changed (for the group: group:{})",
+          description_.name, in_quotes(name), name));
+    }
+    return material ? material : group;
+  }
+  std::optional<Target> find_by_prefix(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    if (colon == std::string::npos) {
+      return {};
+    }
+    const std::string kind = name.substr(0, colon), rest = name.substr(colon + 1);
+    for (const bool ignore_case : {false, true}) {
+      std::optional<Target> found;
+      if (kind == "material") {
+        found = find_material(rest, ignore_case);
+      } else if (kind == "group") {
+        found = find_group(rest, ignore_case);
+      }
+      if (found) {
+        return found;
+      }
+    }
+    return kind == "face" ? std::optional(find_face(rest)) : std::nullopt;
+  }
+  Target find_face(const std::string& digits) const {
+    std::size_t face = 0;
+    const char* const last = digits.data() + digits.size();
+    const auto [end, error] = std::from_chars(digits.data(), last, face);
+    if (error == std::errc::invalid_argument || end != last) {
+      throw InputError(fmt::format("{}: face {} is not a number; faces are numbered 0 to {}",
+                                   description_.name, in_quotes(digits),
+                                   description_.face_count() - 1));
+    }
+    if (error != std::errc() || face >= description_.face_count()) {
+      throw InputError(fmt::format("{}: there is no face {}; faces are numbered 0 to {}",
+                                   description_.name, digits, description_.face_count() - 1));
+    }
+    return Target{Target::Kind::face, {}, face};
+  }
+  /// The end of the message about an unknown name: a similar one, or the first few there are.
+  std::string known_names(const std::string& name) const {
+    Names all = materials_;
+    all.insert(all.end(), description_.groups.begin(), description_.groups.end());
+    const std::string similar = did_you_mean(name, all);
+    if (!similar.empty() || all.empty()) {
+      return similar;
+    }
+    std::string list;
+    for (std::size_t i = 0; i < std::min(all.size(), listed_names); ++i) {
+      list += (i == 0 ? "; there are " : ", ") + in_quotes(all[i]);
+    }
+    return list + (all.size() > listed_names
+                       ? fmt::format(" and {} more", all.size() - listed_names)
+                       : std::string());
+  }
+
+  const SceneDescription& description_;
+  Names materials_;
+  std::vector<bool> used_;
+};
+
+/// Changes the materials of faces. Keeps how many faces each material has, so that a change for all
+/// of them needs no copy.
+class MaterialEditor {
+ public:
+  explicit MaterialEditor(SceneDescription& description)
+      : description_(description),
+        original_(description.face_material),
+        uses_(description.materials.size()) {
+    for (const std::int32_t m : original_) {
+      ++at(uses_, m);
+    }
+    for (const Material& m : description.materials) {
+      names_.insert(m.name);
+    }
+  }
+
+  void apply(const MaterialChange& change, const Target& target) {
+    if (target.kind == Target::Kind::material) {
+      change_unused(change, target);
+    }
+    std::map<std::int32_t, std::vector<std::size_t>> selected;  // by material
+    if (target.kind == Target::Kind::face) {
+      selected[description_.face_material[target.face]] = {target.face};
+    } else {
+      for (std::size_t f = 0; f < description_.face_count(); ++f) {
+        const std::int32_t member =
+            target.kind == Target::Kind::material ? original_[f] : description_.group_of(f);
+        if (member >= 0 && at(target.members, member)) {
+          selected[description_.face_material[f]].push_back(f);
+        }
+      }
+    }
+    for (const auto& [material, faces] : selected) {
+      change_faces(change, material, faces);
+    }
+  }
+
+ private:
+  static Material changed(Material material, const MaterialChange& change) {
+    material.reflectance = change.reflectance.value_or(material.reflectance);
+    material.exitance = change.exitance.value_or(material.exitance);
+    return material;
+  }
+  /// Materials that no face uses have no faces to select.
+  void change_unused(const MaterialChange& change, const Target& target) {
+    for (std::size_t m = 0; m < target.members.size(); ++m) {
+      if (target.members[m] && uses_[m] == 0) {
+        description_.materials[m] = changed(description_.materials[m], change);
+      }
+    }
+  }
+  void change_faces(const MaterialChange& change, std::int32_t material,
+                    const std::vector<std::size_t>& faces) {
+    Material& old = at(description_.materials, material);
+    Material made = changed(old, change);
+    if (made.reflectance == old.reflectance && made.exitance == old.exitance) {
+      return;
+    }
+    if (faces.size() == at(uses_, material)) {
+      old = std::move(made);
+      return;
+    }
+    made.name = new_name(old.name, change.target);
+    const auto number = static_cast<std::int32_t>(description_.materials.size());
+    description_.materials.push_back(std::move(made));
+    at(uses_, material) -= faces.size();
+    uses_.push_back(faces.size());
+    for (const std::size_t f : faces) {
+      description_.face_material[f] = number;
+    }
+  }
+  /// The name of a part of a material, unlike all others.
+  std::string new_name(const std::string& material, std::string target) {
+    for (char& c : target) {
+      c = c == ':' || c == ' ' ? '-' : c;
+    }
+    const std::string name = fmt::format("{}-{}", material, target);
+    std::string unique = name;
+    for (int i = 2; !names_.insert(unique).second; ++i) {
+      unique = fmt::format("{}-{}", name, i);
+    }
+    return unique;
+  }
+
+  SceneDescription& description_;
+  const std::vector<std::int32_t> original_;  ///< material of each face before the first change
+  std::vector<std::size_t> uses_;             ///< by material: number of faces
+  std::set<std::string> names_;
+};
+
+void check_values(const SceneDescription& description, const MaterialChange& change) {
+  const std::string place =
+      fmt::format("{}: change of {}: ", description.name, in_quotes(change.target));
+  if (change.reflectance) {
+    check_reflectance(*change.reflectance, place);
+  }
+  if (change.exitance) {
+    check_exitance(*change.exitance, place);
+  }
+}
+
+/// The parts of NAME=V,V,V.
+std::pair<std::string, Rgb> named_values(const std::string& text) {
+  const auto refuse = [&] {
+    throw InputError(in_quotes(text) + " is not NAME=VALUE or NAME=RED,GREEN,BLUE");
+  };
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) {
+    refuse();
+  }
+  std::array<double, 3> values{};
+  std::size_t count = 0;
+  for (std::size_t begin = equals + 1; begin <= text.size(); ++count) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto number = parse_number(std::string_view(text).substr(begin, end - begin));
+    if (!number || count == values.size()) {
+      refuse();
+    }
+    values[count] = *number;
+    begin = end + 1;
+  }
+  if (count == 1) {
+    values = {values[0], values[0], values[0]};
+  } else if (count != values.size()) {
+    refuse();
+  }
+  return {text.substr(0, equals), {values[0], values[1], values[2]}};
+}
+
+bool suggests_light(const std::string& name) {
+  constexpr std::array words{"light", "lamp", "bulb", "licht", "leucht", "emi",
+                             "glow",  "luz",  "luce", "neon",  "lumi"};
+  const std::string lower = lower_case(name);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return lower.find(word) != std::string::npos; });
+}
+
+bool fits_on_a_line(const std::string& name) {
+  return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x20 || c == 0x7f || c == '\'' || c == '"';
+  });
+}
+
+}  // namespace
+
+MaterialChange exitance_change(const std::string& text) {
+  auto [target, exitance] = named_values(text);
+  return {.target = std::move(target), .exitance = exitance};
+}
+
+MaterialChange reflectance_change(const std::string& text) {
+  auto [target, reflectance] = named_values(text);
+  return {.target = std::move(target), .reflectance = reflectance};
+}
+
+void change_materials(SceneDescription& description, std::span<const MaterialChange> changes) {
+  TargetFinder finder(description);
+  std::vector<Target> targets;
+  for (const MaterialChange& change : changes) {
+    check_values(description, change);
+    targets.push_back(finder.find(change.target));
+  }
+  MaterialEditor editor(description);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    editor.apply(changes[i], targets[i]);
+  }
+  description.notes.insert(description.notes.end(), finder.notes.begin(), finder.notes.end());
+}
+
+std::string suggested_light(const SceneDescription& description) {
+  std::vector<std::size_t> uses(description.materials.size());
+  for (const std::int32_t m : description.face_material) {
+    ++at(uses, m);
+  }
+  const std::string* best = nullptr;
+  std::size_t fewest = description.face_count() + 1;
+  for (std::size_t m = 0; m < uses.size(); ++m) {
+    const std::string& name = description.materials[m].name;
+    if (uses[m] == 0 || !fits_on_a_line(name)) {
+      continue;
+    }
+    if (suggests_light(name)) {
+      return name;
+    }
+    if (uses[m] < fewest) {
+      best = &name;
+      fewest = uses[m];
+    }
+  }
+  for (const std::string& name : description.groups) {
+    if (fits_on_a_line(name) && suggests_light(name)) {
+      return name;
+    }
+  }
+  return best ? *best : "face:0";
+}
+
+}  // namespace transillum

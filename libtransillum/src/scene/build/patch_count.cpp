@@ -1,0 +1,150 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// The number of patches after refinement, without refining: the parts that PatchBuilder::refine()
+// divides are found once, and their grids are counted for any limit of the area.
+#include "transillum/patch_count.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "scene/build/patch_builder.h"
+#include "scene/build/refinement.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::int64_t too_many = std::int64_t{1} << 62;
+constexpr int bisections = 60;
+
+/// The triangles and quadrilaterals that a patch is divided into before grids are laid on them.
+std::vector<std::vector<PointId>> parts_of(const Scene& scene, PatchId i,
+                                           std::span<const Piece> pieces) {
+  std::vector<std::vector<PointId>> parts;
+  const bool four_corners = scene.outline(i).size() == 4;
+  for (const Piece& piece : pieces) {
+    const auto corners = scene.corners(piece);
+    if (corners.size() <= 3 || (corners.size() == 4 && four_corners)) {
+      parts.emplace_back(corners.begin(), corners.end());
+      continue;
+    }
+    for (const auto& t : triangulate(drop_axis(scene.points(), corners, scene.patch(i).normal))) {
+      parts.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+    }
+  }
+  return parts;
+}
+
+/// Counts the patches of a scene for any limit of their area.
+class PatchCounter {
+ public:
+  explicit PatchCounter(const Scene& scene) : scene_(scene) {
+    const std::vector<Piece>& pieces = scene.pieces();
+    std::size_t begin = 0;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      std::size_t end = begin;
+      while (end < pieces.size() && pieces[end].patch == i) {
+        ++end;
+      }
+      for (auto& outline : parts_of(scene, i, std::span(pieces).subspan(begin, end - begin))) {
+        const double area = measure(scene.points(), outline).area;
+        parts_.push_back({i, area, std::move(outline)});
+      }
+      begin = end;
+    }
+  }
+
+  std::int64_t count(double max_area) const {
+    std::int64_t total = 0;
+    PatchId last = no_patch;
+    for (const Part& part : parts_) {
+      // The same slack as in PatchBuilder::add_part().
+      if (scene_.patch(part.patch).area * (1 - 1e-9) <= max_area) {
+        total += part.patch != last ? 1 : 0;
+      } else {
+        total += choose_grid(scene_.points(), part.outline, part.area, max_area).cell_count();
+      }
+      last = part.patch;
+      if (total >= too_many) {
+        return too_many;
+      }
+    }
+    return total;
+  }
+
+ private:
+  struct Part {
+    PatchId patch;
+    double area;
+    std::vector<PointId> outline;
+  };
+
+  const Scene& scene_;
+  std::vector<Part> parts_;
+};
+
+double largest_area(const Scene& scene) {
+  double largest = 0;
+  for (const Patch& patch : scene.patches()) {
+    largest = std::max(largest, patch.area);
+  }
+  return largest;
+}
+
+/// The limit with the number nearest to the wanted one by ratio, of those tried.
+struct Nearest {
+  std::int64_t wanted;
+  double area = 0;
+  double ratio = HUGE_VAL;
+
+  void consider(double tried, std::int64_t count) {
+    const auto more = static_cast<double>(std::max(count, wanted));
+    const auto less = static_cast<double>(std::min(count, wanted));
+    if (more / less < ratio) {
+      ratio = more / less;
+      area = tried;
+    }
+  }
+};
+
+}  // namespace
+
+std::int64_t count_patches(const Scene& unrefined, double max_patch_area) {
+  return PatchCounter(unrefined).count(max_patch_area);
+}
+
+double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
+                          const Cancellation& cancellation) {
+  if (patches < 1 || patches > PatchBuilder::max_patches) {
+    throw InputError(fmt::format("the number of patches is {}, but must be 1 to {}", patches,
+                                 PatchBuilder::max_patches));
+  }
+  if (unrefined.patch_count() >= patches) {
+    return 0;
+  }
+  const PatchCounter counter(unrefined);
+  Nearest nearest{patches};
+  nearest.consider(0, unrefined.patch_count());
+  double few = largest_area(unrefined), many = few;
+  std::int64_t count = unrefined.patch_count();
+  const auto try_area = [&](double area) {
+    cancellation.throw_if_canceled();
+    count = counter.count(area);
+    nearest.consider(area, count);
+  };
+  while (count < patches) {
+    few = many;
+    many /= 2;
+    try_area(many);
+  }
+  for (int k = 0; k < bisections && nearest.ratio > 1 && few > many * (1 + 1e-12); ++k) {
+    const double middle = std::sqrt(few) * std::sqrt(many);
+    try_area(middle);
+    (count < patches ? few : many) = middle;
+  }
+  return nearest.area;
+}
+
+}  // namespace transillum
