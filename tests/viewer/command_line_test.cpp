@@ -43,6 +43,16 @@ class CommandLineTest : public QObject {
     QVERIFY(outcome.parsed.command_line.scene.empty());
   }
 
+  void a_screenshot_takes_fewer_directions_unless_told() {
+    const auto directions = [](std::vector<const char*> words) {
+      words.insert(words.begin(), {"furnace", "--screenshot", "a.png"});
+      return parse(std::move(words)).parsed.command_line.solve_options.directions;
+    };
+    QCOMPARE(directions({}), 128);
+    QCOMPARE(directions({"-m", "1024"}), 1024);
+    QCOMPARE(directions({"--after", "5"}), SolveOptions{}.directions);
+  }
+
   void options_of_solve() {
     const Outcome outcome = parse({"room.obj",
                                    "-m",

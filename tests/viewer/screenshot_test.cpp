@@ -55,6 +55,24 @@ class ScreenshotTest : public QObject {
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"window.png"});
   }
 
+  // The ceiling of the Cornell box and the sides of its blocks that the lamp does not reach are
+  // black in the first iteration.
+  void without_after_it_shows_a_converged_solve() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("window.png");
+    QCOMPARE(run({"cornell-box", "--screenshot", path}).status, 0);
+    const QImage picture(path);
+    int black = 0;
+    const QRect scene(420, 130, 610, 670);
+    for (int y = scene.top(); y <= scene.bottom(); ++y) {
+      for (int x = scene.left(); x <= scene.right(); ++x) {
+        black += qGray(picture.pixel(x, y)) < 4 ? 1 : 0;
+      }
+    }
+    const double share = static_cast<double>(black) / (scene.width() * scene.height());
+    QVERIFY2(share < 0.01, qPrintable(QString::number(share)));
+  }
+
   void bad_input_gives_one_line_and_no_file() {
     const QTemporaryDir folder;
     const Outcome outcome = run({"no-such-scene", "--screenshot", folder.filePath("window.png")});

@@ -13,6 +13,9 @@ namespace transillum::viewer {
 
 namespace {
 
+/// Directions of a solve for a screenshot: an error of about a percent, within seconds.
+constexpr int screenshot_directions = 128;
+
 // As the command line keeps them, before names become enumerators.
 struct Names {
   std::string sampling, engine, normalize, scheme, first_shot = "none", burn_in = "auto";
@@ -80,6 +83,9 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   if (names.burn_in != "auto") {
     solve.burn_in = std::stoi(names.burn_in);
   }
+  if (app.count("--screenshot") > 0 && app.count("--directions") + app.count("--after") == 0) {
+    solve.directions = screenshot_directions;
+  }
   solve.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty() && line.lesson.empty()) {
@@ -124,7 +130,8 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
       app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
   app.add_option(
          "--after", line.after,
-         "number of directions before the screenshot (default: one iteration; none for a result)")
+         "number of directions before the screenshot (default: until the solve has converged, "
+         "with 128 directions if -m is not given; none for a result)")
       ->needs(screenshot)
       ->check(CLI::PositiveNumber);
   try {

@@ -17,7 +17,7 @@ struct CommandLine {
   std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
   int page = 1;            ///< of the lesson, from 1
   std::string screenshot;  ///< path of a PNG; empty: none
-  int after = 0;           ///< directions before the screenshot; 0: the first full iteration
+  int after = 0;           ///< directions before the screenshot; 0: a converged solve
 };
 
 /// Either a command line to run, or the status to exit with at once.

@@ -108,9 +108,6 @@ std::optional<Goal> goal_of(const CommandLine& command_line) {
   if (command_line.after > 0) {
     return Goal{Goal::Kind::passes, command_line.after};
   }
-  if (!command_line.screenshot.empty() && !transillum::is_result_file(scene_of(command_line))) {
-    return Goal{Goal::Kind::iteration};
-  }
   return std::nullopt;
 }
 
