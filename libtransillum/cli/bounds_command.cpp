@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
@@ -20,8 +21,7 @@ namespace {
 
 struct BoundsCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   SequenceOptions sequence;
   BoundsOptions options;
   bool one_way = false;
@@ -30,11 +30,12 @@ struct BoundsCall {
 
 void check_options(const BoundsCall& call) {
   check_seed(*call.command, call.sequence);
-  for (const char* option : {"--two-sided", "--max-patch-area"}) {
-    refuse_unless(!call.scene.empty(), *call.command, option, "used only with a SCENE");
+  for (const char* option : {"--two-sided", "--max-patch-area", "--patches",
+                             "--default-reflectance", "--max-reflectance", "--scale", "--units"}) {
+    refuse_unless(!call.scene.spec.empty(), *call.command, option, "used only with a SCENE");
   }
   for (const char* option : {"--directions", "--tolerance"}) {
-    refuse_unless(!call.scene.empty() || call.options.rho, *call.command, option,
+    refuse_unless(!call.scene.spec.empty() || call.options.rho, *call.command, option,
                   "used only with a SCENE or --reflectance, for the prediction");
   }
 }
@@ -54,8 +55,8 @@ int run(const BoundsCall& call) {
   options.directions = call.sequence.directions;
   options.sets = {call.sequence.sampling, call.sequence.seed, call.sequence.rotation,
                   !call.one_way};
-  if (!call.scene.empty()) {
-    options.scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
+  if (!call.scene.spec.empty()) {
+    options.scene = load_input_scene(call.scene, outputs, cancellation);
   }
   ProgressDisplay display;
   const BoundsReport report = make_bounds_report(
@@ -110,13 +111,15 @@ Run add_bounds_command(CLI::App& program) {
   auto call = std::make_shared<BoundsCall>();
   CLI::App& command = *program.add_subcommand(
       "bounds", "Prints how many directions an accuracy requires, guaranteed and estimated");
-  command.add_option("SCENE", call->scene, "scene that defines the largest reflectance and R2/A")
+  command
+      .add_option("SCENE", call->scene.spec, "scene that defines the largest reflectance and R2/A")
       ->type_name("");
-  call->command = &command;
+  call->command = call->scene.command = &command;
   add_bounds_options(command, call->options);
   add_sequence_options(command, call->sequence);
   command.add_flag("--one-way", call->one_way, "use the directions without their opposites");
-  add_scene_options(command, call->scene_options);
+  add_reading_options(command, call->scene);
+  add_patch_options(command, call->scene);
   command
       .add_option("--run", call->options.run,
                   "file of solve --stats with --replicas; M is estimated from its error")

@@ -10,6 +10,7 @@
 #include "interruption.h"
 #include "messages.h"
 #include "output_files.h"
+#include "scene_options.h"
 #include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/errors.h"
@@ -27,7 +28,7 @@ struct DirectionsCall {
   std::string out;
   CLI::Option* stats = nullptr;
   std::string stats_file;
-  std::string scene;
+  SceneInput scene;
 };
 
 std::vector<std::string> checked_outputs(const DirectionsCall& call) {
@@ -38,7 +39,7 @@ std::vector<std::string> checked_outputs(const DirectionsCall& call) {
   std::vector<std::string> files = given_files({call.out, call.stats_file});
   check_output_files(files);
   const bool measured = call.stats->count() > 0;
-  if (!call.scene.empty() && !measured) {
+  if (!call.scene.spec.empty() && !measured) {
     throw InputError("--scene requires --stats");
   }
   if (measured && call.sequence.directions > max_measured) {
@@ -52,8 +53,8 @@ void measure(const DirectionsCall& call, const std::vector<DirectionSample>& sam
              const std::vector<std::string>& outputs) {
   const Cancellation& cancellation = cancel_on_signals();
   std::shared_ptr<const Scene> scene;
-  if (!call.scene.empty()) {
-    scene = load_input_scene(call.scene, {}, outputs, cancellation);
+  if (!call.scene.spec.empty()) {
+    scene = load_input_scene(call.scene, outputs, cancellation);
   }
   const auto statistics = measure_directions(call.sequence, samples, scene, cancellation);
   if (call.stats_file.empty()) {
@@ -88,6 +89,7 @@ Run add_directions_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "directions", "Writes the points and directions of a sequence, or measures their quality");
   call->command = &command;
+  call->scene.command = &command;
   add_sequence_options(command, call->sequence);
   command.add_option("-o,--out", call->out, "CSV: u,v,x,y,z (default: standard output)")
       ->type_name("FILE.csv");
@@ -101,7 +103,7 @@ Run add_directions_command(CLI::App& program) {
           ->expected(0, 1);
   command
       .add_option(
-          "--scene", call->scene,
+          "--scene", call->scene.spec,
           "with --stats: eps(M) for the normals of this scene's patches instead of all normals")
       ->type_name("SCENE");
   command.footer(

@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "sequence_options.h"
 #include "standard_output.h"
 #include "transillum/files.h"
@@ -20,8 +21,7 @@ namespace {
 
 struct FactorsCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   SequenceOptions sequence;
   SolveOptions passes;
   GatherOptions rays;
@@ -109,7 +109,7 @@ int run(const FactorsCall& call) {
   check_options(call);
   const std::vector<std::string> outputs = given_files({call.out});
   check_output_files(outputs);
-  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation);
   ProgressDisplay display;
   const FormFactors form_factors = compute_form_factors(call, scene, cancellation, display);
   display.clear();
@@ -151,7 +151,7 @@ Run add_factors_command(CLI::App& program) {
       [call](const std::string& text) {
         call->passes.engine_options.resolution = parse_resolution("--resolution", text);
       });
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   add_machine_limits(command, call->passes.memory, call->passes.threads);
   command.get_option("--memory")
       ->description("largest memory for form factors (default: a quarter of the machine's)");

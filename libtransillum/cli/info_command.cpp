@@ -13,6 +13,7 @@
 #include "option_values.h"
 #include "progress_display.h"
 #include "report_text.h"
+#include "scene_options.h"
 #include "standard_output.h"
 #include "transillum/at.h"
 #include "transillum/coplanar_overlap.h"
@@ -31,8 +32,7 @@ constexpr std::size_t max_listed_faces = 20;
 constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
 };
 
 void print_row(const std::string& name, const std::string& value) {
@@ -176,7 +176,8 @@ void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancel
 
 int run(const InfoCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
-  const auto scene = load_scene(call.scene, call.scene_options, {}, cancellation);
+  const auto scene =
+      make_input_scene(call.scene, describe_input(call.scene, cancellation), cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
   probe(scene, cancellation);
@@ -191,7 +192,7 @@ Run add_info_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "info", "Prints counts, size, emitted power, closedness and problems of a scene");
   add_scene_argument(command, call->scene);
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   command.footer(fmt::format(
       "Whether the scene is closed and which faces are seen from behind is measured along {}\n"
       "directions and their opposites. Faces are numbered from 0 in the order of the file.\n"

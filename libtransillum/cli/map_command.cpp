@@ -14,6 +14,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "transillum/errors.h"
 #include "transillum/map_files.h"
 #include "transillum/pixel_map.h"
@@ -23,8 +24,7 @@ namespace {
 
 struct MapCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
   Engine engine = Engine::local;
@@ -110,7 +110,7 @@ int run(const MapCall& call) {
     check_map_path(file);
   }
   check_output_files(call.out);
-  const auto scene = load_input_scene(call.scene, call.scene_options, call.out, cancellation);
+  const auto scene = load_input_scene(call.scene, call.out, cancellation);
   check_receiver(call, *scene);
   const VisibilityMap map = make_map(call, scene, cancellation);
   const std::string reason = empty_map_reason(*scene, map);
@@ -151,7 +151,7 @@ Run add_map_command(CLI::App& program) {
         call->picture.size = static_cast<int>(parse_whole_number(
             "--size", text, MapPictureOptions::smallest_size, MapPictureOptions::largest_size));
       });
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   command
       .add_option(
           "-o,--out", call->out,

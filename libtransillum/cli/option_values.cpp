@@ -147,15 +147,6 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
   }
 }
 
-void add_scene_argument(CLI::App& command, std::string& scene) {
-  command
-      .add_option("SCENE", scene,
-                  "an .obj file (in its .mtl: Kd = reflectance, Ke = exitance in W/m2), or a "
-                  "built-in scene with parameters, such as sphere-flake:levels=1")
-      ->required()
-      ->type_name("");
-}
-
 void add_direction_option(CLI::App& command, Vec3& direction) {
   add_parsed_option(
       command, "--direction", "X,Y,Z",
@@ -210,17 +201,6 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) 
   add_parsed_option(command, "--threads", "N", help_of("threads", "all cores"),
                     [&threads](const std::string& text) {
                       threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
-                    });
-}
-
-void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_flag("--two-sided", options.two_sided, description_of("two-sided"));
-  add_parsed_option(command, "--max-patch-area", "A", help_of("max-patch-area", "no limit"),
-                    [&options](const std::string& text) {
-                      options.max_patch_area = parse_number("--max-patch-area", text);
-                      if (!(options.max_patch_area > 0)) {
-                        refuse("--max-patch-area", text, "greater than 0");
-                      }
                     });
 }
 

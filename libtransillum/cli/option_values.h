@@ -11,7 +11,6 @@
 
 #include "transillum/engine.h"
 #include "transillum/radiosity.h"
-#include "transillum/scene.h"
 #include "transillum/settings.h"
 
 namespace transillum::cli {
@@ -56,7 +55,6 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
 
 // Options that several commands share.
 
-void add_scene_argument(CLI::App& command, std::string& scene);
 /// --direction, required; normalized to a unit vector
 void add_direction_option(CLI::App& command, Vec3& direction);
 /// --engine, --lines, --resolution, --order and --random-lines
@@ -67,8 +65,6 @@ void add_engine_details(CLI::App& command, EngineOptions& options);
 void add_order_option(CLI::App& command, EngineOptions& options);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
-/// --two-sided and --max-patch-area
-void add_scene_options(CLI::App& command, SceneOptions& options);
 
 /// An option whose value is parsed by `parse`, which gives the error message.
 template <typename Parse>

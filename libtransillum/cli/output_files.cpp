@@ -3,7 +3,6 @@
 
 #include <exception>
 
-#include "messages.h"
 #include "transillum/files.h"
 
 namespace transillum::cli {
@@ -18,15 +17,6 @@ void check_output_files(const std::vector<std::string>& files) {
     check_writable(file);
   }
   check_distinct(files, {});
-}
-
-std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const SceneOptions& options,
-                                              const std::vector<std::string>& outputs,
-                                              const Cancellation& cancellation) {
-  auto scene = load_scene(spec, options, {}, cancellation);
-  check_distinct(outputs, scene->files());
-  print_warnings(*scene);
-  return scene;
 }
 
 void write_all(const std::vector<std::function<void()>>& writers) {

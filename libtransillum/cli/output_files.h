@@ -2,12 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
-
-#include "transillum/cancellation.h"
-#include "transillum/scene.h"
 
 namespace transillum::cli {
 
@@ -17,12 +13,6 @@ std::vector<std::string> given_files(std::vector<std::string> files);
 /// Checks before a long computation that each file is writable and given once.
 /// @throws InputError
 void check_output_files(const std::vector<std::string>& files);
-
-/// Loads a scene, checks that no output would overwrite one of its files, and prints its warnings.
-/// @throws InputError, Canceled
-std::shared_ptr<const Scene> load_input_scene(const std::string& spec, const SceneOptions& options,
-                                              const std::vector<std::string>& outputs,
-                                              const Cancellation& cancellation);
 
 /// Runs all of these, even if some fail, then rethrows the first error: results that took long are
 /// not lost because one of several files cannot be written.

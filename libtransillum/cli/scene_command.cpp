@@ -7,8 +7,8 @@
 #include "commands.h"
 #include "interruption.h"
 #include "messages.h"
-#include "option_values.h"
 #include "output_files.h"
+#include "scene_options.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 
@@ -16,7 +16,7 @@ namespace transillum::cli {
 namespace {
 
 struct SceneCall {
-  std::string scene;
+  SceneInput scene;
   std::string out;
 };
 
@@ -28,7 +28,7 @@ int run(const SceneCall& call) {
   }
   const std::vector<std::string> outputs{call.out, materials_file_of(out).string()};
   check_output_files(outputs);
-  const SceneDescription description = describe_scene(call.scene, {}, cancellation);
+  const SceneDescription description = describe_input(call.scene, cancellation);
   check_distinct(outputs, description.files);
   for (const std::string& note : description.notes) {
     print_message("warning: " + note);
@@ -43,10 +43,15 @@ Run add_scene_command(CLI::App& program) {
   auto call = std::make_shared<SceneCall>();
   CLI::App& command = *program.add_subcommand("scene", "Writes a scene as .obj and .mtl files");
   add_scene_argument(command, call->scene);
+  add_reading_options(command, call->scene);
+  add_material_options(command, call->scene);
   command.add_option("-o,--out", call->out, "the .obj file; the .mtl file is written next to it")
       ->type_name("FILE.obj")
       ->required();
-  command.footer("Example: transillum scene sphere-flake:levels=1 --out flake.obj");
+  command.footer(
+      "The file has the scene as the options change it, with its materials and groups.\n"
+      "Example: transillum scene sphere-flake:levels=1 --out flake.obj\n"
+      "         transillum scene house.obj --units mm --emission lamp=100 --out lit.obj");
   return [call] { return run(*call); };
 }
 

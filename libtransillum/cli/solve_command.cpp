@@ -13,6 +13,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "sequence_options.h"
 #include "solve_summary.h"
 #include "standard_output.h"
@@ -32,8 +33,7 @@ double seconds_since(Clock::time_point start) {
 
 struct SolveCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   SequenceOptions sequence;
   SolveOptions options;
   bool one_way = false, two_way = false;
@@ -167,7 +167,7 @@ int run(const SolveCall& call) {
   const SolveOptions options = solve_options(call);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
-  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
   const double seconds_load = seconds_since(start);
 
   const auto solve_scene =
@@ -273,7 +273,7 @@ Run add_solve_command(CLI::App& program) {
   add_estimator(command, *call);
   add_scheme(command, call->options);
   add_stopping_rules(command, *call);
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   add_machine_limits(command, call->options.memory, call->options.threads);
   add_outputs(command, *call);
   command.footer(

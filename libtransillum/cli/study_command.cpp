@@ -12,6 +12,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "standard_output.h"
 #include "study_summary.h"
 #include "transillum/errors.h"
@@ -32,8 +33,7 @@ struct StudiedEngine {
 
 struct StudyCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   std::vector<int> directions{16, 64, 256, 1024};
   std::vector<Sampling> samplings{Sampling::random, Sampling::hammersley, Sampling::fibonacci};
   std::vector<Normalization> normalizations{Normalization::none};
@@ -176,7 +176,7 @@ void write_outputs(const StudyCall& call, const StudyOptions& options, const Stu
   for (const std::string& file : call.plots) {
     writers.emplace_back([&] {
       write_charts(file,
-                   {study_chart(call.scene, options.series, study, call.error, call.against)});
+                   {study_chart(call.scene.spec, options.series, study, call.error, call.against)});
     });
   }
   const std::string summary = study_summary(scene, options, study, call.error);
@@ -199,7 +199,7 @@ int run(const StudyCall& call) {
   check_output_files(files);
 
   StudyContext context{{}, {}, cancel_on_signals(), ProgressDisplay(call.quiet)};
-  context.scene = load_input_scene(call.scene, call.scene_options, files, context.cancellation);
+  context.scene = load_input_scene(call.scene, files, context.cancellation, Light::required);
   const SolveOptions reference_options = options.reference(call.reference);
   check_distinct(
       files, given_files(
@@ -369,7 +369,7 @@ Run add_study_command(CLI::App& program) {
   add_series_options(command, *call);
   add_error_options(command, *call);
   add_reference_options(command, *call);
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   add_machine_limits(command, call->study.solve.memory, call->study.solve.threads);
   command
       .add_option("-o,--out", call->out,

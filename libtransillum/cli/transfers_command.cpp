@@ -10,6 +10,7 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "progress_display.h"
+#include "scene_options.h"
 #include "standard_output.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
@@ -21,8 +22,7 @@ namespace {
 
 struct TransfersCall {
   const CLI::App* command = nullptr;
-  std::string scene;
-  SceneOptions scene_options;
+  SceneInput scene;
   Vec3 direction;
   Engine engine = Engine::fast;
   EngineOptions engine_options;
@@ -38,7 +38,7 @@ int run(const TransfersCall& call) {
   refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
   const std::vector<std::string> outputs = given_files({call.out});
   check_output_files(outputs);
-  const auto scene = load_input_scene(call.scene, call.scene_options, outputs, cancellation);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation);
   ProgressDisplay progress;
   const auto tree = build_tree(*scene, cancellation, progress);
   const TransferEngine engine = make_engine(call.engine, scene, tree, call.engine_options);
@@ -62,7 +62,7 @@ Run add_transfers_command(CLI::App& program) {
   add_scene_argument(command, call->scene);
   add_direction_option(command, call->direction);
   add_engine_options(command, call->engine, call->engine_options);
-  add_scene_options(command, call->scene_options);
+  add_scene_options(command, call->scene);
   command
       .add_option("-o,--out", call->out,
                   "CSV: receiver,source,area in m2 (default: standard output); source -1: no "

@@ -86,7 +86,7 @@ TEST(ReaderLimits, EveryLineChecksTheCancellation) {
   const Cancellation canceled;
   canceled.cancel();
   for (const std::string& text : {square, repeated("\\\n", 100), std::string(100, 'x')}) {
-    EXPECT_THROW(read_obj(folder.write("s.obj", text), canceled), Canceled);
+    EXPECT_THROW(read_obj(folder.write("s.obj", text), {}, canceled), Canceled);
   }
   const Cancellation later;
   LineReader lines("a\nb\nc \\\n d\n", later);

@@ -18,6 +18,11 @@ namespace transillum {
 /// then at least 2^62.
 std::int64_t count_patches(const Scene& unrefined, double max_patch_area);
 
+/// Bytes that a scene of `patches` patches, its BSP tree and the passes of a solve take, about,
+/// without kept form factors (SolveOptions::memory): measured on scenes that are cut little. Deep
+/// trees take several times as much.
+std::uint64_t expected_memory(std::int64_t patches);
+
 /// A limit for patch areas with which the scene has about `patches` patches (m²).
 ///
 /// Faces are cut into grids of nearly equal cells, all by the same limit, so not every number is

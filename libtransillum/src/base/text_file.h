@@ -30,6 +30,10 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
 std::string in_quotes(std::string_view text);
 /// Without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
+/// Without a pair of quotes, " or ', around it.
+std::string_view unquoted(std::string_view text);
+/// With A to Z as a to z; other letters stay.
+std::string lower_case(std::string_view text);
 /// The words between blanks, the first `most` of them.
 void split_words(std::string_view text, std::vector<std::string_view>& words,
                  std::size_t most = std::string_view::npos);

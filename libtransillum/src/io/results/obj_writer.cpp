@@ -8,17 +8,18 @@
 #include <set>
 
 #include "io/text_buffer.h"
+#include "transillum/at.h"
 #include "transillum/files.h"
 
 namespace transillum {
 namespace {
 
-/// Names of the materials, changed so that each fits on a line of text and no two are equal.
-std::vector<std::string> written_names(const std::vector<Material>& materials) {
-  std::set<std::string> taken;
+/// Names changed so that each fits on a line of text and no two are equal, nor equal to one of
+/// `taken`.
+std::vector<std::string> written_names(const std::vector<std::string>& given,
+                                       std::set<std::string> taken = {}) {
   std::vector<std::string> names;
-  for (const Material& m : materials) {
-    std::string name = m.name;
+  for (std::string name : given) {
     for (char& c : name) {
       if (static_cast<unsigned char>(c) < ' ') {
         c = '_';
@@ -38,6 +39,14 @@ std::vector<std::string> written_names(const std::vector<Material>& materials) {
     names.push_back(unique);
   }
   return names;
+}
+
+std::vector<std::string> written_names(const std::vector<Material>& materials) {
+  std::vector<std::string> names;
+  for (const Material& m : materials) {
+    names.push_back(m.name);
+  }
+  return written_names(names);
 }
 
 void write_materials(std::ostream& stream, const std::vector<Material>& materials,
@@ -62,8 +71,16 @@ void write_faces(std::ostream& stream, const SceneDescription& description,
   for (const Vec3& p : description.points) {
     text.add("v {} {} {}\n", p.x, p.y, p.z);
   }
-  std::int32_t current = -1;
+  // The name of faces without a group.
+  constexpr const char* no_group_name = "default";
+  const std::vector<std::string> groups = written_names(description.groups, {no_group_name});
+  std::int32_t current = -1, current_group = no_group;
   for (std::size_t f = 0; f < description.face_count(); ++f) {
+    const std::int32_t group = description.group_of(f);
+    if (group != current_group) {
+      text.add("g {}\n", group == no_group ? no_group_name : at(groups, group));
+    }
+    current_group = group;
     const std::int32_t material = description.face_material[f];
     if (material != current) {
       text.add("usemtl {}\n", names.at(static_cast<std::size_t>(material)));

@@ -23,13 +23,6 @@ namespace {
 
 constexpr std::size_t listed_names = 8;
 
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return text;
-}
-
 /// What a change applies to.
 struct Target {
   enum class Kind { material, group, face } kind = Kind::face;

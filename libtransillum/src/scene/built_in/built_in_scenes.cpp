@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text_file.h"
 #include "scene/built_in/built_in_makers.h"
 #include "scene/read/obj_reader.h"
 #include "transillum/did_you_mean.h"
@@ -51,11 +52,8 @@ const std::vector<BuiltIn>& registry() {
 
 /// The file name's ending in lower case if it consists of letters: ".obj", but not "=2.5".
 std::string file_ending(const std::string& spec) {
-  std::string ending = std::filesystem::path(spec).extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') {
-      c = static_cast<char>(c - 'A' + 'a');
-    }
+  const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
+  for (const char c : ending) {
     if (c != '.' && (c < 'a' || c > 'z')) {
       return {};
     }
@@ -70,7 +68,8 @@ bool names_a_file(const std::string& spec) {
          std::filesystem::exists(spec, ignored);
 }
 
-SceneDescription read_file(const std::string& spec, const Cancellation& cancellation) {
+SceneDescription read_file(const std::string& spec, const ReadOptions& read,
+                           const Cancellation& cancellation) {
   std::error_code ignored;
   if (!std::filesystem::exists(spec, ignored)) {
     throw InputError(spec + ": no such file");
@@ -82,7 +81,7 @@ SceneDescription read_file(const std::string& spec, const Cancellation& cancella
   if (file_ending(spec) != ".obj") {
     throw InputError(spec + ": not a scene file; scene files end in .obj");
   }
-  return read_obj(spec, cancellation);
+  return read_obj(spec, read, cancellation);
 }
 
 std::vector<std::string> built_in_names() {
@@ -114,9 +113,10 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   return all;
 }
 
-SceneDescription describe_scene(const std::string& spec, const ReadOptions& read,
-                                const Cancellation& cancellation) {
-  read.validate();
+namespace {
+
+SceneDescription describe_unscaled(const std::string& spec, const ReadOptions& read,
+                                   const Cancellation& cancellation) {
   const std::size_t colon = std::min(spec.find(':'), spec.size());
   const std::string name = spec.substr(0, colon);
   for (const BuiltIn& b : registry()) {
@@ -126,12 +126,24 @@ SceneDescription describe_scene(const std::string& spec, const ReadOptions& read
     return make(b, spec, colon < spec.size() ? spec.substr(colon + 1) : "", cancellation);
   }
   if (names_a_file(spec)) {
-    return read_file(spec, cancellation);
+    return read_file(spec, read, cancellation);
   }
   const std::vector<std::string> names = built_in_names();
   throw InputError(fmt::format("{}: no such file or built-in scene{} Built-in scenes: {}.", spec,
                                nearest_name(name, names).empty() ? "." : did_you_mean(name, names),
                                fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+SceneDescription describe_scene(const std::string& spec, const ReadOptions& read,
+                                const Cancellation& cancellation) {
+  read.validate();
+  SceneDescription description = describe_unscaled(spec, read, cancellation);
+  for (Vec3& point : description.points) {
+    point = read.scale * point;
+  }
+  return description;
 }
 
 }  // namespace transillum

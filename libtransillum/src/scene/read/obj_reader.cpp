@@ -16,6 +16,7 @@
 #include "base/invariant.h"
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
+#include "scene/read/file_search.h"
 #include "scene/read/mtl_reader.h"
 #include "scene/read/tinyobj_parser.h"
 #include "transillum/at.h"
@@ -27,14 +28,42 @@ namespace {
 constexpr std::size_t max_vertices = 100'000'000;
 constexpr std::size_t max_corners = 400'000'000;
 constexpr std::size_t max_face_corners = 1'000'000;
-constexpr Rgb default_reflectance{0.5, 0.5, 0.5};
 
 /// Whether lines with this keyword are ignored without a warning.
 bool is_ignored_silently(std::string_view keyword) {
-  constexpr std::string_view known[] = {
-      "vt",       "vn",  "vp",         "g",         "o",      "s",      "mg", "bevel", "c_interp",
-      "d_interp", "lod", "shadow_obj", "trace_obj", "maplib", "usemap", "vw", "t"};
+  constexpr std::string_view known[] = {"vt",        "vn",       "vp",       "s",   "mg",
+                                        "bevel",     "c_interp", "d_interp", "lod", "shadow_obj",
+                                        "trace_obj", "maplib",   "usemap",   "vw",  "t"};
   return std::find(std::begin(known), std::end(known), keyword) != std::end(known);
+}
+
+/// The file names of an mtllib line. A name may have blanks, so it ends with its quotes or its
+/// `.mtl`; names without either are in the last text.
+std::vector<std::string_view> library_names(std::string_view rest) {
+  std::vector<std::string_view> names;
+  const std::string lower = lower_case(rest);
+  while (!rest.empty()) {
+    std::size_t end = rest.size();
+    const std::size_t offset = lower.size() - rest.size();
+    if (rest.front() == '"' || rest.front() == '\'') {
+      end = std::min(rest.find(rest.front(), 1), rest.size() - 1) + 1;
+    } else {
+      constexpr std::string_view ending = ".mtl";
+      for (std::size_t from = offset; end == rest.size();) {
+        const std::size_t found = lower.find(ending, from);
+        if (found == std::string::npos) {
+          break;
+        }
+        from = found + ending.size();
+        if (from < lower.size() && (lower[from] == ' ' || lower[from] == '\t')) {
+          end = from - offset;
+        }
+      }
+    }
+    names.push_back(rest.substr(0, end));
+    rest = trimmed(rest.substr(end));
+  }
+  return names;
 }
 
 /// Reads one file. tinyobjloader parses the lines, but it reads malformed numbers as 0, lets large
@@ -42,8 +71,9 @@ bool is_ignored_silently(std::string_view keyword) {
 /// gets it, and coordinates come from std::from_chars, as the nearest doubles.
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& path, const Cancellation& cancellation)
-      : path_(path), cancellation_(cancellation) {
+  ObjReader(const std::filesystem::path& path, const ReadOptions& options,
+            const Cancellation& cancellation)
+      : path_(path), options_(options), cancellation_(cancellation) {
     description_.name = path.string();
     description_.files = {path.string()};
   }
@@ -56,8 +86,7 @@ class ObjReader {
     // Without this the stream would swallow exceptions of inspect().
     stream.exceptions(std::ios::badbit);
     parse_obj(stream, {[this] { add_vertex(); },
-                       [this](std::span<const int> corners) { add_face(corners); },
-                       [this](const std::string& name) { use_material(name); }});
+                       [this](std::span<const int> corners) { add_face(corners); }});
     finish();
     return std::move(description_);
   }
@@ -73,12 +102,12 @@ class ObjReader {
       return check_face(line);
     }
     if (line.keyword == "usemtl") {
-      if (line.rest.empty()) {
-        fail("usemtl has no name");
-      }
-      return true;
-    }
-    if (line.keyword == "mtllib") {
+      use_material(std::string(unquoted(line.rest)));
+    } else if (line.keyword == "g" || line.keyword == "o") {
+      // The group that every face belongs to is named `default` in the format's description.
+      group_name_ = line.rest == "default" ? std::string_view() : line.rest;
+      group_ = no_group;
+    } else if (line.keyword == "mtllib") {
       read_libraries(line.rest);
     } else if (!is_ignored_silently(line.keyword)) {
       notes_.add("lines with unsupported keywords, ignored",
@@ -161,11 +190,30 @@ class ObjReader {
     for (const int index : indices) {
       outline_.push_back(index > 0 ? index - 1 : count + index);
     }
-    description_.add_face(outline_, current_name_, line_);
+    description_.add_face(outline_, current_name_, line_, current_group());
+  }
+
+  /// The group of the next face. Groups without faces are left out.
+  std::int32_t current_group() {
+    if (group_ == no_group && !group_name_.empty()) {
+      group_ = group_numbers_
+                   .try_emplace(group_name_, static_cast<std::int32_t>(description_.groups.size()))
+                   .first->second;
+      if (static_cast<std::size_t>(group_) == description_.groups.size()) {
+        description_.groups.push_back(group_name_);
+      }
+    }
+    return group_;
   }
 
   /// Materials may be defined later in the file, so names are resolved at the end.
   void use_material(const std::string& name) {
+    if (name.empty()) {
+      notes_.add("uses of a material without a name",
+                 fmt::format("{}usemtl has no name; its faces get no material", place()));
+      current_name_ = no_name;
+      return;
+    }
     const auto [found, is_new] =
         name_numbers_.try_emplace(name, static_cast<std::int32_t>(used_names_.size()));
     if (is_new) {
@@ -176,57 +224,68 @@ class ObjReader {
 
   void read_libraries(std::string_view rest) {
     if (rest.empty()) {
-      fail("mtllib has no file name");
+      notes_.add("mtllib lines without a name", place() + "mtllib has no file name; line ignored");
+      return;
     }
     // One name with blanks, or several names: the existing files decide.
-    if (library_names_.contains(rest)) {
+    if (read_library(rest)) {
       return;
     }
-    if (exists(library_path(rest))) {
-      read_library(rest);
-      return;
-    }
-    split_words(rest, words_);
-    for (const std::string_view word : words_) {
-      if (library_names_.contains(word)) {
+    for (const std::string_view name : library_names(rest)) {
+      if (read_library(name)) {
         continue;
       }
-      if (!exists(library_path(word))) {
-        fail(fmt::format("MTL file {} not found", in_quotes(word)));
+      split_words(name, words_);
+      const bool any = words_.size() > 1 && std::any_of(words_.begin(), words_.end(), [&](auto w) {
+                         return search_.find(path_.parent_path(), w).has_value();
+                       });
+      if (!any) {
+        report_missing(name);
+        continue;
       }
-      read_library(word);
+      for (const std::string_view word : words_) {
+        if (!read_library(word)) {
+          report_missing(word);
+        }
+      }
     }
   }
-  /// Reads each file once, however many lines name it, under however many names.
-  void read_library(std::string_view name) {
+  /// Reads a file that exists; each once, however many lines name it, under however many names.
+  bool read_library(std::string_view name) {
+    if (library_names_.contains(name)) {
+      return true;
+    }
+    const std::optional<std::filesystem::path> path = search_.find(path_.parent_path(), name);
+    if (!path) {
+      return false;
+    }
     library_names_.emplace(name);
-    const std::filesystem::path path = library_path(name);
     std::error_code error;
-    const std::filesystem::path file = std::filesystem::canonical(path, error);
-    if (!error && !library_files_.insert(file).second) {
+    const std::filesystem::path file = std::filesystem::canonical(*path, error);
+    if (error || library_files_.insert(file).second) {
+      library_.read(*path, notes_, cancellation_);
+      description_.files.push_back(path->string());
+    }
+    return true;
+  }
+  void report_missing(std::string_view name) {
+    if (!library_names_.emplace(name).second) {
       return;
     }
-    library_.read(path, notes_, cancellation_);
-    description_.files.push_back(path.string());
-  }
-  std::filesystem::path library_path(std::string_view name) const {
-    std::filesystem::path path = path_.parent_path() / name;
-    if (exists(path)) {
-      return path;
-    }
-    // A Windows path.
-    std::string slashes(name);
-    std::replace(slashes.begin(), slashes.end(), '\\', '/');
-    return path_.parent_path() / slashes;
-  }
-  static bool exists(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
+    constexpr const char* kind = "missing MTL files";
+    // Similar names are searched for in warnings that are shown.
+    const std::string similar = notes_.count(kind) < Warnings::shown_of_a_kind
+                                    ? search_.similar(path_.parent_path(), name)
+                                    : std::string();
+    notes_.add(kind, fmt::format("{}MTL file {} not found{}", place(), in_quotes(name),
+                                 similar.empty() ? "" : "; did you mean " + in_quotes(similar)));
   }
 
   void finish() {
     check_indices();
     resolve_materials();
+    const std::vector<std::string>& textures = library_.textures();
+    description_.files.insert(description_.files.end(), textures.begin(), textures.end());
     description_.notes = notes_.sentences();
   }
 
@@ -247,52 +306,71 @@ class ObjReader {
     }
   }
 
+  /// Replaces the numbers of used names by those of materials.
   void resolve_materials() {
-    std::vector<std::int32_t> resolved(used_names_.size(), -1);
+    std::vector<std::int64_t> faces(used_names_.size());
     std::int64_t without = 0;
+    for (const std::int32_t name : description_.face_material) {
+      ++(name == no_name ? without : at(faces, name));
+    }
+    std::vector<Material> assumed;
+    std::vector<std::int32_t> resolved(used_names_.size());
+    for (std::size_t n = 0; n < used_names_.size(); ++n) {
+      resolved[n] = faces[n] > 0 ? resolve(used_names_[n], faces[n], assumed) : 0;
+    }
+    const auto nameless = static_cast<std::int32_t>(library_.materials().size() + assumed.size());
     for (std::int32_t& material : description_.face_material) {
-      if (material == no_name) {
-        ++without;
-        material = static_cast<std::int32_t>(library_.materials().size());
-        continue;
-      }
-      std::int32_t& known = at(resolved, material);
-      if (known < 0) {
-        known = resolve(at(used_names_, material));
-      }
-      material = known;
+      material = material == no_name ? nameless : at(resolved, material);
     }
     description_.materials = library_.take_materials();
-    if (without == 0) {
-      return;
+    description_.materials.insert(description_.materials.end(), assumed.begin(), assumed.end());
+    if (without > 0) {
+      add_nameless_material(without);
     }
+  }
+
+  void add_nameless_material(std::int64_t faces) {
     std::string name = "no-material";
-    while (library_.find(name) >= 0) {
+    while (library_.find(name) >= 0 || name_numbers_.contains(name)) {
       name += "-";
     }
-    description_.materials.push_back({name, default_reflectance, {}});
-    notes_.add(
-        "notes",
-        fmt::format("{}: {} of {} faces have no material (usemtl); rho = {}, E = 0 assumed",
-                    description_.name, without, description_.face_count(), default_reflectance.r));
+    description_.materials.push_back({name, default_color(), {}});
+    notes_.add("notes",
+               fmt::format("{}: {} of {} faces have no material (usemtl); rho = {}, E = 0 assumed",
+                           description_.name, faces, description_.face_count(),
+                           options_.default_reflectance));
   }
 
   struct UsedName {
     std::string name;
     std::int32_t line;
   };
-  std::int32_t resolve(const UsedName& used) {
+  /// The number of the material that a name means; of a new one in `assumed` if it is not defined.
+  std::int32_t resolve(const UsedName& used, std::int64_t faces, std::vector<Material>& assumed) {
     const std::int32_t material = library_.find(used.name);
-    line_ = used.line;
-    if (material < 0) {
-      fail(fmt::format("material {} is not defined{}", in_quotes(used.name),
-                       library_.materials().empty()
-                           ? ": the file names no MTL file (mtllib) with materials"
-                           : did_you_mean(used.name, library_.names())));
+    if (material >= 0) {
+      const auto m = static_cast<std::size_t>(material);
+      if (completed_.insert(m).second) {
+        library_.complete(m, options_, notes_);
+      }
+      return material;
     }
-    const auto m = static_cast<std::size_t>(material);
-    check_material(library_.materials()[m], library_.place(m));
-    return material;
+    constexpr const char* kind = "materials that are not defined";
+    // Similar names are searched for in warnings that are shown.
+    const std::string similar = notes_.count(kind) < Warnings::shown_of_a_kind
+                                    ? did_you_mean(used.name, library_.names())
+                                    : std::string();
+    line_ = used.line;
+    notes_.add(kind, fmt::format("{}material {} is not defined; rho = {}, E = 0 assumed for {} "
+                                 "face{}{}",
+                                 place(), in_quotes(used.name), options_.default_reflectance, faces,
+                                 faces == 1 ? "" : "s", similar));
+    assumed.push_back({used.name, default_color(), {}});
+    return static_cast<std::int32_t>(library_.materials().size() + assumed.size() - 1);
+  }
+  Rgb default_color() const {
+    const double rho = options_.default_reflectance;
+    return {rho, rho, rho};
   }
 
   std::string place() const { return fmt::format("{}:{}: ", description_.name, line_); }
@@ -308,10 +386,13 @@ class ObjReader {
   static constexpr std::int32_t no_name = -1;
 
   const std::filesystem::path& path_;
+  const ReadOptions& options_;
   const Cancellation& cancellation_;
   SceneDescription description_;
-  MaterialLibrary library_;
-  std::set<std::string, std::less<>> library_names_;  ///< read already, as written
+  FileSearch search_;
+  MaterialLibrary library_{search_};
+  std::set<std::size_t> completed_;                   ///< materials of the library that faces use
+  std::set<std::string, std::less<>> library_names_;  ///< read or reported, as written
   std::set<std::filesystem::path> library_files_;     ///< the same, resolved
   Warnings notes_;
   std::int32_t line_ = 0;
@@ -321,13 +402,17 @@ class ObjReader {
   std::map<std::string, std::int32_t> name_numbers_;
   std::vector<UsedName> used_names_;
   std::int32_t current_name_ = no_name;
+  std::string group_name_;         ///< of the last `g` or `o`; empty: none
+  std::int32_t group_ = no_group;  ///< its number, once a face has it
+  std::map<std::string, std::int32_t> group_numbers_;
 };
 
 }  // namespace
 
-SceneDescription read_obj(const std::filesystem::path& path, const Cancellation& cancellation) {
+SceneDescription read_obj(const std::filesystem::path& path, const ReadOptions& options,
+                          const Cancellation& cancellation) {
   try {
-    return ObjReader(path, cancellation).read();
+    return ObjReader(path, options, cancellation).read();
   } catch (const std::bad_alloc&) {
     throw InputError(path.string() + ": not enough memory");
   }

@@ -35,9 +35,6 @@ void parse_obj(std::istream& text, const ObjEvents& events) {
     }
     state.events.face(state.indices);
   };
-  callback.usemtl_cb = [](void* user, const char* name, int) {
-    state_of(user).events.material(name);
-  };
   std::string warnings, errors;
   tinyobj::LoadObjWithCallback(text, callback, &callback_state, nullptr, &warnings, &errors);
 }

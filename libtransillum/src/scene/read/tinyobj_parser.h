@@ -16,7 +16,6 @@ namespace transillum {
 struct ObjEvents {
   std::function<void()> vertex;
   std::function<void(std::span<const int>)> face;  ///< vertex indices as written
-  std::function<void(const std::string&)> material;
 };
 void parse_obj(std::istream& text, const ObjEvents& events);
 

@@ -1,0 +1,92 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/read/file_search.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/text_file.h"
+#include "transillum/did_you_mean.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t most_entries = 100'000;
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+std::string with_slashes(std::string_view name) {
+  std::string slashes(name);
+  std::replace(slashes.begin(), slashes.end(), '\\', '/');
+  return slashes;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> FileSearch::find(const std::filesystem::path& folder,
+                                                      std::string_view name) {
+  name = unquoted(trimmed(name));
+  if (name.empty()) {
+    return {};
+  }
+  const std::filesystem::path slashes = with_slashes(name);
+  for (const std::filesystem::path& tried :
+       {std::filesystem::path(name), slashes, slashes.filename()}) {
+    if (!tried.empty() && is_there(folder / tried)) {
+      return folder / tried;
+    }
+  }
+  auto found = find_ignoring_case(folder, slashes);
+  return found ? found : find_ignoring_case(folder, slashes.filename());
+}
+
+std::optional<std::filesystem::path> FileSearch::find_ignoring_case(
+    const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::filesystem::path path = folder;
+  for (const std::filesystem::path& part : name) {
+    if (is_there(path / part)) {
+      path /= part;
+      continue;
+    }
+    const Entries& known = entries(path);
+    const auto entry = known.find(lower_case(part.string()));
+    if (entry == known.end()) {
+      return {};
+    }
+    path /= entry->second;
+  }
+  return name.empty() ? std::nullopt : std::optional(path);
+}
+
+std::string FileSearch::similar(const std::filesystem::path& folder, std::string_view name) {
+  const std::filesystem::path file =
+      std::filesystem::path(with_slashes(unquoted(trimmed(name)))).filename();
+  const std::string ending = lower_case(file.extension().string());
+  std::vector<std::string> names;
+  for (const auto& [lower, entry] : entries(folder)) {
+    if (lower_case(std::filesystem::path(entry).extension().string()) == ending) {
+      names.push_back(entry);
+    }
+  }
+  return nearest_name(file.string(), names);
+}
+
+const FileSearch::Entries& FileSearch::entries(const std::filesystem::path& folder) {
+  const auto [known, is_new] = folders_.try_emplace(folder);
+  if (!is_new) {
+    return known->second;
+  }
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+  for (std::size_t k = 0; !error && entry != end && k < most_entries; entry.increment(error), ++k) {
+    const std::string name = entry->path().filename().string();
+    std::string& kept = known->second[lower_case(name)];
+    // Of names that differ in case only, the same in any order of the folder.
+    kept = kept.empty() ? name : std::min(kept, name);
+  }
+  return known->second;
+}
+
+}  // namespace transillum

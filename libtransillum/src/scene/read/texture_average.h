@@ -1,0 +1,24 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "transillum/vec3.h"
+
+namespace transillum {
+
+/// The average color of an image, or why there is none.
+struct TextureAverage {
+  std::optional<Rgb> color;  ///< linear, 0 to 1
+  std::string problem;       ///< where there is no color, as "is not a PNG or JPEG image"
+};
+
+/// Averages a PNG or JPEG image over its pixels in linear light: values are decoded by the transfer
+/// function of sRGB (PNG: by libpng where the file states another gamma); pixels count as much as
+/// they are opaque. Images of more than 2^26 pixels are refused unread, so memory is bounded by
+/// 512 MB.
+TextureAverage average_of_texture(const std::filesystem::path& path);
+
+}  // namespace transillum
