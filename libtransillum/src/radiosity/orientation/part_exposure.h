@@ -1,0 +1,35 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "radiosity/orientation/face_parts.h"
+#include "visibility/embree/embree_scene.h"
+
+namespace transillum {
+
+/// What random walks of light reach that start on one side of a part; means over the walks.
+struct SideExposure {
+  double other_area = 0;  ///< area of the patches of other parts reached, relative to all area
+  double own_area = 0;    ///< area of the patches of the same part reached, relative to all area
+  double met_other = 0;   ///< share of the walks that reach another part
+};
+
+/// Of one part: the side of the fronts of patches with sign 1, and the other side.
+using PartExposure = std::array<SideExposure, 2>;
+
+/// Follows random walks from both sides of every part. A walk is reflected diffusely, on the side
+/// that it meets, until it leaves the scene or has met a few patches: so it explores the space on
+/// that side, and goes round corners.
+/// @param threads 0: all cores; the result does not depend on it.
+/// @param progress as in plan_orientation()
+/// @throws Canceled
+std::vector<PartExposure> measure_exposure(const Scene& scene, const EmbreeScene& embree,
+                                           const SurfaceParts& parts, int threads,
+                                           const Cancellation& cancellation,
+                                           const std::function<void(double)>& progress);
+
+}  // namespace transillum
