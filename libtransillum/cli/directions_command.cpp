@@ -33,6 +33,9 @@ struct DirectionsCall {
 
 std::vector<std::string> checked_outputs(const DirectionsCall& call) {
   check_seed(*call.command, call.sequence);
+  if (is_standard_output(call.out) && call.stats->count() > 0 && call.stats_file.empty()) {
+    throw InputError("--out: standard output takes the text of --stats; name a file");
+  }
   if (!call.stats_file.empty()) {
     check_statistics_path(call.stats_file);
   }
@@ -74,9 +77,9 @@ int run(const DirectionsCall& call) {
   if (call.stats->count() > 0) {
     measure(call, samples, outputs);
   }
-  if (!call.out.empty()) {
+  if (!given_files({call.out}).empty()) {
     write_directions_csv(call.out, samples);
-  } else if (call.stats->count() == 0) {
+  } else if (call.stats->count() == 0 || is_standard_output(call.out)) {
     print_results([&](std::ostream& out) { write_directions_csv(out, samples); });
   }
   return success;

@@ -113,7 +113,7 @@ int run(const FactorsCall& call) {
   ProgressDisplay display;
   const FormFactors form_factors = compute_form_factors(call, scene, cancellation, display);
   display.clear();
-  if (call.out.empty()) {
+  if (call.out.empty() || is_standard_output(call.out)) {
     print_results([&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
   } else {
     write_form_factors_csv(call.out, form_factors);

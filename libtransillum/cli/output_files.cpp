@@ -7,8 +7,11 @@
 
 namespace transillum::cli {
 
+bool is_standard_output(const std::string& name) { return name == "-"; }
+
 std::vector<std::string> given_files(std::vector<std::string> files) {
-  std::erase(files, std::string());
+  std::erase_if(files,
+                [](const std::string& file) { return file.empty() || is_standard_output(file); });
   return files;
 }
 

@@ -2,6 +2,7 @@
 // `transillum solve`: options, the solve with progress and interruption, and its output files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -44,11 +45,17 @@ struct SolveCall {
 };
 
 std::vector<std::string> checked_outputs(const SolveCall& call) {
-  for (const std::string& file : call.out) {
+  if (std::count_if(call.out.begin(), call.out.end(), is_standard_output) > 1) {
+    throw InputError("--out: standard output (-) is given twice");
+  }
+  std::vector<std::string> files = given_files(call.out);
+  for (const std::string& file : files) {
     check_result_path(file);
   }
-  std::vector<std::string> files = call.out;
   if (!call.stats.empty()) {
+    if (is_standard_output(call.stats)) {
+      throw InputError("--stats: standard output (-) takes only the CSV of --out; name a file");
+    }
     check_statistics_path(call.stats);
     files.push_back(call.stats);
   }
@@ -148,7 +155,13 @@ Solution solve_with_hemicubes(const std::shared_ptr<const Scene>& scene,
 void write_outputs(const SolveCall& call, const SolveOptions& options, const Solution& solution) {
   std::vector<std::function<void()>> writers;
   for (const std::string& file : call.out) {
-    writers.emplace_back([&] { write_result(file, solution); });
+    writers.emplace_back([&] {
+      if (is_standard_output(file)) {
+        print_results([&](std::ostream& out) { write_result_csv(out, solution); });
+      } else {
+        write_result(file, solution);
+      }
+    });
   }
   if (!call.stats.empty()) {
     writers.emplace_back([&] { write_statistics(call.stats, options, solution); });
@@ -250,7 +263,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
   command
       .add_option(
           "-o,--out", call.out,
-          "result file: .csv, .vtp, .ply or .obj, by its ending; may be given several times "
+          "result file: .csv, .vtp, .ply or .obj, by its ending, or - for CSV on standard output; "
+          "may be given several times "
           "(default: a summary on standard output)")
       ->type_name("FILE")
       ->expected(1)

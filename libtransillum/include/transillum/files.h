@@ -57,12 +57,14 @@ void check_statistics_path(const std::filesystem::path& path);
 /// std::runtime_error if it cannot be written.
 void write_result(const std::filesystem::path& path, const Solution& solution);
 
+/// Writes a solution as CSV, as write_result() does to a file.
+void write_result_csv(std::ostream& out, const Solution& solution);
+
 /// Whether `path` ends in .vtp, the format that read_result() reads.
 bool is_result_file(const std::filesystem::path& path);
 /// Reads a solution written by write_result() to a .vtp file: the same patches with the same E,
-/// rho, B and H, bit for bit. Each patch is a face of the solution's scene, because the file does
-/// not record which patches were parts of one face. Statistics and error estimate contain what the
-/// file stores.
+/// rho, B and H, bit for bit, and the same Patch::face. Statistics and error estimate contain what
+/// the file stores.
 /// @throws InputError naming the file and what is wrong with it
 /// @throws Canceled
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation = {});

@@ -44,6 +44,9 @@ struct SceneDescription {
   std::vector<std::uint32_t> face_begin;     ///< index in `corners` where face f starts
   std::vector<std::int32_t> face_material;   ///< index in `materials` of face f
   std::vector<std::int32_t> face_line;       ///< line of face f in the file; 0: none
+  std::vector<std::int32_t> face_number;     ///< Patch::face of the patches of face f, >= 0 and
+                                             ///< ascending; faces of one number are parts of one
+                                             ///< face; empty: f
   std::vector<std::string> groups;           ///< names of groups of faces (OBJ: `g` and `o`)
   std::vector<std::int32_t> face_group;      ///< index in `groups` of face f, or no_group; empty:
                                              ///< no face has a group
@@ -126,7 +129,8 @@ struct Patch {
   Vec3 normal;                      ///< unit, on the front side
   double area = 0;                  ///< m², > 0
   Vec3 center;                      ///< centroid, m
-  std::int32_t face = 0;            ///< 0-based number of its face in the description
+  std::int32_t face = 0;            ///< 0-based number of its face in the description, or its
+                                    ///< SceneDescription::face_number
   std::int32_t material = 0;        ///< index into Scene::materials()
   std::int32_t group = no_group;    ///< index into Scene::groups(), or no_group
   std::uint32_t outline_begin = 0;  ///< first index in the scene's outline corners
@@ -140,24 +144,19 @@ struct Piece {
   std::uint32_t end = 0;     ///< one past the last index
 };
 
-/// A face on the same points as an earlier one.
-struct CoincidentFace {
-  std::int32_t face = 0;     ///< 0-based number of the later face
-  std::int32_t earlier = 0;  ///< 0-based number of the first face with these points
-  bool hidden = false;  ///< both face the same way, so that the later one gets no light: H = 0 and
-                        ///< B = E; with SceneOptions::two_sided always
-};
-
 /// What was found and repaired when faces became patches.
 struct SceneReport {
-  std::vector<std::string> warnings;       ///< sentences for the user, at most a few dozen
-  std::int64_t faces = 0;                  ///< faces in the description
-  std::int64_t removed_degenerate = 0;     ///< faces without area, removed
-  std::int64_t cut_non_planar = 0;         ///< faces cut into triangles
-  std::int64_t refined = 0;                ///< faces subdivided by SceneOptions::max_patch_area
-  std::int64_t unused_points = 0;          ///< points that no face refers to
-  std::int64_t coincident_faces = 0;       ///< faces with the same points as an earlier one
-  std::vector<CoincidentFace> coincident;  ///< these faces, by number
+  std::vector<std::string> warnings;    ///< sentences for the user, at most a few dozen
+  std::int64_t faces = 0;               ///< faces in the description
+  std::int64_t removed_degenerate = 0;  ///< faces without area, removed
+  std::int64_t cut_non_planar = 0;      ///< faces cut into triangles
+  std::int64_t refined = 0;             ///< faces subdivided by SceneOptions::max_patch_area
+  std::int64_t unused_points = 0;       ///< points that no face refers to
+  std::int64_t coincident_faces = 0;    ///< faces with the same points as an earlier one
+  /// Faces that others on the same points cover on each side that they light, by number: no light
+  /// reaches them, so H = 0 and B = E. Of those that face the same way, the brightest is not
+  /// covered, then the smallest, then the last.
+  std::vector<std::int32_t> covered_faces;
 };
 
 /// A scene of patches: checked once, then never changed.

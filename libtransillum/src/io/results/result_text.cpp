@@ -4,6 +4,7 @@
 #include "io/results/result_writers.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
+#include "transillum/files.h"
 
 namespace transillum {
 namespace {
@@ -34,6 +35,8 @@ bool has_large_outlines(const Scene& scene) {
 
 }  // namespace
 
+/// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
+/// also SE_r,SE_g,SE_b.
 void write_result_csv(std::ostream& out, const Solution& solution) {
   TextBuffer text(out);
   const std::vector<Rgb>& errors = solution.error.standard_error;

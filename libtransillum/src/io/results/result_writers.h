@@ -7,12 +7,10 @@
 
 namespace transillum {
 
-// One writer per format of write_result(). Doubles are written so that they read back bit for bit.
-// data/FILES.md lists the columns, arrays and properties.
+// One writer per format of write_result(), besides write_result_csv() of transillum/files.h.
+// Doubles are written so that they read back bit for bit. data/FILES.md lists the columns, arrays
+// and properties.
 
-/// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
-/// also SE_r,SE_g,SE_b.
-void write_result_csv(std::ostream& out, const Solution& solution);
 /// VTK PolyData with cell arrays face, patch, area, material, E, rho, B, H, with replicas also
 /// standard_error; field data: names of the scene and its materials, options and statistics of the
 /// solve. read_result() reads it back.

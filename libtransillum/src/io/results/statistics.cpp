@@ -126,6 +126,7 @@ void write_statistics(const std::filesystem::path& path, const SolveOptions& opt
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["scene"] = solution.scene->name();
   json["complete"] = solution.complete;
+  json["covered_faces"] = solution.scene->report().covered_faces;
   json["options"] = options_json(options, solution.scene->options());
   json.update(statistics_json(solution.statistics));
   json["error_estimate"] = error_json(solution.error);

@@ -2,7 +2,11 @@
 #include "scene/build/coincidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
 
 #include "transillum/at.h"
 
@@ -29,7 +33,77 @@ std::uint64_t hash_of(const std::vector<PointId>& set) {
   return h;
 }
 
+/// The order of BspTree among coincident patches that face the same way: the least is not covered.
+using Rank = std::tuple<double, double, std::int32_t>;
+
+/// One side of a face on points that others share.
+struct Side {
+  std::int32_t face;
+  bool along;  ///< faces the way of the first side on these points
+  Rank rank;
+};
+
+/// The sides that a face lights, from its first patch and, if that is its opposite, the second.
+void add_sides(std::size_t face, const std::vector<Patch>& patches,
+               const std::vector<Material>& materials, std::vector<Side>& sides, Vec3& first) {
+  const auto number = static_cast<std::int32_t>(face);
+  auto patch = std::lower_bound(patches.begin(), patches.end(), number,
+                                [](const Patch& p, std::int32_t f) { return p.face < f; });
+  for (const Vec3 front = patch != patches.end() ? patch->normal : Vec3{};
+       patch != patches.end() && patch->face == number; ++patch) {
+    if (sides.empty()) {
+      first = patch->normal;
+    }
+    const Rank rank{-max_abs(at(materials, patch->material).exitance), patch->area,
+                    -static_cast<std::int32_t>(patch - patches.begin())};
+    sides.push_back({number, dot(patch->normal, first) > 0, rank});
+    if (patch + 1 == patches.end() || dot((patch + 1)->normal, front) > 0) {
+      return;
+    }
+  }
+}
+
+/// Adds the faces that are not the uncovered one on any of their sides.
+void add_covered(const std::vector<Side>& sides, std::vector<std::int32_t>& covered) {
+  std::array<std::optional<Rank>, 2> best;
+  for (const Side& side : sides) {
+    std::optional<Rank>& least = best[side.along ? 1 : 0];
+    least = least ? std::min(*least, side.rank) : side.rank;
+  }
+  for (std::size_t k = 0; k < sides.size();) {
+    bool visible = false;
+    const std::int32_t face = sides[k].face;
+    for (; k < sides.size() && sides[k].face == face; ++k) {
+      visible = visible || sides[k].rank == best[sides[k].along ? 1 : 0];
+    }
+    if (!visible) {
+      covered.push_back(face);
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<std::int32_t> covered_faces(
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+    const std::vector<Patch>& patches, const std::vector<Material>& materials) {
+  std::map<std::size_t, std::vector<std::size_t>> later;
+  for (const auto& [face, earliest] : pairs) {
+    later[earliest].push_back(face);
+  }
+  std::vector<std::int32_t> covered;
+  for (const auto& [earliest, faces] : later) {
+    std::vector<Side> sides;
+    Vec3 first;
+    add_sides(earliest, patches, materials, sides, first);
+    for (const std::size_t face : faces) {
+      add_sides(face, patches, materials, sides, first);
+    }
+    add_covered(sides, covered);
+  }
+  std::sort(covered.begin(), covered.end());
+  return covered;
+}
 
 std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
     const SceneDescription& description, const std::vector<PointId>& welded) {

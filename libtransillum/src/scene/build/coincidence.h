@@ -13,4 +13,11 @@ namespace transillum {
 std::vector<std::pair<std::size_t, std::size_t>> coincident_faces(
     const SceneDescription& description, const std::vector<PointId>& welded);
 
+/// SceneReport::covered_faces.
+/// @param pairs of coincident_faces()
+/// @param patches by face, before refinement or after it; of a refined face the first patch decides
+std::vector<std::int32_t> covered_faces(
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+    const std::vector<Patch>& patches, const std::vector<Material>& materials);
+
 }  // namespace transillum

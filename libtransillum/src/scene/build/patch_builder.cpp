@@ -319,11 +319,18 @@ void PatchBuilder::throw_crossing(std::size_t face) const {
 }
 
 void PatchBuilder::count_coincident() {
-  for (const auto& [later, earlier] : coincident_faces(description_, welded_)) {
-    ++report.coincident_faces;
+  const auto pairs = coincident_faces(description_, welded_);
+  report.coincident_faces = static_cast<std::int64_t>(pairs.size());
+  report.covered_faces = covered_faces(pairs, patches, description_.materials);
+  for (const auto& [later, earlier] : pairs) {
     warnings_.add(
         "faces with the same points as an earlier one",
         fmt::format("{}same points as face {}", face_place(description_, later), earlier));
+  }
+  for (const std::int32_t face : report.covered_faces) {
+    warnings_.add("faces that get no light",
+                  fmt::format("{}covered by a face on the same points: it gets no light (B = E)",
+                              face_place(description_, static_cast<std::size_t>(face))));
   }
 }
 
