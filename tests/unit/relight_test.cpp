@@ -5,10 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "transillum/at.h"
 #include "transillum/engine.h"
+#include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -102,6 +104,69 @@ TEST(Relight, EqualsASolveWithTheOtherMaterialsAfterAFirstShot) {
     }
   }
   EXPECT_GT(several, 0);
+}
+
+/// The material of each patch of `scene` in a description of the same faces.
+std::vector<std::int32_t> patch_materials(const Scene& scene, const SceneDescription& description) {
+  std::vector<std::int32_t> materials;
+  for (const Patch& patch : scene.patches()) {
+    materials.push_back(at(description.face_material, patch.face));
+  }
+  return materials;
+}
+
+TEST(Relight, EqualsASolveWithOtherMaterialsOfSomeFaces) {
+  const SceneDescription description = describe_scene("cornell-box");
+  SceneDescription changed = description;
+  change_materials(changed, std::vector<MaterialChange>{{"face:3", {}, Rgb{4, 5, 6}},
+                                                        {"face:7", Rgb{0.1, 0.8, 0.3}}});
+  ASSERT_GT(changed.materials.size(), description.materials.size());
+  const SolveOptions options{.directions = 200, .tolerance = tight};
+  const Solved before = solved(description, options), after = solved(changed, options);
+  const auto of_patch = patch_materials(*before.scene, changed);
+  const RelightResult relit = relight(*before.scene, before.form_factors, changed.materials,
+                                      {.tolerance = tight, .patch_materials = of_patch});
+  expect_same(relit.radiosity, after.radiosity, 1e-10);
+  expect_same(relit.irradiance, after.irradiance, 1e-10);
+  const std::vector<std::int32_t> few(3), wrong(before.scene->patches().size(), 99);
+  EXPECT_THAT(([&] {
+                relight(*before.scene, before.form_factors, changed.materials,
+                        {.patch_materials = few});
+              }),
+              ThrowsMessage<InputError>(HasSubstr("number of patches differs")));
+  EXPECT_THAT(([&] {
+                relight(*before.scene, before.form_factors, changed.materials,
+                        {.patch_materials = wrong});
+              }),
+              ThrowsMessage<InputError>(HasSubstr("a patch has material 99")));
+}
+
+TEST(Relight, RefusesSourcesOfOnePartOfTheShotThatDiffer) {
+  SceneDescription description = describe_scene("cornell-box");
+  const auto lamp = static_cast<std::int32_t>(
+      std::find_if(description.materials.begin(), description.materials.end(),
+                   [](const Material& material) { return max_abs(material.exitance) > 0; }) -
+      description.materials.begin());
+  description.face_material[0] = lamp;
+  SolveOptions options{.directions = 100, .tolerance = tight};
+  options.first_shot = 0;
+  const Solved before = solved(description, options);
+  ASSERT_GE(before.shot->sources.size(), 2U);
+  const auto relit_with = [&](const MaterialChange& change) {
+    SceneDescription changed = description;
+    change_materials(changed, std::vector{change});
+    const auto of_patch = patch_materials(*before.scene, changed);
+    return relight(*before.scene, before.form_factors, changed.materials,
+                   {.shot = before.shot.get(), .patch_materials = of_patch});
+  };
+  EXPECT_THAT(
+      [&] {
+        relit_with({"face:0", {}, Rgb{1, 1, 1}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("stored per material")));
+  // A reflectance of its own splits the material, but not the light of the shot.
+  EXPECT_EQ(relit_with({"face:0", Rgb{0.25, 0.5, 0.75}}).radiosity.size(),
+            before.scene->patches().size());
 }
 
 TEST(Relight, ShootsNothingIfNothingEmits) {

@@ -12,6 +12,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <random>
@@ -38,6 +39,7 @@ void expect_same(const Solution& read, const Solution& written) {
   for (PatchId i = 0; i < a.patch_count(); ++i) {
     EXPECT_EQ(a.patch(i).normal, b.patch(i).normal);
     EXPECT_EQ(a.patch(i).area, b.patch(i).area);
+    EXPECT_EQ(a.patch(i).face, b.patch(i).face);
     EXPECT_EQ(a.exitance(i), b.exitance(i));
     EXPECT_EQ(a.reflectance(i), b.reflectance(i));
     EXPECT_EQ(a.material(i).name, b.material(i).name);
@@ -105,6 +107,29 @@ class ResultReader : public ::testing::Test {
 };
 
 TEST_F(ResultReader, ReadsBackWhatWasWritten) { expect_same(read_result(path_), solution_); }
+
+TEST_F(ResultReader, ChecksTheNumbersOfFaces) {
+  const auto with_faces = [&](std::array<double, 3> faces) {
+    change([&](vtkPolyData& mesh) {
+      for (vtkIdType i = 0; i < 3; ++i) {
+        mesh.GetCellData()->GetArray("face")->SetComponent(i, 0,
+                                                           faces[static_cast<std::size_t>(i)]);
+      }
+    });
+  };
+  with_faces({2, 2, 700});
+  const Solution parts = read_result(path_);
+  EXPECT_EQ(parts.scene->patch(1).face, 2);
+  EXPECT_EQ(parts.scene->patch(2).face, 700);
+  with_faces({0, 2, 1});
+  expect_refused("patch 2 is of face 1, which is not in the range 2 to");
+  with_faces({-1, 0, 1});
+  expect_refused("patch 0 is of face -1");
+  with_faces({0, 1, 2e9});
+  expect_refused("patch 2 is of face 2000000000");
+  change([](vtkPolyData& mesh) { mesh.GetCellData()->RemoveArray("face"); });
+  EXPECT_EQ(read_result(path_).scene->patch(2).face, 2);
+}
 
 TEST_F(ResultReader, ReadsBothSidesOfRefinedFacesAndTheErrorEstimate) {
   const auto scene = load_scene("boards", {.two_sided = true, .max_patch_area = 0.4});

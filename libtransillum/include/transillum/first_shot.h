@@ -1,8 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,9 +66,12 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
 /// result has no parts.
 /// @param light of `scene`.
 /// @param scene the scene.
-/// @param materials as many as the scene has, in the same order.
-/// @throws InputError where `light` belongs to another scene or has no parts.
+/// @param materials as many as the scene has, in the same order; with patch_materials any number.
+/// @param patch_materials index into `materials` for each patch; empty: Patch::material.
+/// @throws InputError where `light` belongs to another scene or has no parts, or where sources of
+/// one part now differ in exitance.
 DirectLight with_materials(const DirectLight& light, const Scene& scene,
-                           const std::vector<Material>& materials);
+                           const std::vector<Material>& materials,
+                           std::span<const std::int32_t> patch_materials = {});
 
 }  // namespace transillum

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct RelightOptions {
   /// The first shot of the solve run that the form factors come from
   /// (RadiositySolver::direct_light()), if it made one: the same sources are shot again.
   const DirectLight* shot = nullptr;
+  /// Index into the materials given for each patch, so that the faces of one material may have
+  /// different ones, as change_materials() makes them; empty: Patch::material.
+  std::span<const std::int32_t> patch_materials = {};
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
@@ -37,11 +41,12 @@ struct RelightResult {
 /// semi-iterative scheme average the directions of all its iterations: the result is B for all
 /// these directions at once, while the scheme's own B is a mean over iterations; both have the same
 /// limit.
-/// @param materials as many as the scene has, in the same order.
-/// @param options tolerance, initial B, first shot and threads.
+/// @param materials as many as the scene has, in the same order; with
+/// RelightOptions::patch_materials any number.
+/// @param options tolerance, initial B, first shot, materials of patches and threads.
 /// @param cancellation checked between iterations.
 /// @throws InputError where a material's E or rho is out of range, a list has the wrong length, or
-/// the shot has no parts
+/// the shot has no parts, or sources of one material in the shot now differ in E
 /// @throws Canceled; std::runtime_error after 10,000 iterations
 RelightResult relight(const Scene& scene, const FormFactors& form_factors,
                       const std::vector<Material>& materials, const RelightOptions& options = {},

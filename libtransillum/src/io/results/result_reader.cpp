@@ -166,6 +166,25 @@ class ResultReader {
     return outlines;
   }
 
+  /// The face in the scene's file that each polygon is a part of; empty: the file does not say.
+  std::vector<std::int32_t> read_faces() const {
+    if (!file_.has("CellData", "face")) {
+      return {};
+    }
+    // Faces without area have no patch, but most faces have one.
+    const auto most = static_cast<std::int64_t>(64 * file_.polygons() + (std::size_t{1} << 24));
+    std::vector<std::int32_t> faces;
+    for (const std::int64_t face : file_.whole_numbers("CellData", "face", file_.polygons())) {
+      const std::int64_t least = faces.empty() ? 0 : faces.back();
+      if (face < least || face > most || face > std::numeric_limits<std::int32_t>::max()) {
+        file_.fail(fmt::format("patch {} is of face {}, which is not in the range {} to {}",
+                               faces.size(), face, least, most));
+      }
+      faces.push_back(static_cast<std::int32_t>(face));
+    }
+    return faces;
+  }
+
   /// One patch per polygon; in a two-sided scene, two polygons are the sides of one face.
   std::shared_ptr<const Scene> make_scene() const {
     SceneDescription description;
@@ -177,12 +196,16 @@ class ResultReader {
     bool two_sided = false;
     read_figure("two_sided", two_sided);
     const Outlines outlines = read_outlines();
+    const std::vector<std::int32_t> faces = read_faces();
     for (std::size_t i = 0; i < file_.polygons(); ++i) {
       if (i % 4096 == 0) {
         cancellation_.throw_if_canceled();
       }
       const auto outline = outlines[i];
       description.add_face(outline, materials[i]);
+      if (!faces.empty()) {
+        description.face_number.push_back(faces[i]);
+      }
       if (!two_sided) {
         continue;
       }

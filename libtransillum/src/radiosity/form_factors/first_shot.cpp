@@ -157,8 +157,9 @@ void receive(const Scene& scene, const ExchangeFinder& exchange, PatchId i, Shot
 }
 
 /// Sets the exitance of the sources and their share of all emitted power.
-void count_power(const Scene& scene, const std::vector<Material>& materials, DirectLight& light) {
-  const auto exitance = [&](PatchId i) { return at(materials, scene.patch(i).material).exitance; };
+/// @param exitance of a patch
+template <class Exitance>
+void count_power(const Scene& scene, Exitance exitance, DirectLight& light) {
   double shot = 0, total = 0;
   for (const PatchId j : light.sources) {
     at(light.exitance, j) = exitance(j);
@@ -168,6 +169,25 @@ void count_power(const Scene& scene, const std::vector<Material>& materials, Dir
     total += scene.patch(i).area * sum(exitance(i));
   }
   light.power_share = total > 0 ? shot / total : 0;
+}
+
+/// E of the sources of a part, which has one irradiance for all of them.
+template <class Exitance>
+Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& sources,
+                     const Scene& scene, Exitance exitance) {
+  std::optional<Rgb> common;
+  for (const PatchId i : sources) {
+    if (scene.patch(i).material != part.material) {
+      continue;
+    }
+    if (common && !(*common == exitance(i))) {
+      throw InputError(
+          "the first shot is stored per material, and faces of one of its materials now differ in "
+          "E");
+    }
+    common = exitance(i);
+  }
+  return common.value_or(Rgb{});
 }
 
 }  // namespace
@@ -239,30 +259,36 @@ DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int t
   if (progress) {
     progress(1);
   }
-  count_power(scene, scene.materials(), light);
+  count_power(
+      scene, [&](PatchId i) { return scene.exitance(i); }, light);
   return light;
 }
 
 DirectLight with_materials(const DirectLight& light, const Scene& scene,
-                           const std::vector<Material>& materials) {
+                           const std::vector<Material>& materials,
+                           std::span<const std::int32_t> patch_materials) {
   const auto patches = scene.patches().size();
   if (light.irradiance.size() != patches || light.exitance.size() != patches) {
     throw InputError("the first shot belongs to another scene: the number of patches differs");
   }
-  if (materials.size() != scene.materials().size()) {
+  if (patch_materials.empty() && materials.size() != scene.materials().size()) {
     throw InputError("the materials belong to another scene: their number differs");
   }
   if (light.parts.empty() && !light.sources.empty()) {
     throw InputError("the first shot is not stored per material: that would take too much memory");
   }
   DirectLight other{std::vector<Rgb>(patches), std::vector<Rgb>(patches), light.sources, 0, {}};
+  const auto exitance_of = [&](PatchId i) {
+    return at(materials, patch_materials.empty() ? scene.patch(i).material : at(patch_materials, i))
+        .exitance;
+  };
   for (const DirectLight::Part& part : light.parts) {
-    const Rgb exitance = materials.at(static_cast<std::size_t>(part.material)).exitance;
+    const Rgb exitance = exitance_of_part(part, light.sources, scene, exitance_of);
     for (std::size_t i = 0; i < patches; ++i) {
       other.irradiance[i] += part.irradiance[i] * exitance;
     }
   }
-  count_power(scene, materials, other);
+  count_power(scene, exitance_of, other);
   return other;
 }
 

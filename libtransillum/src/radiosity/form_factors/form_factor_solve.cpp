@@ -32,15 +32,22 @@ Rgb gather(const FormFactors& form_factors, std::size_t row, const std::vector<R
 }  // namespace
 
 JacobiIteration::JacobiIteration(const Scene& scene, const FormFactors& form_factors,
-                                 std::span<const Material> materials, int threads)
+                                 std::span<const Material> materials, int threads,
+                                 std::span<const std::int32_t> patch_materials)
     : scene_(scene),
       form_factors_(form_factors),
       materials_(materials),
+      patch_materials_(patch_materials),
       threads_(thread_count(threads)) {
-  for (const Patch& patch : scene.patches()) {
-    b.push_back(at(materials, patch.material).exitance);
+  for (std::size_t i = 0; i < scene.patches().size(); ++i) {
+    b.push_back(material(i).exitance);
   }
   h.resize(b.size());
+}
+
+const Material& JacobiIteration::material(std::size_t patch) const {
+  return at(materials_,
+            patch_materials_.empty() ? scene_.patches()[patch].material : patch_materials_[patch]);
 }
 
 template <class Visit>
@@ -63,18 +70,17 @@ void JacobiIteration::run(int limit, double tolerance, const Cancellation& cance
   using Clock = std::chrono::steady_clock;
   std::vector<Rgb> next(b.size());
   double last_change = 0, rho_max = 0;
-  for (const Patch& patch : scene_.patches()) {
-    rho_max = std::max(rho_max, max_abs(at(materials_, patch.material).reflectance));
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    rho_max = std::max(rho_max, max_abs(material(i).reflectance));
   }
   while (!converged && std::ssize(records) < limit) {
     const auto start = Clock::now();
     for_each_row(cancellation, [&](std::size_t i) {
-      const Material& material = at(materials_, scene_.patches()[i].material);
       h[i] = gather(form_factors_, i, b);
       if (!correction_.empty()) {
         h[i] += correction_[i];
       }
-      next[i] = material.exitance + material.reflectance * h[i];
+      next[i] = material(i).exitance + material(i).reflectance * h[i];
     });
     double change = 0, largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {

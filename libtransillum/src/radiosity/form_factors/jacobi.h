@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct JacobiIteration {
   /// Starts from B = E. Keeps references to the arguments.
   /// @param materials E and rho: one per material of the scene, in its order
   /// @param threads 0: all cores
+  /// @param patch_materials index into `materials` for each patch; empty: Patch::material
   JacobiIteration(const Scene& scene, const FormFactors& form_factors,
-                  std::span<const Material> materials, int threads);
+                  std::span<const Material> materials, int threads,
+                  std::span<const std::int32_t> patch_materials = {});
 
   std::vector<Rgb> b, h;                 ///< W/m², one per patch; `b` may be set to another start
   std::vector<IterationRecord> records;  ///< one per iteration
@@ -44,9 +47,12 @@ struct JacobiIteration {
   template <class Visit>
   void for_each_row(const Cancellation& cancellation, Visit visit) const;
 
+  const Material& material(std::size_t patch) const;
+
   const Scene& scene_;
   const FormFactors& form_factors_;
   std::span<const Material> materials_;
+  std::span<const std::int32_t> patch_materials_;
   std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by the first shot; empty without one
   int threads_;
 };

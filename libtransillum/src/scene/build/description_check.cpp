@@ -68,6 +68,24 @@ void check_faces(const SceneDescription& description) {
   }
 }
 
+void check_face_numbers(const SceneDescription& description) {
+  const std::vector<std::int32_t>& numbers = description.face_number;
+  if (numbers.empty()) {
+    return;
+  }
+  if (numbers.size() != description.face_count()) {
+    throw InputError(fmt::format("{}: there are {} face numbers for {} faces", description.name,
+                                 numbers.size(), description.face_count()));
+  }
+  for (std::size_t f = 0; f < numbers.size(); ++f) {
+    const std::int32_t least = f > 0 ? numbers[f - 1] : 0;
+    if (numbers[f] < least) {
+      throw InputError(fmt::format("{}has the face number {}, but must have at least {}",
+                                   face_place(description, f), numbers[f], least));
+    }
+  }
+}
+
 /// Checks only the materials in use: an MTL file may contain others.
 void check_used_materials(const SceneDescription& description) {
   std::vector<bool> used(description.materials.size());
@@ -130,6 +148,7 @@ void check_description(const SceneDescription& description) {
   }
   check_points(description);
   check_faces(description);
+  check_face_numbers(description);
   check_used_materials(description);
 }
 

@@ -31,6 +31,9 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   patches_ = std::move(builder.patches);
   for (Patch& patch : patches_) {
     patch.group = description.group_of(static_cast<std::size_t>(patch.face));
+    if (!description.face_number.empty()) {
+      patch.face = at(description.face_number, patch.face);
+    }
   }
   outline_corners_ = std::move(builder.outline_corners);
   pieces_ = std::move(builder.pieces);
