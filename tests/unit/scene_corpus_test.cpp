@@ -45,6 +45,8 @@ const std::vector<Entry>& entries() {
       {"corpus/tiny.obj", 19, 19, 5.162223938271391e-11},
       {"corpus/huge.obj", 19, 19, 51622239382713.914},
       {"corpus/needles.obj", 9, 9, 0},
+      {"corpus/materials.obj", 9, 9, 6.1, 0, 0, 1, 0},
+      {"corpus/no-materials.obj", 6, 6, 6},
   };
   return all;
 }

@@ -37,6 +37,8 @@ TEST(ObjReader, KeepsPolygonsAndTheirOrderAcrossGroupsObjectsAndMaterials) {
   EXPECT_THAT(d.face_line, ElementsAre(10, 13, 17, 18));
   EXPECT_EQ(d.materials[0].exitance, (Rgb{0, 0, 0}));
   EXPECT_EQ(d.materials[1].exitance, (Rgb{1, 2, 3}));
+  EXPECT_THAT(d.groups, ElementsAre("a b", "two"));
+  EXPECT_THAT(d.face_group, ElementsAre(0, no_group, 1, 1));
   EXPECT_TRUE(d.notes.empty());
 }
 
@@ -109,11 +111,11 @@ TEST(ObjReader, DoesNotCheckUnusedMaterials) {
 
 TEST(ObjReader, ReportsWhatItIgnoresOrAssumes) {
   const SceneDescription d = read("mtllib s.mtl\n" + square + "l 1 2\nf 1 2 3\ncurv 0 1 1 2\n",
-                                  "newmtl a\nmap_Kd x.png\nnewmtl a\nKd .1 .1 .1\n");
+                                  "newmtl a\nmap_Ks x.png\nnewmtl a\nKd .1 .1 .1\n");
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.obj:6: keyword `l` is not supported; line ignored")));
   EXPECT_THAT(d.notes,
               Contains(HasSubstr("s.obj:8: keyword `curv` is not supported; line ignored")));
-  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture map `map_Kd` is ignored")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:2: texture map `map_Ks` is ignored")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:3: material `a` is already defined")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("s.mtl:1: material `a` has no Kd")));
   EXPECT_THAT(d.notes, Contains(HasSubstr("1 of 1 faces have no material (usemtl); rho = 0.5")));
@@ -136,6 +138,8 @@ void expect_same(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.corners, b.corners);
   EXPECT_EQ(a.face_begin, b.face_begin);
   EXPECT_EQ(a.face_material, b.face_material);
+  EXPECT_EQ(a.groups, b.groups);
+  EXPECT_EQ(a.face_group, b.face_group);
   ASSERT_EQ(a.materials.size(), b.materials.size());
   for (std::size_t m = 0; m < a.materials.size(); ++m) {
     EXPECT_EQ(a.materials[m].name, b.materials[m].name);
@@ -152,6 +156,19 @@ TEST(ObjWriter, EveryBuiltInReadsBackBitForBit) {
     write_obj(folder.path() / "out.obj", written);
     expect_same(written, describe_scene((folder.path() / "out.obj").string()));
   }
+}
+
+TEST(ObjWriter, KeepsGroups) {
+  SceneDescription d = test::polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  d.groups = {"a lamp", "default", "\"quoted\"", ""};
+  for (const int group : {0, no_group, 0, 1, 2, 3}) {
+    d.add_face(std::vector<PointId>{0, 1, 2}, 0, 0, group);
+  }
+  const test::TemporaryFolder folder;
+  write_obj(folder.path() / "out.obj", d);
+  const SceneDescription back = describe_scene((folder.path() / "out.obj").string());
+  EXPECT_THAT(back.groups, ElementsAre("a lamp", "default-2", "_\"quoted\"", "_"));
+  EXPECT_EQ(back.face_group, d.face_group);
 }
 
 TEST(ObjWriter, ReplacesCharactersThatNamesCannotHave) {

@@ -130,10 +130,11 @@ TEST(ReaderLimits, AMaterialFileIsReadOnce) {
     EXPECT_THAT(d.notes, IsEmpty());
     EXPECT_EQ(d.files.size(), 2u);
   }
-  EXPECT_THAT(test::refusal([&] {
-                read_obj(folder.write("s.obj", "mtllib s.mtl\nmtllib gone.mtl s.mtl\n" + use));
-              }),
-              testing::HasSubstr("s.obj:2: MTL file `gone.mtl` not found"));
+  const SceneDescription d =
+      read_obj(folder.write("s.obj", repeated("mtllib gone.mtl s.mtl\n", 10'000) + use));
+  EXPECT_EQ(d.materials.size(), 1u);
+  EXPECT_THAT(d.notes,
+              testing::ElementsAre(testing::HasSubstr("s.obj:1: MTL file `gone.mtl` not found")));
 }
 
 // The whole name, of any length, was part of the message.

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "base/text_file.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
@@ -25,8 +26,8 @@ std::vector<std::string> written_names(const std::vector<std::string>& given,
         c = '_';
       }
     }
-    // A reader drops blanks at the ends, and a backslash at the end joins two lines.
-    if (name.empty() || name.front() == ' ') {
+    // A reader drops blanks and quotes at the ends, and a backslash at the end joins two lines.
+    if (name.empty() || name.front() == ' ' || unquoted(name) != name) {
       name.insert(name.begin(), '_');
     }
     if (name.back() == ' ' || name.back() == '\\') {

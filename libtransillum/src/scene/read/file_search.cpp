@@ -2,6 +2,7 @@
 #include "scene/read/file_search.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "base/text_file.h"
@@ -11,6 +12,8 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t most_entries = 100'000;
+/// Folders at the end of a path of another machine that are looked for.
+constexpr std::ptrdiff_t most_parts = 8;
 
 bool is_there(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -31,15 +34,27 @@ std::optional<std::filesystem::path> FileSearch::find(const std::filesystem::pat
   if (name.empty()) {
     return {};
   }
-  const std::filesystem::path slashes = with_slashes(name);
-  for (const std::filesystem::path& tried :
-       {std::filesystem::path(name), slashes, slashes.filename()}) {
-    if (!tried.empty() && is_there(folder / tried)) {
-      return folder / tried;
+  if (is_there(folder / name)) {
+    return folder / name;
+  }
+  // Of a path of another machine, the end may exist here: the file, or some of its folders too.
+  const std::filesystem::path path = with_slashes(name);
+  const auto parts = std::min<std::ptrdiff_t>(std::distance(path.begin(), path.end()), most_parts);
+  for (const bool ignore_case : {false, true}) {
+    for (std::ptrdiff_t used = parts; used > 0; --used) {
+      std::filesystem::path end;
+      for (auto part = std::prev(path.end(), used); part != path.end(); ++part) {
+        end /= *part;
+      }
+      if (!ignore_case && is_there(folder / end)) {
+        return folder / end;
+      }
+      if (auto found = ignore_case ? find_ignoring_case(folder, end) : std::nullopt) {
+        return found;
+      }
     }
   }
-  auto found = find_ignoring_case(folder, slashes);
-  return found ? found : find_ignoring_case(folder, slashes.filename());
+  return {};
 }
 
 std::optional<std::filesystem::path> FileSearch::find_ignoring_case(

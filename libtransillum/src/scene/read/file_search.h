@@ -10,8 +10,7 @@
 namespace transillum {
 
 /// Finds the files that a scene file names: as written, without quotes, with the separators of
-/// Windows, as the name of a file in the folder where the path is of another machine, and without
-/// regard to case.
+/// Windows, as the end of a path of another machine, and without regard to case.
 class FileSearch {
  public:
   /// The existing file or folder that `name` means for a file in `folder`.
