@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::int64_t too_many = std::int64_t{1} << 62;
 constexpr int bisections = 60;
-/// Resident memory of solves of rooms, furnaces and sphere-flakes with 1e5 to 1e6 patches.
-constexpr std::uint64_t bytes_per_patch = 1500;
+/// Resident memory of solves of cornell-box, rooms and sphere-flake with 5,000 to 230,000 patches.
+constexpr std::uint64_t bytes_per_patch = 1700, bytes_of_the_program = 40'000'000;
 
 /// The triangles and quadrilaterals that a patch is divided into before grids are laid on them.
 std::vector<std::vector<PointId>> parts_of(const Scene& scene, PatchId i,
@@ -118,7 +118,7 @@ std::int64_t count_patches(const Scene& unrefined, double max_patch_area) {
 }
 
 std::uint64_t expected_memory(std::int64_t patches) {
-  return static_cast<std::uint64_t>(patches) * bytes_per_patch;
+  return bytes_of_the_program + static_cast<std::uint64_t>(patches) * bytes_per_patch;
 }
 
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,

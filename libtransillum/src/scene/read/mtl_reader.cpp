@@ -172,19 +172,21 @@ void MaterialLibrary::add(Material material, Place place, bool has_reflectance, 
   places_.push_back(std::move(place));
 }
 
-void MaterialLibrary::complete(std::size_t material, const ReadOptions& options, Warnings& notes) {
+void MaterialLibrary::complete(std::size_t material, const ReadOptions& options, Warnings& notes,
+                               const Cancellation& cancellation) {
   Material& completed = materials_[material];
   const Place& place = places_[material];
   if (!place.texture.empty()) {
-    replace_by_texture(completed, place, options, notes);
+    replace_by_texture(completed, place, options, notes, cancellation);
   }
   lower_reflectance(completed, place, options, notes);
   check_material(completed, text_of(place));
 }
 
 void MaterialLibrary::replace_by_texture(Material& material, const Place& place,
-                                         const ReadOptions& options, Warnings& notes) {
-  const TextureAverage texture = average(place);
+                                         const ReadOptions& options, Warnings& notes,
+                                         const Cancellation& cancellation) {
+  const TextureAverage texture = average(place, cancellation);
   if (texture.color) {
     material.reflectance = *texture.color;
     notes.add(
@@ -203,7 +205,7 @@ void MaterialLibrary::replace_by_texture(Material& material, const Place& place,
                   in_quotes(material.name), in_quotes(place.texture), texture.problem, rho));
 }
 
-TextureAverage MaterialLibrary::average(const Place& place) {
+TextureAverage MaterialLibrary::average(const Place& place, const Cancellation& cancellation) {
   const auto path =
       search_.find(std::filesystem::path(files_[place.file]).parent_path(), place.texture);
   if (!path) {
@@ -211,7 +213,7 @@ TextureAverage MaterialLibrary::average(const Place& place) {
   }
   const auto [known, is_new] = averages_.try_emplace(*path);
   if (is_new) {
-    known->second = average_of_texture(*path);
+    known->second = average_of_texture(*path, cancellation);
     textures_.push_back(path->string());
   }
   return known->second;

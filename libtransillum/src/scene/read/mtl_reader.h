@@ -34,7 +34,9 @@ class MaterialLibrary {
   /// Makes a material that faces use usable: the average of its texture where only that has a
   /// color, and reflectances below 1. To be called once for each.
   /// @throws InputError for values that nothing can replace
-  void complete(std::size_t material, const ReadOptions& options, Warnings& notes);
+  /// @throws Canceled
+  void complete(std::size_t material, const ReadOptions& options, Warnings& notes,
+                const Cancellation& cancellation);
   /// Images read by complete().
   const std::vector<std::string>& textures() const { return textures_; }
 
@@ -46,8 +48,8 @@ class MaterialLibrary {
   };
   void add(Material material, Place place, bool has_reflectance, Warnings& notes);
   void replace_by_texture(Material& material, const Place& place, const ReadOptions& options,
-                          Warnings& notes);
-  TextureAverage average(const Place& place);
+                          Warnings& notes, const Cancellation& cancellation);
+  TextureAverage average(const Place& place, const Cancellation& cancellation);
   void lower_reflectance(Material& material, const Place& place, const ReadOptions& options,
                          Warnings& notes) const;
   std::string text_of(const Place& place) const;

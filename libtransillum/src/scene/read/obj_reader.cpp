@@ -351,7 +351,7 @@ class ObjReader {
     if (material >= 0) {
       const auto m = static_cast<std::size_t>(material);
       if (completed_.insert(m).second) {
-        library_.complete(m, options_, notes_);
+        library_.complete(m, options_, notes_, cancellation_);
       }
       return material;
     }

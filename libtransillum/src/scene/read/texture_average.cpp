@@ -1,5 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The average color of a texture, read by libpng (whole, 8 bits a channel) or libjpeg (row by row).
+// The average color of a texture, read row by row by libpng or libjpeg. Both report errors by a
+// function that must not return, so they are left by a jump: the two functions that read have no
+// variable with a destructor.
 #include "scene/read/texture_average.h"
 
 // jpeglib.h requires <cstdio> before it.
@@ -11,8 +13,8 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -22,11 +24,6 @@ namespace transillum {
 namespace {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
-constexpr const char* broken_image = "is a broken image";
-
-std::string too_large(std::uint64_t width, std::uint64_t height) {
-  return fmt::format("has {} x {} pixels; the limit is {}", width, height, most_pixels);
-}
 
 /// Linear light of each 8-bit value, by the transfer function of IEC 61966-2-1.
 const std::array<double, 256>& srgb_table() {
@@ -70,113 +67,181 @@ struct Histogram {
   }
 };
 
-TextureAverage color_of(const Histogram& histogram) {
-  const std::optional<Rgb> color = histogram.average();
-  return color ? TextureAverage{color, {}} : TextureAverage{{}, "has no opaque pixel"};
-}
-
-TextureAverage average_of_png(const std::filesystem::path& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  const std::unique_ptr<png_image, decltype(&png_image_free)> release(&image, png_image_free);
-  if (png_image_begin_read_from_file(&image, path.c_str()) == 0) {
-    return {{}, broken_image};
-  }
-  if (image.height == 0 || image.width > most_pixels / image.height) {
-    return {{}, too_large(image.width, image.height)};
-  }
-  image.format = PNG_FORMAT_RGBA;
-  std::vector<png_byte> pixels(PNG_IMAGE_SIZE(image));
-  if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) {
-    return {{}, broken_image};
-  }
+/// What reading an image ended with, its size, and what was counted.
+struct Reading {
+  enum class End { broken, too_large, canceled, complete } end = End::broken;
+  std::uint64_t width = 0, height = 0;
   Histogram histogram{};
-  for (std::size_t p = 0; p + 3 < pixels.size(); p += 4) {
-    histogram.add({pixels[p], pixels[p + 1], pixels[p + 2]}, pixels[p + 3]);
+};
+
+bool is_too_large(Reading& reading, std::uint64_t width, std::uint64_t height) {
+  reading.width = width;
+  reading.height = height;
+  if (height > 0 && width > most_pixels / height) {
+    reading.end = Reading::End::too_large;
+    return true;
   }
-  return color_of(histogram);
+  return false;
 }
 
-/// libjpeg reports errors by a function that must not return.
+/// Reads rows of RGBA. Interlaced images come as seven smaller ones, in which every pixel of the
+/// image occurs once.
+void read_png(std::FILE* file, png_structp png, png_infop info, const Cancellation& cancellation,
+              std::vector<png_byte>& row, Reading& reading) {
+  if (setjmp(png_jmpbuf(png)) != 0) {
+    reading.end = Reading::End::broken;
+    return;
+  }
+  png_init_io(png, file);
+  png_read_info(png, info);
+  const png_uint_32 width = png_get_image_width(png, info);
+  const png_uint_32 height = png_get_image_height(png, info);
+  if (is_too_large(reading, width, height)) {
+    return;
+  }
+  png_set_expand(png);
+  png_set_scale_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  png_start_read_image(png);
+  const int passes = png_get_interlace_type(png, info) == PNG_INTERLACE_NONE ? 1 : 7;
+  row.resize(4 * std::size_t{width});
+  for (int pass = 0; pass < passes; ++pass) {
+    const png_uint_32 columns = passes == 1 ? width : PNG_PASS_COLS(width, pass);
+    const png_uint_32 rows = passes == 1 ? height : PNG_PASS_ROWS(height, pass);
+    for (png_uint_32 y = 0; columns > 0 && y < rows; ++y) {
+      if (cancellation.canceled()) {
+        reading.end = Reading::End::canceled;
+        return;
+      }
+      png_read_row(png, row.data(), nullptr);
+      for (png_uint_32 x = 0; x < columns; ++x) {
+        const png_byte* p = row.data() + 4 * std::size_t{x};
+        reading.histogram.add({p[0], p[1], p[2]}, p[3]);
+      }
+    }
+  }
+  reading.end = Reading::End::complete;
+}
+
+/// libpng's two objects for reading a file.
+struct PngReader {
+  png_structp png = png_create_read_struct(
+      PNG_LIBPNG_VER_STRING, nullptr,
+      [](png_structp failed, png_const_charp) { png_longjmp(failed, 1); },
+      [](png_structp, png_const_charp) {});
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+
+  PngReader() = default;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+};
+
+Reading reading_of_png(std::FILE* file, const Cancellation& cancellation) {
+  Reading reading;
+  const PngReader reader;
+  std::vector<png_byte> row;
+  if (reader.info == nullptr) {
+    throw std::bad_alloc();
+  }
+  read_png(file, reader.png, reader.info, cancellation, row, reading);
+  return reading;
+}
+
 struct JpegErrors {
   jpeg_error_mgr manager;
   std::jmp_buf on_error;
 };
 
-enum class JpegResult { read, broken, too_large };
-
-/// Reads rows into the histogram. No variable here needs a destructor, since errors leave it by a
-/// jump.
-JpegResult read_jpeg(std::FILE* file, jpeg_decompress_struct& jpeg, JpegErrors& errors,
-                     Histogram& histogram) {
+void read_jpeg(std::FILE* file, jpeg_decompress_struct& jpeg, JpegErrors& errors,
+               const Cancellation& cancellation, Reading& reading) {
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = [](j_common_ptr common) {
     std::longjmp(reinterpret_cast<JpegErrors*>(common->err)->on_error, 1);
   };
   errors.manager.output_message = [](j_common_ptr) {};
   if (setjmp(errors.on_error) != 0) {
-    return JpegResult::broken;
+    reading.end = Reading::End::broken;
+    return;
   }
   jpeg_create_decompress(&jpeg);
   jpeg_stdio_src(&jpeg, file);
   jpeg_read_header(&jpeg, TRUE);
-  if (jpeg.image_width > most_pixels / jpeg.image_height) {
-    return JpegResult::too_large;
+  if (is_too_large(reading, jpeg.image_width, jpeg.image_height)) {
+    return;
   }
   jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
   jpeg_start_decompress(&jpeg);
-  const unsigned components = static_cast<unsigned>(jpeg.output_components);
-  JSAMPARRAY row = (*jpeg.mem->alloc_sarray)(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
-                                             jpeg.output_width * components, 1);
+  const auto components = static_cast<std::size_t>(jpeg.output_components);
+  JSAMPARRAY row =
+      (*jpeg.mem->alloc_sarray)(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
+                                jpeg.output_width * static_cast<JDIMENSION>(components), 1);
   while (jpeg.output_scanline < jpeg.output_height) {
+    if (cancellation.canceled()) {
+      reading.end = Reading::End::canceled;
+      return;
+    }
     jpeg_read_scanlines(&jpeg, row, 1);
-    for (JDIMENSION x = 0; x < jpeg.output_width; ++x) {
-      const JSAMPLE* p = row[0] + static_cast<std::size_t>(x) * components;
-      histogram.add({p[0], p[components == 3 ? 1 : 0], p[components == 3 ? 2 : 0]}, 255);
+    for (std::size_t x = 0; x < jpeg.output_width; ++x) {
+      const JSAMPLE* p = row[0] + x * components;
+      reading.histogram.add({p[0], p[components == 3 ? 1 : 0], p[components == 3 ? 2 : 0]}, 255);
     }
   }
   jpeg_finish_decompress(&jpeg);
   // Warnings are of missing or damaged data, which libjpeg replaces by gray.
-  return errors.manager.num_warnings == 0 ? JpegResult::read : JpegResult::broken;
+  reading.end = errors.manager.num_warnings == 0 ? Reading::End::complete : Reading::End::broken;
 }
 
-TextureAverage average_of_jpeg(const std::filesystem::path& path) {
+Reading reading_of_jpeg(std::FILE* file, const Cancellation& cancellation) {
+  Reading reading;
+  jpeg_decompress_struct jpeg{};
+  JpegErrors errors{};
+  read_jpeg(file, jpeg, errors, cancellation, reading);
+  jpeg_destroy_decompress(&jpeg);
+  return reading;
+}
+
+TextureAverage average_of(const Reading& reading) {
+  switch (reading.end) {
+    case Reading::End::canceled:
+      throw Canceled();
+    case Reading::End::broken:
+      return {{}, "is a broken image"};
+    case Reading::End::too_large:
+      return {{},
+              fmt::format("has {} x {} pixels; the limit is {}", reading.width, reading.height,
+                          most_pixels)};
+    case Reading::End::complete:
+      break;
+  }
+  const std::optional<Rgb> color = reading.histogram.average();
+  return color ? TextureAverage{color, {}} : TextureAverage{{}, "has no opaque pixel"};
+}
+
+}  // namespace
+
+TextureAverage average_of_texture(const std::filesystem::path& path,
+                                  const Cancellation& cancellation) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return {{}, "is not a file"};
+  }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              std::fclose);
   if (file == nullptr) {
     return {{}, "cannot be read"};
   }
-  jpeg_decompress_struct jpeg{};
-  JpegErrors errors{};
-  Histogram histogram{};
-  const JpegResult result = read_jpeg(file.get(), jpeg, errors, histogram);
-  TextureAverage average;
-  if (result == JpegResult::read) {
-    average = color_of(histogram);
-  } else {
-    average.problem = result == JpegResult::broken ? std::string(broken_image)
-                                                   : too_large(jpeg.image_width, jpeg.image_height);
-  }
-  jpeg_destroy_decompress(&jpeg);
-  return average;
-}
-
-}  // namespace
-
-TextureAverage average_of_texture(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return {{}, "is not a file"};
-  }
   // The first bytes tell the format, whatever the ending of the name is.
   std::array<char, 8> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  const std::string_view bytes(start.data(), start.size());
+  const std::size_t length = std::fread(start.data(), 1, start.size(), file.get());
+  std::rewind(file.get());
+  const std::string_view bytes(start.data(), length);
   if (bytes == std::string_view("\x89PNG\r\n\x1a\n", 8)) {
-    return average_of_png(path);
+    return average_of(reading_of_png(file.get(), cancellation));
   }
   if (bytes.starts_with("\xff\xd8\xff")) {
-    return average_of_jpeg(path);
+    return average_of(reading_of_jpeg(file.get(), cancellation));
   }
   return {{}, "is not a PNG or JPEG image"};
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "transillum/cancellation.h"
 #include "transillum/vec3.h"
 
 namespace transillum {
@@ -16,9 +17,12 @@ struct TextureAverage {
 };
 
 /// Averages a PNG or JPEG image over its pixels in linear light: values are decoded by the transfer
-/// function of sRGB (PNG: by libpng where the file states another gamma); pixels count as much as
-/// they are opaque. Images of more than 2^26 pixels are refused unread, so memory is bounded by
-/// 512 MB.
-TextureAverage average_of_texture(const std::filesystem::path& path);
+/// function of sRGB, whatever profile the file states; pixels count as much as they are opaque.
+/// Images of more than 2^26 pixels are refused unread. Memory: a row, but all coefficients of a
+/// progressive JPEG, at most 512 MB.
+/// @param cancellation checked for each row.
+/// @throws Canceled
+TextureAverage average_of_texture(const std::filesystem::path& path,
+                                  const Cancellation& cancellation);
 
 }  // namespace transillum
