@@ -1,11 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// `transillum info`: counts and sizes of a scene, what was repaired, and, measured along some
-// directions, whether it is closed and which faces are seen from behind.
+// `transillum info`: counts and sizes of a scene, what was repaired, and, by random rays and, if
+// asked for, exactly along some directions, whether it is closed and what is seen from behind.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "commands.h"
 #include "interruption.h"
@@ -17,22 +18,23 @@
 #include "standard_output.h"
 #include "transillum/at.h"
 #include "transillum/coplanar_overlap.h"
+#include "transillum/orientation.h"
 #include "transillum/radiosity.h"
 
 namespace transillum::cli {
 namespace {
 
-/// Enough to find any relevant hole or reversed face within seconds.
-constexpr int probing_directions = 64;
 /// Fractions of area below this are rounding (ALGORITHM.md, oracle 1).
 constexpr double open_share = 1e-9;
-/// Longest list of faces in the report.
-constexpr std::size_t max_listed_faces = 20;
+/// Longest list in the report.
+constexpr std::size_t max_listed = 20;
 /// Largest number of overlaps to search for; coincident faces can have very many.
 constexpr std::size_t max_overlaps = 10000;
 
 struct InfoCall {
   SceneInput scene;
+  int directions = 0;  ///< 0: rays only
+  int threads = 0;
 };
 
 void print_row(const std::string& name, const std::string& value) {
@@ -88,44 +90,56 @@ void print_repairs(const SceneReport& report) {
   }
 }
 
-/// A face whose back side is visible from other patches.
-struct FaceSeenFromBehind {
-  std::int32_t face;
-  double share;  ///< visible fraction of its back; 1 if nothing occludes it
-};
-
-/// The faces seen from behind, by number, from the shares of their patches.
-std::vector<FaceSeenFromBehind> faces_seen_from_behind(const Scene& scene,
-                                                       const std::vector<double>& shares) {
-  std::map<std::int32_t, std::pair<double, double>> by_face;  // visible and total area
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    auto& [seen, whole] = by_face[scene.patch(i).face];
-    seen += scene.patch(i).area * at(shares, i);
-    whole += scene.patch(i).area;
-  }
-  std::vector<FaceSeenFromBehind> faces;
-  for (const auto& [face, areas] : by_face) {
-    const double share = areas.first / areas.second;
-    if (share > open_share) {
-      faces.push_back({face, share});
-    }
-  }
-  return faces;
-}
-
-void print_faces_seen(const std::vector<FaceSeenFromBehind>& faces) {
-  if (faces.empty()) {
+/// Prints backs seen, by group if the scene has groups, else by material.
+void print_backs(const BackShare& backs) {
+  if (backs.share == 0) {
     print_row("seen from behind", "no face");
     return;
   }
-  print_row(
-      "seen from behind",
-      fmt::format("{} face{}{}", faces.size(), faces.size() == 1 ? "" : "s",
-                  faces.size() > max_listed_faces ? fmt::format("; the first {}:", max_listed_faces)
-                                                  : ":"));
-  for (std::size_t k = 0; k < std::min(faces.size(), max_listed_faces); ++k) {
-    print_results(fmt::format("  face {:<11} {:.3g} % of its back visible\n", faces[k].face,
-                              100 * faces[k].share));
+  print_row("seen from behind", percent_text(backs.share) + " of what is seen are backs");
+  const bool by_group = !backs.groups.empty();
+  const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
+  for (std::size_t k = 0; k < std::min(counts.size(), max_listed); ++k) {
+    print_results(fmt::format("  {} \"{}\": {} of what is seen of it, {} of all\n",
+                              by_group ? "group" : "material", counts[k].name,
+                              percent_text(counts[k].share), percent_text(counts[k].of_all)));
+  }
+  if (counts.size() > max_listed) {
+    print_results(fmt::format("  and {} more\n", counts.size() - max_listed));
+  }
+}
+
+/// Faces of one material or group whose backs other patches see.
+struct BacksOfKind {
+  std::set<std::int32_t> faces;
+  double seen = 0, whole = 0;  ///< visible area of their backs, and area, m2
+};
+
+/// Prints the faces seen from behind, in sums by group if the scene has groups, else by material.
+void print_backs_along_directions(const Scene& scene, const std::vector<double>& shares) {
+  const bool by_group = !scene.groups().empty();
+  std::map<std::int32_t, BacksOfKind> kinds;
+  std::set<std::int32_t> faces;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Patch& patch = scene.patch(i);
+    if (at(shares, i) > open_share) {
+      BacksOfKind& kind = kinds[by_group ? patch.group : patch.material];
+      kind.faces.insert(patch.face);
+      kind.seen += patch.area * at(shares, i);
+      kind.whole += patch.area;
+      faces.insert(patch.face);
+    }
+  }
+  print_row("along directions",
+            fmt::format("{} face{} seen from behind", faces.size(), faces.size() == 1 ? "" : "s"));
+  for (const auto& [number, kind] : kinds) {
+    const std::string name = !by_group            ? at(scene.materials(), number).name
+                             : number == no_group ? std::string()
+                                                  : at(scene.groups(), number);
+    print_results(fmt::format("  {} \"{}\": {} face{}, {} of their backs visible\n",
+                              by_group ? "group" : "material", name, kind.faces.size(),
+                              kind.faces.size() == 1 ? "" : "s",
+                              percent_text(kind.seen / kind.whole)));
   }
 }
 
@@ -133,45 +147,52 @@ void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& over
   if (overlaps.empty()) {
     return;
   }
-  print_row("coplanar overlap", fmt::format("{}{} pair{} of patches{}",
-                                            overlaps.size() < max_overlaps ? "" : "at least ",
-                                            overlaps.size(), overlaps.size() == 1 ? "" : "s",
-                                            overlaps.size() > max_listed_faces
-                                                ? fmt::format("; the first {}:", max_listed_faces)
-                                                : ":"));
-  for (std::size_t k = 0; k < std::min(overlaps.size(), max_listed_faces); ++k) {
+  print_row(
+      "coplanar overlap",
+      fmt::format("{}{} pair{} of patches{}", overlaps.size() < max_overlaps ? "" : "at least ",
+                  overlaps.size(), overlaps.size() == 1 ? "" : "s",
+                  overlaps.size() > max_listed ? fmt::format("; the first {}:", max_listed) : ":"));
+  for (std::size_t k = 0; k < std::min(overlaps.size(), max_listed); ++k) {
     const auto& [upper, lower, area] = overlaps[k];
     print_results(fmt::format("  face {:<11} overlaps face {}, {:.3g} m2\n",
                               scene.patch(upper).face, scene.patch(lower).face, area));
   }
 }
 
-/// Transilluminates the scene along some directions; prints whether it is closed, which faces are
-/// seen from behind and which overlap.
-void probe(const std::shared_ptr<const Scene>& scene, const Cancellation& cancellation) {
+/// What random rays tell: whether the scene is closed, and which materials are seen from behind.
+BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
+  const BackShare backs = back_share(scene, threads, cancellation);
+  print_row("closed", backs.open == 0
+                          ? std::string("yes: no ray from a lit side leaves")
+                          : fmt::format("no, {} of the rays from lit sides meet no patch",
+                                        percent_text(backs.open)));
+  print_backs(backs);
+  return backs;
+}
+
+/// Transilluminates the scene along some directions; prints, exactly for these, how much of it is
+/// open and how many faces are seen from behind.
+void print_directions(const std::shared_ptr<const Scene>& scene,
+                      const std::shared_ptr<const BspTree>& tree, const InfoCall& call,
+                      const Cancellation& cancellation, ProgressDisplay& display) {
   SolveOptions options;
-  options.directions = probing_directions;
+  options.directions = call.directions;
   options.iterations = 1;
-  ProgressDisplay display;
-  const auto tree = build_tree(*scene, cancellation, display);
+  options.threads = call.threads;
   RadiositySolver solver(scene, options, tree, cancellation);
+  display.expect_passes("checking visibility, ", call.directions);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-    const SolveProgress progress = watched.progress();
-    if (progress.direction > 0) {
-      display.show("checking visibility",
-                   static_cast<double>(progress.direction) / progress.passes);
+    if (watched.progress().direction > 0) {
+      display.show_passes("checking visibility, ", watched.progress());
     }
     return true;
   });
   display.clear();
-  const SolveStatistics statistics = solver.statistics();
-  print_row("BSP fragments", fmt::format("{}", statistics.fragments));
-  print_row("closed", statistics.escaped < open_share
-                          ? std::string("yes")
-                          : fmt::format("no, {:.3g} % of the projected area sees no patch",
-                                        100 * statistics.escaped));
-  print_faces_seen(faces_seen_from_behind(*scene, solver.back_seen_shares()));
-  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, max_overlaps, cancellation));
+  const double escaped = solver.statistics().escaped;
+  print_row("along directions",
+            fmt::format("{} of the projected area sees no patch ({} directions)",
+                        percent_text(escaped < open_share ? 0 : escaped), 2 * call.directions));
+  print_backs_along_directions(*scene, solver.back_seen_shares());
 }
 
 int run(const InfoCall& call) {
@@ -180,8 +201,19 @@ int run(const InfoCall& call) {
       make_input_scene(call.scene, describe_input(call.scene, cancellation), cancellation);
   print_counts(*scene);
   print_size_and_light(*scene);
-  probe(scene, cancellation);
+  const BackShare backs = print_rays(*scene, call.threads, cancellation);
+  ProgressDisplay display;
+  const auto tree = build_tree(*scene, cancellation, display);
+  display.clear();
+  print_row("BSP fragments", fmt::format("{}", tree->fragments().size()));
+  if (call.directions > 0) {
+    print_directions(scene, tree, call, cancellation, display);
+  }
+  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, max_overlaps, cancellation));
   print_repairs(scene->report());
+  if (const std::string advice = orientation_advice(call.scene, backs); !advice.empty()) {
+    print_row("warning", advice);
+  }
   return success;
 }
 
@@ -193,13 +225,22 @@ Run add_info_command(CLI::App& program) {
       "info", "Prints counts, size, emitted power, closedness and problems of a scene");
   add_scene_argument(command, call->scene);
   add_scene_options(command, call->scene);
-  command.footer(fmt::format(
-      "Whether the scene is closed and which faces are seen from behind is measured along {}\n"
-      "directions and their opposites. Faces are numbered from 0 in the order of the file.\n"
-      "Faces seen from behind may be reversed, but they may also belong to a box without a bottom\n"
-      "that stands on a floor: the floor inside the box sees their backs.\n"
-      "Example: transillum info rooms",
-      probing_directions));
+  add_parsed_option(command, "-m,--directions", "M",
+                    "also measure exactly along M directions and their opposites what is open and "
+                    "which faces are seen from behind (default: by random rays only)",
+                    [call = call.get()](const std::string& text) {
+                      call->directions =
+                          static_cast<int>(parse_whole_number("--directions", text, 1, 1 << 20));
+                    });
+  add_threads_option(command, call->threads);
+  command.footer(
+      "Whether the scene is closed and what is seen from behind is measured by 131072 random rays\n"
+      "from the lit sides, which miss holes smaller than about 1e-5 of the area; with "
+      "--directions\n"
+      "also exactly along some. What is seen from behind may be turned, which --orient auto\n"
+      "repairs, but it may also be the inside of a box without a bottom that stands on a floor:\n"
+      "the floor inside the box sees its backs.\n"
+      "Example: transillum info rooms");
   return [call] { return run(*call); };
 }
 

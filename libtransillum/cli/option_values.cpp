@@ -169,6 +169,10 @@ void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& option
   add_engine_details(command, options);
 }
 
+int parse_thread_count(const std::string& option, const std::string& text) {
+  return static_cast<int>(parse_whole_number(option, text, 1, 4096));
+}
+
 int parse_resolution(const std::string& option, const std::string& text) {
   return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_resolution));
 }
@@ -198,10 +202,13 @@ void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads) 
                       // To the library, 0 means the default; here it means that nothing is stored.
                       memory = std::max<std::uint64_t>(1, parse_memory_size("--memory", text));
                     });
-  add_parsed_option(command, "--threads", "N", help_of("threads", "all cores"),
-                    [&threads](const std::string& text) {
-                      threads = static_cast<int>(parse_whole_number("--threads", text, 1, 4096));
-                    });
+  add_threads_option(command, threads);
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  add_parsed_option(
+      command, "--threads", "N", help_of("threads", "all cores"),
+      [&threads](const std::string& text) { threads = parse_thread_count("--threads", text); });
 }
 
 }  // namespace transillum::cli

@@ -26,6 +26,8 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text);
 double parse_number(const std::string& option, const std::string& text);
 /// EngineOptions::resolution
 int parse_resolution(const std::string& option, const std::string& text);
+/// A number of threads
+int parse_thread_count(const std::string& option, const std::string& text);
 /// A size in bytes: a number, optionally followed by K, M, G or T (powers of 1024).
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text);
 
@@ -63,6 +65,8 @@ void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& option
 void add_engine_details(CLI::App& command, EngineOptions& options);
 /// --order
 void add_order_option(CLI::App& command, EngineOptions& options);
+/// --threads
+void add_threads_option(CLI::App& command, int& threads);
 /// --memory and --threads
 void add_machine_limits(CLI::App& command, std::uint64_t& memory, int& threads);
 

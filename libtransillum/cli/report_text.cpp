@@ -16,6 +16,18 @@ std::string rgb_text(const Rgb& color, int digits) {
   return fmt::format("{:.{}g} {:.{}g} {:.{}g}", color.r, digits, color.g, digits, color.b, digits);
 }
 
+std::string percent_text(double share) {
+  const double percent = 100 * share;
+  if (percent > 0 && percent < 0.001) {
+    return "less than 0.001 %";
+  }
+  // Two digits, three above 99 %, where the rest counts; no exponent, no zeros at the end.
+  if (percent >= 99.95 || (percent >= 9.95 && percent < 99)) {
+    return fmt::format("{:.0f} %", percent);
+  }
+  return percent > 9 ? fmt::format("{:.1f} %", percent) : fmt::format("{:.2g} %", percent);
+}
+
 std::string time_text(double seconds) {
   if (!std::isfinite(seconds)) {
     return "?";

@@ -13,6 +13,9 @@ std::string report_row(const std::string& name, const std::string& value);
 /// The three channels, with the given number of significant digits.
 std::string rgb_text(const Rgb& color, int digits);
 
+/// A fraction as people read it: 0.5 -> "50 %", 0.012 -> "1.2 %", 1e-7 -> "less than 0.001 %".
+std::string percent_text(double share);
+
 /// 75 s -> "1:15 min".
 std::string time_text(double seconds);
 

@@ -45,6 +45,7 @@ Run add_scene_command(CLI::App& program) {
   add_scene_argument(command, call->scene);
   add_reading_options(command, call->scene);
   add_material_options(command, call->scene);
+  add_orientation_option(command, call->scene);
   command.add_option("-o,--out", call->out, "the .obj file; the .mtl file is written next to it")
       ->type_name("FILE.obj")
       ->required();

@@ -7,6 +7,8 @@
 
 #include "messages.h"
 #include "option_values.h"
+#include "progress_display.h"
+#include "report_text.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/patch_count.h"
@@ -68,9 +70,33 @@ bool has_option(const CLI::App& command, const std::string& name) {
   return command.get_option_no_throw(name) != nullptr;
 }
 
+/// The value of --threads; 0: not given.
+int threads_of(const CLI::App& command) {
+  const CLI::Option* threads = command.get_option_no_throw("--threads");
+  return threads == nullptr || threads->count() == 0
+             ? 0
+             : parse_thread_count("--threads", threads->results().back());
+}
+
 bool is_quiet(const CLI::App& command) {
   const CLI::Option* quiet = command.get_option_no_throw("--quiet");
   return quiet != nullptr && quiet->count() > 0;
+}
+
+/// Turns parts of the scene and prints what was done.
+void orient_input(const SceneInput& input, SceneDescription& description,
+                  const Cancellation& cancellation) {
+  ProgressDisplay display(is_quiet(*input.command));
+  display.begin("turning faces");
+  const OrientationReport report =
+      orient(description, threads_of(*input.command), cancellation,
+             [&](double share) { display.show("turning faces", share); });
+  display.clear();
+  if (!is_quiet(*input.command)) {
+    for (const std::string& sentence : report.sentences) {
+      print_message("orientation: " + sentence);
+    }
+  }
 }
 
 /// The options of the scene with the limit of patch areas that --patches asks for. Prints what the
@@ -145,6 +171,19 @@ void add_material_options(CLI::App& command, SceneInput& input) {
                     input.changes, reflectance_change);
 }
 
+void add_orientation_option(CLI::App& command, SceneInput& input) {
+  add_parsed_option(
+      command, "--orient", "NAME",
+      "auto: turn parts of the scene so that what is seen is the lit side, and make "
+      "open sheets two-sided; keep: as in the file (default keep)",
+      [&input](const std::string& text) {
+        if (text != "keep" && text != "auto") {
+          throw InputError(fmt::format("--orient: \"{}\" is neither keep nor auto", text));
+        }
+        input.orient = text == "auto";
+      });
+}
+
 void add_patch_options(CLI::App& command, SceneInput& input) {
   command.add_flag("--two-sided", input.options.two_sided, description_of("two-sided"));
   auto* area =
@@ -165,12 +204,16 @@ void add_patch_options(CLI::App& command, SceneInput& input) {
 void add_scene_options(CLI::App& command, SceneInput& input) {
   add_reading_options(command, input);
   add_material_options(command, input);
+  add_orientation_option(command, input);
   add_patch_options(command, input);
 }
 
 SceneDescription describe_input(const SceneInput& input, const Cancellation& cancellation) {
   SceneDescription description = describe_scene(input.spec, input.read, cancellation);
   change_materials(description, input.changes);
+  if (input.orient) {
+    orient_input(input, description, cancellation);
+  }
   return description;
 }
 
@@ -179,6 +222,16 @@ std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const Cancellation& cancellation) {
   return std::make_shared<const Scene>(description, division(input, description, cancellation),
                                        cancellation);
+}
+
+std::string orientation_advice(const SceneInput& input, const BackShare& backs) {
+  if (backs.share <= BackShare::worth_a_warning || input.orient) {
+    return {};
+  }
+  return fmt::format(
+      "{} of what is seen are backs of faces, which absorb all light (try --orient "
+      "auto)",
+      percent_text(backs.share));
 }
 
 std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
@@ -193,6 +246,12 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
         "{}: nothing emits light, so B would be 0 everywhere; give a material, a group or a face "
         "an exitance in W/m2, such as --emission '{}=10'",
         scene->name(), suggested_light(description)));
+  }
+  if (light == Light::required && !input.orient) {
+    const BackShare backs = back_share(*scene, threads_of(*input.command), cancellation);
+    if (const std::string advice = orientation_advice(input, backs); !advice.empty()) {
+      print_message("warning: " + advice);
+    }
   }
   return scene;
 }

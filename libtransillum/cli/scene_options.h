@@ -12,6 +12,7 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/material_changes.h"
+#include "transillum/orientation.h"
 #include "transillum/scene.h"
 
 namespace transillum::cli {
@@ -23,6 +24,7 @@ struct SceneInput {
   std::vector<MaterialChange> changes;
   SceneOptions options;
   std::int64_t patches = 0;  ///< about this number of patches; 0: not given
+  bool orient = false;       ///< turn parts so that what is seen is lit
   const CLI::App* command = nullptr;
 };
 
@@ -32,6 +34,8 @@ void add_scene_argument(CLI::App& command, SceneInput& input);
 void add_reading_options(CLI::App& command, SceneInput& input);
 /// --emission, --reflectance
 void add_material_options(CLI::App& command, SceneInput& input);
+/// --orient
+void add_orientation_option(CLI::App& command, SceneInput& input);
 /// --two-sided, --max-patch-area, --patches
 void add_patch_options(CLI::App& command, SceneInput& input);
 /// All of these options.
@@ -50,6 +54,9 @@ SceneDescription describe_input(const SceneInput& input, const Cancellation& can
 std::shared_ptr<const Scene> make_input_scene(const SceneInput& input,
                                               const SceneDescription& description,
                                               const Cancellation& cancellation);
+
+/// One line that names --orient auto where more than a tenth of what is seen is a back; else empty.
+std::string orientation_advice(const SceneInput& input, const BackShare& backs);
 
 /// describe_input(), then make_input_scene(). Checks that no output would overwrite one of the
 /// scene's files, and prints its warnings.

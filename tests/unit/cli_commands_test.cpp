@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -554,7 +556,90 @@ TEST(CliInfo, ReportsCountsClosednessAndReversedFaces) {
   const ProgramResult open = run_program({"info", folder / "one.obj"});
   EXPECT_EQ(open.status, 0) << open.err;
   EXPECT_THAT(open.out, ::testing::ContainsRegex("closed +no"));
-  EXPECT_THAT(open.out, ::testing::ContainsRegex("seen from behind +1 face:\n +face 1 "));
+  EXPECT_THAT(open.out, ::testing::ContainsRegex(
+                            "seen from behind +100 % of what is seen are backs\n"
+                            " +material \"gray\": 100 % of what is seen of it, 100 % of all\n"));
+  EXPECT_THAT(open.out, HasSubstr("--orient auto"));
+  const ProgramResult exact =
+      run_program({"info", folder / "one.obj", "--directions", "64", "--threads", "1"});
+  EXPECT_THAT(exact.out, ::testing::ContainsRegex("along directions +1 face seen from behind\n"
+                                                  " +material \"gray\": 1 face, 20 %"));
+}
+
+/// The outer sides of a room are not open to anything.
+TEST(CliInfo, ReportsASealedRoomWithTwoSidedFacesAsClosed) {
+  const ProgramResult sealed = run_program({"info", "cornell-box", "--two-sided", "-m", "8"});
+  EXPECT_EQ(sealed.status, 0) << sealed.err;
+  EXPECT_THAT(sealed.out, ::testing::ContainsRegex("closed +yes"));
+  EXPECT_THAT(sealed.out, ::testing::ContainsRegex("along directions +0 % of the projected area"));
+  EXPECT_THAT(run_program({"info", "cornell-box:open=1", "--two-sided"}).out,
+              ::testing::ContainsRegex("closed +no, [0-9]+ % of the rays"));
+  EXPECT_THAT(run_program({"solve", "cornell-box", "--two-sided", "-m", "8"}).out,
+              HasSubstr("; 0 % of the projected area sees no patch"));
+}
+
+/// The six faces of a cube with a lamp as its ceiling; the text of those to turn is reversed.
+std::string room_obj(const std::vector<int>& turned) {
+  const std::vector<std::vector<int>> faces{{1, 2, 3, 4}, {1, 5, 6, 2}, {2, 6, 7, 3},
+                                            {3, 7, 8, 4}, {4, 8, 5, 1}, {5, 8, 7, 6}};
+  std::string text =
+      "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  for (int f = 0; f < 6; ++f) {
+    auto outline = faces[static_cast<std::size_t>(f)];
+    if (std::find(turned.begin(), turned.end(), f) != turned.end()) {
+      std::reverse(outline.begin(), outline.end());
+    }
+    text += f == 5 ? "usemtl lamp\nf" : "usemtl a\nf";
+    for (const int p : outline) {
+      text += " " + std::to_string(p);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(CliOrient, SolvesTurnedRoomsLikeTheOriginal) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mtl", "newmtl a\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
+  const auto solve_room = [&](const std::vector<int>& turned, const std::string& orient) {
+    write_text(folder / "room.obj", room_obj(turned));
+    return run_program(
+        {"solve", folder / "room.obj", "-m", "64", "--orient", orient, "--out", "-"});
+  };
+  const ProgramResult original = solve_room({}, "keep");
+  EXPECT_EQ(original.status, 0) << original.err;
+  EXPECT_THAT(original.err, ::testing::Not(HasSubstr("--orient")));
+  EXPECT_THAT(solve_room({}, "auto").err, HasSubstr("no face needs to be turned"));
+  for (const std::vector<int>& turned :
+       {std::vector<int>{0, 1, 2, 3, 4, 5}, std::vector<int>{2}, std::vector<int>{5}}) {
+    const ProgramResult kept = solve_room(turned, "keep");
+    EXPECT_THAT(kept.err, ::testing::ContainsRegex("warning: [0-9]+ % of what is seen are backs"));
+    EXPECT_THAT(kept.err, HasSubstr("--orient auto"));
+    EXPECT_NE(kept.out, original.out);
+    const ProgramResult repaired = solve_room(turned, "auto");
+    EXPECT_EQ(repaired.status, 0) << repaired.err;
+    EXPECT_EQ(repaired.out, original.out);
+    EXPECT_THAT(repaired.err, HasSubstr(std::to_string(turned.size()) + " turned"));
+  }
+  const ProgramResult wrong = solve_room({}, "inward");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("\"inward\" is neither keep nor auto"));
+}
+
+/// `scene` writes both sides of a face that becomes two-sided.
+TEST(CliOrient, WritesOrientedScenes) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.mtl", "newmtl a\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
+  write_text(folder / "room.obj", room_obj({2}) +
+                                      "usemtl a\nv .2 .2 .5\nv .8 .2 .5\nv .8 .8 .5\n"
+                                      "f 9 10 11\n");
+  const ProgramResult written = run_program(
+      {"scene", folder / "room.obj", "--orient", "auto", "--out", folder / "oriented.obj"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  std::ifstream file(folder / "oriented.obj");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, HasSubstr("f 2 6 7 3\n"));
+  EXPECT_THAT(text, HasSubstr("f 9 10 11\nf 11 10 9\n"));
 }
 
 TEST(CliInfo, ReportsOverlappingCoplanarFaces) {

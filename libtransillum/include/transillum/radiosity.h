@@ -155,7 +155,7 @@ struct SolveStatistics {
   bool converged = false;             ///< the tolerance was reached, or changes are rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
-  double escaped = 0;                 ///< share of all projected area with nothing above; 0: closed
+  double escaped = 0;                 ///< share of projected area with nothing above; 0: closed
   double energy_defect = 0;           ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
                                       ///< (ALGORITHM.md, oracle 4)
   double energy_balance = 0;         ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene

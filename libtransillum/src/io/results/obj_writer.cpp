@@ -61,6 +61,15 @@ void write_materials(std::ostream& stream, const std::vector<Material>& material
   }
 }
 
+template <class Corner>
+void add_outline(TextBuffer& text, Corner corner, Corner end) {
+  text.add("f");
+  for (; corner != end; ++corner) {
+    text.add(" {}", *corner + 1);
+  }
+  text.add("\n");
+}
+
 void write_faces(std::ostream& stream, const SceneDescription& description,
                  const std::string& library, const std::vector<std::string>& names) {
   TextBuffer text(stream);
@@ -87,11 +96,11 @@ void write_faces(std::ostream& stream, const SceneDescription& description,
       text.add("usemtl {}\n", names.at(static_cast<std::size_t>(material)));
     }
     current = material;
-    text.add("f");
-    for (const PointId p : description.outline(f)) {
-      text.add(" {}", p + 1);
+    const auto outline = description.outline(f);
+    add_outline(text, outline.begin(), outline.end());
+    if (description.is_two_sided(f)) {
+      add_outline(text, outline.rbegin(), outline.rend());
     }
-    text.add("\n");
   }
 }
 

@@ -8,6 +8,7 @@
 #include "base/seconds_since.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/ratio.h"
+#include "radiosity/two_sided.h"
 #include "radiosity/worker_threads.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube.h"
@@ -38,7 +39,7 @@ HemicubeOptions hemicube_options(const SolveOptions& options) {
 /// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
 void add_power(const Scene& scene, const FormFactors& form_factors,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
-  double area = 0, visible = 0;
+  double area = 0, visible = 0, outside = 0, previous = 0;
   Rgb received, sent, absorbed, emitted;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto row = static_cast<std::size_t>(i);
@@ -49,6 +50,10 @@ void add_power(const Scene& scene, const FormFactors& form_factors,
     const double own = scene.patch(i).area;
     area += own;
     visible += own * sum;
+    if (are_two_sides(scene, i - 1)) {
+      outside += own * std::abs(sum - previous);
+    }
+    previous = sum;
     statistics.closure_defect_max = std::max(statistics.closure_defect_max, std::abs(1 - sum));
     received += own * iteration.h[row];
     sent += own * sum * iteration.b[row];
@@ -56,7 +61,7 @@ void add_power(const Scene& scene, const FormFactors& form_factors,
     emitted += own * scene.exitance(i);
     statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
   }
-  statistics.escaped = area > 0 ? std::max(0.0, 1 - visible / area) : 0.0;
+  statistics.escaped = area > 0 ? std::max(0.0, 1 - (visible + outside) / area) : 0.0;
   statistics.energy_defect = ratio_or_zero(max_abs(received - sent), max_abs(sent));
   statistics.energy_balance =
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);

@@ -9,6 +9,7 @@
 
 #include "radiosity/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"
+#include "radiosity/two_sided.h"
 #include "transillum/orientation.h"
 
 namespace transillum {
@@ -49,13 +50,15 @@ class RaySampler {
     std::iota(patches.begin(), patches.end(), PatchId{0});
     return patches;
   }
-  bool has_opposite(PatchId i) const {
-    const auto opposite = [&](PatchId j) {
-      return j >= 0 && j < scene_.patch_count() && scene_.patch(j).face == scene_.patch(i).face &&
-             scene_.patch(j).normal == -scene_.patch(i).normal &&
-             scene_.patch(j).center == scene_.patch(i).center;
-    };
-    return opposite(i - 1) || opposite(i + 1);
+  bool is_two_sided(PatchId i) const {
+    return are_two_sides(scene_, i) || are_two_sides(scene_, i - 1);
+  }
+  /// Whether a ray that met nothing came from its patch, and not from behind an edge of a neighbor,
+  /// where rounding may place a point. A ray back from outside tells.
+  bool starts_outside(PatchId patch, const Vec3& origin, const Vec3& direction) const {
+    constexpr double outside = 4;  // the scene has radius 1
+    const auto meeting = first_meeting(embree_, origin + outside * direction, -direction);
+    return meeting && scene_.patch(meeting->patch).face == scene_.patch(patch).face;
   }
 
   RayResult trace(std::size_t k) const {
@@ -71,9 +74,9 @@ class RaySampler {
       const PatchId lit = embree_.lit_at(meeting->patch, origin, direction, meeting->distance);
       ray.patch = lit == no_patch ? meeting->patch : lit;
       ray.back = lit == no_patch;
-    } else {
+    } else if (starts_outside(viewer.patch, origin, direction)) {
       const auto inner = first_meeting(embree_, behind, -direction);
-      ray.open = !(inner && has_opposite(viewer.patch));
+      ray.open = !(inner && is_two_sided(viewer.patch));
       ray.dark_inside =
           inner && embree_.lit_at(inner->patch, behind, -direction, inner->distance) == no_patch;
     }

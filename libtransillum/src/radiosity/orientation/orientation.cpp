@@ -57,10 +57,11 @@ Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool a
                : larger(front.other_area, back.other_area, alike, Verdict::two_sided);
 }
 
-/// The description without its two-sided faces' second patches.
+/// The description with one patch for each face, and faces numbered by their order.
 SceneDescription one_sided(const SceneDescription& description) {
   SceneDescription copy = description;
   copy.face_two_sided.clear();
+  copy.face_number.clear();
   return copy;
 }
 
@@ -179,30 +180,39 @@ class Planner {
     return all;
   }
 
+  /// "3 turned, 2 made two-sided", without what did not happen.
+  static std::string changes_text(std::int64_t turned, std::int64_t two_sided) {
+    return fmt::format("{}{}{}", turned > 0 ? fmt::format("{} turned", turned) : std::string(),
+                       turned > 0 && two_sided > 0 ? ", " : "",
+                       two_sided > 0 ? fmt::format("{} made two-sided", two_sided) : std::string());
+  }
+
   void write_sentences() {
     OrientationReport& report = plan_.report;
+    const auto counted = [](std::int64_t n, const char* what) {
+      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
     if (!plan_.changes()) {
-      report.sentences.push_back("no face needs to be turned");
-    } else {
-      report.sentences.push_back(
-          fmt::format("of {} faces in {} parts, {} turned and {} made two-sided", report.faces,
-                      report.parts, report.faces_turned, report.faces_two_sided));
+      report.sentences.emplace_back("no face needs to be turned");
+      return;
     }
+    report.sentences.push_back(
+        fmt::format("of {} in {}: {}", counted(report.faces, "face"), counted(report.parts, "part"),
+                    changes_text(report.faces_turned, report.faces_two_sided)));
     Warnings list;
     const bool by_group = !report.groups.empty();
     for (const OrientationCount& c : by_group ? report.groups : report.materials) {
-      list.add(
-          by_group ? "groups" : "materials",
-          fmt::format("{} \"{}\": {} of {} faces turned, {} made two-sided",
-                      by_group ? "group" : "material", c.name, c.turned, c.faces, c.two_sided));
+      list.add(by_group ? "groups" : "materials",
+               fmt::format("of {} of {} \"{}\": {}", counted(c.faces, "face"),
+                           by_group ? "group" : "material", c.name,
+                           changes_text(c.turned, c.two_sided)));
     }
-    for (const std::string& sentence : list.sentences()) {
-      report.sentences.push_back(sentence);
-    }
+    const std::vector<std::string> sentences = list.sentences();
+    report.sentences.insert(report.sentences.end(), sentences.begin(), sentences.end());
     if (report.not_orientable > 0) {
       report.sentences.push_back(
-          fmt::format("{} part{} cannot be oriented, as a Moebius strip cannot: made two-sided",
-                      report.not_orientable, report.not_orientable == 1 ? "" : "s"));
+          fmt::format("{} cannot be oriented, as a Moebius strip cannot: made two-sided",
+                      counted(report.not_orientable, "part")));
     }
   }
 

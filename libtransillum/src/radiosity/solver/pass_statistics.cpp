@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "radiosity/ratio.h"
+#include "radiosity/two_sided.h"
+#include "transillum/at.h"
 
 namespace transillum {
 
@@ -14,7 +16,8 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way)
       two_way_(two_way),
       areas_(scene.patches().size()),
       facing_area_(scene.patches().size()),
-      back_seen_(scene.patches().size()) {}
+      back_seen_(scene.patches().size()),
+      uncovered_(scene.patches().size()) {}
 
 void PassStatistics::begin_set() {
   areas_ = VisibleAreaSums(facing_area_.size());
@@ -33,6 +36,7 @@ void PassStatistics::add(const Pass& pass) {
     const Coverage& backward = transfers.backward[i];
     facing_area_[i] += forward.projected + backward.projected;
     back_seen_[i] += transfers.back_seen[i];
+    uncovered_[i] += forward.projected - forward.covered + backward.projected - backward.covered;
     projected_ += forward.projected + backward.projected;
     covered_ += forward.covered + backward.covered;
   }
@@ -56,7 +60,14 @@ void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.counts = counts_;
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
-  statistics.escaped = ratio_or_zero(std::max(0.0, projected_ - covered_), projected_);
+  // Of a two-sided face, the side counts from which less escapes: not the outside of a sealed room.
+  double outside = 0;
+  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
+    if (are_two_sides(scene_, i)) {
+      outside += std::abs(at(uncovered_, i) - at(uncovered_, i + 1));
+    }
+  }
+  statistics.escaped = ratio_or_zero(std::max(0.0, projected_ - covered_ - outside), projected_);
 }
 
 }  // namespace transillum

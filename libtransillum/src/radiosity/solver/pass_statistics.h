@@ -40,6 +40,7 @@ class PassStatistics {
   std::vector<double> quadrature_errors_;
   std::vector<double> facing_area_;  ///< per patch: projected area over all passes, both directions
   std::vector<double> back_seen_;    ///< per patch: of that, seen by receivers from its back
+  std::vector<double> uncovered_;    ///< per patch: of that, with no patch above
   double projected_ = 0;             ///< projected area of all patches, m²
   double covered_ = 0;               ///< the part of it with a patch above, m²
   double closure_relative_ = 0, closure_grazing_ = 0;  ///< largest ClosureDefect so far
