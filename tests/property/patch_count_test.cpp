@@ -61,6 +61,25 @@ TEST(MaxPatchAreaFor, ComesWithinATwofoldOfTheNumberOfTrianglesAndQuadrilaterals
   }
 }
 
+/// Equal faces are cut all at once: the worst case.
+TEST(MaxPatchAreaFor, ComesWithinATwofoldWhereAllFacesAreEqual) {
+  testing::Sketch cube, triangles;
+  cube.box({0, 0, 0}, {1, 1, 1}, true, cube.material(0.5, 0));
+  const int gray = triangles.material(0.5, 0);
+  for (const double z : {0.0, 1.0, 2.0}) {
+    triangles.face({{0, 0, z}, {1, 0, z}, {0, 1, z}}, gray);
+  }
+  for (const testing::Sketch& sketch : {cube, triangles}) {
+    const auto whole = sketch.scene();
+    for (std::int64_t wanted = whole->patch_count(); wanted < 400; ++wanted) {
+      const double limit = max_patch_area_for(*whole, wanted);
+      const std::int64_t made = limit > 0 ? count_patches(*whole, limit) : whole->patch_count();
+      EXPECT_GE(2 * made, wanted);
+      EXPECT_LE(made, 2 * wanted);
+    }
+  }
+}
+
 TEST(MaxPatchAreaFor, ComesNearWhereFacesAreManyAndDiffer) {
   for (const char* name : {"sphere-flake:levels=1", "rooms", "cornell-box", "boards"}) {
     const auto whole = load_scene(name);

@@ -91,7 +91,7 @@ TEST(CliSceneOptions, LightsAndReflectancesAreGivenSeveralTimes) {
 }
 
 TEST(CliSceneOptions, UnknownNamesAreRefused) {
-  expect_refused({"solve", "cornell-box", "--emission", "ligth=1"}, "did you mean \"light\"?");
+  expect_refused({"solve", "cornell-box", "--emission", "ligh=1"}, "did you mean \"light\"?");
   expect_refused({"info", "furnace", "--emission", "face:99=1"}, "there is no face 99");
   expect_refused({"scene", "furnace", "--out", "x.obj", "--reflectance", "1"},
                  "--reflectance: `1` is not NAME=VALUE or NAME=RED,GREEN,BLUE");

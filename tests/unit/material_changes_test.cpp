@@ -146,7 +146,7 @@ TEST(MaterialChanges, OfAnUnusedMaterialAreNoted) {
 
 TEST(MaterialChanges, UnknownTargetsAreRefusedAndNothingIsChanged) {
   const std::vector<std::pair<std::string, std::string>> rows{
-      {"lmap=1", "`lmap`; did you mean \"lamp\"?"},
+      {"lampe=1", "`lampe`; did you mean \"lamp\"?"},
       {"xyzzy=1", "`xyzzy`; there are `wall`, `lamp`, `floor`, `unused`, `east`"},
       {"group:wall=1", "`group:wall`"},
       {"face:5=1", "there is no face 5; faces are numbered 0 to 4"},

@@ -228,7 +228,8 @@ class ObjReader {
       return;
     }
     // One name with blanks, or several names: the existing files decide.
-    if (read_library(rest)) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path_.parent_path() / rest, ignored) && read_library(rest)) {
       return;
     }
     for (const std::string_view name : library_names(rest)) {
