@@ -53,6 +53,30 @@ class CommandLineTest : public QObject {
     QCOMPARE(directions({"--after", "5"}), SolveOptions{}.directions);
   }
 
+  void options_of_scenes() {
+    const Outcome outcome =
+        parse({"room.obj", "--default-reflectance", "0.25", "--max-reflectance", "0.9", "--units",
+               "cm", "--orient", "auto", "--emission", "lamp=10", "--reflectance",
+               "group:box=0.1,0.2,0.3", "--emission", "face:3=1,2,3", "--patches", "500"});
+    QVERIFY2(!outcome.parsed.exit_now, outcome.error.c_str());
+    const SceneInput& input = outcome.parsed.command_line.input;
+    QCOMPARE(input.read.default_reflectance, 0.25);
+    QCOMPARE(input.read.max_reflectance.value_or(0), 0.9);
+    QCOMPARE(input.read.scale, 0.01);
+    QVERIFY(input.orient);
+    QCOMPARE(input.patches, std::int64_t{500});
+    const auto change = [&](std::size_t k) { return input.changes.at(k); };
+    QCOMPARE(input.changes.size(), std::size_t{3});
+    QVERIFY(std::count(input.changes.begin(), input.changes.end(),
+                       MaterialChange{"lamp", {}, Rgb{10, 10, 10}}) == 1);
+    QVERIFY(std::count(input.changes.begin(), input.changes.end(),
+                       MaterialChange{"group:box", Rgb{0.1, 0.2, 0.3}}) == 1);
+    QVERIFY(std::count(input.changes.begin(), input.changes.end(),
+                       MaterialChange{"face:3", {}, Rgb{1, 2, 3}}) == 1);
+    QVERIFY(change(0).target == "lamp");
+    QCOMPARE(parse({"room.obj", "--scale", "0.5"}).parsed.command_line.input.read.scale, 0.5);
+  }
+
   void options_of_solve() {
     const Outcome outcome = parse({"room.obj",
                                    "-m",
@@ -109,6 +133,17 @@ class CommandLineTest : public QObject {
     QTest::newRow("screenshot of nothing") << QStringList{"--screenshot", "a.png"};
     QTest::newRow("no picture") << QStringList{"furnace", "--screenshot", "a.txt"};
     QTest::newRow("no such folder") << QStringList{"furnace", "--screenshot", "no/such/a.png"};
+    QTest::newRow("reflectance above 1") << QStringList{"a.obj", "--max-reflectance", "1.5"};
+    QTest::newRow("default above 1") << QStringList{"a.obj", "--default-reflectance", "2"};
+    QTest::newRow("unknown unit") << QStringList{"a.obj", "--units", "mile"};
+    QTest::newRow("unit and scale") << QStringList{"a.obj", "--units", "mm", "--scale", "2"};
+    QTest::newRow("scale 0") << QStringList{"a.obj", "--scale", "0"};
+    QTest::newRow("emission of nothing") << QStringList{"a.obj", "--emission", "10"};
+    QTest::newRow("emission that is no number") << QStringList{"a.obj", "--emission", "a=x"};
+    QTest::newRow("orientation") << QStringList{"a.obj", "--orient", "maybe"};
+    QTest::newRow("no patches") << QStringList{"a.obj", "--patches", "0"};
+    QTest::newRow("patches and area")
+        << QStringList{"a.obj", "--patches", "5", "--max-patch-area", "1"};
     QTest::newRow("after without screenshot") << QStringList{"furnace", "--after", "3"};
   }
   void wrong_calls_are_reported_in_one_line() {

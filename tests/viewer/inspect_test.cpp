@@ -208,24 +208,26 @@ class InspectTest : public QObject {
 
   void a_drag_is_one_undo_step() {
     MaterialEdits edits;
-    edits.start_with(load_scene("cornell-box")->materials());
-    const Rgb rho = edits.materials()[0].reflectance;
+    const auto scene = load_scene("cornell-box");
+    edits.start_with(scene);
+    const std::string target = MaterialEdits::target_of(*scene, TargetKind::material, 0);
+    const auto rho = [&] { return edits.materials()->of(0).reflectance; };
     edits.begin_drag();
     for (const double r : {0.1, 0.2, 0.3}) {
-      edits.set(0, {}, {r, r, r});
+      edits.set_reflectance(target, {r, r, r});
     }
     edits.begin_drag();
-    edits.set(0, {}, {0.5, 0.5, 0.5});
+    edits.set_reflectance(target, {0.5, 0.5, 0.5});
     QCOMPARE(edits.undo_stack().count(), 2);
     edits.undo_stack().undo();
-    QCOMPARE(edits.materials()[0].reflectance.r, 0.3);
+    QCOMPARE(rho().r, 0.3);
     edits.undo_stack().undo();
-    QVERIFY(edits.materials()[0].reflectance == rho && !edits.any());
+    QVERIFY(rho() == scene->reflectance(0) && !edits.any());
     edits.undo_stack().redo();
     edits.restore();
     QVERIFY(!edits.any());
     edits.undo_stack().undo();
-    QCOMPARE(edits.materials()[0].reflectance.r, 0.3);
+    QCOMPARE(rho().r, 0.3);
   }
 
   void holding_a_key_shows_the_kept_run() {

@@ -238,7 +238,8 @@ class LessonFormatTest : public QObject {
     state.exposure = 0;
     state.outlines = true;
     state.overlays = {Overlay::normals};
-    state.materials = {MaterialChange()};
+    state.materials = {{"lamp", Rgb{0.5, 0.5, 0.5}, Rgb{1, 1, 1}}};
+    state.options.input.changes = state.materials;
     state.layout = Layout::teach;
     state.panels = {"map"};
     const QString text = description();

@@ -161,18 +161,18 @@ class ResponsivenessTest : public QObject {
     QVERIFY(wait_for([&] { return window->snapshot() && window->snapshot()->form_factors; },
                      long_enough));
     MaterialEdits& edits = window->relighting.edits();
-    const std::vector<Material>& own = edits.originals();
+    const std::vector<Material>& own = window->snapshot()->loaded->scene->materials();
     const auto brightest =
         std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
           return max_abs(a.reflectance) < max_abs(b.reflectance);
         });
-    const int material = static_cast<int>(brightest - own.begin());
+    const std::string target = "material:" + brightest->name;
     const Material first = *brightest;
     Timings timings;
     for (int k = 1; k <= 9; ++k) {
       const auto before = window->snapshot()->radiosity;
       timings.measure([&] {
-        edits.set(material, first.exitance, (1 - 0.05 * k) * first.reflectance);
+        edits.set_reflectance(target, (1 - 0.05 * k) * first.reflectance);
         QVERIFY(wait_for(
             [&] { return !window->relighting.busy() && window->snapshot()->radiosity != before; },
             long_enough));

@@ -52,7 +52,11 @@ class SessionFileTest : public QObject {
     window.colors.set_mode(ColorMode::luminance);
     window.colors.set_range(0.25, 4);
     window.colors.set_gamma(1.8);
-    window.relighting.edits().set(0, {2, 3, 4}, {0.1, 0.25, 0.625});
+    MaterialEdits& edits = window.relighting.edits();
+    const std::string wall = "material:" + window.snapshot()->loaded->scene->material(0).name;
+    edits.set_exitance(wall, {2, 3, 4});
+    edits.set_reflectance(wall, {0.1, 0.25, 0.625});
+    edits.set_exitance("face:1", {5, 6, 7});
     window.colors.set_exposure(-2);
     ShowMenu& show = *window.findChild<ShowMenu*>();
     show.overlay(Overlay::normals)->setChecked(true);
@@ -67,10 +71,12 @@ class SessionFileTest : public QObject {
     QCOMPARE(window.colors.scale().exposure, -2.0);
     QVERIFY(!window.colors.exposure_is_automatic());
     const std::vector<MaterialChange> materials = window.relighting.edits().changes();
-    QCOMPARE(materials.size(), std::size_t{1});
-    QCOMPARE(materials[0].name, window.snapshot()->loaded->scene->material(0).name);
+    QCOMPARE(materials.size(), std::size_t{2});
+    QCOMPARE(materials[0].target, "material:" + window.snapshot()->loaded->scene->material(0).name);
     QVERIFY((materials[0].exitance == Rgb{2, 3, 4}));
     QVERIFY((materials[0].reflectance == Rgb{0.1, 0.25, 0.625}));
+    QCOMPARE(materials[1].target, std::string("face:1"));
+    QVERIFY((materials[1].exitance == Rgb{5, 6, 7}) && !materials[1].reflectance);
     const ShowMenu& show = *window.findChild<ShowMenu*>();
     for (const Overlay overlay : all_overlays) {
       QCOMPARE(show.overlay(overlay)->isChecked(),

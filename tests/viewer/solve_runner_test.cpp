@@ -34,7 +34,7 @@ struct Watched {
   void open(const char* scene, int directions, Goal then = {}) {
     SolveOptions options;
     options.directions = directions;
-    runner.open({scene, {}, options, then});
+    runner.open({scene, {options}, then});
   }
   bool reaches(RunState state) {
     return QTest::qWaitFor([&] { return runner.state() == state; }, 30000);
@@ -136,7 +136,7 @@ class SolveRunnerTest : public QObject {
     SolveOptions options;
     options.directions = 64;
     options.normalize = Normalization::rows;
-    w.runner.open({"furnace", {}, options, {Goal::Kind::finished}});
+    w.runner.open({"furnace", {options}, {Goal::Kind::finished}});
     QVERIFY(w.reaches(RunState::finished));
     QTest::qWait(60);
     QVERIFY(w.snapshot->statistics.converged);
@@ -189,7 +189,7 @@ class SolveRunnerTest : public QObject {
     SolveOptions options;
     options.directions = 64;
     options.scheme = static_cast<Scheme>(scheme);
-    w.runner.open({"cornell-box", {}, options, {Goal::Kind::passes, passes}});
+    w.runner.open({"cornell-box", {options}, {Goal::Kind::passes, passes}});
     QVERIFY(w.advances([&](const SolveProgress& p) {
       return p.iteration == iteration && p.direction == direction;
     }));

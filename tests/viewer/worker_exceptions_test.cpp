@@ -121,7 +121,7 @@ struct Watched {
                      [this](const QString& message, bool) { failure = message; });
   }
   void open(Goal then = {Goal::Kind::finished}) {
-    runner.open({"furnace", {}, with_replicas(), then});
+    runner.open({"furnace", {with_replicas()}, then});
   }
   bool finishes_with(int directions) {
     return wait_for([&] {
@@ -198,7 +198,7 @@ class WorkerExceptionsTest : public QObject {
     } else if (action == "restart") {
       w->runner.restart(with_replicas(24), {Goal::Kind::finished});
     } else {
-      w->runner.open({"furnace", {}, with_replicas(24), {Goal::Kind::finished}});
+      w->runner.open({"furnace", {with_replicas(24)}, {Goal::Kind::finished}});
     }
     stopper.release(cancel);
     if (action == "stop") {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "colors/neutral_light.h"
+
 namespace transillum::viewer {
 
 namespace {
@@ -20,6 +22,13 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
     const int brightness = (color[0] + color[1] + color[2]) / 3;
     color.fill(static_cast<std::uint8_t>(0x38 + brightness / 3));
   }
+}
+
+// Quantities that are 0 everywhere if nothing emits.
+bool needs_light(Quantity quantity) {
+  return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
+         quantity == Quantity::irradiance || quantity == Quantity::error ||
+         quantity == Quantity::last_change;
 }
 
 }  // namespace
@@ -176,6 +185,12 @@ void ColorChoice::refit() {
   }
   const bool show_kept =
       shows_kept_run_ && kept_run_->radiosity.size() == snapshot_->radiosity.size();
+  lit_ = has_light(*snapshot_);
+  if (!lit_ && needs_light(quantity_)) {
+    values_ = {};
+    color();
+    return;
+  }
   values_ = values_of(quantity_, show_kept ? *kept_run_ : *snapshot_, selection_.patch(),
                       kept_run_.get());
   if (!show_kept) {
@@ -220,7 +235,9 @@ void ColorChoice::fit_range() {
 }
 
 void ColorChoice::color() {
-  if (values_.values.empty()) {
+  if (values_.values.empty() && !lit_) {
+    shade_neutral(*snapshot_, patch_colors_);
+  } else if (values_.values.empty()) {
     shade_gray(*snapshot_->loaded->scene, snapshot_->radiosity, patch_colors_);
   } else {
     scale_.color(values_.values, patch_colors_);

@@ -68,11 +68,13 @@ class ColorChoice : public QObject {
   /// snapshot in the views afterward.
   void fit(std::shared_ptr<const SolverSnapshot> snapshot);
 
-  /// One color per patch of the newest snapshot; grays if there are no values.
+  /// One color per patch of the newest snapshot; grays if there are no values, and a neutral light
+  /// where nothing emits.
   const std::vector<Color8>& patch_colors() const { return patch_colors_; }
   /// The shown quantity, one value per patch; or empty.
   const std::vector<Rgb>& values() const { return values_.values; }
-  /// If values() is empty, the reason for the user.
+  /// If values() is empty, the reason for the user; empty where nothing emits, which the window
+  /// says.
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
 
@@ -99,6 +101,7 @@ class ColorChoice : public QObject {
   bool automatic_ = true;
   std::shared_ptr<const SolverSnapshot> snapshot_, kept_run_;
   bool shows_kept_run_ = false;
+  bool lit_ = true;  ///< something emits
   PatchValues values_;
   std::vector<Color8> patch_colors_;
 };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "model/material_json.h"
 #include "support/json_object.h"
 
 namespace transillum::viewer {
@@ -155,39 +156,6 @@ json to_json(const std::optional<FocusChoice>& focus) {
   return result;
 }
 
-MaterialChange material_from(const json& value, const std::string& where) {
-  JsonObject object(value, where);
-  MaterialChange change;
-  object.read("name", change.name);
-  if (change.name.empty()) {
-    object.fail_at("name", "is missing");
-  }
-  const auto read_channels = [&](const char* key, bool below_one) {
-    const json* channels = object.find(key);
-    if (!channels) {
-      object.fail_at(key, "is missing");
-    }
-    const Vec3 c = vec3_from_json(*channels, object.where(key));
-    for (const double x : {c.x, c.y, c.z}) {
-      if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1))) {
-        object.fail_at(key, below_one ? "must be at least 0 and below 1" : "must be at least 0");
-      }
-    }
-    return Rgb{c.x, c.y, c.z};
-  };
-  change.exitance = read_channels("exitance", false);
-  change.reflectance = read_channels("reflectance", true);
-  object.done();
-  return change;
-}
-
-json to_json(const MaterialChange& change) {
-  const auto list = [](const Rgb& c) { return json::array({c.r, c.g, c.b}); };
-  return {{"name", change.name},
-          {"exitance", list(change.exitance)},
-          {"reflectance", list(change.reflectance)}};
-}
-
 void read_colors(ViewState& state, const json& value, const std::string& where) {
   JsonObject object(value, where);
   read(object, "quantity", quantities, state.quantity);
@@ -221,20 +189,6 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
     object.fail_at("exposure", "must be from -12 to 12 EV");
   }
   object.done();
-}
-
-void read_materials(ViewState& state, JsonObject& object) {
-  const json* list = object.find("materials");
-  if (!list) {
-    return;
-  }
-  if (!list->is_array()) {
-    object.fail_at("materials", "must be a list [ … ]");
-  }
-  for (const json& one : *list) {
-    state.materials.push_back(
-        material_from(one, object.where("material " + std::to_string(state.materials.size() + 1))));
-  }
 }
 
 void read_overlays(ViewState& state, JsonObject& object) {
@@ -318,7 +272,7 @@ ViewState view_state_from_json(const json& value, const std::string& where,
   if (const json* focus = object.find("focus")) {
     state.focus = focus_from(*focus, object.where("focus"));
   }
-  read_materials(state, object);
+  state.materials = material_changes_from_json(object, "materials");
   object.read("select", state.selection, 0, largest_number);
   if (const json* camera = object.find("camera")) {
     state.camera = view_point_from_json(*camera, object.where("camera"));
@@ -366,8 +320,8 @@ json to_json(const ViewState& state) {
   for (const Overlay overlay : state.overlays) {
     result["overlays"].push_back(name_in_file(overlays, overlay));
   }
-  for (const MaterialChange& change : state.materials) {
-    result["materials"].push_back(to_json(change));
+  if (!state.materials.empty()) {
+    result["materials"] = to_json(state.materials);
   }
   if (state.selection != no_patch) {
     result["select"] = state.selection;

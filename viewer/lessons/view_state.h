@@ -10,7 +10,6 @@
 
 #include "colors/color_choice.h"
 #include "colors/quantity.h"
-#include "model/material_edits.h"
 #include "model/run_options.h"
 #include "model/solve_runner.h"
 #include "state/algorithm_state.h"
@@ -18,6 +17,7 @@
 #include "state/initial_view.h"
 #include "state/layout.h"
 #include "state/overlay.h"
+#include "transillum/material_changes.h"
 
 namespace transillum::viewer {
 

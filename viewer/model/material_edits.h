@@ -2,22 +2,28 @@
 #pragma once
 
 #include <QObject>
+#include <QString>
 #include <QUndoStack>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "model/patch_materials.h"
+#include "transillum/material_changes.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
 
-/// A material by name, with its new values.
-struct MaterialChange {
-  std::string name;
-  Rgb exitance;     ///< E, W/m²
-  Rgb reflectance;  ///< rho, 0 to below 1
-};
+/// What a change of E or rho applies to.
+enum class TargetKind { material, group, face };
 
-/// The materials of a scene with the user's changes, which can be undone.
+/// The user's changes of E and rho of materials, groups and faces, which can be undone. Of two
+/// changes for a face, that of the face holds before that of its group, and that before its
+/// material's.
+///
+/// A target is written as for change_materials(), with its kind: `material:NAME`, `group:NAME`,
+/// `face:N`.
 ///
 /// Threads: the main thread only.
 class MaterialEdits : public QObject {
@@ -26,22 +32,42 @@ class MaterialEdits : public QObject {
  public:
   using QObject::QObject;
 
-  /// Sets the original materials of a scene and clears the undo stack.
-  void start_with(std::vector<Material> materials);
-  const std::vector<Material>& materials() const { return now_; }
-  const std::vector<Material>& originals() const { return originals_; }
-  /// Whether any material differs from the original.
-  bool any() const;
+  /// The target of a kind that patch i belongs to; empty for a group if the patch has none.
+  static std::string target_of(const Scene& scene, TargetKind kind, PatchId i);
+  static TargetKind kind_of(const std::string& target);
+  /// A target of change_materials() with its kind: `lamp` becomes `material:lamp`, or `group:lamp`
+  /// if only a group has that name.
+  std::string with_kind(const std::string& target) const;
 
-  /// Sets E (W/m²) and rho of one material. Changes since begin_drag() are undone together.
-  void set(int material, const Rgb& exitance, const Rgb& reflectance);
+  /// Discards all changes, for another scene.
+  void start_with(std::shared_ptr<const Scene> scene);
+  /// Whether any face differs from the scene.
+  bool any() const { return any_; }
+  /// E and rho of all patches, with the changes; null before the first scene.
+  const std::shared_ptr<const PatchMaterials>& materials() const { return materials_; }
+  /// Whether any patch emits.
+  bool has_light() const { return has_light_; }
+  /// Whether the exitance of any patch differs from the scene's.
+  bool changes_exitance() const;
+  /// E and rho of the target's first patch; those of a black surface if it has none.
+  Material values_of(const std::string& target) const;
+  /// Number of patches of a target, and whether they all have the same E and rho.
+  struct Extent {
+    int patches = 0;
+    bool uniform = true;
+  };
+  Extent extent_of(const std::string& target) const;
+
+  /// Sets E (W/m²) or rho of a target. Changes since begin_drag() are undone together.
+  void set_exitance(const std::string& target, const Rgb& exitance);
+  void set_reflectance(const std::string& target, const Rgb& reflectance);
   void begin_drag() { ++drag_; }
-  /// Restores all originals, as one undoable change.
+  /// Discards all changes, as one undoable change.
   void restore();
-  /// All materials that differ from the originals.
+  /// The changes, materials first and faces last; empty if no face differs from the scene.
   std::vector<MaterialChange> changes() const;
-  /// Sets the originals with `changes` and clears the undo stack.
-  /// @return names in `changes` that no material has
+  /// Replaces all changes and clears the undo stack.
+  /// @returns a sentence about each change that does not fit the scene, which is left out
   std::vector<std::string> start_over(const std::vector<MaterialChange>& changes);
 
   QUndoStack& undo_stack() { return undo_; }
@@ -51,11 +77,22 @@ class MaterialEdits : public QObject {
 
  private:
   class Change;
-  void put(int material, const Rgb& exitance, const Rgb& reflectance);
+  void push(const MaterialChange& change, const QString& text);
+  void put(std::vector<MaterialChange> changes);
+  void apply();
+  /// The patches of a target, in order.
+  std::vector<PatchId> patches_of(const std::string& target) const;
 
-  std::vector<Material> originals_, now_;
+  std::shared_ptr<const Scene> scene_;
+  SceneDescription faces_;  ///< materials and groups of the scene's faces; no points
+  std::vector<MaterialChange> changes_;
+  std::shared_ptr<const PatchMaterials> materials_;
+  bool any_ = false, has_light_ = false;
   int drag_ = 0;
   QUndoStack undo_;
 };
+
+/// A target for the user: `Face 12`, `Material "white"`. Long names are shortened.
+QString target_text(const std::string& target);
 
 }  // namespace transillum::viewer

@@ -29,9 +29,11 @@ void Relighter::work(const Task& task, const Cancellation& cancellation) {
   options.tolerance = request.tolerance;
   options.start = request.start;
   options.shot = request.shot.get();
+  options.patch_materials = request.materials->of_patch;
   deliver(task,
           std::make_shared<const RelightResult>(relight(*request.scene, *request.form_factors,
-                                                        request.materials, options, cancellation)),
+                                                        request.materials->materials, options,
+                                                        cancellation)),
           {});
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/patch_materials.h"
 #include "support/request_worker.h"
 #include "transillum/form_factors.h"
 #include "transillum/relight.h"
@@ -24,7 +25,7 @@ class Relighter : public QObject {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const FormFactors> form_factors;
     std::shared_ptr<const DirectLight> shot;  ///< may be null
-    std::vector<Material> materials;
+    std::shared_ptr<const PatchMaterials> materials;
     std::vector<Rgb> start;  ///< initial B, W/m², one per patch
     double tolerance = 1e-6;
   };
@@ -39,7 +40,7 @@ class Relighter : public QObject {
  signals:
   /// The solution with `materials`.
   void relit(std::shared_ptr<const transillum::RelightResult> light,
-             std::vector<transillum::Material> materials);
+             std::shared_ptr<const transillum::viewer::PatchMaterials> materials);
   void failed(const QString& message);
 
  private:

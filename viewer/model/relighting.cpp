@@ -10,25 +10,25 @@ namespace transillum::viewer {
 Relighting::Relighting(QObject* parent) : QObject(parent) {
   connect(&edits_, &MaterialEdits::changed, this, &Relighting::request_light);
   connect(&relighter_, &Relighter::failed, this, &Relighting::failed);
-  connect(
-      &relighter_, &Relighter::relit, this,
-      [this](const std::shared_ptr<const RelightResult>& light, std::vector<Material> materials) {
-        if (!edits_.any()) {
-          return;  // undone since
-        }
-        light_ = light;
-        materials_ = std::make_shared<const std::vector<Material>>(std::move(materials));
-        emit changed();
-      });
+  connect(&relighter_, &Relighter::relit, this,
+          [this](const std::shared_ptr<const RelightResult>& light,
+                 const std::shared_ptr<const PatchMaterials>& materials) {
+            if (!edits_.any()) {
+              return;  // undone since
+            }
+            light_ = light;
+            materials_ = materials;
+            emit changed();
+          });
 }
 
-void Relighting::show_scene(const Scene& scene) {
+void Relighting::show_scene(std::shared_ptr<const Scene> scene) {
   snapshot_ = nullptr;
   used_ = nullptr;
   light_ = nullptr;
   materials_ = nullptr;
   relighter_.clear();
-  edits_.start_with(scene.materials());
+  edits_.start_with(std::move(scene));
 }
 
 QString Relighting::reason_unavailable() const {

@@ -21,7 +21,7 @@ class Relighting : public QObject {
 
   MaterialEdits& edits() { return edits_; }
   /// Starts with the unedited materials of a new scene.
-  void show_scene(const Scene& scene);
+  void show_scene(std::shared_ptr<const Scene> scene);
   /// The snapshot to show for one of the solver: the same, or with the edited materials and their
   /// light once it is computed.
   std::shared_ptr<const SolverSnapshot> lit(std::shared_ptr<const SolverSnapshot> snapshot);
@@ -44,10 +44,10 @@ class Relighting : public QObject {
 
   MaterialEdits edits_;
   Relighter relighter_;
-  std::shared_ptr<const SolverSnapshot> snapshot_;          ///< newest of the solver
-  std::shared_ptr<const FormFactors> used_;                 ///< of the newest request
-  std::shared_ptr<const RelightResult> light_;              ///< null: the solver's light
-  std::shared_ptr<const std::vector<Material>> materials_;  ///< of light_
+  std::shared_ptr<const SolverSnapshot> snapshot_;   ///< newest of the solver
+  std::shared_ptr<const FormFactors> used_;          ///< of the newest request
+  std::shared_ptr<const RelightResult> light_;       ///< null: the solver's light
+  std::shared_ptr<const PatchMaterials> materials_;  ///< of light_
 };
 
 }  // namespace transillum::viewer

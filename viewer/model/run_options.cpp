@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/run_options.h"
 
+#include "model/material_json.h"
 #include "support/json_object.h"
 #include "transillum/first_shot.h"
 
@@ -35,6 +36,34 @@ void read_named(JsonObject& object, const char* key, Value& value, FromName from
   }
 }
 
+SceneInput input_from(const json& value, const std::string& where) {
+  SceneInput input;
+  JsonObject object(value, where);
+  object.read("default-reflectance", input.read.default_reflectance);
+  if (object.find("max-reflectance")) {
+    object.read("max-reflectance", input.read.max_reflectance.emplace());
+  }
+  object.read("scale", input.read.scale);
+  object.read("turn-faces", input.orient);
+  input.changes = material_changes_from_json(object, "changes");
+  object.done();
+  try {
+    input.read.validate();
+  } catch (const InputError& error) {
+    object.fail(error.what());
+  }
+  return input;
+}
+
+json to_json(const SceneInput& input) {
+  const ReadOptions& read = input.read;
+  return {{"default-reflectance", read.default_reflectance},
+          {"max-reflectance", read.max_reflectance ? json(*read.max_reflectance) : json()},
+          {"scale", read.scale},
+          {"turn-faces", input.orient},
+          {"changes", viewer::to_json(input.changes)}};
+}
+
 }  // namespace
 
 RunOptions run_options_from_json(const json& value, const std::string& where) {
@@ -64,6 +93,9 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   if (!(options.scene.max_patch_area >= 0)) {
     object.fail_at("max-patch-area", "must be an area in m², or 0 for no limit");
   }
+  if (const json* input = object.find("read")) {
+    options.input = input_from(*input, object.where("read"));
+  }
   object.done();
   try {
     solve.validate();
@@ -75,22 +107,26 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
 
 json to_json(const RunOptions& options) {
   const SolveOptions& solve = options.solve;
-  return {{"directions", solve.directions},
-          {"sampling", name_of(solve.sampling)},
-          {"seed", solve.seed},
-          {"rotate", solve.rotation ? json(*solve.rotation) : json()},
-          {"engine", name_of(solve.engine)},
-          {"resolution", solve.engine_options.resolution},
-          {"two-way", solve.two_way},
-          {"normalize", name_of(solve.normalize)},
-          {"scheme", name_of(solve.scheme)},
-          {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
-          {"burn-in", solve.burn_in ? json(*solve.burn_in) : json()},
-          {"replicas", solve.replicas},
-          {"iterations", solve.iterations},
-          {"tolerance", solve.tolerance},
-          {"two-sided", options.scene.two_sided},
-          {"max-patch-area", options.scene.max_patch_area}};
+  json result = {{"directions", solve.directions},
+                 {"sampling", name_of(solve.sampling)},
+                 {"seed", solve.seed},
+                 {"rotate", solve.rotation ? json(*solve.rotation) : json()},
+                 {"engine", name_of(solve.engine)},
+                 {"resolution", solve.engine_options.resolution},
+                 {"two-way", solve.two_way},
+                 {"normalize", name_of(solve.normalize)},
+                 {"scheme", name_of(solve.scheme)},
+                 {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
+                 {"burn-in", solve.burn_in ? json(*solve.burn_in) : json()},
+                 {"replicas", solve.replicas},
+                 {"iterations", solve.iterations},
+                 {"tolerance", solve.tolerance},
+                 {"two-sided", options.scene.two_sided},
+                 {"max-patch-area", options.scene.max_patch_area}};
+  if (!(options.input == SceneInput{})) {
+    result["read"] = to_json(options.input);
+  }
+  return result;
 }
 
 }  // namespace transillum::viewer

@@ -1,23 +1,43 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/settings.h"
 
 namespace transillum::viewer {
 
+/// How a scene's file is read, and what is changed before its faces become patches.
+struct SceneInput {
+  ReadOptions read;
+  std::vector<MaterialChange> changes;  ///< part of the scene, unlike MaterialEdits
+  bool orient = false;                  ///< faces are turned by orient()
+  /// About how many patches to make, instead of SceneOptions::max_patch_area; 0: not given. Once
+  /// the scene is loaded, that area says the same.
+  std::int64_t patches = 0;
+
+  friend bool operator==(const SceneInput& a, const SceneInput& b) {
+    return a.read.default_reflectance == b.read.default_reflectance &&
+           a.read.max_reflectance == b.read.max_reflectance && a.read.scale == b.read.scale &&
+           a.changes == b.changes && a.orient == b.orient && a.patches == b.patches;
+  }
+};
+
 /// All options of a solve run.
 struct RunOptions {
   SolveOptions solve;
-  SceneOptions scene;
+  SceneOptions scene = {};
+  SceneInput input = {};
 
   friend bool operator==(const RunOptions& a, const RunOptions& b) {
     return a.solve == b.solve && a.scene.two_sided == b.scene.two_sided &&
-           a.scene.max_patch_area == b.scene.max_patch_area;
+           a.scene.max_patch_area == b.scene.max_patch_area && a.input == b.input;
   }
 };
 

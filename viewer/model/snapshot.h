@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "model/patch_materials.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
+#include "transillum/orientation.h"
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -22,9 +24,11 @@ namespace transillum::viewer {
 /// A scene with its BSP tree and ray picker. Immutable, shared by all threads.
 struct LoadedScene {
   std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const SceneDescription> description;  ///< of the scene; null: of a result file
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
+  BackShare backs;
   std::shared_ptr<const Solution> stored;  ///< of the result file that was opened; else null
   std::string file;                        ///< path of the result file
   double seconds_load = 0;                 ///< wall-clock time of reading
@@ -61,7 +65,7 @@ struct SolverSnapshot {
   std::shared_ptr<const FormFactors> form_factors;
   std::shared_ptr<const DirectLight> shot;  ///< of the first shot; zeros without one
   /// E and rho of radiosity and irradiance if they differ from the scene's; else null.
-  std::shared_ptr<const std::vector<Material>> materials;
+  std::shared_ptr<const PatchMaterials> materials;
   /// The values are those of loaded->stored; nothing has been solved yet.
   bool of_file = false;
   bool form_factors_fit = true;  ///< false: the memory limit was exceeded
@@ -87,8 +91,7 @@ struct SolverSnapshot {
 
 /// E and rho of patch i in the snapshot.
 inline const Material& material_of(const SolverSnapshot& snapshot, PatchId i) {
-  const Scene& scene = *snapshot.loaded->scene;
-  return at(snapshot.materials ? *snapshot.materials : scene.materials(), scene.patch(i).material);
+  return snapshot.materials ? snapshot.materials->of(i) : snapshot.loaded->scene->material(i);
 }
 
 /// What the solve runner does.

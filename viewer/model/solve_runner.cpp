@@ -14,6 +14,9 @@
 #include "support/thread_priority.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/material_changes.h"
+#include "transillum/orientation.h"
+#include "transillum/patch_count.h"
 
 namespace transillum::viewer {
 
@@ -40,6 +43,19 @@ void run_unlocked(std::unique_lock<std::mutex>& lock, const Part& part) {
   } catch (...) {
   }
   lock.lock();
+}
+
+/// @throws InputError, Canceled
+std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
+                                        const RunOptions& options,
+                                        const Cancellation& cancellation) {
+  SceneOptions scene_options = options.scene;
+  if (options.input.patches > 0) {
+    scene_options.max_patch_area = 0;
+    const Scene whole(description, scene_options, cancellation);
+    scene_options.max_patch_area = max_patch_area_for(whole, options.input.patches, cancellation);
+  }
+  return std::make_shared<const Scene>(description, scene_options, cancellation);
 }
 
 }  // namespace
@@ -186,16 +202,16 @@ void SolveRunner::load(const OpenRequest& request) {
   post_state(RunState::loading);
   const QString name = QString::fromStdString(request.spec);
   try {
-    request.solve_options.validate();
+    request.options.solve.validate();
     const Cancellation cancellation = load_cancellation_;
     auto loaded = std::make_shared<LoadedScene>();
     post_load_progress(tr("Loading %1").arg(name), -1);
     read_scene(request, *loaded, cancellation);
     build_tree(*loaded, cancellation);
-    if (request.solve_options.first_shot) {
+    if (request.options.solve.first_shot) {
       post_load_progress(tr("Computing the first shot"), -1);
     }
-    auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.solve_options,
+    auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.options.solve,
                                                     loaded->tree, cancellation);
     replace_scene(request, loaded, std::move(solver), cancellation);
   } catch (...) {
@@ -212,11 +228,28 @@ void SolveRunner::read_scene(const OpenRequest& request, LoadedScene& loaded,
     loaded.scene = loaded.stored->scene;
     loaded.file = request.spec;
   } else {
-    loaded.scene = load_scene(request.spec, request.scene_options, {}, cancellation);
+    loaded.description = std::make_shared<const SceneDescription>(describe(request, cancellation));
+    loaded.scene = make_scene(*loaded.description, request.options, cancellation);
   }
+  loaded.backs = back_share(*loaded.scene, 0, cancellation);
   loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
   loaded.measures = measure(*loaded.scene, cancellation);
   loaded.seconds_load = seconds(timer);
+}
+
+SceneDescription SolveRunner::describe(const OpenRequest& request,
+                                       const Cancellation& cancellation) {
+  const SceneInput& input = request.options.input;
+  SceneDescription description = describe_scene(request.spec, input.read, cancellation);
+  change_materials(description, input.changes);
+  if (input.orient) {
+    const OrientationReport report = orient(description, 0, cancellation, [this](double share) {
+      post_load_progress(tr("Turning faces"), share);
+    });
+    description.notes.insert(description.notes.end(), report.sentences.begin(),
+                             report.sentences.end());
+  }
+  return description;
 }
 
 void SolveRunner::build_tree(LoadedScene& loaded, const Cancellation& cancellation) {
@@ -245,7 +278,7 @@ void SolveRunner::replace_scene(const OpenRequest& request,
     cancellation.throw_if_canceled();
     solve_cancellation_ = cancellation;
     loading_ = false;
-    options_ = request.solve_options;
+    options_ = request.options.solve;
     goal_ = request.then;
     ++goal_number_;
   }

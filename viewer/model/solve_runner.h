@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "model/run_options.h"
 #include "model/snapshot.h"
 #include "transillum/cancellation.h"
 
@@ -38,8 +39,7 @@ class SolveRunner : public QObject {
  public:
   struct OpenRequest {
     std::string spec;  ///< file or built-in
-    SceneOptions scene_options;
-    SolveOptions solve_options;
+    RunOptions options;
     Goal then;  ///< goal once the scene is open
   };
 
@@ -83,6 +83,7 @@ class SolveRunner : public QObject {
   void load(const OpenRequest& request);
   void read_scene(const OpenRequest& request, LoadedScene& loaded,
                   const Cancellation& cancellation);
+  SceneDescription describe(const OpenRequest& request, const Cancellation& cancellation);
   void build_tree(LoadedScene& loaded, const Cancellation& cancellation);
   void replace_scene(const OpenRequest& request, const std::shared_ptr<const LoadedScene>& loaded,
                      std::unique_ptr<RadiositySolver> solver, const Cancellation& cancellation);

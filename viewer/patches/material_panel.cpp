@@ -1,20 +1,22 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel "Materials": sliders for E and rho of one material. A moved slider changes
-// MaterialEdits; Relighting then finds the new B from the solve's form factors.
+// The panel "Materials": sliders for E and rho of one material, group or face. A moved slider
+// changes MaterialEdits; Relighting then finds the new B from the solve's form factors.
 #include "patches/material_panel.h"
 
 #include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSet>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
-#include "transillum/at.h"
 #include "widgets/channel_sliders.h"
+#include "widgets/elided.h"
 
 namespace transillum::viewer {
 
@@ -28,7 +30,7 @@ double slider_exitance(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     largest = std::max(largest, max_abs(material.exitance));
   }
-  return largest > 0 ? 4 * largest : 10;
+  return largest > 0 ? 4 * largest : 40;
 }
 
 QLabel* make_note(const char* name) {
@@ -57,17 +59,27 @@ MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
 }
 
 QLayout* MaterialPanel::make_choice() {
-  material_ = new QComboBox;
-  material_->setObjectName("material");
-  material_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  material_->setMinimumContentsLength(6);
+  kind_ = new QComboBox;
+  kind_->setObjectName("material_kind");
+  kind_->setToolTip(tr("What the sliders change: a material, a group of faces or a single face"));
+  name_ = new ElidedComboBox;
+  name_->setObjectName("material");
+  name_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  name_->setMinimumContentsLength(6);
+  name_->setToolTip(tr("Click a patch in the scene to choose what it belongs to"));
+  extent_ = make_note("material_extent");
   restore_ = new QPushButton(tr("As in the scene"));
   restore_->setObjectName("restore_materials");
   restore_->setToolTip(tr("Undo all changes to materials"));
-  auto* choice = new QHBoxLayout;
+  auto* extent_row = new QHBoxLayout;
+  extent_row->addWidget(extent_, 1);
+  extent_row->addWidget(restore_);
+  auto* choice = new QGridLayout;
   choice->setSpacing(6);
-  choice->addWidget(material_, 1);
-  choice->addWidget(restore_);
+  choice->setColumnStretch(1, 1);
+  choice->addWidget(kind_, 0, 0);
+  choice->addWidget(name_, 0, 1);
+  choice->addLayout(extent_row, 1, 0, 1, 2);
   return choice;
 }
 
@@ -100,38 +112,93 @@ void MaterialPanel::connect_edits() {
   for (ChannelSliders* sliders : {reflectance_, exitance_}) {
     connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
   }
-  connect(reflectance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
-    edits.set(material(), at(edits.materials(), material()).exitance, value);
-  });
-  connect(exitance_, &ChannelSliders::moved, this, [this, &edits](const Rgb& value) {
-    edits.set(material(), value, at(edits.materials(), material()).reflectance);
-  });
+  connect(reflectance_, &ChannelSliders::moved, this,
+          [this, &edits](const Rgb& value) { edits.set_reflectance(target(), value); });
+  connect(exitance_, &ChannelSliders::moved, this,
+          [this, &edits](const Rgb& value) { edits.set_exitance(target(), value); });
   connect(restore_, &QPushButton::clicked, &edits, &MaterialEdits::restore);
-  connect(material_, qOverload<int>(&QComboBox::currentIndexChanged), this,
-          &MaterialPanel::show_material);
-  connect(&edits, &MaterialEdits::changed, this, &MaterialPanel::show_material);
+  connect(kind_, qOverload<int>(&QComboBox::activated), this,
+          [this] { fill_names(selection_.patch()); });
+  connect(name_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &MaterialPanel::show_values);
+  connect(&edits, &MaterialEdits::changed, this, &MaterialPanel::show_values);
   connect(&colors_, &ColorChoice::changed, this, &MaterialPanel::show_state);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
     if (scene_ && patch != no_patch) {
-      material_->setCurrentIndex(scene_->patch(patch).material);
+      fill_names(patch);
     }
   });
 }
 
-int MaterialPanel::material() const { return material_->currentIndex(); }
+TargetKind MaterialPanel::kind() const {
+  return static_cast<TargetKind>(kind_->currentData().toInt());
+}
+
+std::string MaterialPanel::target() const { return name_->currentData().toString().toStdString(); }
 
 void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
-  material_->clear();
-  for (const Material& material : scene_->materials()) {
-    material_->addItem(QString::fromStdString(material.name));
+  fill_kinds();
+  fill_names(no_patch);
+}
+
+void MaterialPanel::fill_kinds() {
+  kind_->clear();
+  kind_->addItem(tr("Material"), static_cast<int>(TargetKind::material));
+  if (!scene_->groups().empty()) {
+    kind_->addItem(tr("Group"), static_cast<int>(TargetKind::group));
   }
-  show_material();
+  kind_->addItem(tr("Face"), static_cast<int>(TargetKind::face));
+}
+
+void MaterialPanel::fill_names(PatchId patch) {
+  const QSignalBlocker blocker(name_);
+  const std::string before = target();
+  const std::string wanted =
+      patch == no_patch ? before : MaterialEdits::target_of(*scene_, kind(), patch);
+  name_->clear();
+  // Materials of a file may share a name, and then change together.
+  QSet<QString> listed;
+  const auto add = [&](const std::string& added) {
+    const QString text = QString::fromStdString(added);
+    if (!listed.contains(text)) {
+      listed.insert(text);
+      name_->addItem(text.mid(text.indexOf(':') + 1), text);
+    }
+  };
+  switch (kind()) {
+    case TargetKind::material:
+      for (const Material& material : scene_->materials()) {
+        add("material:" + material.name);
+      }
+      break;
+    case TargetKind::group:
+      for (const std::string& group : scene_->groups()) {
+        add("group:" + group);
+      }
+      break;
+    case TargetKind::face:
+      // A list of all faces would be too long: the face of the selected patch.
+      if (MaterialEdits::kind_of(wanted) == TargetKind::face) {
+        add(wanted);
+      }
+      break;
+  }
+  const int index = name_->findData(QString::fromStdString(wanted));
+  name_->setCurrentIndex(index >= 0 || name_->count() == 0 || patch != no_patch ? index : 0);
+  show_values();
+}
+
+void MaterialPanel::show_target(const std::string& target) {
+  kind_->setCurrentIndex(
+      std::max(0, kind_->findData(static_cast<int>(MaterialEdits::kind_of(target)))));
+  fill_names(selection_.patch());
+  name_->setCurrentIndex(name_->findData(QString::fromStdString(target)));
 }
 
 void MaterialPanel::show_state() {
   const QString reason = relighting_.reason_unavailable();
-  sliders_->setEnabled(reason.isEmpty() && material() >= 0);
+  sliders_->setEnabled(reason.isEmpty() && !target().empty());
   obstacle_->setText(reason);
   obstacle_->setHidden(reason.isEmpty());
   account_->setText(relighting_.method_note());
@@ -140,23 +207,32 @@ void MaterialPanel::show_state() {
 }
 
 bool MaterialPanel::exposure_hides_change() const {
-  const MaterialEdits& edits = relighting_.edits();
-  const bool changed =
-      !std::equal(edits.materials().begin(), edits.materials().end(), edits.originals().begin(),
-                  [](const Material& a, const Material& b) { return a.exitance == b.exitance; });
-  return changed && colors_.exposure_is_automatic() &&
+  return relighting_.edits().changes_exitance() && colors_.exposure_is_automatic() &&
          colors_.scale().mode == ColorMode::true_color;
 }
 
-void MaterialPanel::show_material() {
+void MaterialPanel::show_values() {
   const MaterialEdits& edits = relighting_.edits();
   restore_->setEnabled(edits.any());
-  if (material() >= 0 && material() < std::ssize(edits.materials())) {
-    const Material& shown = at(edits.materials(), material());
+  if (scene_ && edits.materials()) {
+    const Material shown = edits.values_of(target());
     reflectance_->show_value(shown.reflectance, largest_reflectance);
-    exitance_->show_value(shown.exitance, slider_exitance(edits.originals()));
+    exitance_->show_value(shown.exitance, slider_exitance(scene_->materials()));
+    extent_->setText(extent_text());
   }
   show_state();
+}
+
+QString MaterialPanel::extent_text() const {
+  if (target().empty()) {
+    return kind() == TargetKind::face ? tr("Click a face in the scene to choose it.")
+                                      : tr("The selected face is in no group.");
+  }
+  const MaterialEdits::Extent extent = relighting_.edits().extent_of(target());
+  const QString patches =
+      extent.patches == 1 ? tr("1 patch") : tr("%1 patches").arg(extent.patches);
+  return extent.uniform ? patches
+                        : tr("%1, which differ: a slider sets all to the same value").arg(patches);
 }
 
 }  // namespace transillum::viewer

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <string>
 
 #include "colors/color_choice.h"
 #include "model/relighting.h"
@@ -17,7 +18,8 @@ namespace transillum::viewer {
 
 class ChannelSliders;
 
-/// Sliders for E and rho of a material; B is recomputed without a new pass.
+/// Sliders for E and rho of a material, a group of faces or a face; B is recomputed without a new
+/// pass.
 class MaterialPanel : public QWidget {
   Q_OBJECT
 
@@ -26,6 +28,8 @@ class MaterialPanel : public QWidget {
                 QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
+  /// Shows the sliders of a target of MaterialEdits.
+  void show_target(const std::string& target);
   /// To be called when form factors may have become available.
   void show_state();
 
@@ -33,16 +37,23 @@ class MaterialPanel : public QWidget {
   QLayout* make_choice();
   QWidget* make_sliders();
   void connect_edits();
-  void show_material();
+  void fill_kinds();
+  /// Lists the names of the chosen kind; `patch`, if any, selects one.
+  void fill_names(PatchId patch);
+  void show_values();
+  QString extent_text() const;
   /// Whether automatic exposure compensates a change of E, so that the picture stays the same.
   bool exposure_hides_change() const;
-  int material() const;
+  TargetKind kind() const;
+  /// Empty if nothing is chosen.
+  std::string target() const;
 
   Relighting& relighting_;
   const Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const Scene> scene_;
-  QComboBox* material_;
+  QComboBox *kind_, *name_;
+  QLabel* extent_;    ///< how many patches the target has, and whether they differ
   QLabel* obstacle_;  ///< why materials cannot be changed now
   QLabel* account_;   ///< what B is computed from
   QLabel* exposure_;  ///< shown while exposure_hides_change()

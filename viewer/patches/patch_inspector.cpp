@@ -21,6 +21,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   id_->setObjectName("patch_id");
   face_ = values_->add_row(tr("Face"), {});
   material_ = values_->add_row(tr("Material"), {});
+  group_ = values_->add_row(tr("Group"), {});
   area_ = values_->add_row(tr("Area"), tr("m²"));
   center_ = values_->add_row(tr("Center"), tr("m"));
   normal_ = values_->add_row(tr("Normal"), {});
@@ -68,6 +69,8 @@ void PatchInspector::show_patch() {
   id_->setText(QString::number(patch));
   face_->setText(QString::number(p.face));
   material_->setText(QString::fromStdString(scene.material(patch).name));
+  group_->setText(p.group == no_group ? QStringLiteral("–")
+                                      : QString::fromStdString(at(scene.groups(), p.group)));
   area_->setText(number_text(p.area));
   center_->setText(vector_text(p.center));
   normal_->setText(vector_text(p.normal));

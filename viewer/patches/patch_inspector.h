@@ -31,7 +31,7 @@ class PatchInspector : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
   ValueGrid* values_;
-  QLabel *id_, *face_, *material_, *area_, *center_, *normal_, *exitance_, *reflectance_,
+  QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
       *radiosity_, *form_factor_sum_, *swatch_;
 };
 

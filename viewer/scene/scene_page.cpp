@@ -21,6 +21,10 @@ namespace transillum::viewer {
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
   banner_ = new Banner;
+  light_bar_ = new Banner;
+  light_bar_->setObjectName("light_bar");
+  orientation_bar_ = new Banner;
+  orientation_bar_->setObjectName("orientation_bar");
   color_controls_ = new ColorControls(colors);
   scene_view_ = new SceneView(focus, selection, colors);
   scene_view_->setObjectName("scene_view");
@@ -65,6 +69,8 @@ QWidget* ScenePage::make_scene(ColorChoice& colors) {
   auto* scene_layout = new QVBoxLayout(scene);
   scene_layout->setContentsMargins(0, 0, 0, 0);
   scene_layout->setSpacing(0);
+  scene_layout->addWidget(light_bar_);
+  scene_layout->addWidget(orientation_bar_);
   scene_layout->addWidget(color_controls_);
   scene_layout->addWidget(note);
   scene_layout->addLayout(view_and_bar, 1);

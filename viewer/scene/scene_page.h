@@ -27,6 +27,9 @@ class ScenePage : public QWidget {
             QWidget* parent = nullptr);
 
   Banner* banner() const { return banner_; }
+  /// Below banner(): what the window offers for the open scene.
+  Banner* light_bar() const { return light_bar_; }
+  Banner* orientation_bar() const { return orientation_bar_; }
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
   QMenu* camera_menu() const { return camera_->menu(); }
@@ -48,7 +51,7 @@ class ScenePage : public QWidget {
 
   CameraBookmarks bookmarks_;
   CameraMenu* camera_;
-  Banner* banner_;
+  Banner *banner_, *light_bar_, *orientation_bar_;
   QStackedWidget* pages_;
   WelcomePage* welcome_;
   QAction* scenes_;

@@ -84,6 +84,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   outline_ = line_actor(*renderer_, theme::selection);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::move_outline_toward_camera);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
+  turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
   // Drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
@@ -128,6 +129,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   show_surface();
   surface_->VisibilityOn();
   glyph_->hide();
+  turn_preview_->hide();
   show_selection();
   reset_view();
   overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
@@ -197,6 +199,18 @@ void SceneView::set_antialiased(bool antialiased) {
     return;
   }
   antialiased_ = antialiased;
+  render();
+}
+
+void SceneView::preview_turn(const OrientationPlan& plan) {
+  if (loaded_) {
+    turn_preview_->show(*loaded_->scene, plan);
+    render();
+  }
+}
+
+void SceneView::hide_turn() {
+  turn_preview_->hide();
   render();
 }
 

@@ -23,6 +23,7 @@
 #include "scene/scene_overlays.h"
 #include "scene/smooth_mesh.h"
 #include "scene/step_glyph.h"
+#include "scene/turn_preview.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
 #include "state/initial_view.h"
@@ -57,6 +58,10 @@ class SceneView : public QWidget {
   /// Goes back to the scene's initial view.
   void reset_view();
   /// Keeps the viewing direction and fits the whole scene.
+  /// Draws the faces that `plan` would change over the scene, until hide_turn() or another scene.
+  void preview_turn(const OrientationPlan& plan);
+  void hide_turn();
+  bool previews_turn() const { return turn_preview_->shown(); }
   void fit_all();
   void fit_selected();
   void view_from_side(Side side);
@@ -113,6 +118,7 @@ class SceneView : public QWidget {
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;
   std::unique_ptr<SceneOverlays> overlays_;
+  std::unique_ptr<TurnPreview> turn_preview_;
 };
 
 }  // namespace transillum::viewer

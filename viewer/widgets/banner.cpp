@@ -3,11 +3,26 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QToolButton>
 
+#include "transillum/at.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
+
+namespace {
+
+struct Style {
+  const char *background, *border;
+  theme::Icon icon;
+};
+// By Banner::Kind.
+constexpr Style styles[] = {{"#fdecec", "#e3b4b4", theme::Icon::error},
+                            {"#fff6e0", "#e5cf97", theme::Icon::warning},
+                            {"#e4effb", "#a9c4e2", theme::Icon::info}};
+
+}  // namespace
 
 Banner::Banner(QWidget* parent) : QFrame(parent) {
   setObjectName("banner");
@@ -20,28 +35,39 @@ Banner::Banner(QWidget* parent) : QFrame(parent) {
   close->setIcon(theme::icon(theme::Icon::close));
   close->setAutoRaise(true);
   close->setToolTip(tr("Close this message"));
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(12, 7, 8, 7);
-  layout->setSpacing(10);
-  layout->addWidget(icon_, 0, Qt::AlignTop);
-  layout->addWidget(text_, 1);
-  layout->addWidget(close, 0, Qt::AlignTop);
-  connect(close, &QToolButton::clicked, this, &Banner::dismiss);
+  layout_ = new QHBoxLayout(this);
+  layout_->setContentsMargins(12, 7, 8, 7);
+  layout_->setSpacing(10);
+  layout_->addWidget(icon_, 0, Qt::AlignVCenter);
+  layout_->addWidget(text_, 1);
+  layout_->addWidget(close, 0, Qt::AlignVCenter);
+  connect(close, &QToolButton::clicked, this, [this] {
+    dismiss();
+    emit closed();
+  });
   hide();
 }
 
+QPushButton* Banner::add_button(const char* name, const QString& text) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QString::fromLatin1(name));
+  layout_->insertWidget(layout_->count() - 1, button, 0, Qt::AlignVCenter);
+  return button;
+}
+
 void Banner::show_message(Kind kind, const QString& text, const QString& details) {
-  const bool error = kind == Kind::error;
-  icon_->setPixmap(
-      theme::icon(error ? theme::Icon::error : theme::Icon::warning).pixmap(QSize(20, 20)));
+  const Style& style = at(styles, kind);
+  icon_->setPixmap(theme::icon(style.icon).pixmap(QSize(20, 20)));
   text_->setText(text);
   setToolTip(details);
-  setStyleSheet(error ? QStringLiteral("#banner, #banner QLabel { color: #1b212a; } "
-                                       "#banner { background: #fdecec; border: none; "
-                                       "border-bottom: 1px solid #e3b4b4; }")
-                      : QStringLiteral("#banner, #banner QLabel { color: #1b212a; } "
-                                       "#banner { background: #fff6e0; border: none; "
-                                       "border-bottom: 1px solid #e5cf97; }"));
+  setStyleSheet(QStringLiteral("%3, %3 QLabel, %3 QPushButton { color: #1b212a; } "
+                               "%3 { background: %1; border: none; border-bottom: 1px solid %2; } "
+                               "%3 QPushButton { background: #ffffff; border: 1px solid %2; "
+                               "border-radius: 4px; padding: 4px 12px; } "
+                               "%3 QPushButton:hover { border-color: #5d84b0; } "
+                               "%3 QPushButton:disabled { color: #8b929b; }")
+                    .arg(QLatin1String(style.background), QLatin1String(style.border),
+                         QLatin1String("transillum--viewer--Banner")));
   show();
 }
 

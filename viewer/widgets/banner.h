@@ -3,26 +3,36 @@
 
 #include <QFrame>
 
+class QHBoxLayout;
 class QLabel;
+class QPushButton;
 
 namespace transillum::viewer {
 
-/// Non-modal message bar above the scene: an error, or warnings about the scene.
+/// Non-modal message bar above the scene: an error, warnings about the scene, or something that the
+/// window offers to do, with buttons.
 class Banner : public QFrame {
   Q_OBJECT
 
  public:
-  enum class Kind { error, warning };
+  enum class Kind { error, warning, offer };
 
   explicit Banner(QWidget* parent = nullptr);
 
+  /// Adds a button before the close button. The caller shows and hides it.
+  QPushButton* add_button(const char* name, const QString& text);
   /// Replaces the shown message. `details` is the tool tip.
   void show_message(Kind kind, const QString& text, const QString& details = {});
   void dismiss();
   /// Empty while hidden.
   QString text() const;
 
+ signals:
+  /// The user has closed it.
+  void closed();
+
  private:
+  QHBoxLayout* layout_;
   QLabel* icon_;
   QLabel* text_;
 };

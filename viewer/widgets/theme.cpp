@@ -68,18 +68,30 @@ std::atomic<double> line_scale = 1;
 QColor disabled_ink;
 
 // The files of icons/, in the order of enum Icon.
-constexpr const char* icon_files[] = {"open",           "run",
-                                      "pause",          "one_direction",
-                                      "one_iteration",  "stop",
-                                      "frame",          "warning",
-                                      "error",          "close",
-                                      "scene",          "step_on",
-                                      "step_back",      "phase_on",
-                                      "next_event",     "previous_event",
-                                      "next_exchange",  "previous_exchange",
-                                      "next_direction", "previous_direction",
-                                      "newest",         "study"};
-static_assert(std::size(icon_files) == static_cast<std::size_t>(Icon::study) + 1);
+constexpr const char* icon_files[] = {"open",
+                                      "run",
+                                      "pause",
+                                      "one_direction",
+                                      "one_iteration",
+                                      "stop",
+                                      "frame",
+                                      "warning",
+                                      "error",
+                                      "close",
+                                      "scene",
+                                      "step_on",
+                                      "step_back",
+                                      "phase_on",
+                                      "next_event",
+                                      "previous_event",
+                                      "next_exchange",
+                                      "previous_exchange",
+                                      "next_direction",
+                                      "previous_direction",
+                                      "newest",
+                                      "study",
+                                      "info"};
+static_assert(std::size(icon_files) == static_cast<std::size_t>(Icon::info) + 1);
 
 // The SVG text of an icon, in which "currentColor" stands for its color.
 QByteArray icon_source(Icon which) {
@@ -101,6 +113,8 @@ QColor color_of(Icon which) {
       return current.dark ? QColor(0xe0, 0x5a, 0x5a) : QColor(0xb9, 0x2d, 0x2d);
     case Icon::warning:
       return {0xb3, 0x6b, 0x00};
+    case Icon::info:
+      return {0x2f, 0x6f, 0xb5};
     default:
       return ink;
   }

@@ -63,7 +63,8 @@ enum class Icon {
   next_direction,
   previous_direction,
   newest,
-  study
+  study,
+  info
 };
 /// Follows the appearance and the screen's resolution, also after it was created.
 QIcon icon(Icon which);

@@ -8,6 +8,7 @@
 
 #include "model/run_options.h"
 #include "transillum/errors.h"
+#include "transillum/material_changes.h"
 
 namespace transillum::viewer {
 
@@ -22,13 +23,16 @@ struct Names {
   bool one_way = false, two_way = false;
 };
 
-// The choices of a setting, and its description.
-std::string described(const char* setting, const std::vector<std::string>& choices) {
+// The choices of an option, and what it is.
+std::string with_choices(const std::vector<std::string>& choices, const std::string& meaning) {
   std::string text;
   for (const std::string& name : choices) {
     text += (text.empty() ? "" : " | ") + name;
   }
-  return text + ": " + description_of(setting);
+  return text + ": " + meaning;
+}
+std::string described(const char* setting, const std::vector<std::string>& choices) {
+  return with_choices(choices, description_of(setting));
 }
 
 void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
@@ -62,14 +66,62 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("--tolerance", solve.tolerance, description_of("tolerance"))
       ->capture_default_str()
       ->excludes(iterations);
-  app.add_flag("--two-sided", line.scene_options.two_sided, description_of("two-sided"));
-  app.add_option("--max-patch-area", line.scene_options.max_patch_area,
-                 description_of("max-patch-area"))
-      ->check(CLI::PositiveNumber);
   app.add_option("--memory", solve.memory, description_of("memory"))
       ->transform(CLI::AsSizeValue(false));
   app.add_option("--threads", solve.threads, description_of("threads"))
       ->check(CLI::NonNegativeNumber);
+}
+
+/// An option NAME=V or NAME=V,V,V that may be given several times; changes apply in the order of
+/// the command line.
+void add_change_option(CLI::App& app, const std::string& name, const std::string& form,
+                       const std::string& help, std::vector<MaterialChange>& changes,
+                       MaterialChange (*parse)(const std::string&)) {
+  app.add_option_function<std::vector<std::string>>(
+         name,
+         [&changes, parse](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             changes.push_back(parse(text));
+           }
+         },
+         help)
+      ->type_name(form)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_scene_options(CLI::App& app, CommandLine& line) {
+  ReadOptions& read = line.input.read;
+  app.add_option("--default-reflectance", read.default_reflectance,
+                 "reflectance where a file defines none")
+      ->capture_default_str();
+  app.add_option("--max-reflectance", read.max_reflectance,
+                 "lower larger reflectances of a file to this (default: only those of 1 and more)");
+  auto* scale = app.add_option("--scale", read.scale, "meters per unit of the scene's coordinates")
+                    ->capture_default_str();
+  app.add_option_function<std::string>(
+         "--units", [&read](const std::string& name) { read.scale = length_unit_from_name(name); },
+         with_choices(length_unit_names(), "unit of the scene's coordinates (default: m)"))
+      ->excludes(scale);
+  app.add_option_function<std::string>(
+         "--orient", [&line](const std::string& choice) { line.input.orient = choice == "auto"; },
+         "keep | auto: turn faces so that what is seen is the lit side (default: keep)")
+      ->check(CLI::IsMember({"keep", "auto"}));
+  add_change_option(
+      app, "--emission", "NAME=E[,E,E]",
+      "exitance of a material, a group or face:N, in W/m²; may be given several times",
+      line.input.changes, exitance_change);
+  add_change_option(app, "--reflectance", "NAME=R[,R,R]",
+                    "reflectance of a material, a group or face:N; may be given several times",
+                    line.input.changes, reflectance_change);
+  app.add_flag("--two-sided", line.scene_options.two_sided, description_of("two-sided"));
+  auto* area = app.add_option("--max-patch-area", line.scene_options.max_patch_area,
+                              description_of("max-patch-area"))
+                   ->check(CLI::PositiveNumber);
+  app.add_option("--patches", line.input.patches,
+                 "divide faces into about this number of patches, by a limit of their area")
+      ->check(CLI::PositiveNumber)
+      ->excludes(area);
 }
 
 void finish(CommandLine& line, const Names& names, const CLI::App& app) {
@@ -87,6 +139,7 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
     solve.directions = screenshot_directions;
   }
   solve.validate();
+  line.input.read.validate();
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty() && line.lesson.empty()) {
       throw InputError("--screenshot needs a SCENE or a --lesson");
@@ -121,6 +174,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
                  "an .obj file or a built-in scene, solved at once (default: sphere-flake); or a "
                  "result (.vtp), a session or a lesson (.json)");
   add_solve_options(app, line, names);
+  add_scene_options(app, line);
   auto* lesson =
       app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson");
   app.add_option("--page", line.page, "page of the lesson to start at")

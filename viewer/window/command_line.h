@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "model/run_options.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -13,6 +14,7 @@ namespace transillum::viewer {
 struct CommandLine {
   std::string scene;  ///< file or built-in; empty: none given
   SceneOptions scene_options;
+  SceneInput input;  ///< how the scene is read
   SolveOptions solve_options;
   std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
   int page = 1;            ///< of the lesson, from 1

@@ -20,6 +20,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
+#include "transillum/material_changes.h"
 #include "widgets/save_dialog.h"
 #include "window/notifier.h"
 
@@ -61,6 +62,18 @@ VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
   return result;
 }
 
+/// The patches of a result's scene as faces. A face with both sides is written as two.
+SceneDescription description_of(const Scene& scene, const PatchMaterials& materials) {
+  SceneDescription description;
+  description.name = scene.name();
+  description.points = scene.points();
+  description.materials = materials.materials;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    description.add_face(scene.outline(i), at(materials.of_patch, i));
+  }
+  return description;
+}
+
 /// Number of the last frame of an earlier recording, which is continued; 0 where there is none.
 int last_frame_in(const QString& folder) {
   int last = 0;
@@ -75,10 +88,14 @@ int last_frame_in(const QString& folder) {
 ExportActions::ExportActions(const WindowParts& parts)
     : QObject(&parts.window),
       parts_(parts),
-      writer_([this](const ResultToWrite& result, const Cancellation&) { write(result); },
-              [this](const ResultToWrite& result, const QString& message) {
-                report_written(result, message);
-              }) {
+      writer_(
+          [this](const FileToWrite& file, const Cancellation&) {
+            file.write();
+            report_written(file.path, {});
+          },
+          [this](const FileToWrite& file, const QString& message) {
+            report_written(file.path, message);
+          }) {
   using E = ExportActions;
   add("export_scene", tr("Picture of the scene…"), tr("As PNG, at any scale"), &E::choose_scene);
   add("export_result", tr("Result…"),
@@ -102,7 +119,13 @@ ExportActions::ExportActions(const WindowParts& parts)
       write_frame();
     }
   });
+  save_scene_ = new QAction(tr("Save scene…"), this);
+  save_scene_->setObjectName("save_scene");
+  save_scene_->setToolTip(
+      tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
+  connect(save_scene_, &QAction::triggered, this, &ExportActions::choose_scene_file);
   const auto enable = [this] {
+    save_scene_->setEnabled(parts_.scene.snapshot() != nullptr);
     for (QAction* action : actions_) {
       action->setEnabled(parts_.scene.snapshot() != nullptr);
     }
@@ -137,29 +160,51 @@ void ExportActions::write_result(const QString& path) {
   }
   if (snapshot->materials) {
     throw InputError(
-        "results are written with the scene's own materials: undo their changes first");
+        "results are written with the scene's own materials: undo their changes first, or save the "
+        "scene "
+        "with them and solve that");
   }
   check_result_path(path.toStdString());
-  writing_ = true;
   const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
                                           : parts_.runner.state() == RunState::finished;
-  writer_.request({path, snapshot, complete}, CurrentJob::finish);
+  write({path, [path, snapshot, complete] {
+           transillum::write_result(
+               path.toStdString(),
+               {snapshot->loaded->scene, snapshot->radiosity, snapshot->irradiance, snapshot->error,
+                snapshot->statistics, complete});
+         }});
+}
+
+void ExportActions::write_scene_file(const QString& path) {
+  const auto loaded = parts_.scene.loaded();
+  if (!loaded) {
+    throw InputError("there is no scene yet");
+  }
+  const std::string file = path.toStdString();
+  check_writable(file);
+  check_distinct({file, materials_file_of(file).string()}, loaded->scene->files());
+  const MaterialEdits& edits = parts_.relighting.edits();
+  write({path, [file, loaded, changes = edits.changes(), materials = edits.materials()] {
+           if (!loaded->description) {
+             write_obj(file, description_of(*loaded->scene, *materials));
+             return;
+           }
+           SceneDescription description = *loaded->description;
+           change_materials(description, changes);
+           write_obj(file, description);
+         }});
+}
+
+void ExportActions::write(FileToWrite file) {
+  writing_ = true;
+  writer_.request(std::move(file), CurrentJob::finish);
 }
 
 // On the writer's thread.
-void ExportActions::write(const ResultToWrite& result) {
-  const SolverSnapshot& snapshot = *result.snapshot;
-  transillum::write_result(result.path.toStdString(),
-                           {snapshot.loaded->scene, snapshot.radiosity, snapshot.irradiance,
-                            snapshot.error, snapshot.statistics, result.complete});
-  report_written(result, {});
-}
-
-// On the writer's thread.
-void ExportActions::report_written(const ResultToWrite& result, const QString& failure) {
+void ExportActions::report_written(const QString& path, const QString& failure) {
   QMetaObject::invokeMethod(
       this,
-      [this, failure, path = result.path] {
+      [this, failure, path] {
         writing_ = false;
         if (failure.isEmpty()) {
           parts_.notifier.show_written(path);
@@ -273,6 +318,11 @@ void ExportActions::choose_scene() {
 void ExportActions::choose_result() {
   write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), name_with(".vtp"),
                [this](const QString& path) { write_result(path); });
+}
+
+void ExportActions::choose_scene_file() {
+  write_chosen(tr("Save scene"), tr("Wavefront OBJ (*.obj)"), name_with("-changed.obj"),
+               [this](const QString& path) { write_scene_file(path); });
 }
 
 void ExportActions::choose_map() {

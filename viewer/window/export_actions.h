@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <functional>
 #include <memory>
 
 #include "support/request_worker.h"
@@ -30,7 +31,13 @@ class ExportActions : public QObject {
   /// worker thread; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written
   void write_result(const QString& path);
-  /// Whether a result is still being written.
+  /// The open scene with the changes of materials and the faces turned, as OBJ with MTL, in meters.
+  /// Written as results are.
+  /// @throws InputError where it is clear at once that it cannot be written
+  void write_scene_file(const QString& path);
+  /// For the menu File.
+  QAction* save_scene_action() const { return save_scene_; }
+  /// Whether a result or a scene is still being written.
   bool writing() const { return writing_; }
   /// The map of the step in focus, as vectors (.svg) or by the other endings of write_map().
   void write_map_picture(const QString& path) const;
@@ -48,6 +55,7 @@ class ExportActions : public QObject {
            void (ExportActions::*what)());
   void choose_scene();
   void choose_result();
+  void choose_scene_file();
   void choose_map();
   void choose_charts();
   void choose_figures();
@@ -61,20 +69,19 @@ class ExportActions : public QObject {
 
   WindowParts parts_;
   QList<QAction*> actions_;
-  QAction* record_;
+  QAction *record_, *save_scene_;
   QString folder_;
   int frames_ = 0;
   bool writing_ = false;
 
-  struct ResultToWrite {
+  struct FileToWrite {
     QString path;
-    std::shared_ptr<const SolverSnapshot> snapshot;
-    bool complete;
+    std::function<void()> write;
   };
-  void write(const ResultToWrite& result);
+  void write(FileToWrite file);
   /// `failure` empty: written.
-  void report_written(const ResultToWrite& result, const QString& failure);
-  RequestWorker<ResultToWrite> writer_;
+  void report_written(const QString& path, const QString& failure);
+  RequestWorker<FileToWrite> writer_;
 };
 
 }  // namespace transillum::viewer

@@ -121,10 +121,10 @@ void FileActions::try_open(const QString& path) {
   }
 }
 
-void FileActions::open(const QString& path, std::optional<Goal> goal) {
+void FileActions::open(const QString& path, std::optional<Goal> goal, const SceneInput& input) {
   if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
     const bool result = is_result_file(path.toStdString());
-    open_scene(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}));
+    open_scene(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}), input);
     return;
   }
   const std::string name = path.toStdString();
@@ -136,9 +136,11 @@ void FileActions::open(const QString& path, std::optional<Goal> goal) {
   remember(path);
 }
 
-void FileActions::open_scene(const QString& spec, Goal goal) {
+void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input) {
   applier_.leave_lesson();
-  parts_.scene.open(spec.toStdString(), parts_.settings.options(), goal);
+  RunOptions options = parts_.settings.options();
+  options.input = input;
+  parts_.scene.open(spec.toStdString(), options, goal);
 }
 
 QString FileActions::save_unasked() {

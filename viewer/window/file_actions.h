@@ -6,6 +6,7 @@
 #include <QString>
 #include <QStringList>
 #include <QTimer>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -34,14 +35,16 @@ class FileActions : public QObject {
 
   /// Opens a scene, a result, a session or a lesson, by its name and content.
   /// @param goal none: a scene is solved, a result only shown
+  /// @param input how a scene is read; ignored for results, sessions and lessons
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
   /// reported later by SolveRunner::failed
-  void open(const QString& path, std::optional<Goal> goal = {});
+  void open(const QString& path, std::optional<Goal> goal = {}, const SceneInput& input = {});
   /// open() for files that the user has chosen or dropped: errors go to the banner.
   void try_open(const QString& path);
   /// Opens a file or a built-in scene with the default camera and exposure and without anything
   /// that a lesson has set, and follows the newest direction.
-  void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished});
+  void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
+                  const SceneInput& input = {});
   /// Shows a page of a lesson.
   /// @param which a file, or the number of a built-in lesson, from 1
   /// @param page from 1

@@ -34,6 +34,8 @@ class InspectionPanels : public QObject {
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 
+  MaterialPanel& materials() const { return *materials_; }
+
   void show_scene(const LoadedScene& loaded);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 

@@ -50,7 +50,9 @@
 #include "window/help_dialogs.h"
 #include "window/inspection_panels.h"
 #include "window/key_list.h"
+#include "window/light_offer.h"
 #include "window/notifier.h"
+#include "window/orientation_offer.h"
 #include "window/setting_list.h"
 #include "window/solve_control.h"
 #include "window/view_state_applier.h"
@@ -140,11 +142,13 @@ void MainWindow::make_views() {
 void MainWindow::make_whole_window_actions() {
   const WindowParts parts = this->parts();
   solve_actions_ = new SolveActions(this);
-  new SolveControl(parts, *solve_actions_);
   applier_ = new ViewStateApplier(parts);
+  new SolveControl(parts, *solve_actions_, *applier_);
   session_ = new WindowSession(parts, *applier_);
   files_ = new FileActions(parts, *applier_, *session_);
   exports_ = new ExportActions(parts);
+  new LightOffer(parts, inspection_->materials(), *applier_);
+  new OrientationOffer(parts, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
@@ -216,7 +220,7 @@ void MainWindow::connect_scene() {
   connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
   connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
     settings_->set_scene_fixed(loaded->stored != nullptr);
-    if (loaded->stored) {
+    if (state_.scene.has_own_patches()) {
       settings_->set_options(settings_->solve_options(), state_.scene.options());
     }
     state_.selection.select(no_patch);
@@ -313,6 +317,7 @@ void MainWindow::make_file_menu() {
   fill_built_in_menu(*file->addMenu(theme::icon(theme::Icon::scene), tr("Built-in scene")));
   file->addAction(page_->scenes_action());
   files_->add_to(*file);
+  file->addAction(exports_->save_scene_action());
   exports_->add_to(*file->addMenu(tr("Export")));
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));

@@ -19,13 +19,14 @@ void OpenScene::open(const std::string& spec, const RunOptions& options, Goal go
   opening_ = true;
   emit opening();
   requested_spec_ = spec;
-  requested_options_ = options.scene;
-  runner_.open({requested_spec_, requested_options_, options.solve, goal});
+  requested_input_ = options.input;
+  runner_.open({requested_spec_, options, goal});
 }
 
-bool OpenScene::is_open(const std::string& spec, const SceneOptions& options) const {
+bool OpenScene::is_open(const std::string& spec, const RunOptions& options) const {
   return loaded_ && spec == spec_ &&
-         (loaded_->stored || RunOptions{{}, options} == RunOptions{{}, options_});
+         (loaded_->stored ||
+          RunOptions{{}, options.scene, options.input} == RunOptions{{}, options_, input_});
 }
 
 bool OpenScene::at_start() const {
@@ -49,8 +50,11 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   newest_ = shown_ = nullptr;
   spec_ = requested_spec_;
-  options_ = loaded_->stored ? loaded_->scene->options() : requested_options_;
-  relighting_.show_scene(*loaded_->scene);
+  options_ = loaded_->scene->options();
+  input_ = requested_input_;
+  own_patches_ = loaded_->stored || input_.patches > 0;
+  input_.patches = 0;
+  relighting_.show_scene(loaded_->scene);
   emit scene_loaded(loaded_);
   emit scene_shown();
 }

@@ -29,16 +29,21 @@ class OpenScene : public QObject {
 
   /// Empty before the first scene is loaded.
   const std::string& spec() const { return spec_; }
-  /// How the scene was read; a result file has options of its own.
+  /// How the faces became patches; a result file has options of its own.
   const SceneOptions& options() const { return options_; }
+  /// How the file was read.
+  const SceneInput& input() const { return input_; }
+  /// Whether options().max_patch_area is not what open() was called with: it belongs to a result
+  /// file, or was chosen for a number of patches.
+  bool has_own_patches() const { return own_patches_; }
   std::shared_ptr<const LoadedScene> loaded() const { return loaded_; }
   /// The snapshot shown; null until the first one of a scene arrives.
   std::shared_ptr<const SolverSnapshot> snapshot() const { return shown_; }
 
   /// Whether a scene has been requested and has neither been loaded nor failed to load.
   bool is_opening() const { return opening_; }
-  /// Whether `spec` is open, read with `options`.
-  bool is_open(const std::string& spec, const SceneOptions& options) const;
+  /// Whether `spec` is open, read with the same options, except those of the solve.
+  bool is_open(const std::string& spec, const RunOptions& options) const;
   /// Whether the solve has processed no direction yet.
   bool at_start() const;
   /// Whether the scene has so few patches that their outlines are shown by default.
@@ -65,7 +70,9 @@ class OpenScene : public QObject {
   SolveRunner& runner_;
   Relighting& relighting_;
   std::string requested_spec_, spec_;
-  SceneOptions requested_options_, options_;
+  SceneInput requested_input_, input_;
+  SceneOptions options_;
+  bool own_patches_ = false;
   bool opening_ = false;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> newest_;  ///< as the solver posted it

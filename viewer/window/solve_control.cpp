@@ -9,11 +9,13 @@
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
 #include "window/notifier.h"
+#include "window/view_state_applier.h"
 
 namespace transillum::viewer {
 
-SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions)
-    : QObject(&parts.window), parts_(parts), actions_(actions) {
+SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
+                           ViewStateApplier& applier)
+    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier) {
   SolveRunner& runner = parts_.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
@@ -41,11 +43,12 @@ void SolveControl::solve_again() {
     return;
   }
   parts_.notifier.dismiss();
-  const RunOptions options = parts_.settings.options();
-  if (parts_.scene.is_open(parts_.scene.spec(), options.scene)) {
+  RunOptions options = parts_.settings.options();
+  options.input = parts_.scene.input();
+  if (parts_.scene.is_open(parts_.scene.spec(), options)) {
     parts_.runner.restart(options.solve, {Goal::Kind::finished});
   } else {
-    parts_.scene.open(parts_.scene.spec(), options);
+    applier_.open_again(options);
   }
 }
 

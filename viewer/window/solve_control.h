@@ -9,6 +9,7 @@
 namespace transillum::viewer {
 
 class SolveActions;
+class ViewStateApplier;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
 /// solving again with changed settings.
@@ -16,7 +17,7 @@ class SolveControl : public QObject {
   Q_OBJECT
 
  public:
-  SolveControl(const WindowParts& parts, SolveActions& actions);
+  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier);
 
  private:
   void run();
@@ -27,6 +28,7 @@ class SolveControl : public QObject {
 
   WindowParts parts_;
   SolveActions& actions_;
+  ViewStateApplier& applier_;
 };
 
 }  // namespace transillum::viewer

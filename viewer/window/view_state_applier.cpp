@@ -121,10 +121,23 @@ void ViewStateApplier::reload() {
   if (!pending || requested_.scene.empty()) {
     requested_ = state();
   }
+  open_requested();
+}
+
+void ViewStateApplier::open_again(const RunOptions& options) {
+  requested_ = state();
+  requested_.options = options;
+  requested_.solve = {Goal::Kind::finished};
+  requested_.selection = no_patch;
+  requested_.focus.reset();
+  open_requested();
+}
+
+void ViewStateApplier::open_requested() {
   awaits_ = Awaits::scene;
   opened_here_ = true;
   parts_.settings.set_options(requested_.options.solve, requested_.options.scene);
-  parts_.scene.open(requested_.scene, parts_.settings.options(), requested_.solve);
+  parts_.scene.open(requested_.scene, requested_.options, requested_.solve);
 }
 
 void ViewStateApplier::start_run() {
@@ -145,12 +158,13 @@ void ViewStateApplier::start_run() {
   solve.memory = now.solve.memory;
   parts_.settings.set_options(solve, requested_.options.scene);
   applied_options_ = parts_.settings.options();
-
+  RunOptions options = applied_options_;
+  options.input = requested_.options.input;
   const auto snapshot = parts_.scene.snapshot();
-  if (!snapshot || !parts_.scene.is_open(requested_.scene, requested_.options.scene)) {
+  if (!snapshot || !parts_.scene.is_open(requested_.scene, options)) {
     awaits_ = Awaits::scene;
     opened_here_ = true;
-    parts_.scene.open(requested_.scene, applied_options_, requested_.solve);
+    parts_.scene.open(requested_.scene, options, requested_.solve);
     return;
   }
   awaits_ = Awaits::run;
@@ -172,7 +186,7 @@ void ViewStateApplier::on_scene() {
   if (leaving_) {
     restore_appearance();
   }
-  opened_here_ = opened_here_ && parts_.scene.is_open(requested_.scene, requested_.options.scene);
+  opened_here_ = opened_here_ && parts_.scene.is_open(requested_.scene, requested_.options);
   // Otherwise the user has opened another scene meanwhile.
   awaits_ = opened_here_ ? Awaits::run : Awaits::nothing;
 }
@@ -253,9 +267,8 @@ void ViewStateApplier::apply_view() {
   parts_.page.color_controls()->set_direction(requested_.direction_shown);
   parts_.page.color_controls()->set_outlines(
       requested_.outlines.value_or(parts_.scene.outlined_by_default()));
-  for (const std::string& name : parts_.relighting.edits().start_over(requested_.materials)) {
-    parts_.notifier.show_failure(
-        tr("materials: the scene has no material %1").arg(QString::fromStdString(name)));
+  for (const std::string& misfit : parts_.relighting.edits().start_over(requested_.materials)) {
+    parts_.notifier.show_failure(tr("materials: %1").arg(QString::fromStdString(misfit)));
   }
   // Set only now: the previous scene would have widened the range.
   if (requested_.range_rule != RangeRule::widening) {
@@ -321,7 +334,7 @@ ViewState ViewStateApplier::state() const {
   // A scene that has just been loaded has no snapshot yet.
   const auto snapshot = parts_.scene.snapshot();
   state.options = {snapshot ? snapshot->options : parts_.settings.solve_options(),
-                   parts_.scene.options()};
+                   parts_.scene.options(), parts_.scene.input()};
   const RunState run = parts_.runner.state();
   if (parts_.scene.loaded()->stored && !snapshot) {
     state.solve = {};

@@ -29,6 +29,9 @@ class ViewStateApplier : public QObject {
   void leave_lesson();
   /// Reads the file of the open scene again, and shows the same state of it.
   void reload();
+  /// Reads the open scene again with other options and solves it. Camera, colors and changed
+  /// materials stay; the selection does not, since patches may be others.
+  void open_again(const RunOptions& options);
   /// Whether the newest request has been carried out.
   bool arrived() const;
   /// What the window shows now.
@@ -48,6 +51,7 @@ class ViewStateApplier : public QObject {
   ViewState appearance() const;
   void restore_appearance();
   void start_run();
+  void open_requested();
   void on_scene();
   void on_snapshot();
   void on_direction();

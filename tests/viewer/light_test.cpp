@@ -1,0 +1,301 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Scenes as they come: nothing emits, or faces are turned the wrong way. What the window offers for
+// them, changes of single faces and groups, and the scene file saved with them.
+#include <QAction>
+#include <QComboBox>
+#include <QFile>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <QTemporaryDir>
+
+#include "patches/material_panel.h"
+#include "solved_window.h"
+#include "transillum/errors.h"
+#include "transillum/files.h"
+#include "transillum/relight.h"
+#include "window/export_actions.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+/// A closed room with a box in it. Faces 0 to 5: the room, seen from inside; 6 to 11: the box.
+/// `turned`: all faces of the box have the wrong side out.
+QByteArray room(bool turned) {
+  QByteArray text = "mtllib none.mtl\n";
+  const auto add_points = [&](double low, double high) {
+    for (int k = 0; k < 8; ++k) {
+      const auto c = [&](int bit) { return QByteArray::number((k >> bit) % 2 == 0 ? low : high); };
+      text += "v " + c(0) + ' ' + c(1) + ' ' + c(2) + '\n';
+    }
+  };
+  add_points(0, 4);
+  add_points(1, 2.5);
+  const int outward[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                             {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  const auto add_box = [&](int first, bool inside_out) {
+    for (const auto& face : outward) {
+      text += 'f';
+      for (int k = 0; k < 4; ++k) {
+        text += ' ' + QByteArray::number(first + face[inside_out ? 3 - k : k]);
+      }
+      text += '\n';
+    }
+  };
+  text += "g room\nusemtl white\n";
+  add_box(0, true);
+  text += "g box\nusemtl gray\n";
+  add_box(8, turned);
+  return text;
+}
+
+/// A room in a file, opened and solved.
+struct Opened {
+  QTemporaryDir folder;
+  QString path = folder.filePath("room.obj");
+  std::unique_ptr<TestWindow> window;
+  bool ready = false;
+
+  explicit Opened(bool turned = false, const QByteArray& materials = {}) {
+    write("room.obj", room(turned));
+    write("none.mtl", materials.isEmpty() ? QByteArray("newmtl white\nKd .7 .7 .7\n"
+                                                       "newmtl gray\nKd .4 .3 .2\n")
+                                          : materials);
+    window = make_window(32);
+    window->open(path);
+    ready = settles();
+  }
+  void write(const char* name, const QByteArray& text) const {
+    QFile file(folder.filePath(name));
+    if (file.open(QIODevice::WriteOnly)) {
+      file.write(text);
+    }
+  }
+  bool settles() const {
+    return wait_for([this] {
+      return window->snapshot() && window->snapshot()->progress.finished && window->settled();
+    });
+  }
+  bool is_relit() const {
+    return wait_for([this] { return window->snapshot()->materials && window->settled(); });
+  }
+  const Scene& scene() const { return *window->snapshot()->loaded->scene; }
+  MaterialEdits& edits() const { return window->relighting.edits(); }
+  QString light_bar() const { return window->parts().page.light_bar()->text(); }
+  QString orientation_bar() const { return window->parts().page.orientation_bar()->text(); }
+  template <class Part>
+  Part* part(const char* name) const {
+    return window->findChild<Part*>(name);
+  }
+  /// The entries of the menu of the bar.
+  QList<QAction*> offers() const {
+    QMenu* menu = part<QPushButton>("make_emit")->menu();
+    emit menu->aboutToShow();
+    return menu->actions();
+  }
+};
+
+double largest(const std::vector<Rgb>& values) {
+  double result = 0;
+  for (const Rgb& value : values) {
+    result = std::max(result, max_abs(value));
+  }
+  return result;
+}
+
+}  // namespace
+
+class LightTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void a_scene_without_light_shows_its_shape_and_offers_to_make_a_face_emit() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    QVERIFY2(opened.light_bar().startsWith("No light"), qPrintable(opened.light_bar()));
+    // Walls of one material differ by where they face; nothing is black.
+    const auto& colors = opened.window->colors.patch_colors();
+    QSet<int> brightness;
+    for (PatchId i = 0; i < 6; ++i) {
+      brightness.insert(at(colors, i)[0]);
+      QVERIFY(at(colors, i)[0] > 60);
+    }
+    QVERIFY(brightness.size() >= 4);
+    save_picture(*opened.window, "no-light");
+
+    QVERIFY(!opened.offers().front()->isEnabled());  // nothing is selected
+    opened.window->selection.select(5);
+    QVERIFY(opened.light_bar().contains("selected face"));
+    const QList<QAction*> offers = opened.offers();
+    QCOMPARE(offers[0]->text(), QString("Face 5"));
+    QCOMPARE(offers[1]->text(), QString("Material \"white\""));
+    QCOMPARE(offers[2]->text(), QString("Group \"room\""));
+    save_picture(*opened.window, "no-light-selected");
+    offers[0]->trigger();
+    QVERIFY(opened.is_relit());
+    QVERIFY(opened.light_bar().isEmpty());
+    save_picture(*opened.window, "light-made");
+    const auto snapshot = opened.window->snapshot();
+    for (PatchId i = 0; i < 12; ++i) {
+      QCOMPARE(max_abs(material_of(*snapshot, i).exitance) > 0, i == 5);
+      QVERIFY(max_abs(at(snapshot->radiosity, i)) > 0);
+    }
+    // The panel shows the sliders of the face.
+    QCOMPARE(opened.part<QComboBox>("material_kind")->currentText(), QString("Face"));
+    QCOMPARE(opened.part<QComboBox>("material")->currentText(), QString("5"));
+
+    opened.part<QAction>("undo")->trigger();
+    QVERIFY(wait_for([&] { return !opened.window->snapshot()->materials; }));
+    QVERIFY(opened.light_bar().startsWith("No light"));
+    QCOMPARE(largest(opened.window->snapshot()->radiosity), 0.0);
+  }
+
+  void a_light_suggested_by_its_name_is_offered_without_a_selection() {
+    const Opened opened(false, "newmtl white\nKd .7 .7 .7\nnewmtl gray\nKd .4 .3 .2\n");
+    QVERIFY(opened.ready);
+    const QList<QAction*> offers = opened.offers();
+    QVERIFY(offers.back()->text().endsWith("(suggested)"));
+    offers.back()->trigger();
+    QVERIFY(opened.is_relit());
+    QVERIFY(largest(opened.window->snapshot()->radiosity) > 0);
+  }
+
+  void a_closed_bar_stays_closed_until_another_scene() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    emit opened.window->parts().page.light_bar()->closed();
+    opened.window->selection.select(3);
+    QVERIFY(opened.light_bar().isEmpty());
+    opened.window->open("furnace");
+    QVERIFY(wait_for([&] { return opened.window->scene.spec() == "furnace"; }));
+    QVERIFY(opened.light_bar().isEmpty());
+    opened.window->open(opened.path);
+    QVERIFY(wait_for([&] { return !opened.light_bar().isEmpty(); }));
+  }
+
+  void sliders_change_a_material_a_group_or_a_face() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    auto* kind = opened.part<QComboBox>("material_kind");
+    auto* slider = opened.part<QSlider>("rho_red");
+    const auto choose = [&](const char* name) {
+      kind->setCurrentText(name);
+      emit kind->activated(kind->currentIndex());
+    };
+    opened.window->selection.select(7);
+    choose("Face");
+    slider->setValue(slider->maximum());
+    QCOMPARE(opened.edits().changes().size(), std::size_t{1});
+    QCOMPARE(opened.edits().changes()[0].target, std::string("face:7"));
+    QVERIFY(!opened.edits().changes()[0].exitance);
+    choose("Group");
+    QVERIFY(opened.part<QLabel>("material_extent")->text().contains("differ"));
+    slider->setValue(0);
+    // The face keeps its own value.
+    QVERIFY(opened.edits().materials()->of(7).reflectance.r > 0.9);
+    QCOMPARE(opened.edits().materials()->of(8).reflectance.r, 0.0);
+    QVERIFY(opened.edits().materials()->of(0).reflectance == opened.scene().reflectance(0));
+    choose("Material");
+    QCOMPARE(opened.part<QComboBox>("material")->currentText(), QString("gray"));
+    opened.part<QPushButton>("restore_materials")->click();
+    QVERIFY(!opened.edits().any());
+    for (const std::size_t left : {2U, 1U, 0U}) {
+      opened.part<QAction>("undo")->trigger();
+      QCOMPARE(opened.edits().changes().size(), left);
+    }
+  }
+
+  void the_saved_scene_has_the_changes() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    opened.edits().set_exitance("face:5", {10, 20, 30});
+    opened.edits().set_reflectance("group:box", {0.25, 0.5, 0.75});
+    auto& exports = *opened.window->findChild<ExportActions*>();
+    const QString path = opened.folder.filePath("lit.obj");
+    exports.write_scene_file(path);
+    QVERIFY(wait_for([&] { return !exports.writing(); }));
+    QVERIFY(opened.window->banner_text().isEmpty());
+    const auto saved = load_scene(path.toStdString());
+    QCOMPARE(saved->patch_count(), opened.scene().patch_count());
+    for (PatchId i = 0; i < saved->patch_count(); ++i) {
+      const Material& expected = opened.edits().materials()->of(i);
+      QVERIFY(saved->exitance(i) == expected.exitance);
+      QVERIFY(saved->reflectance(i) == expected.reflectance);
+      QVERIFY(saved->patch(i).normal == opened.scene().patch(i).normal);
+    }
+    // Its own files are not overwritten.
+    QVERIFY_EXCEPTION_THROWN(exports.write_scene_file(opened.path), InputError);
+  }
+
+  void changes_survive_another_patch_area_and_a_reload() {
+    const Opened opened;
+    QVERIFY(opened.ready);
+    opened.edits().set_exitance("face:5", {10, 20, 30});
+    opened.part<QLineEdit>("max_patch_area")->setText("4");
+    opened.part<QPushButton>("restart")->click();
+    QVERIFY(wait_for([&] { return opened.window->snapshot()->loaded->scene->patch_count() > 12; }));
+    QVERIFY(opened.settles());
+    QVERIFY(opened.is_relit());
+    for (PatchId i = 0; i < opened.scene().patch_count(); ++i) {
+      QCOMPARE(max_abs(material_of(*opened.window->snapshot(), i).exitance) > 0,
+               opened.scene().patch(i).face == 5);
+    }
+  }
+
+  void faces_are_turned_after_a_preview() {
+    const Opened opened(true);
+    QVERIFY(opened.ready);
+    QVERIFY2(opened.orientation_bar().contains("%"), qPrintable(opened.orientation_bar()));
+    const Vec3 before = opened.scene().patch(8).normal;
+    auto* preview = opened.part<QPushButton>("preview_turn");
+    auto* turn = opened.part<QPushButton>("turn_faces");
+    auto* cancel = opened.part<QPushButton>("cancel_turn");
+    const SceneView& view = *opened.window->findChild<SceneView*>();
+    save_picture(*opened.window, "turned");
+    const auto begin = [&] {
+      preview->click();
+      return wait_for([&] { return turn->isVisible(); });
+    };
+    QVERIFY(begin());
+    QVERIFY(view.previews_turn());
+    QVERIFY2(opened.orientation_bar().contains("6 of 12 faces"),
+             qPrintable(opened.orientation_bar()));
+    save_picture(*opened.window, "turn-preview");
+    cancel->click();
+    QVERIFY(!view.previews_turn() && preview->isVisible() && !turn->isVisible());
+    QVERIFY(opened.scene().patch(8).normal == before);
+
+    QVERIFY(begin());
+    const auto old = opened.window->snapshot()->loaded;
+    turn->click();
+    QVERIFY(wait_for([&] { return opened.window->snapshot()->loaded != old; }));
+    QVERIFY(opened.settles());
+    QVERIFY(opened.scene().patch(8).normal == -1.0 * before);
+    QVERIFY(opened.orientation_bar().isEmpty());
+    QVERIFY(!view.previews_turn());
+    save_picture(*opened.window, "turned-back");
+    // Sessions keep it.
+    const QString session = opened.folder.filePath("s.json");
+    opened.window->files().save_session(session);
+    const auto other = make_window(16);
+    other->files().open(session);
+    QVERIFY(wait_for([&] { return other->snapshot() && other->settled(); }));
+    QVERIFY(other->snapshot()->loaded->scene->patch(8).normal == -1.0 * before);
+  }
+
+  void a_scene_in_order_has_no_bars() {
+    const SolvedWindow solved("cornell-box");
+    QVERIFY(solved.ready);
+    QVERIFY(solved.window->parts().page.light_bar()->text().isEmpty());
+    QVERIFY(solved.window->parts().page.orientation_bar()->text().isEmpty());
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(LightTest)
+#include "light_test.moc"

@@ -1,0 +1,38 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "colors/neutral_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace transillum::viewer {
+
+bool has_light(const SolverSnapshot& snapshot) {
+  for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
+    if (max_abs(material_of(snapshot, i).exitance) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double neutral_brightness(const Vec3& normal) {
+  constexpr Vec3 toward_light{0.39, -0.53, 0.75};  // unit, up to rounding
+  return 0.3 + 0.7 * (0.5 + 0.5 * std::clamp(dot(normal, toward_light), -1.0, 1.0));
+}
+
+void shade_neutral(const SolverSnapshot& snapshot, std::vector<Color8>& colors) {
+  constexpr double darkest = 0.15, gamma = 2.2;
+  const Scene& scene = *snapshot.loaded->scene;
+  colors.resize(scene.patches().size());
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Rgb& rho = material_of(snapshot, i).reflectance;
+    const double brightness = neutral_brightness(scene.patch(i).normal);
+    const auto level = [&](double channel) {
+      const double value = brightness * (darkest + (1 - darkest) * channel);
+      return static_cast<std::uint8_t>(std::lround(255 * std::pow(value, 1 / gamma)));
+    };
+    at(colors, i) = {level(rho.r), level(rho.g), level(rho.b)};
+  }
+}
+
+}  // namespace transillum::viewer

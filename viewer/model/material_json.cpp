@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "model/material_json.h"
+
+#include <cmath>
+#include <optional>
+
+namespace transillum::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+std::optional<Rgb> channels_from(JsonObject& object, const char* key, bool below_one) {
+  const json* channels = object.find(key);
+  if (!channels) {
+    return std::nullopt;
+  }
+  const Vec3 c = vec3_from_json(*channels, object.where(key));
+  for (const double x : {c.x, c.y, c.z}) {
+    if (!(x >= 0 && std::isfinite(x) && (!below_one || x < 1))) {
+      object.fail_at(key, below_one ? "must be at least 0 and below 1" : "must be at least 0");
+    }
+  }
+  return Rgb{c.x, c.y, c.z};
+}
+
+MaterialChange change_from(const json& value, const std::string& where) {
+  JsonObject object(value, where);
+  MaterialChange change;
+  object.read("name", change.target);
+  if (change.target.empty()) {
+    object.fail_at("name", "is missing");
+  }
+  change.exitance = channels_from(object, "exitance", false);
+  change.reflectance = channels_from(object, "reflectance", true);
+  if (!change.exitance && !change.reflectance) {
+    object.fail("needs an \"exitance\" or a \"reflectance\"");
+  }
+  object.done();
+  return change;
+}
+
+}  // namespace
+
+std::vector<MaterialChange> material_changes_from_json(JsonObject& object, const char* key) {
+  std::vector<MaterialChange> changes;
+  const json* list = object.find(key);
+  if (!list) {
+    return changes;
+  }
+  if (!list->is_array()) {
+    object.fail_at(key, "must be a list [ … ]");
+  }
+  for (const json& one : *list) {
+    changes.push_back(
+        change_from(one, object.where("material " + std::to_string(changes.size() + 1))));
+  }
+  return changes;
+}
+
+json to_json(const std::vector<MaterialChange>& changes) {
+  const auto list = [](const Rgb& c) { return json::array({c.r, c.g, c.b}); };
+  json result = json::array();
+  for (const MaterialChange& change : changes) {
+    json one = {{"name", change.target}};
+    if (change.exitance) {
+      one["exitance"] = list(*change.exitance);
+    }
+    if (change.reflectance) {
+      one["reflectance"] = list(*change.reflectance);
+    }
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+}  // namespace transillum::viewer

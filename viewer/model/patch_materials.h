@@ -1,0 +1,22 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "transillum/at.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// E and rho of all patches of a scene, with the user's changes. The materials of the scene come
+/// first, in its order; those of faces and groups with values of their own follow.
+struct PatchMaterials {
+  std::vector<Material> materials;
+  std::vector<std::int32_t> of_patch;  ///< index into `materials` for each patch
+
+  /// Material of patch i.
+  const Material& of(PatchId i) const { return at(materials, at(of_patch, i)); }
+};
+
+}  // namespace transillum::viewer

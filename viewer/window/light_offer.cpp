@@ -1,0 +1,102 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "window/light_offer.h"
+
+#include <QMainWindow>
+#include <QMenu>
+#include <QPushButton>
+
+#include "patches/material_panel.h"
+#include "scene/scene_page.h"
+#include "solve/settings_panel.h"
+#include "widgets/banner.h"
+#include "window/dock_layouts.h"
+#include "window/view_state_applier.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr double first_exitance = 10;  // W/m²; the exposure follows it
+
+}  // namespace
+
+LightOffer::LightOffer(const WindowParts& parts, MaterialPanel& materials,
+                       ViewStateApplier& applier)
+    : QObject(&parts.window), parts_(parts), materials_(materials), applier_(applier) {
+  Banner* bar = parts_.page.light_bar();
+  QPushButton* button = bar->add_button("make_emit", tr("Make it emit"));
+  menu_ = new QMenu(button);
+  button->setMenu(menu_);
+  connect(menu_, &QMenu::aboutToShow, this, &LightOffer::fill_menu);
+  connect(bar, &Banner::closed, this, [this] { closed_ = true; });
+  connect(&parts_.scene, &OpenScene::scene_shown, this, [this] {
+    closed_ = false;
+    update();
+    if (!parts_.relighting.edits().has_light()) {
+      emit parts_.relighting.form_factors_requested();  // so that a light appears at once
+    }
+  });
+  connect(&parts_.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
+  connect(&parts_.selection, &Selection::changed, this, &LightOffer::update);
+}
+
+void LightOffer::update() {
+  Banner& bar = *parts_.page.light_bar();
+  if (closed_ || !parts_.scene.loaded() || parts_.relighting.edits().has_light()) {
+    bar.dismiss();
+    return;
+  }
+  bar.show_message(
+      Banner::Kind::offer,
+      parts_.selection.patch() == no_patch
+          ? tr("No light: nothing emits, so the scene is shown in a neutral light. Click a face to "
+               "make it, its material or its group emit.")
+          : tr("No light: make the selected face, material or group emit."));
+}
+
+void LightOffer::fill_menu() {
+  menu_->clear();
+  const Scene& scene = *parts_.scene.loaded()->scene;
+  const PatchId patch = parts_.selection.patch();
+  if (patch == no_patch) {
+    menu_->addAction(tr("Click a face in the scene to choose it"))->setEnabled(false);
+  } else {
+    for (const TargetKind kind : {TargetKind::face, TargetKind::material, TargetKind::group}) {
+      const std::string target = MaterialEdits::target_of(scene, kind, patch);
+      if (!target.empty()) {
+        add_target(target_text(target), target);
+      }
+    }
+  }
+  const auto& description = parts_.scene.loaded()->description;
+  if (!description) {
+    return;
+  }
+  const std::string suggested = parts_.relighting.edits().with_kind(suggested_light(*description));
+  menu_->addSeparator();
+  add_target(tr("%1 (suggested)").arg(target_text(suggested)), suggested);
+}
+
+void LightOffer::add_target(const QString& text, const std::string& target) {
+  menu_->addAction(text, this, [this, target] { make_emit(target); });
+}
+
+void LightOffer::make_emit(const std::string& target) {
+  constexpr Rgb white{first_exitance, first_exitance, first_exitance};
+  const auto snapshot = parts_.scene.snapshot();
+  if (snapshot && !snapshot->form_factors_fit && parts_.scene.loaded()->description) {
+    // Form factors that exceed the memory limit light nothing: a new solve does.
+    RunOptions options{parts_.settings.solve_options(), parts_.scene.options(),
+                       parts_.scene.input()};
+    options.input.changes.push_back({target, {}, white});
+    applier_.open_again(options);
+    return;
+  }
+  MaterialEdits& edits = parts_.relighting.edits();
+  edits.begin_drag();
+  edits.set_exitance(target, white);
+  materials_.show_target(target);
+  parts_.docks.bring_to_front("material");
+}
+
+}  // namespace transillum::viewer
