@@ -96,13 +96,13 @@ void print_backs(const BackShare& backs) {
     print_row("seen from behind", "no face");
     return;
   }
-  print_row("seen from behind", percent_text(backs.share) + " of what is seen are backs");
+  print_row("seen from behind", share_text(backs.share) + " of what light meets are backs");
   const bool by_group = !backs.groups.empty();
   const std::vector<BackCount>& counts = by_group ? backs.groups : backs.materials;
   for (std::size_t k = 0; k < std::min(counts.size(), max_listed); ++k) {
-    print_results(fmt::format("  {} \"{}\": {} of what is seen of it, {} of all\n",
+    print_results(fmt::format("  {} \"{}\": {} of what light meets of it, {} of all\n",
                               by_group ? "group" : "material", counts[k].name,
-                              percent_text(counts[k].share), percent_text(counts[k].of_all)));
+                              share_text(counts[k].share), share_text(counts[k].of_all)));
   }
   if (counts.size() > max_listed) {
     print_results(fmt::format("  and {} more\n", counts.size() - max_listed));
@@ -139,7 +139,7 @@ void print_backs_along_directions(const Scene& scene, const std::vector<double>&
     print_results(fmt::format("  {} \"{}\": {} face{}, {} of their backs visible\n",
                               by_group ? "group" : "material", name, kind.faces.size(),
                               kind.faces.size() == 1 ? "" : "s",
-                              percent_text(kind.seen / kind.whole)));
+                              share_text(kind.seen / kind.whole)));
   }
 }
 
@@ -165,20 +165,21 @@ BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancel
   print_row("closed", backs.open == 0
                           ? std::string("yes: no ray from a lit side leaves")
                           : fmt::format("no, {} of the rays from lit sides meet no patch",
-                                        percent_text(backs.open)));
+                                        share_text(backs.open)));
   print_backs(backs);
   return backs;
 }
 
 /// Transilluminates the scene along some directions; prints, exactly for these, how much of it is
 /// open and how many faces are seen from behind.
-void print_directions(const std::shared_ptr<const Scene>& scene,
-                      const std::shared_ptr<const BspTree>& tree, const InfoCall& call,
-                      const Cancellation& cancellation, ProgressDisplay& display) {
+void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall& call,
+                      const Cancellation& cancellation) {
   SolveOptions options;
   options.directions = call.directions;
   options.iterations = 1;
   options.threads = call.threads;
+  ProgressDisplay display;
+  const auto tree = build_tree(*scene, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation);
   display.expect_passes("checking visibility, ", call.directions);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
@@ -189,9 +190,10 @@ void print_directions(const std::shared_ptr<const Scene>& scene,
   });
   display.clear();
   const double escaped = solver.statistics().escaped;
+  print_row("BSP fragments", fmt::format("{}", tree->fragments().size()));
   print_row("along directions",
             fmt::format("{} of the projected area sees no patch ({} directions)",
-                        percent_text(escaped < open_share ? 0 : escaped), 2 * call.directions));
+                        share_text(escaped < open_share ? 0 : escaped), 2 * call.directions));
   print_backs_along_directions(*scene, solver.back_seen_shares());
 }
 
@@ -202,14 +204,10 @@ int run(const InfoCall& call) {
   print_counts(*scene);
   print_size_and_light(*scene);
   const BackShare backs = print_rays(*scene, call.threads, cancellation);
-  ProgressDisplay display;
-  const auto tree = build_tree(*scene, cancellation, display);
-  display.clear();
-  print_row("BSP fragments", fmt::format("{}", tree->fragments().size()));
   if (call.directions > 0) {
-    print_directions(scene, tree, call, cancellation, display);
+    print_directions(scene, call, cancellation);
   }
-  print_overlaps(*scene, coplanar_overlaps(*scene, *tree, max_overlaps, cancellation));
+  print_overlaps(*scene, coplanar_overlaps(*scene, max_overlaps, cancellation));
   print_repairs(scene->report());
   if (const std::string advice = orientation_advice(call.scene, backs); !advice.empty()) {
     print_row("warning", advice);
@@ -234,7 +232,7 @@ Run add_info_command(CLI::App& program) {
                     });
   add_threads_option(command, call->threads);
   command.footer(
-      "Whether the scene is closed and what is seen from behind is measured by 131072 random rays\n"
+      "Whether the scene is closed and what is seen from behind is measured by some 10^5 random\n"
       "from the lit sides, which miss holes smaller than about 1e-5 of the area; with "
       "--directions\n"
       "also exactly along some. What is seen from behind may be turned, which --orient auto\n"

@@ -16,7 +16,7 @@ std::string rgb_text(const Rgb& color, int digits) {
   return fmt::format("{:.{}g} {:.{}g} {:.{}g}", color.r, digits, color.g, digits, color.b, digits);
 }
 
-std::string percent_text(double share) {
+std::string share_text(double share) {
   const double percent = 100 * share;
   if (percent > 0 && percent < 0.001) {
     return "less than 0.001 %";

@@ -14,7 +14,7 @@ std::string report_row(const std::string& name, const std::string& value);
 std::string rgb_text(const Rgb& color, int digits);
 
 /// A fraction as people read it: 0.5 -> "50 %", 0.012 -> "1.2 %", 1e-7 -> "less than 0.001 %".
-std::string percent_text(double share);
+std::string share_text(double share);
 
 /// 75 s -> "1:15 min".
 std::string time_text(double seconds);

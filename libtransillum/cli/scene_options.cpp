@@ -229,9 +229,9 @@ std::string orientation_advice(const SceneInput& input, const BackShare& backs) 
     return {};
   }
   return fmt::format(
-      "{} of what is seen are backs of faces, which absorb all light (try --orient "
+      "{} of what light meets are backs of faces, which absorb it (try --orient "
       "auto)",
-      percent_text(backs.share));
+      share_text(backs.share));
 }
 
 std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,

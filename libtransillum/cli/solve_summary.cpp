@@ -75,8 +75,8 @@ std::string passes_text(const SolveStatistics& s) {
 
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
-  return report_row("error of B", fmt::format("{} RMS, estimated from {} replicas",
-                                              percent_text(error.rms), error.replicas)) +
+  return report_row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas",
+                                              100 * error.rms, error.replicas)) +
          report_row("B mean, error",
                     fmt::format("+- {} W/m2 (95 % confidence)", radiosity_text(half)));
 }
@@ -96,13 +96,13 @@ std::string solve_summary(const Solution& solution) {
                                    s.passes_made));
   }
   if (s.shot_sources > 0) {
-    text += report_row("first shot", fmt::format("{} patches, {} of the emitted power, {}",
-                                                 s.shot_sources, percent_text(s.shot_power_share),
-                                                 time_text(s.seconds_first_shot)));
+    text += report_row(
+        "first shot", fmt::format("{} patches, {} of the emitted power, {}", s.shot_sources,
+                                  share_text(s.shot_power_share), time_text(s.seconds_first_shot)));
   }
   text += report_row("iterations", convergence_text(s));
   text += report_row("closure defect", fmt::format("{:.1e}; {} of the projected area sees no patch",
-                                                   s.closure_defect_max, percent_text(s.escaped)));
+                                                   s.closure_defect_max, share_text(s.escaped)));
   if (!s.iteration_records.empty()) {
     text += report_row("energy defect", fmt::format("{:.1e}", s.energy_defect));
   }

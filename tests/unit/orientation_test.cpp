@@ -221,17 +221,52 @@ TEST(BackShare, IsZeroWhereOnlyFrontsAreSeen) {
   }
 }
 
-/// From a point of a wall of a cube, the opposite wall has the form factor 0.1998, each of the
-/// others 0.2000. Five walls see; none sees itself.
-TEST(BackShare, IsTheFormFactorOfATurnedWall) {
-  SceneDescription description = room().description();
-  turn(description, 2);
-  const BackShare share = back_share(Scene(description));
-  EXPECT_NEAR(share.share, 0.2 * 5 / 5, 0.006);
-  EXPECT_NEAR(share.open, 1.0 / 6, 0.004);
+/// In a sphere every point sees equal areas alike, so light meets backs in proportion to their
+/// area.
+TEST(BackShare, IsTheShareOfTheAreaInASphere) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 1), red = sketch.material(0.3, 1);
+  constexpr int n = 24;
+  const auto point = [](int i, int j) {
+    const double t = std::numbers::pi * i / n, p = std::numbers::pi * (j % (2 * n)) / n;
+    return Vec3{std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)};
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < 2 * n; ++j) {
+      // Inward, every fifth outward.
+      std::vector<Vec3> outline{point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)};
+      if ((i + j) % 5 == 0) {
+        std::reverse(outline.begin(), outline.end());
+      }
+      sketch.face(outline, (i + j) % 5 == 0 ? red : gray);
+    }
+  }
+  const auto scene = sketch.scene();
+  double turned = 0, all = 0;
+  for (const Patch& patch : scene->patches()) {
+    turned += patch.material == red ? patch.area : 0;
+    all += patch.area;
+  }
+  const BackShare share = back_share(*scene);
+  EXPECT_NEAR(share.share, turned / all, 0.01);
+  EXPECT_NEAR(share.open, turned / all, 0.01);
   ASSERT_EQ(share.materials.size(), 1U);
-  EXPECT_NEAR(share.materials[0].of_all, share.share, 1e-12);
-  EXPECT_NEAR(share.materials[0].share, 1 / 4.2, 0.006);
+  EXPECT_EQ(share.materials[0].share, 1);
+  EXPECT_EQ(share.materials[0].of_all, share.share);
+}
+
+/// Boxes that interpenetrate see backs inside each other, where no light is.
+TEST(BackShare, IsZeroWhereOnlyDarkPlacesSeeBacks) {
+  Sketch sketch = room();
+  sketch.box({1, 1, 1}, {2, 2, 2}, false, 0).box({1.2, 1.2, 0.5}, {1.8, 1.8, 2.5}, false, 0);
+  EXPECT_LT(back_share(*sketch.scene()).share, 1e-4);
+}
+
+/// Where the only lamp is turned away, no light tells.
+TEST(BackShare, IsMeasuredFromAllSidesWhereTheLampIsTurned) {
+  SceneDescription description = room().description();
+  turn(description, 5);
+  EXPECT_GT(back_share(Scene(description)).share, BackShare::worth_a_warning);
 }
 
 TEST(BackShare, IsOneInARoomInsideOut) {

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "transillum/bsp_tree.h"
+#include "transillum/cancellation.h"
+#include "transillum/scene.h"
 
 namespace transillum {
 
@@ -22,13 +23,11 @@ struct CoplanarOverlap {
 ///
 /// An overlap narrower than BspTree::thickness() does not count: such patches touch. Patches with
 /// opposite normals are the two sides of one surface and do not overlap.
-/// @param scene the scene that `tree` was built from.
-/// @param tree BSP tree of `scene`.
+/// Time: near-linear in the pieces, as far as few of their bounding boxes overlap.
 /// @param most the search stops after about this many overlaps.
 /// @param cancellation checked during the search.
 /// @throws Canceled
-std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, const BspTree& tree,
-                                               std::size_t most,
+std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, std::size_t most,
                                                const Cancellation& cancellation = {});
 
 }  // namespace transillum

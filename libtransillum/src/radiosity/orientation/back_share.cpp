@@ -1,9 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// What the lit sides of a scene see, by random rays: how much of it is a back, and how much
-// nothing. Each ray has its own random numbers; results are counts, so the order of rays does not
-// matter.
+// What light meets in a scene, by random paths from its sources: how much of it is a back; and how
+// much of what lit sides see is nothing, by rays from all of them. Each path has its own random
+// numbers; results are counts, so the order of paths does not matter.
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -15,41 +17,71 @@
 namespace transillum {
 namespace {
 
-constexpr std::size_t ray_count = 1U << 17, rays_in_block = 1024;
-/// Share of the rays below which lit sides see nothing that counts.
+/// Rays from points of all lit sides.
+constexpr std::size_t ray_count = 1U << 15, rays_in_block = 1024;
+/// Paths of light, and the surfaces that one meets at most.
+constexpr std::size_t path_count = 1U << 13, longest_path = 16, paths_in_block = 128;
+/// Share of the paths below which light meets nothing that counts.
 constexpr double nothing = 1e-3;
 
-/// What one ray found.
-struct RayResult {
-  PatchId patch = no_patch;  ///< seen from the lit side; or no_patch
-  bool back = false;         ///< its back was seen
-  bool open = false;         ///< nothing was met; on a two-sided face, nothing on either side
-  bool dark_inside = false;  ///< the ray from the viewer's back side met a back
+/// What a ray from a lit side found.
+struct OpenSide {
+  bool open = false;         ///< nothing; on a two-sided face, nothing on either side
+  bool dark_inside = false;  ///< and the ray back from the same point met a back
 };
+
+/// A surface that light meets.
+struct Hit {
+  PatchId patch = no_patch;
+  bool back = false;
+};
+/// Those of one path, the last of which may be a back.
+using Path = boost::container::static_vector<Hit, longest_path>;
 
 class RaySampler {
  public:
-  RaySampler(const Scene& scene, const Cancellation& cancellation)
-      : scene_(scene), embree_(scene, cancellation), points_(scene, embree_, all_patches(scene)) {}
+  RaySampler(const Scene& scene, int threads, const Cancellation& cancellation)
+      : scene_(scene),
+        cancellation_(cancellation),
+        embree_(scene, cancellation),
+        workers_(thread_count(threads)) {}
 
-  std::vector<RayResult> sample(int threads, const Cancellation& cancellation) const {
-    std::vector<RayResult> results(ray_count);
-    WorkerThreads workers(thread_count(threads));
-    for_each_index(workers, std::size_t{0}, ray_count / rays_in_block, [&](std::size_t block) {
-      cancellation.throw_if_canceled();
-      for (std::size_t k = block * rays_in_block; k < (block + 1) * rays_in_block; ++k) {
-        results[k] = trace(k);
+  /// Rays from points of these patches' lit sides, uniform by area.
+  std::vector<OpenSide> sample_sides(const std::vector<PatchId>& patches) {
+    return sampled<OpenSide>(patches, ray_count, rays_in_block, 0,
+                             [this](const SurfacePoints::Point& start, RandomNumbers& random) {
+                               return side_from(start, random);
+                             });
+  }
+
+  /// Paths of light from points of these patches' lit sides, uniform by area. They are reflected by
+  /// lit sides and end at backs.
+  std::vector<Path> sample_paths(const std::vector<PatchId>& patches) {
+    return sampled<Path>(patches, path_count, paths_in_block, ray_count,
+                         [this](const SurfacePoints::Point& start, RandomNumbers& random) {
+                           return path_from(start, random);
+                         });
+  }
+
+ private:
+  /// One sample in each of `count` equal shares of the patches' area.
+  template <class Result, class Sample>
+  std::vector<Result> sampled(const std::vector<PatchId>& patches, std::size_t count,
+                              std::size_t block, std::size_t key, const Sample& sample) {
+    const SurfacePoints points(scene_, embree_, patches);
+    const auto range = points.range(0, patches.size());
+    std::vector<Result> results(count);
+    for_each_index(workers_, std::size_t{0}, count / block, [&](std::size_t b) {
+      cancellation_.throw_if_canceled();
+      for (std::size_t k = b * block; k < (b + 1) * block; ++k) {
+        RandomNumbers random(key + k);
+        const double where = (static_cast<double>(k) + random.next()) / static_cast<double>(count);
+        results[k] = sample(points.point(range, where, random), random);
       }
     });
     return results;
   }
 
- private:
-  static std::vector<PatchId> all_patches(const Scene& scene) {
-    std::vector<PatchId> patches(scene.patches().size());
-    std::iota(patches.begin(), patches.end(), PatchId{0});
-    return patches;
-  }
   bool is_two_sided(PatchId i) const {
     return are_two_sides(scene_, i) || are_two_sides(scene_, i - 1);
   }
@@ -60,32 +92,50 @@ class RaySampler {
     const auto meeting = first_meeting(embree_, origin + outside * direction, -direction);
     return meeting && scene_.patch(meeting->patch).face == scene_.patch(patch).face;
   }
-
-  RayResult trace(std::size_t k) const {
-    RandomNumbers random(k);
-    const double where = (static_cast<double>(k) + random.next()) / double{ray_count};
-    const auto viewer = points_.point(points_.range(0, scene_.patches().size()), where, random);
-    const Vec3& normal = scene_.patch(viewer.patch).normal;
-    const Vec3 direction = diffuse_direction(normal, random);
-    const Vec3 origin = viewer.position + ray_lift * normal;
-    const Vec3 behind = viewer.position - ray_lift * normal;
-    RayResult ray;
-    if (const auto meeting = first_meeting(embree_, origin, direction)) {
-      const PatchId lit = embree_.lit_at(meeting->patch, origin, direction, meeting->distance);
-      ray.patch = lit == no_patch ? meeting->patch : lit;
-      ray.back = lit == no_patch;
-    } else if (starts_outside(viewer.patch, origin, direction)) {
-      const auto inner = first_meeting(embree_, behind, -direction);
-      ray.open = !(inner && is_two_sided(viewer.patch));
-      ray.dark_inside =
-          inner && embree_.lit_at(inner->patch, behind, -direction, inner->distance) == no_patch;
+  /// The surface that a ray meets: the lit side of one of the patches there, if there is any.
+  std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction, double& distance) const {
+    const auto meeting = first_meeting(embree_, origin, direction);
+    if (!meeting) {
+      return std::nullopt;
     }
-    return ray;
+    distance = static_cast<double>(meeting->distance);
+    const PatchId lit = embree_.lit_at(meeting->patch, origin, direction, meeting->distance);
+    return lit == no_patch ? Hit{meeting->patch, true} : Hit{lit, false};
+  }
+
+  OpenSide side_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
+    const Vec3& normal = scene_.patch(start.patch).normal;
+    const Vec3 direction = diffuse_direction(normal, random);
+    const Vec3 origin = start.position + ray_lift * normal;
+    double distance = 0;
+    if (first_hit(origin, direction, distance) || !starts_outside(start.patch, origin, direction)) {
+      return {};
+    }
+    const auto inner = first_hit(start.position - ray_lift * normal, -direction, distance);
+    return {!(inner && is_two_sided(start.patch)), inner && inner->back};
+  }
+
+  Path path_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
+    Path path;
+    Vec3 position = start.position, normal = scene_.patch(start.patch).normal;
+    while (path.size() < longest_path && (path.empty() || !path.back().back)) {
+      const Vec3 direction = diffuse_direction(normal, random), from = position + ray_lift * normal;
+      double distance = 0;
+      const auto hit = first_hit(from, direction, distance);
+      if (!hit) {
+        break;
+      }
+      path.push_back(*hit);
+      position = from + distance * direction;
+      normal = scene_.patch(hit->patch).normal;
+    }
+    return path;
   }
 
   const Scene& scene_;
+  const Cancellation& cancellation_;
   EmbreeScene embree_;
-  SurfacePoints points_;
+  WorkerThreads workers_;
 };
 
 /// Backs and all, of one material or group.
@@ -107,45 +157,74 @@ std::vector<BackCount> shares_of(const std::vector<Count>& counts,
   return shares;
 }
 
+/// What light meets, in sums.
+struct PathCounts {
+  std::vector<Count> materials, groups;
+  Count all;
+
+  PathCounts(const Scene& scene, const std::vector<Path>& paths)
+      : materials(scene.materials().size()), groups(scene.groups().size()) {
+    for (const Path& path : paths) {
+      for (const Hit& hit : path) {
+        const Patch& patch = scene.patch(hit.patch);
+        add(all, hit);
+        add(at(materials, patch.material), hit);
+        if (patch.group != no_group) {
+          add(at(groups, patch.group), hit);
+        }
+      }
+    }
+  }
+  bool is_empty() const { return static_cast<double>(all.seen) < nothing * double{path_count}; }
+
+ private:
+  static void add(Count& count, const Hit& hit) {
+    ++count.seen;
+    count.backs += hit.back ? 1 : 0;
+  }
+};
+
+/// What light from the sources meets; from all lit sides where there are none, or where their light
+/// meets nothing, as that of a lamp turned to the wrong side.
+PathCounts count_light(const Scene& scene, const std::vector<PatchId>& all, RaySampler& rays) {
+  std::vector<PatchId> sources;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(sources),
+               [&](PatchId i) { return max_abs(scene.exitance(i)) > 0; });
+  if (!sources.empty()) {
+    PathCounts counts(scene, rays.sample_paths(sources));
+    if (!counts.is_empty()) {
+      return counts;
+    }
+  }
+  return {scene, rays.sample_paths(all)};
+}
+
 }  // namespace
 
 BackShare back_share(const Scene& scene, int threads, const Cancellation& cancellation) {
-  std::vector<Count> materials(scene.materials().size()), groups(scene.groups().size());
-  std::int64_t seen = 0, backs = 0, open = 0, dark = 0;
-  for (const RayResult& ray : RaySampler(scene, cancellation).sample(threads, cancellation)) {
-    open += ray.open ? 1 : 0;
-    dark += ray.dark_inside ? 1 : 0;
-    if (ray.patch == no_patch) {
-      continue;
-    }
-    const Patch& patch = scene.patch(ray.patch);
-    const auto add = [&](Count& count) {
-      ++count.seen;
-      count.backs += ray.back ? 1 : 0;
-    };
-    ++seen;
-    backs += ray.back ? 1 : 0;
-    add(at(materials, patch.material));
-    if (patch.group != no_group) {
-      add(at(groups, patch.group));
-    }
+  RaySampler rays(scene, threads, cancellation);
+  std::vector<PatchId> patches(scene.patches().size());
+  std::iota(patches.begin(), patches.end(), PatchId{0});
+  std::int64_t open = 0, dark = 0;
+  for (const OpenSide& side : rays.sample_sides(patches)) {
+    open += side.open ? 1 : 0;
+    dark += side.dark_inside ? 1 : 0;
+  }
+  BackShare result;
+  result.open = static_cast<double>(open) / double{ray_count};
+  const PathCounts light = count_light(scene, patches, rays);
+  if (light.is_empty()) {
+    result.share = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
+    return result;
   }
   std::vector<std::string> names;
   for (const Material& material : scene.materials()) {
     names.push_back(material.name);
   }
-  BackShare result;
-  result.open = static_cast<double>(open) / double{ray_count};
-  const auto all = static_cast<double>(seen);
-  if (all < nothing * double{ray_count} && dark > std::int64_t{ray_count} / 2) {
-    result.share = 1;
-  } else if (seen > 0) {
-    result.share = static_cast<double>(backs) / all;
-  }
-  if (seen > 0) {
-    result.materials = shares_of(materials, names, all);
-    result.groups = shares_of(groups, scene.groups(), all);
-  }
+  const auto all = static_cast<double>(light.all.seen);
+  result.share = static_cast<double>(light.all.backs) / all;
+  result.materials = shares_of(light.materials, names, all);
+  result.groups = shares_of(light.groups, scene.groups(), all);
   return result;
 }
 

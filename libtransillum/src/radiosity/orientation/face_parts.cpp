@@ -213,6 +213,9 @@ class PartFinder {
         const Patch& patch = scene_.patch(i);
         const double sign = at(found_.sign, i);
         at(found_.parts, part).area += patch.area;
+        for (const PointId p : scene_.outline(i)) {
+          at(found_.parts, part).bounds.add(scene_.point(p));
+        }
         at(found_.parts, part).volume +=
             sign * patch.area * dot(patch.normal, patch.center - center) / 3;
         at(signed_area, part) += sign * patch.area;

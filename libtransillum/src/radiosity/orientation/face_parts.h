@@ -14,6 +14,7 @@ struct SurfacePart {
   bool orientable = true;  ///< its patches can be made consistent with each other
   bool closed = true;  ///< consistent, every edge is used as often in one direction as in the other
   double area = 0;     ///< m²
+  Bounds bounds;       ///< m
   double volume = 0;   ///< enclosed if closed, m³; > 0: patches of sign 1 face outward
 };
 

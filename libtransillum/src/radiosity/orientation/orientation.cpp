@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "geometry/box_tree.h"
 #include "radiosity/orientation/part_exposure.h"
 #include "scene/build/warnings.h"
 #include "transillum/at.h"
@@ -26,6 +28,10 @@ constexpr double least_meetings = 0.02;
 /// Share of the walks below which nothing is inside a closed part: rays that rounding lets through.
 constexpr double leaking = 0.002;
 
+/// Area of parts within the bounding box of a closed part, relative to its own area, from which on
+/// it may be a room among others.
+constexpr double contents = 0.05;
+
 /// What becomes of a part: `kept` with the orientation of most of its area.
 enum class Verdict { kept, opposite, two_sided };
 
@@ -37,7 +43,18 @@ Verdict larger(double front, double back, double limit, Verdict otherwise) {
   return front > back ? Verdict::kept : Verdict::opposite;
 }
 
-Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool alone, bool emits) {
+/// A room is lit inside: it contains other parts, and outside there are none, or few. All other
+/// closed parts are solids.
+/// @param contained area of the parts within its bounding box, m².
+bool is_room(const SideExposure& inside, const SideExposure& outside, double contained,
+             double area) {
+  return inside.met_other >= leaking &&
+         (outside.met_other < leaking ||
+          (contained >= contents * area && outside.other_area < alike * inside.other_area));
+}
+
+Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool alone, bool emits,
+                   double contained) {
   const auto& [front, back] = exposure;
   if (!part.orientable) {
     return Verdict::two_sided;
@@ -49,9 +66,9 @@ Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool a
   }
   if (part.closed) {
     const bool outward = part.volume > 0;
-    const SideExposure& inside = outward ? back : front;
-    const Verdict solid = outward ? Verdict::kept : Verdict::opposite;
-    return inside.met_other < leaking ? solid : larger(front.other_area, back.other_area, 1, solid);
+    const bool room = outward ? is_room(back, front, contained, part.area)
+                              : is_room(front, back, contained, part.area);
+    return outward != room ? Verdict::kept : Verdict::opposite;
   }
   return emits ? larger(front.other_area, back.other_area, alike_if_it_emits, Verdict::kept)
                : larger(front.other_area, back.other_area, alike, Verdict::two_sided);
@@ -78,8 +95,10 @@ class Planner {
     const auto exposure = measure_exposure(scene_, embree, parts_, threads, cancellation, progress);
     find_emitting();
     verdicts_.reserve(exposure.size());
+    const bool alone = is_alone();
+    const std::vector<double> contained = contained_areas();
     for (std::size_t p = 0; p < exposure.size(); ++p) {
-      verdicts_.push_back(verdict_on(parts_.parts[p], exposure[p], is_alone(), emits_[p]));
+      verdicts_.push_back(verdict_on(parts_.parts[p], exposure[p], alone, emits_[p], contained[p]));
     }
     set_faces();
     count();
@@ -101,6 +120,36 @@ class Planner {
     return parts_.parts.size() == 1 &&
            std::all_of(parts_.first.begin(), parts_.first.end(),
                        [this](PatchId i) { return at(parts_.part, i) == 0; });
+  }
+
+  /// By closed part: the area of the other parts whose bounding boxes are within its own, m².
+  std::vector<double> contained_areas() const {
+    std::vector<Bounds> boxes;
+    for (const SurfacePart& part : parts_.parts) {
+      boxes.push_back(part.bounds);
+    }
+    const BoxTree tree(boxes);
+    std::vector<double> areas(boxes.size());
+    for (std::size_t p = 0; p < boxes.size(); ++p) {
+      const Vec3 center = boxes[p].center(), half = 0.5 * (boxes[p].high - boxes[p].low);
+      const auto reaches = [&](const CenteredBox& box) {
+        const Vec3 apart = box.center - center, sum = box.half + half;
+        return std::abs(apart.x) <= sum.x && std::abs(apart.y) <= sum.y &&
+               std::abs(apart.z) <= sum.z;
+      };
+      const auto visit = [&](std::int32_t other) {
+        const Bounds& box = at(boxes, other);
+        const Vec3 above = boxes[p].high - box.high, below = box.low - boxes[p].low;
+        const double least = std::min({above.x, above.y, above.z, below.x, below.y, below.z});
+        if (static_cast<std::size_t>(other) != p && least >= 0) {
+          areas[p] += at(parts_.parts, other).area;
+        }
+      };
+      if (parts_.parts[p].closed) {
+        tree.for_each(reaches, visit);
+      }
+    }
+    return areas;
   }
 
   void find_emitting() {

@@ -19,9 +19,9 @@ namespace {
 /// Surfaces that a walk meets at most.
 constexpr std::size_t longest_walk = 8;
 /// Walks on each side: for every part, in `spread_walks` / number of parts within these limits …
-constexpr std::size_t spread_walks = 1U << 17, least_walks = 8, most_walks = 64;
+constexpr std::size_t spread_walks = 1U << 15, least_walks = 8, most_walks = 64;
 /// … and shared out by area.
-constexpr double area_walks = 1 << 14;
+constexpr double area_walks = 1 << 13;
 /// Walks that one thread makes between checks of the cancellation, and blocks of them between
 /// reports of progress.
 constexpr std::size_t walks_in_block = 512, blocks_in_round = 64;
