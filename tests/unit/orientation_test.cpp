@@ -32,10 +32,10 @@ std::vector<std::size_t> faces_of(const std::vector<bool>& flags) {
   return faces;
 }
 
-/// A room of 4 m whose ceiling emits: faces 0 to 5, of which face 5 is the ceiling.
-Sketch room() {
+/// A room of 4 m whose ceiling emits if it is lit: faces 0 to 5, of which face 5 is the ceiling.
+Sketch room(bool lit = true) {
   Sketch sketch;
-  const int wall = sketch.material(0.5, 0), lamp = sketch.material(0, 10);
+  const int wall = sketch.material(0.5, 0), lamp = sketch.material(0, lit ? 10 : 0);
   sketch.face({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, wall)
       .face({{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}, wall)
       .face({{4, 0, 0}, {4, 0, 4}, {4, 4, 4}, {4, 4, 0}}, wall)
@@ -95,7 +95,7 @@ TEST(OrientationPlan, MakesOpenSheetsTwoSidedUnlessTheyEmit) {
 /// A lamp just below the ceiling lights the room, not the gap, however it was turned.
 TEST(OrientationPlan, TurnsALampInFrontOfTheCeilingToTheRoom) {
   for (const bool up : {false, true}) {
-    Sketch sketch = room();
+    Sketch sketch = room(false);
     const int lamp = sketch.material(0.5, 5);
     std::vector<Vec3> outline{{1, 1, 3.99}, {1, 3, 3.99}, {3, 3, 3.99}, {3, 1, 3.99}};
     if (up) {
@@ -130,6 +130,31 @@ TEST(OrientationPlan, LightsAnOpenBoxOnTheFloorOutside) {
     EXPECT_EQ(faces_of(plan.turned), expected);
     EXPECT_THAT(faces_of(plan.two_sided), ::testing::IsEmpty());
   }
+}
+
+/// An object of several open parts without light, as most published models are: light can only come
+/// from outside, not from where the parts see most of each other.
+TEST(OrientationPlan, LightsAnUnlitObjectFromOutside) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  // A jar: a box without a top, and above it a lid that is a box without a bottom.
+  sketch.face({{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, gray)
+      .face({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, gray)
+      .face({{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}, gray)
+      .face({{1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}}, gray)
+      .face({{0, 1, 0}, {0, 0, 0}, {0, 0, 1}, {0, 1, 1}}, gray)
+      .face({{-.01, -.01, 1.02}, {1.01, -.01, 1.02}, {1.01, 1.01, 1.02}, {-.01, 1.01, 1.02}}, gray)
+      .face({{-.01, -.01, .95}, {1.01, -.01, .95}, {1.01, -.01, 1.02}, {-.01, -.01, 1.02}}, gray);
+  const std::vector<std::size_t> jar{0, 1, 2, 3, 4};
+  const OrientationPlan plan = plan_orientation(sketch.description());
+  EXPECT_THAT(faces_of(plan.turned), ::testing::IsEmpty());
+  // The lid is seen from inside too, where little light comes.
+  EXPECT_THAT(faces_of(plan.two_sided), ::testing::Each(::testing::Ge(5U)));
+  SceneDescription inside_out = sketch.description();
+  for (const std::size_t f : jar) {
+    turn(inside_out, f);
+  }
+  EXPECT_EQ(faces_of(plan_orientation(inside_out).turned), jar);
 }
 
 TEST(OrientationPlan, MakesAMoebiusStripTwoSidedAndSaysSo) {

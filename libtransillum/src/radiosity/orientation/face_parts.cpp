@@ -65,15 +65,11 @@ struct EdgeUse {
 
 class PartFinder {
  public:
-  PartFinder(const Scene& scene, const std::vector<bool>& fixed, const Cancellation& cancellation)
+  PartFinder(const Scene& scene, const Cancellation& cancellation)
       : scene_(scene),
         cancellation_(cancellation),
         takes_part_(scene.patches().size(), true),
-        sets_(scene.patches().size()) {
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      at(takes_part_, i) = !at(fixed, scene.patch(i).face);
-    }
-  }
+        sets_(scene.patches().size()) {}
 
   SurfaceParts find() {
     find_coincident();
@@ -245,9 +241,8 @@ class PartFinder {
 
 }  // namespace
 
-SurfaceParts find_parts(const Scene& scene, const std::vector<bool>& fixed,
-                        const Cancellation& cancellation) {
-  return PartFinder(scene, fixed, cancellation).find();
+SurfaceParts find_parts(const Scene& scene, const Cancellation& cancellation) {
+  return PartFinder(scene, cancellation).find();
 }
 
 }  // namespace transillum

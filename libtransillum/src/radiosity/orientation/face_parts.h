@@ -34,10 +34,8 @@ struct SurfaceParts {
 };
 
 /// @param scene without two-sided faces.
-/// @param fixed by face: it belongs to no part.
 /// Time: O(n log n) in the corners.
 /// @throws Canceled
-SurfaceParts find_parts(const Scene& scene, const std::vector<bool>& fixed,
-                        const Cancellation& cancellation);
+SurfaceParts find_parts(const Scene& scene, const Cancellation& cancellation);
 
 }  // namespace transillum

@@ -43,18 +43,23 @@ Verdict larger(double front, double back, double limit, Verdict otherwise) {
   return front > back ? Verdict::kept : Verdict::opposite;
 }
 
+/// How much of the scene a side is exposed to: other parts by their area, and light.
+double exposed(const SideExposure& side) { return side.other_area + side.lit; }
+
 /// A room is lit inside: it contains other parts, and outside there are none, or few. All other
 /// closed parts are solids.
 /// @param contained area of the parts within its bounding box, m².
-bool is_room(const SideExposure& inside, const SideExposure& outside, double contained,
-             double area) {
+bool is_room(const SideExposure& inside, const SideExposure& outside, double contained, double area,
+             bool has_light) {
+  const double weight = has_light ? 1 : 0;  // without light, every outside is open to the sky
   return inside.met_other >= leaking &&
          (outside.met_other < leaking ||
-          (contained >= contents * area && outside.other_area < alike * inside.other_area));
+          (contained >= contents * area && outside.other_area + weight * outside.lit <
+                                               alike * (inside.other_area + weight * inside.lit)));
 }
 
 Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool alone, bool emits,
-                   double contained) {
+                   double contained, bool has_light) {
   const auto& [front, back] = exposure;
   if (!part.orientable) {
     return Verdict::two_sided;
@@ -66,12 +71,12 @@ Verdict verdict_on(const SurfacePart& part, const PartExposure& exposure, bool a
   }
   if (part.closed) {
     const bool outward = part.volume > 0;
-    const bool room = outward ? is_room(back, front, contained, part.area)
-                              : is_room(front, back, contained, part.area);
+    const bool room = outward ? is_room(back, front, contained, part.area, has_light)
+                              : is_room(front, back, contained, part.area, has_light);
     return outward != room ? Verdict::kept : Verdict::opposite;
   }
-  return emits ? larger(front.other_area, back.other_area, alike_if_it_emits, Verdict::kept)
-               : larger(front.other_area, back.other_area, alike, Verdict::two_sided);
+  return emits ? larger(exposed(front), exposed(back), alike_if_it_emits, Verdict::kept)
+               : larger(exposed(front), exposed(back), alike, Verdict::two_sided);
 }
 
 /// The description with one patch for each face, and faces numbered by their order.
@@ -87,7 +92,7 @@ class Planner {
   Planner(const SceneDescription& description, const Cancellation& cancellation)
       : description_(description),
         scene_(one_sided(description), {}, cancellation),
-        parts_(find_parts(scene_, two_sided_faces(), cancellation)) {}
+        parts_(find_parts(scene_, cancellation)) {}
 
   OrientationPlan plan(int threads, const Cancellation& cancellation,
                        const std::function<void(double)>& progress) {
@@ -98,7 +103,8 @@ class Planner {
     const bool alone = is_alone();
     const std::vector<double> contained = contained_areas();
     for (std::size_t p = 0; p < exposure.size(); ++p) {
-      verdicts_.push_back(verdict_on(parts_.parts[p], exposure[p], alone, emits_[p], contained[p]));
+      verdicts_.push_back(verdict_on(parts_.parts[p], exposure[p], alone, emits_[p], contained[p],
+                                     scene_.has_light()));
     }
     set_faces();
     count();
@@ -107,14 +113,6 @@ class Planner {
   }
 
  private:
-  std::vector<bool> two_sided_faces() const {
-    std::vector<bool> faces(description_.face_count());
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      faces[f] = description_.is_two_sided(f);
-    }
-    return faces;
-  }
-
   /// Whether the scene has one part and nothing else.
   bool is_alone() const {
     return parts_.parts.size() == 1 &&
@@ -167,7 +165,8 @@ class Planner {
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const PatchId first = at(parts_.first, i);
       const std::int32_t part = at(parts_.part, first);
-      if (part == SurfaceParts::none) {
+      if (part == SurfaceParts::none ||
+          description_.is_two_sided(static_cast<std::size_t>(scene_.patch(i).face))) {
         continue;
       }
       const Verdict verdict = at(verdicts_, part);
@@ -186,15 +185,17 @@ class Planner {
     OrientationReport& report = plan_.report;
     report.faces = static_cast<std::int64_t>(description_.face_count());
     report.parts = static_cast<std::int64_t>(parts_.parts.size());
-    std::vector<bool> part_turned(parts_.parts.size());
+    std::vector<bool> part_turned(parts_.parts.size()), part_two_sided(parts_.parts.size());
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const std::int32_t part = at(parts_.part, i);
-      if (part != SurfaceParts::none && at(plan_.turned, scene_.patch(i).face)) {
-        at(part_turned, part) = true;
+      if (part != SurfaceParts::none) {
+        const std::int32_t face = scene_.patch(i).face;
+        at(part_turned, part) = at(part_turned, part) || at(plan_.turned, face);
+        at(part_two_sided, part) = at(part_two_sided, part) || at(plan_.two_sided, face);
       }
     }
     report.parts_turned = std::count(part_turned.begin(), part_turned.end(), true);
-    report.parts_two_sided = std::count(verdicts_.begin(), verdicts_.end(), Verdict::two_sided);
+    report.parts_two_sided = std::count(part_two_sided.begin(), part_two_sided.end(), true);
     report.not_orientable = std::count_if(parts_.parts.begin(), parts_.parts.end(),
                                           [](const SurfacePart& p) { return !p.orientable; });
     report.faces_turned = std::count(plan_.turned.begin(), plan_.turned.end(), true);

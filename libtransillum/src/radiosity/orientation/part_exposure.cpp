@@ -33,7 +33,8 @@ class ExposureMeter {
         embree_(embree),
         parts_(parts),
         patches_(patches_by_part()),
-        points_(scene, embree, patches_) {
+        points_(scene, embree, patches_),
+        has_light_(scene.has_light()) {
     for (const Patch& patch : scene.patches()) {
       area_ += patch.area;
     }
@@ -70,7 +71,8 @@ class ExposureMeter {
     for (std::size_t p = 0; p < sums.size(); ++p) {
       const double scale = 1 / static_cast<double>(first_walk_[p + 1] - first_walk_[p]);
       for (SideExposure& side : sums[p]) {
-        side = {scale * side.other_area, scale * side.own_area, scale * side.met_other};
+        side = {scale * side.other_area, scale * side.own_area, scale * side.met_other,
+                scale * side.lit};
       }
     }
     return sums;
@@ -104,6 +106,7 @@ class ExposureMeter {
       sum[side].other_area += exposure[side].other_area;
       sum[side].own_area += exposure[side].own_area;
       sum[side].met_other += exposure[side].met_other;
+      sum[side].lit += exposure[side].lit;
     }
   }
 
@@ -145,6 +148,7 @@ class ExposureMeter {
       const Vec3 direction = diffuse_direction(normal, random), from = position + ray_lift * normal;
       const auto meeting = first_meeting(embree_, from, direction);
       if (!meeting) {
+        exposure.lit = has_light_ ? exposure.lit : 1;
         break;
       }
       const Patch& patch = scene_.patch(meeting->patch);
@@ -154,6 +158,7 @@ class ExposureMeter {
         const bool own = at(parts_.part, reached[step]) == static_cast<std::int32_t>(part);
         (own ? exposure.own_area : exposure.other_area) += patch.area / area_;
         exposure.met_other = own ? exposure.met_other : 1;
+        exposure.lit = !own && max_abs(scene_.exitance(reached[step])) > 0 ? 1 : exposure.lit;
       }
       normal = dot(patch.normal, direction) < 0 ? patch.normal : -patch.normal;
       position = from + static_cast<double>(meeting->distance) * direction;
@@ -167,6 +172,7 @@ class ExposureMeter {
   std::vector<std::size_t> first_patch_;  ///< by part: its first place in patches_; and the end
   std::vector<PatchId> patches_;          ///< by part
   SurfacePoints points_;
+  bool has_light_;
   double area_ = 0;                      ///< of all patches
   std::vector<std::size_t> first_walk_;  ///< by part; and the end
 };

@@ -16,6 +16,8 @@ struct SideExposure {
   double other_area = 0;  ///< area of the patches of other parts reached, relative to all area
   double own_area = 0;    ///< area of the patches of the same part reached, relative to all area
   double met_other = 0;   ///< share of the walks that reach another part
+  double lit = 0;         ///< share that reach a source in another part; where nothing emits: that
+                          ///< leave the scene, since light can only come from outside
 };
 
 /// Of one part: the side of the fronts of patches with sign 1, and the other side.

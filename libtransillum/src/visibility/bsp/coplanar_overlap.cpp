@@ -94,6 +94,9 @@ class OverlapFinder {
     const Vec3 normal = scene_.patch(a).normal;
     Corners common = outline(q);
     for (std::size_t k = 0; k < cover.size() && !common.empty(); ++k) {
+      if (k % 256 == 0) {
+        cancellation_.throw_if_canceled();
+      }
       const Vec3& from = cover[k];
       const Vec3 inward = cross(normal, cover[k + 1 < cover.size() ? k + 1 : 0] - from);
       const double length = norm(inward);
