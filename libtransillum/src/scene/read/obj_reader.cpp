@@ -278,8 +278,9 @@ class ObjReader {
     const std::string similar = notes_.count(kind) < Warnings::shown_of_a_kind
                                     ? search_.similar(path_.parent_path(), name)
                                     : std::string();
-    notes_.add(kind, fmt::format("{}MTL file {} not found{}", place(), in_quotes(name),
-                                 similar.empty() ? "" : "; did you mean " + in_quotes(similar)));
+    notes_.add(kind,
+               fmt::format("{}MTL file {} not found{}", place(), in_quotes(name),
+                           similar.empty() ? "" : "; did you mean " + in_quotes(similar) + "?"));
   }
 
   void finish() {
