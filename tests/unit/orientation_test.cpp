@@ -287,11 +287,21 @@ TEST(BackShare, IsZeroWhereOnlyDarkPlacesSeeBacks) {
   EXPECT_LT(back_share(*sketch.scene()).share, 1e-4);
 }
 
-/// Where the only lamp is turned away, no light tells.
-TEST(BackShare, IsMeasuredFromAllSidesWhereTheLampIsTurned) {
+TEST(BackShare, IsOneWhereTheOnlyLampIsTurnedAway) {
   SceneDescription description = room().description();
   turn(description, 5);
-  EXPECT_GT(back_share(Scene(description)).share, BackShare::worth_a_warning);
+  EXPECT_EQ(back_share(Scene(description)).share, 1);
+}
+
+/// Turned solids are lit inside, which no light reaches.
+TEST(BackShare, IsOneWhereEverythingIsTurned) {
+  for (const char* spec : {"furnace", "cornell-box", "stars", "boards"}) {
+    SceneDescription description = describe_scene(spec);
+    for (std::size_t f = 0; f < description.face_count(); ++f) {
+      turn(description, f);
+    }
+    EXPECT_GT(back_share(Scene(description)).share, 0.9) << spec;
+  }
 }
 
 TEST(BackShare, IsOneInARoomInsideOut) {

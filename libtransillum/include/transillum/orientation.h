@@ -53,10 +53,11 @@ struct OrientationPlan {
 /// Faces hang together where exactly two of them share an edge, by equal coordinates; such a part
 /// is turned as a whole, after its faces have been made consistent with each other. Its lit side is
 /// the one from which random walks of light reach more of the other parts and of the light. So
-/// closed solids are lit outside, the room that contains the rest inside, as is a closed surface
-/// that is alone. An open part that is seen nearly as much on both sides becomes two-sided, unless
-/// it emits, so that no light is doubled. Parts that nothing tells about keep the orientation of
-/// most of their area. Two faces on the same points that face opposite ways are kept.
+/// closed solids are lit outside, the room that contains the rest inside, as is an emitting closed
+/// surface that is alone. An open part that is seen nearly as much on both sides becomes two-sided,
+/// unless it emits, so that no light is doubled. Parts that nothing tells about keep the
+/// orientation of most of their area. Two faces on the same points that face opposite ways are
+/// kept.
 ///
 /// Time: a few 10^6 rays at most for scenes of up to 10^5 parts, linear in the parts above.
 /// The result does not depend on the number of threads.
@@ -90,8 +91,9 @@ struct BackShare {
   /// Share of what light meets above which the orientation of faces deserves a warning.
   static constexpr double worth_a_warning = 0.1;
 
-  /// Of what light meets, the fraction that is a back, in [0,1]. Where light meets nothing at all
-  /// and most lit sides see nothing, but backs see backs: 1, since the scene is inside out.
+  /// Of what light meets, the fraction that is a back, in [0,1]. Where the light of all sources
+  /// leaves the scene: 1, since they are turned away. Where nothing emits, most lit sides see
+  /// nothing, but backs see backs: 1, since the scene is inside out.
   double share = 0;
   /// Fraction of the lines from lit sides that meet nothing, in [0,1]. Through a two-sided face, a
   /// line counts where it meets nothing on either side, so that a sealed room of two-sided faces
@@ -102,10 +104,9 @@ struct BackShare {
 };
 
 /// Measures the share of backs among what light meets, by random paths from the sources that lit
-/// sides reflect up to 16 times and backs absorb; from all lit sides where nothing emits, or where
-/// the sources' light meets nothing. At most 2 · 10^5 rays in all, some 0.1 s and the construction
-/// of Embree's tree; the standard error of a share is below 0.006. The same for any number of
-/// threads.
+/// sides reflect up to 16 times and backs absorb; from all lit sides where nothing emits. At most
+/// 2 · 10^5 rays in all, some 0.1 s and the construction of Embree's tree; the standard error of a
+/// share is below 0.006. The same for any number of threads.
 /// @param threads 0: all cores.
 /// @throws Canceled
 BackShare back_share(const Scene& scene, int threads = 0, const Cancellation& cancellation = {});

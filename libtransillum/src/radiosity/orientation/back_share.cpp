@@ -54,13 +54,15 @@ class RaySampler {
                              });
   }
 
-  /// Paths of light from points of these patches' lit sides, uniform by area. They are reflected by
-  /// lit sides and end at backs.
-  std::vector<Path> sample_paths(const std::vector<PatchId>& patches) {
-    return sampled<Path>(patches, path_count, paths_in_block, ray_count,
-                         [this](const SurfacePoints::Point& start, RandomNumbers& random) {
-                           return path_from(start, random);
-                         });
+  /// Paths of light from points of these patches' lit sides, or of their backs, uniform by area.
+  /// They are reflected by lit sides and end at backs.
+  std::vector<Path> sample_paths(const std::vector<PatchId>& patches, bool from_backs = false) {
+    return sampled<Path>(
+        patches, path_count, paths_in_block, ray_count,
+        [this, from_backs](const SurfacePoints::Point& start, RandomNumbers& random) {
+          const Vec3& normal = scene_.patch(start.patch).normal;
+          return path_from(start.position, from_backs ? -normal : normal, random);
+        });
   }
 
  private:
@@ -115,9 +117,8 @@ class RaySampler {
     return {!(inner && is_two_sided(start.patch)), inner && inner->back};
   }
 
-  Path path_from(const SurfacePoints::Point& start, RandomNumbers& random) const {
+  Path path_from(Vec3 position, Vec3 normal, RandomNumbers& random) const {
     Path path;
-    Vec3 position = start.position, normal = scene_.patch(start.patch).normal;
     while (path.size() < longest_path && (path.empty() || !path.back().back)) {
       const Vec3 direction = diffuse_direction(normal, random), from = position + ray_lift * normal;
       double distance = 0;
@@ -184,19 +185,28 @@ struct PathCounts {
   }
 };
 
-/// What light from the sources meets; from all lit sides where there are none, or where their light
-/// meets nothing, as that of a lamp turned to the wrong side.
-PathCounts count_light(const Scene& scene, const std::vector<PatchId>& all, RaySampler& rays) {
+/// What light meets, and whether the sources emit it out of the scene.
+struct Light {
+  PathCounts met;
+  bool turned_away = false;
+};
+
+/// Follows the light of the sources; that of all lit sides if there are none. If the light of the
+/// sources meets nothing, but something is behind them, they are turned away, and what their backs
+/// see is counted.
+Light follow_light(const Scene& scene, const std::vector<PatchId>& all, RaySampler& rays) {
   std::vector<PatchId> sources;
   std::copy_if(all.begin(), all.end(), std::back_inserter(sources),
                [&](PatchId i) { return max_abs(scene.exitance(i)) > 0; });
-  if (!sources.empty()) {
-    PathCounts counts(scene, rays.sample_paths(sources));
-    if (!counts.is_empty()) {
-      return counts;
+  for (const bool behind : {false, true}) {
+    if (!sources.empty()) {
+      PathCounts met(scene, rays.sample_paths(sources, behind));
+      if (!met.is_empty()) {
+        return {std::move(met), behind};
+      }
     }
   }
-  return {scene, rays.sample_paths(all)};
+  return {{scene, rays.sample_paths(all)}};
 }
 
 }  // namespace
@@ -212,8 +222,8 @@ BackShare back_share(const Scene& scene, int threads, const Cancellation& cancel
   }
   BackShare result;
   result.open = static_cast<double>(open) / double{ray_count};
-  const PathCounts light = count_light(scene, patches, rays);
-  if (light.is_empty()) {
+  const auto [met, turned_away] = follow_light(scene, patches, rays);
+  if (met.is_empty()) {
     result.share = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
     return result;
   }
@@ -221,10 +231,10 @@ BackShare back_share(const Scene& scene, int threads, const Cancellation& cancel
   for (const Material& material : scene.materials()) {
     names.push_back(material.name);
   }
-  const auto all = static_cast<double>(light.all.seen);
-  result.share = static_cast<double>(light.all.backs) / all;
-  result.materials = shares_of(light.materials, names, all);
-  result.groups = shares_of(light.groups, scene.groups(), all);
+  const auto all = static_cast<double>(met.all.seen);
+  result.share = turned_away ? 1 : static_cast<double>(met.all.backs) / all;
+  result.materials = shares_of(met.materials, names, all);
+  result.groups = shares_of(met.groups, scene.groups(), all);
   return result;
 }
 
