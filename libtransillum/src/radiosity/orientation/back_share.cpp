@@ -162,6 +162,7 @@ std::vector<BackCount> shares_of(const std::vector<Count>& counts,
 struct PathCounts {
   std::vector<Count> materials, groups;
   Count all;
+  std::int64_t dark = 0;  ///< hits on patches that do not emit
 
   PathCounts(const Scene& scene, const std::vector<Path>& paths)
       : materials(scene.materials().size()), groups(scene.groups().size()) {
@@ -169,6 +170,7 @@ struct PathCounts {
       for (const Hit& hit : path) {
         const Patch& patch = scene.patch(hit.patch);
         add(all, hit);
+        dark += max_abs(scene.exitance(hit.patch)) == 0 ? 1 : 0;
         add(at(materials, patch.material), hit);
         if (patch.group != no_group) {
           add(at(groups, patch.group), hit);
@@ -176,7 +178,9 @@ struct PathCounts {
       }
     }
   }
-  bool is_empty() const { return static_cast<double>(all.seen) < nothing * double{path_count}; }
+  static bool is_nothing(std::int64_t hits) {
+    return static_cast<double>(hits) < nothing * double{path_count};
+  }
 
  private:
   static void add(Count& count, const Hit& hit) {
@@ -201,7 +205,8 @@ Light follow_light(const Scene& scene, const std::vector<PatchId>& all, RaySampl
   for (const bool behind : {false, true}) {
     if (!sources.empty()) {
       PathCounts met(scene, rays.sample_paths(sources, behind));
-      if (!met.is_empty()) {
+      // Light that meets only sources, where there are other patches, is shut up in a lamp.
+      if (!PathCounts::is_nothing(sources.size() < all.size() ? met.dark : met.all.seen)) {
         return {std::move(met), behind};
       }
     }
@@ -223,7 +228,7 @@ BackShare back_share(const Scene& scene, int threads, const Cancellation& cancel
   BackShare result;
   result.open = static_cast<double>(open) / double{ray_count};
   const auto [met, turned_away] = follow_light(scene, patches, rays);
-  if (met.is_empty()) {
+  if (PathCounts::is_nothing(met.all.seen)) {
     result.share = dark > std::int64_t{ray_count} / 2 ? 1 : 0;
     return result;
   }
