@@ -22,6 +22,7 @@ namespace transillum {
 namespace {
 
 constexpr std::size_t listed_names = 8;
+constexpr std::size_t longest_suggestion = 60;
 
 /// What a change applies to.
 struct Target {
@@ -98,8 +99,8 @@ class TargetFinder {
     std::optional<Target> group = find_group(name, ignore_case);
     if (material && group) {
       notes.push_back(fmt::format(
-          "{}: {} is a material and a group; the material is changed (for the group: group:{})",
-          description_.name, in_quotes(name), name));
+          "{}: {} is a material and a group; the material is changed (for the group: {})",
+          description_.name, in_quotes(name), in_quotes("group:" + name)));
     }
     return material ? material : group;
   }
@@ -297,9 +298,10 @@ bool suggests_light(const std::string& name) {
 }
 
 bool fits_on_a_line(const std::string& name) {
-  return !name.empty() && std::none_of(name.begin(), name.end(), [](unsigned char c) {
-    return c < 0x20 || c == 0x7f || c == '\'' || c == '"';
-  });
+  return !name.empty() && name.size() <= longest_suggestion &&
+         std::none_of(name.begin(), name.end(), [](unsigned char c) {
+           return c < 0x20 || c == 0x7f || c == '\'' || c == '"';
+         });
 }
 
 }  // namespace
