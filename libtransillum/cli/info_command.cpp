@@ -143,7 +143,11 @@ void print_backs_along_directions(const Scene& scene, const std::vector<double>&
   }
 }
 
-void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& overlaps) {
+void print_overlaps(const Scene& scene, const Cancellation& cancellation) {
+  ProgressDisplay display;
+  display.begin("searching overlaps");
+  const auto overlaps = coplanar_overlaps(scene, max_overlaps, cancellation);
+  display.clear();
   if (overlaps.empty()) {
     return;
   }
@@ -161,7 +165,10 @@ void print_overlaps(const Scene& scene, const std::vector<CoplanarOverlap>& over
 
 /// What random rays tell: whether the scene is closed, and which materials are seen from behind.
 BackShare print_rays(const Scene& scene, int threads, const Cancellation& cancellation) {
+  ProgressDisplay display;
+  display.begin("checking what light meets");
   const BackShare backs = back_share(scene, threads, cancellation);
+  display.clear();
   print_row("closed", backs.open == 0
                           ? std::string("yes: no ray from a lit side leaves")
                           : fmt::format("no, {} of the rays from lit sides meet no patch",
@@ -207,7 +214,7 @@ int run(const InfoCall& call) {
   if (call.directions > 0) {
     print_directions(scene, call, cancellation);
   }
-  print_overlaps(*scene, coplanar_overlaps(*scene, max_overlaps, cancellation));
+  print_overlaps(*scene, cancellation);
   print_repairs(scene->report());
   if (const std::string advice = orientation_advice(call.scene, backs); !advice.empty()) {
     print_row("warning", advice);
