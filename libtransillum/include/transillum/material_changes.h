@@ -27,10 +27,12 @@ struct MaterialChange {
   friend bool operator==(const MaterialChange&, const MaterialChange&) = default;
 };
 
-/// A change of E from the text `NAME=E` or `NAME=R,G,B`, of rho from `NAME=R` or `NAME=R,G,B`: one
-/// number is for all channels. NAME ends at the last `=`.
+/// A change of E from the text `NAME=E` or `NAME=R,G,B`: one number is for all channels. NAME ends
+/// at the last `=`.
 /// @throws InputError where the text has another form; values are checked by change_materials()
 MaterialChange exitance_change(const std::string& text);
+/// A change of rho from a text of the same form.
+/// @throws InputError
 MaterialChange reflectance_change(const std::string& text);
 
 /// Applies changes in their order: of two for the same face and value, the later one holds. All
@@ -49,7 +51,8 @@ void change_materials(SceneDescription& description, std::span<const MaterialCha
 
 /// A target for a change that gives the scene its first light, for messages: a material in use or
 /// a group whose name suggests a lamp ("light", "Lampe", "bulb" …), else the material in use with
-/// the fewest faces; `face:0` where no material in use has a name that fits on a line.
+/// the fewest faces; `face:0` where no material in use has a name
+/// that fits on a line.
 std::string suggested_light(const SceneDescription& description);
 
 }  // namespace transillum
