@@ -10,6 +10,7 @@
 #include "scene_test_support.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
+#include "transillum/radiosity.h"
 
 namespace transillum {
 namespace {
@@ -319,6 +320,19 @@ TEST(BackShare, OfASealedRoomWithTwoSidedFacesIsZeroAndItIsClosed) {
   EXPECT_EQ(back_share(*scene).open, 0);
   EXPECT_EQ(back_share(*load_scene("cornell-box", {.two_sided = true})).open, 0);
   EXPECT_GT(back_share(*load_scene("cornell-box:open=1", {.two_sided = true})).open, 0.1);
+}
+
+/// The outer sides of a sealed room do not count as open, for passes and hemicubes alike.
+TEST(TwoSidedFaces, OfASealedRoomLetNothingEscape) {
+  const auto escaped = [](const std::string& spec, Engine engine) {
+    return solve(load_scene(spec, {.two_sided = true}),
+                 {.directions = 16, .engine = engine, .iterations = 2})
+        .statistics.escaped;
+  };
+  for (const Engine engine : {Engine::fast, Engine::hemicube}) {
+    EXPECT_LT(escaped("cornell-box", engine), 1e-9);
+    EXPECT_GT(escaped("cornell-box:open=1", engine), 0.05);
+  }
 }
 
 TEST(BackShare, DoesNotDependOnThreads) {
