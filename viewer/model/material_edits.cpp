@@ -139,10 +139,11 @@ std::vector<PatchId> MaterialEdits::patches_of(const std::string& target) const 
     members[k] =
         (kind == TargetKind::group ? scene_->groups()[k] : scene_->materials()[k].name) == name;
   }
+  const int face = QString::fromStdString(name).toInt();
   const auto belongs = [&](const Patch& patch) {
     switch (kind) {
       case TargetKind::face:
-        return std::to_string(patch.face) == name;
+        return patch.face == face;
       case TargetKind::group:
         return patch.group != no_group && at(members, patch.group);
       case TargetKind::material:

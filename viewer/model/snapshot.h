@@ -14,7 +14,6 @@
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
-#include "transillum/orientation.h"
 #include "transillum/picking.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -28,7 +27,7 @@ struct LoadedScene {
   std::shared_ptr<const BspTree> tree;
   std::shared_ptr<const Picker> picker;
   SceneMeasures measures;
-  BackShare backs;
+  double back_share = 0;                   ///< BackShare::share
   std::shared_ptr<const Solution> stored;  ///< of the result file that was opened; else null
   std::string file;                        ///< path of the result file
   double seconds_load = 0;                 ///< wall-clock time of reading

@@ -231,7 +231,7 @@ void SolveRunner::read_scene(const OpenRequest& request, LoadedScene& loaded,
     loaded.description = std::make_shared<const SceneDescription>(describe(request, cancellation));
     loaded.scene = make_scene(*loaded.description, request.options, cancellation);
   }
-  loaded.backs = back_share(*loaded.scene, 0, cancellation);
+  loaded.back_share = back_share(*loaded.scene, 0, cancellation).share;
   loaded.picker = std::make_shared<const Picker>(loaded.scene, cancellation);
   loaded.measures = measure(*loaded.scene, cancellation);
   loaded.seconds_load = seconds(timer);

@@ -231,8 +231,7 @@ QString MaterialPanel::extent_text() const {
   const MaterialEdits::Extent extent = relighting_.edits().extent_of(target());
   const QString patches =
       extent.patches == 1 ? tr("1 patch") : tr("%1 patches").arg(extent.patches);
-  return extent.uniform ? patches
-                        : tr("%1, which differ: a slider sets all to the same value").arg(patches);
+  return extent.uniform ? patches : tr("%1 with different values").arg(patches);
 }
 
 }  // namespace transillum::viewer

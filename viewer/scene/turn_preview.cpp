@@ -12,6 +12,8 @@
 
 #include "colors/neutral_light.h"
 #include "transillum/at.h"
+#include "transillum/orientation.h"
+#include "transillum/scene.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {

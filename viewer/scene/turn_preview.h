@@ -5,8 +5,10 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
-#include "transillum/orientation.h"
-#include "transillum/scene.h"
+namespace transillum {
+class Scene;
+struct OrientationPlan;
+}  // namespace transillum
 
 namespace transillum::viewer {
 

@@ -158,8 +158,8 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   stop_value_->addWidget(iterations_);
   auto* stop_row = new QHBoxLayout;
   stop_row->setSpacing(6);
-  stop_row->addWidget(stop_at_, 1);
-  stop_row->addWidget(stop_value_, 1);
+  stop_row->addWidget(stop_at_, 3);
+  stop_row->addWidget(stop_value_, 2);
   form.addRow(tr("Stop at"), stop_row);
 }
 

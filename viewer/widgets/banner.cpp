@@ -64,6 +64,8 @@ void Banner::show_message(Kind kind, const QString& text, const QString& details
                                "%3 { background: %1; border: none; border-bottom: 1px solid %2; } "
                                "%3 QPushButton { background: #ffffff; border: 1px solid %2; "
                                "border-radius: 4px; padding: 4px 12px; } "
+                               "%3 QPushButton::menu-indicator { "
+                               "subcontrol-position: right center; right: 3px; } "
                                "%3 QPushButton:hover { border-color: #5d84b0; } "
                                "%3 QPushButton:disabled { color: #8b929b; }")
                     .arg(QLatin1String(style.background), QLatin1String(style.border),

@@ -113,6 +113,8 @@ QColor color_of(Icon which) {
       return current.dark ? QColor(0xe0, 0x5a, 0x5a) : QColor(0xb9, 0x2d, 0x2d);
     case Icon::warning:
       return {0xb3, 0x6b, 0x00};
+    case Icon::close:  // on banners, which are light in dark windows too
+      return on_yellow;
     case Icon::info:
       return {0x2f, 0x6f, 0xb5};
     default:

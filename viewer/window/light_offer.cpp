@@ -4,6 +4,9 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QPushButton>
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "patches/material_panel.h"
 #include "scene/scene_page.h"
@@ -49,32 +52,37 @@ void LightOffer::update() {
   bar.show_message(
       Banner::Kind::offer,
       parts_.selection.patch() == no_patch
-          ? tr("No light: nothing emits, so the scene is shown in a neutral light. Click a face to "
-               "make it, its material or its group emit.")
+          ? tr("No light: the scene is shown in a neutral one. Click a face to make it emit.")
           : tr("No light: make the selected face, material or group emit."));
 }
 
 void LightOffer::fill_menu() {
   menu_->clear();
-  const Scene& scene = *parts_.scene.loaded()->scene;
+  const auto loaded = parts_.scene.loaded();
   const PatchId patch = parts_.selection.patch();
-  if (patch == no_patch) {
-    menu_->addAction(tr("Click a face in the scene to choose it"))->setEnabled(false);
-  } else {
-    for (const TargetKind kind : {TargetKind::face, TargetKind::material, TargetKind::group}) {
-      const std::string target = MaterialEdits::target_of(scene, kind, patch);
-      if (!target.empty()) {
-        add_target(target_text(target), target);
-      }
+  std::vector<std::string> targets;
+  for (const TargetKind kind : {TargetKind::face, TargetKind::material, TargetKind::group}) {
+    if (patch != no_patch) {
+      targets.push_back(MaterialEdits::target_of(*loaded->scene, kind, patch));
     }
   }
-  const auto& description = parts_.scene.loaded()->description;
-  if (!description) {
+  if (targets.empty()) {
+    menu_->addAction(tr("Click a face in the scene to choose it"))->setEnabled(false);
+  }
+  for (const std::string& target : targets) {
+    if (!target.empty()) {
+      add_target(target_text(target), target);
+    }
+  }
+  if (!loaded->description) {
     return;
   }
-  const std::string suggested = parts_.relighting.edits().with_kind(suggested_light(*description));
-  menu_->addSeparator();
-  add_target(tr("%1 (suggested)").arg(target_text(suggested)), suggested);
+  const std::string suggested =
+      parts_.relighting.edits().with_kind(suggested_light(*loaded->description));
+  if (std::find(targets.begin(), targets.end(), suggested) == targets.end()) {
+    menu_->addSeparator();
+    add_target(tr("%1 (suggested)").arg(target_text(suggested)), suggested);
+  }
 }
 
 void LightOffer::add_target(const QString& text, const std::string& target) {

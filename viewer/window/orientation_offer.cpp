@@ -11,6 +11,7 @@
 #include "scene/scene_view.h"
 #include "solve/settings_panel.h"
 #include "support/number_text.h"
+#include "transillum/orientation.h"
 #include "widgets/banner.h"
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
@@ -85,20 +86,19 @@ void OrientationOffer::offer() {
   const auto loaded = parts_.scene.loaded();
   // Built-in scenes are as they are meant to be.
   const bool from_file = loaded->description && !loaded->description->files.empty();
-  if (!from_file || loaded->backs.share <= BackShare::worth_a_warning) {
+  if (!from_file || loaded->back_share <= BackShare::worth_a_warning) {
     state_ = State::none;
     parts_.page.orientation_bar()->dismiss();
     return;
   }
-  const QString percent = QString::number(std::lround(100 * loaded->backs.share));
+  const QString percent = QString::number(std::lround(100 * loaded->back_share));
   if (parts_.scene.input().orient) {
     show(State::nothing_to_turn,
          tr("%1 % of what is seen is the back of a face, also after turning faces.").arg(percent));
     return;
   }
   show(State::offered,
-       tr("%1 % of what is seen is the back of a face: backs are not drawn, emit nothing and "
-          "absorb all light.")
+       tr("%1 % of what is seen is the back of a face, which neither emits nor reflects.")
            .arg(percent));
 }
 

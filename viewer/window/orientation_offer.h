@@ -5,10 +5,13 @@
 #include <memory>
 
 #include "support/request_worker.h"
-#include "transillum/orientation.h"
 #include "window/window_parts.h"
 
 class QPushButton;
+
+namespace transillum {
+struct OrientationPlan;
+}
 
 namespace transillum::viewer {
 
