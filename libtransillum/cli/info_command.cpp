@@ -200,7 +200,7 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   print_row("BSP fragments", fmt::format("{}", tree->fragments().size()));
   print_row("along directions",
             fmt::format("{} of the projected area sees no patch ({} directions)",
-                        share_text(escaped < open_share ? 0 : escaped), 2 * call.directions));
+                        share_text(escaped), 2 * call.directions));
   print_backs_along_directions(*scene, solver.back_seen_shares());
 }
 

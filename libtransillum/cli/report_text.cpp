@@ -17,8 +17,11 @@ std::string rgb_text(const Rgb& color, int digits) {
 }
 
 std::string share_text(double share) {
+  if (share < 1e-9) {
+    return "0 %";  // rounding
+  }
   const double percent = 100 * share;
-  if (percent > 0 && percent < 0.001) {
+  if (percent < 0.001) {
     return "less than 0.001 %";
   }
   // Two digits, three above 99 %, where the rest counts; no exponent, no zeros at the end.

@@ -13,7 +13,8 @@ std::string report_row(const std::string& name, const std::string& value);
 /// The three channels, with the given number of significant digits.
 std::string rgb_text(const Rgb& color, int digits);
 
-/// A fraction as people read it: 0.5 -> "50 %", 0.012 -> "1.2 %", 1e-7 -> "less than 0.001 %".
+/// A fraction as people read it: 0.5 -> "50 %", 0.012 -> "1.2 %", 1e-7 -> "less than 0.001 %";
+/// below 1e-9, which is rounding, "0 %".
 std::string share_text(double share);
 
 /// 75 s -> "1:15 min".
