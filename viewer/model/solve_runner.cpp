@@ -246,8 +246,9 @@ SceneDescription SolveRunner::describe(const OpenRequest& request,
     const OrientationReport report = orient(description, 0, cancellation, [this](double share) {
       post_load_progress(tr("Turning faces"), share);
     });
-    description.notes.insert(description.notes.end(), report.sentences.begin(),
-                             report.sentences.end());
+    for (const std::string& sentence : report.sentences) {
+      description.notes.push_back("orientation: " + sentence);
+    }
   }
   return description;
 }
