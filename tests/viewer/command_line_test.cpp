@@ -142,6 +142,7 @@ class CommandLineTest : public QObject {
     QTest::newRow("emission that is no number") << QStringList{"a.obj", "--emission", "a=x"};
     QTest::newRow("orientation") << QStringList{"a.obj", "--orient", "maybe"};
     QTest::newRow("no patches") << QStringList{"a.obj", "--patches", "0"};
+    QTest::newRow("emission in a result") << QStringList{"r.vtp", "--emission", "lamp=1"};
     QTest::newRow("patches and area")
         << QStringList{"a.obj", "--patches", "5", "--max-patch-area", "1"};
     QTest::newRow("after without screenshot") << QStringList{"furnace", "--after", "3"};

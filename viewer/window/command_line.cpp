@@ -8,6 +8,7 @@
 
 #include "model/run_options.h"
 #include "transillum/errors.h"
+#include "transillum/files.h"
 #include "transillum/material_changes.h"
 
 namespace transillum::viewer {
@@ -140,6 +141,11 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   }
   solve.validate();
   line.input.read.validate();
+  if (is_result_file(line.scene) && !(line.input == SceneInput{})) {
+    throw InputError(
+        "options of scenes, such as --emission and --scale, do not apply to the result \"" +
+        line.scene + "\"");
+  }
   if (app.count("--screenshot") > 0) {
     if (line.scene.empty() && line.lesson.empty()) {
       throw InputError("--screenshot needs a SCENE or a --lesson");
