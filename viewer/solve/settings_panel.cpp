@@ -153,6 +153,7 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   tolerance_->setToolTip(tip("tolerance"));
   iterations_ = new QSpinBox;
   iterations_->setRange(1, std::numeric_limits<int>::max());
+  iterations_->setMinimumWidth(60);
   stop_value_ = new QStackedWidget;
   stop_value_->addWidget(tolerance_);
   stop_value_->addWidget(iterations_);
