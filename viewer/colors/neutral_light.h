@@ -11,7 +11,7 @@ namespace transillum::viewer {
 /// Whether any patch emits, with the materials of the snapshot.
 bool has_light(const SolverSnapshot& snapshot);
 
-/// Brightness, 0.3 to 1, of a white surface with this unit normal in a neutral light that comes
+/// Brightness, 0.25 to 1, of a white surface with this unit normal in a neutral light that comes
 /// from above and the side. For pictures of shapes only; no solve uses it.
 double neutral_brightness(const Vec3& normal);
 /// The reflectances of all patches in that light, one color per patch; black ones are raised to
