@@ -239,10 +239,10 @@ Run add_info_command(CLI::App& program) {
                     });
   add_threads_option(command, call->threads);
   command.footer(
-      "Whether the scene is closed and what is seen from behind is measured by some 10^5 random\n"
-      "from the lit sides, which miss holes smaller than about 1e-5 of the area; with "
-      "--directions\n"
-      "also exactly along some. What is seen from behind may be turned, which --orient auto\n"
+      "Whether the scene is closed and what is seen from behind is measured by random rays from\n"
+      "the lit sides, which miss holes smaller than about 1e-4 of the area; with --directions "
+      "also\n"
+      "exactly along some. What is seen from behind may be turned, which --orient auto\n"
       "repairs, but it may also be the inside of a box without a bottom that stands on a floor:\n"
       "the floor inside the box sees its backs.\n"
       "Example: transillum info rooms");

@@ -59,7 +59,7 @@ void add_change_option(CLI::App& command, const std::string& name, const std::st
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-/// "12,345 patches of at most 0.01 m2; about 24 MB of memory", before they are made.
+/// "12345 patches of at most 0.01 m2; about 24 MB of memory", before they are made.
 std::string patches_text(std::int64_t count, double max_area, bool keeps_factors) {
   return fmt::format("{} patches of at most {:.4g} m2; about {:.3g} MB of memory{}", count,
                      max_area, 1e-6 * static_cast<double>(expected_memory(count)),

@@ -41,7 +41,7 @@ MaterialChange reflectance_change(const std::string& text);
 ///
 /// Where a change is for a part of a material's faces, these get a new material, named after the
 /// material and the target. Materials in use keep their numbers; new ones are appended. A target
-/// that is both a material and a group, or a material that no face uses, is told in
+/// that is both a material and a group, or a material that no face uses, is noted in
 /// SceneDescription::notes. Faces, groups and points are not changed.
 ///
 /// Time: linear in the faces, for each change of a group or a material.
@@ -51,8 +51,7 @@ void change_materials(SceneDescription& description, std::span<const MaterialCha
 
 /// A target for a change that gives the scene its first light, for messages: a material in use or
 /// a group whose name suggests a lamp ("light", "Lampe", "bulb" …), else the material in use with
-/// the fewest faces; `face:0` where no material in use has a name
-/// that fits on a line.
+/// the fewest faces; `face:0` where no material in use has a name that fits on a line.
 std::string suggested_light(const SceneDescription& description);
 
 }  // namespace transillum

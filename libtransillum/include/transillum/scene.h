@@ -232,7 +232,7 @@ class Scene {
 /// Reads a file or generates a built-in scene.
 /// @param spec a path ending in .obj, or the name of a built-in scene (built_in_scenes()), with
 /// parameters as in `sphere-flake:levels=2,slices=17,stacks=8`.
-/// @param read what replaces missing values, and the unit of lengths. What was replaced is told in
+/// @param read what replaces missing values, and the unit of lengths. What was replaced is noted in
 /// SceneDescription::notes.
 /// @param cancellation checked while reading.
 /// @throws InputError; for an unknown name similar to a known one the message suggests it.

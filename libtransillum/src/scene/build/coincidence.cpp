@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <tuple>
 
+#include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -33,14 +33,11 @@ std::uint64_t hash_of(const std::vector<PointId>& set) {
   return h;
 }
 
-/// The order of BspTree among coincident patches that face the same way: the least is not covered.
-using Rank = std::tuple<double, double, std::int32_t>;
-
 /// One side of a face on points that others share.
 struct Side {
   std::int32_t face;
   bool along;  ///< faces the way of the first side on these points
-  Rank rank;
+  CoverRank rank;
 };
 
 /// The sides that a face lights, from its first patch and, if that is its opposite, the second.
@@ -54,9 +51,9 @@ void add_sides(std::size_t face, const std::vector<Patch>& patches,
     if (sides.empty()) {
       first = patch->normal;
     }
-    const Rank rank{-max_abs(at(materials, patch->material).exitance), patch->area,
-                    -static_cast<std::int32_t>(patch - patches.begin())};
-    sides.push_back({number, dot(patch->normal, first) > 0, rank});
+    const auto id = static_cast<PatchId>(patch - patches.begin());
+    sides.push_back({number, dot(patch->normal, first) > 0,
+                     cover_rank(at(materials, patch->material).exitance, patch->area, id)});
     if (patch + 1 == patches.end() || dot((patch + 1)->normal, front) > 0) {
       return;
     }
@@ -65,9 +62,9 @@ void add_sides(std::size_t face, const std::vector<Patch>& patches,
 
 /// Adds the faces that are not the uncovered one on any of their sides.
 void add_covered(const std::vector<Side>& sides, std::vector<std::int32_t>& covered) {
-  std::array<std::optional<Rank>, 2> best;
+  std::array<std::optional<CoverRank>, 2> best;
   for (const Side& side : sides) {
-    std::optional<Rank>& least = best[side.along ? 1 : 0];
+    std::optional<CoverRank>& least = best[side.along ? 1 : 0];
     least = least ? std::min(*least, side.rank) : side.rank;
   }
   for (std::size_t k = 0; k < sides.size();) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/invariant.h"
+#include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -267,11 +268,8 @@ void BspBuilder::add_coplanar(PolygonList coplanar, BspTree::Node& node) {
     const auto piece = static_cast<std::size_t>(at(polygons_, p).piece);
     return dot(piece_planes_[piece].normal, node.plane.normal) >= 0;
   };
-  // Emitters and smaller patches must stay visible: a lamp in its ceiling. Ids break ties.
   const auto rank = [&](std::int32_t p) {
-    const PatchId patch = at(polygons_, p).patch;
-    return std::tuple(!faces_along_normal(p), -max_abs(scene_.exitance(patch)),
-                      scene_.patch(patch).area, -patch, p);
+    return std::tuple(!faces_along_normal(p), cover_rank(scene_, at(polygons_, p).patch), p);
   };
   std::sort(coplanar.begin(), coplanar.end(),
             [&](std::int32_t a, std::int32_t b) { return rank(a) < rank(b); });

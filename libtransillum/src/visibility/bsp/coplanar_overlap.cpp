@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "geometry/box_tree.h"
 #include "geometry/form_factor.h"
+#include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"
 
@@ -79,11 +79,6 @@ class OverlapFinder {
     });
   }
 
-  /// Orders coplanar patches: those that cover others come first, as in the BSP tree.
-  auto rank(PatchId i) const {
-    return std::tuple(-max_abs(scene_.exitance(i)), scene_.patch(i).area, -i);
-  }
-
   /// Adds the area in which two pieces overlap, if any.
   void add_overlap(std::size_t p, std::size_t q) {
     const PatchId a = patch_of(p), b = patch_of(q);
@@ -109,7 +104,8 @@ class OverlapFinder {
       return;
     }
     if (const double area = norm(area_vector(common)); area > 0) {
-      areas_[rank(a) < rank(b) ? std::pair(a, b) : std::pair(b, a)] += area;
+      const bool a_covers = cover_rank(scene_, a) < cover_rank(scene_, b);
+      areas_[a_covers ? std::pair(a, b) : std::pair(b, a)] += area;
     }
   }
 

@@ -7,8 +7,8 @@
 #include "visibility/pairs/patch_exchange.h"
 
 #include <algorithm>
-#include <tuple>
 
+#include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"
 #include "visibility/pairs/merged_pieces.h"
@@ -105,10 +105,7 @@ Corners ExchangeFinder::corners_of(const Piece& piece) const {
 
 /// Whether `upper` covers `lower` where they overlap, for coplanar patches with the same normal.
 bool ExchangeFinder::covers(PatchId upper, PatchId lower) const {
-  const auto rank = [&](PatchId i) {
-    return std::tuple(-max_abs(scene_.exitance(i)), scene_.patch(i).area, -i);
-  };
-  return rank(upper) < rank(lower);
+  return cover_rank(scene_, upper) < cover_rank(scene_, lower);
 }
 
 std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree& pieces) const {
