@@ -186,7 +186,7 @@ void print_directions(const std::shared_ptr<const Scene>& scene, const InfoCall&
   options.iterations = 1;
   options.threads = call.threads;
   ProgressDisplay display;
-  const auto tree = build_tree(*scene, cancellation, display);
+  const auto tree = build_tree(*scene, cancellation, display, call.threads);
   RadiositySolver solver(scene, options, tree, cancellation);
   display.expect_passes("checking visibility, ", call.directions);
   solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {

@@ -168,9 +168,10 @@ std::string rate_text(double passes_per_second, double seconds_left) {
 }
 
 std::shared_ptr<const BspTree> build_tree(const Scene& scene, const Cancellation& cancellation,
-                                          ProgressDisplay& display) {
+                                          ProgressDisplay& display, int threads) {
   return std::make_shared<const BspTree>(
-      scene, cancellation, [&](double share) { display.show("building BSP tree", share); });
+      scene, cancellation, [&](double share) { display.show("building BSP tree", share); },
+      threads);
 }
 
 }  // namespace transillum::cli

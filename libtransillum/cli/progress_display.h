@@ -68,8 +68,9 @@ class ProgressDisplay {
 std::string rate_text(double passes_per_second, double seconds_left);
 
 /// Builds the BSP tree of a scene and shows the progress.
+/// @param threads at most; 0: the number of cores.
 /// @throws Canceled
 std::shared_ptr<const BspTree> build_tree(const Scene& scene, const Cancellation& cancellation,
-                                          ProgressDisplay& display);
+                                          ProgressDisplay& display, int threads = 0);
 
 }  // namespace transillum::cli

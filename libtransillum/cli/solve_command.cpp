@@ -112,7 +112,7 @@ FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOpti
 Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                          const Cancellation& cancellation, ProgressDisplay& display) {
   const auto start = Clock::now();
-  const auto tree = build_tree(*scene, cancellation, display);
+  const auto tree = build_tree(*scene, cancellation, display, options.threads);
   const double seconds_bsp = seconds_since(start);
   const auto shot = shoot_first(scene, options, cancellation, display);
   RadiositySolver solver(scene, options, tree, cancellation, shot.light);

@@ -208,7 +208,8 @@ int run(const StudyCall& call) {
   check_distinct(
       files, given_files(
                  {ReferenceCache(call.cache).file_of(*context.scene, reference_options).string()}));
-  context.tree = build_tree(*context.scene, context.cancellation, context.display);
+  context.tree =
+      build_tree(*context.scene, context.cancellation, context.display, reference_options.threads);
   const std::vector<Rgb> reference = reference_radiosity(call, reference_options, context);
   const std::vector<std::string> names = names_of(options.series);
   const Study study = run_study(

@@ -83,9 +83,10 @@ class BspTree {
   /// @param scene need not outlive the constructor.
   /// @param cancellation checked during construction.
   /// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+  /// @param threads at most; 0: the number of cores. The tree does not depend on it.
   /// @throws Canceled
   explicit BspTree(const Scene& scene, const Cancellation& cancellation = {},
-                   const std::function<void(double)>& progress = {});
+                   const std::function<void(double)>& progress = {}, int threads = 0);
 
   /// All fragments, grouped by node.
   const std::vector<Fragment>& fragments() const { return fragments_; }

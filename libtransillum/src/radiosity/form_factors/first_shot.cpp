@@ -14,8 +14,8 @@
 #include <set>
 #include <thread>
 
+#include "base/for_each_index.h"
 #include "radiosity/error_bounds.h"
-#include "radiosity/for_each_index.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "visibility/pairs/patch_exchange.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "radiosity/for_each_index.h"
+#include "base/for_each_index.h"
 #include "transillum/at.h"
 #include "transillum/form_factors.h"
 #include "transillum/solve_errors.h"

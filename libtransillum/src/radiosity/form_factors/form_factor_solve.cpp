@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/for_each_index.h"
 #include "base/seconds_since.h"
 #include "radiosity/error_bounds.h"
-#include "radiosity/for_each_index.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
 #include "transillum/solve_errors.h"

@@ -231,8 +231,11 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
   options.validate();
   // Not owned: the scene outlives this call.
   const std::shared_ptr<const Scene> borrowed(std::shared_ptr<const Scene>(), &scene);
-  const HemicubeScene shared(borrowed, std::make_shared<const BspTree>(scene, cancellation),
-                             options.resolution, cancellation);
+  const HemicubeScene shared(
+      borrowed,
+      std::make_shared<const BspTree>(scene, cancellation, std::function<void(double)>{},
+                                      options.threads),
+      options.resolution, cancellation);
   return gather_rows(
       scene.patch_count(), options.threads, batch, memory_limit(options.memory),
       [&shared] { return HemicubeRows(shared); }, cancellation, progress);

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/seconds_since.h"
+#include "base/worker_threads.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
-#include "radiosity/worker_threads.h"
 #include "transillum/errors.h"
 #include "transillum/hemicube.h"
 

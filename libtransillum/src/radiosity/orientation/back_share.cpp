@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "radiosity/for_each_index.h"
+#include "base/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"
 #include "radiosity/two_sided.h"
 #include "transillum/orientation.h"

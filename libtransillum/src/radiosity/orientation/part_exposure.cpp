@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "radiosity/for_each_index.h"
+#include "base/for_each_index.h"
 #include "radiosity/orientation/surface_rays.h"
 #include "transillum/at.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "radiosity/tsan_scope.h"
-#include "radiosity/worker_threads.h"
+#include "base/tsan_scope.h"
+#include "base/worker_threads.h"
 
 namespace transillum {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/seconds_since.h"
-#include "radiosity/worker_threads.h"
+#include "base/worker_threads.h"
 
 namespace transillum {
 namespace {
@@ -42,7 +42,8 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
   }
   if (!tree) {
     const auto start = Clock::now();
-    tree = std::make_shared<const BspTree>(*scene, cancellation);
+    tree = std::make_shared<const BspTree>(*scene, cancellation, std::function<void(double)>{},
+                                           options.threads);
     seconds_bsp = seconds_since(start);
   }
   engine = make_engine(options.engine, scene, tree, options.engine_options);

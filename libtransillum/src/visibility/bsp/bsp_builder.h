@@ -3,48 +3,47 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "transillum/bsp_tree.h"
-#include "visibility/bsp/plane_search.h"
+#include "visibility/bsp/subtree_builder.h"
 
 namespace transillum {
 
-/// Builds a BspTree top down, without recursion: chooses a plane for a set of polygons, splits
-/// those that cross it, and continues with the sets on both sides (paper, section 3.2).
+/// Builds a BspTree: makes polygons of a scene's pieces, has the subtrees built in parallel, and
+/// joins them in an order that does not depend on the threads.
 class BspBuilder {
  public:
   BspBuilder(const Scene& scene, BspTree& tree, const Cancellation& cancellation,
              const std::function<void(double)>& progress);
-  void build();
+  /// @param threads at most; 0 for the number of cores.
+  void build(int threads);
 
  private:
-  /// A piece, or a part of one, not yet in the tree; convex.
+  /// A piece, or a triangle of one; convex.
   struct Polygon {
     PatchId patch;
-    std::int32_t piece;
+    std::int32_t plane;        ///< in planes_
     std::uint32_t begin, end;  ///< in corners_
   };
-  using PolygonList = std::vector<std::int32_t>;
-  /// A subtree to be built.
-  struct Task {
-    PolygonList polygons;
-    std::int32_t parent;
-    bool front;
-    int depth;
+  /// A subtree, and those that continue it.
+  struct Part {
+    Subtree subtree;
+    std::size_t first_child = 0;  ///< in parts_; as many as the subtree left open, in this order
   };
-  enum class Side { coplanar, front, back, both };
 
   void add_pieces();
+  void add_polygon(PatchId patch, std::span<const PointId> points);
+  bool is_planar(std::span<const PointId> points, const BspTree::Plane& plane) const;
+  BspTree::Plane plane_of(std::span<const PointId> points) const;
   void check_cancellation();
   LineId line_between(PointId a, PointId b);
-  PlaneSearch::Choice choose_plane(const PolygonList& polygons);
-  void split_node(Task task, std::vector<Task>& open);
-  Side classify(const Polygon& polygon, const BspTree::Plane& plane);
-  PointId cut_edge(PointId a, PointId b, double distance_a, double distance_b);
-  void cut(std::int32_t polygon, PolygonList& front, PolygonList& back);
-  void add_coplanar(PolygonList coplanar, BspTree::Node& node);
+  PolygonSet take_polygons();
+  void build_parts(TreeInput& input, int threads);
+  void join_parts(const TreeInput& input);
+  void join(Subtree& part);
 
   const Scene& scene_;
   BspTree& tree_;
@@ -54,12 +53,15 @@ class BspBuilder {
   std::uint32_t polygons_since_check_ = 0;
   std::vector<Polygon> polygons_;
   std::vector<BspTree::Corner> corners_;
-  std::vector<BspTree::Plane> piece_planes_;
+  std::vector<BspTree::Plane> planes_;
   std::unordered_map<std::uint64_t, LineId> line_of_edge_;
-  std::unordered_map<std::uint64_t, PointId> cut_of_edge_;  ///< by the current plane
-  /// Signed distances of the corners last classified from the plane, 0 for those on the plane.
-  std::vector<double> distances_;
-  PlaneSearch search_;
+  std::vector<Part> parts_;
+  PointId first_new_point_ = 0;
+  LineId first_new_line_ = 0;
+  /// Numbers in the tree, by the numbers that points and lines got while building, from the first
+  /// new one.
+  std::vector<PointId> point_numbers_;
+  std::vector<LineId> line_numbers_;
 };
 
 }  // namespace transillum

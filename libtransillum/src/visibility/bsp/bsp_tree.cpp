@@ -17,8 +17,8 @@ double BspTree::thickness(const Scene& scene) {
 }
 
 BspTree::BspTree(const Scene& scene, const Cancellation& cancellation,
-                 const std::function<void(double)>& progress) {
-  BspBuilder(scene, *this, cancellation, progress).build();
+                 const std::function<void(double)>& progress, int threads) {
+  BspBuilder(scene, *this, cancellation, progress).build(threads);
 }
 
 std::vector<FragmentId> BspTree::order(const Vec3& omega, const Cancellation& cancellation) const {

@@ -5,57 +5,80 @@
 #include <vector>
 
 #include "transillum/bsp_tree.h"
+#include "visibility/bsp/polygon_set.h"
 
 namespace transillum {
 
 /// Finds a plane that orders many polygons with few cuts.
 ///
 /// For each of a few dozen normals (the axes, normals of polygons, normals to two edges, lines
-/// between polygons) all offsets are scored in one sweep over the sorted intervals that the
-/// polygons cover along the normal. Planes in the gaps between groups and planes of polygons are
-/// thus compared by the same cost. Large sets are represented by a sample
-/// (decisions/0004-choice-of-planes.md).
-///
-/// Use: clear(), then add_polygon() and its add_point()s per polygon, then best().
+/// between polygons) all offsets are compared: the intervals that the polygons cover along the
+/// normal are counted in bins; bins whose counts allow a better plane than the best so far are
+/// sorted. Planes in the gaps between groups and planes of polygons are thus compared by the same
+/// cost. Large sets are represented by a sample (decisions/0004-choice-of-planes.md).
 class PlaneSearch {
  public:
   struct Choice {
     BspTree::Plane plane;
-    std::int32_t polygon;  ///< an added polygon that lies in the plane by definition, or -1
+    std::int32_t polygon;  ///< a polygon of the set that lies in the plane by definition, or -1
+    bool one_sided;        ///< all others are on one side, as far as the sample tells
   };
 
-  explicit PlaneSearch(double thickness) : thickness_(thickness) {}
+  /// @param planes of the polygons, by PolygonSet::Polygon::plane; not copied.
+  PlaneSearch(const std::vector<BspTree::Plane>& planes, double thickness)
+      : planes_(planes), thickness_(thickness) {}
 
-  void clear();
-  /// Starts a polygon; its points follow.
-  void add_polygon(const BspTree::Plane& plane);
-  void add_point(const Vec3& point) { points_.push_back(point); }
-  /// The best plane; each side of it gets fewer polygons than were added.
-  Choice best();
+  /// The best plane for a set that is not empty; each side of it gets fewer polygons than the set
+  /// has.
+  /// @param one_sided whether a one-sided plane is acceptable; if not, one is returned only where
+  /// nothing else is found.
+  Choice best(const PolygonSet& set, bool one_sided);
 
  private:
+  /// Of a polygon of the sample, along the normal.
   struct Interval {
     double low, high;
-    std::int32_t polygon;
+    bool flat() const { return low == high; }
   };
-  void collect_sample();
+  struct Bin {
+    std::uint32_t started, ended;          ///< intervals that started, or ended, in bins before
+    std::uint32_t first_start, first_end;  ///< while sorting
+    std::uint32_t starts, ends, inside;    ///< in this bin; inside: both
+    double least_cost;
+  };
+  void collect_sample(const PolygonSet& set);
   void collect_normals();
   void collect_intervals(const Vec3& normal);
+  bool count_in_bins();
+  double least_cost(const Bin& bin) const;
+  void distribute();
   void sweep(const Vec3& normal);
-  void consider_plane_of(const Vec3& normal, const Interval& interval);
-  void consider_gap(const Vec3& normal, std::size_t started, std::size_t ended);
-  void consider(const Vec3& normal, double offset, std::int32_t polygon, double below, double above,
+  void sweep_bin(const Vec3& normal, std::size_t number);
+  void consider_own_planes(const Vec3& normal, const Bin& bin);
+  double next_end_point(std::size_t number) const;
+  void consider(const Vec3& normal, double offset, std::int32_t sampled, double below, double above,
                 double crossing);
-  Vec3 center_of(std::int32_t polygon) const;
+  Vec3 point(std::size_t k) const { return {x_[k], y_[k], z_[k]}; }
+  Vec3 center_of(std::size_t sampled) const;
+  std::size_t bin_of(double along) const {
+    return static_cast<std::size_t>((along - lowest_) * bins_per_length_ + 0.37);
+  }
 
+  const std::vector<BspTree::Plane>& planes_;
   double thickness_;
-  std::vector<BspTree::Plane> planes_;
-  std::vector<std::uint32_t> begin_;
-  std::vector<Vec3> points_;
-  std::vector<std::int32_t> sample_;
+  const PolygonSet* set_ = nullptr;
+  bool one_sided_ = true;
+  std::vector<std::int32_t> sample_;  ///< numbers of polygons in the set
+  std::vector<std::uint32_t> begin_;  ///< per polygon of the sample, and the end: first point
+  std::vector<double> x_, y_, z_;     ///< its points
+  std::vector<double> along_;         ///< … along the normal
   std::vector<Vec3> normals_;
   std::vector<Interval> intervals_;
-  std::vector<double> ends_;
+  double lowest_ = 0, bins_per_length_ = 0;
+  std::vector<Bin> bins_;
+  std::vector<std::uint32_t> open_bins_;
+  std::vector<std::uint32_t> starts_;  ///< polygons of the sample, by the bin of their low end
+  std::vector<double> ends_;           ///< high ends, by bin
   double best_cost_ = 0;
   Choice best_{};
 };

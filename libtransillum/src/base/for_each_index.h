@@ -3,8 +3,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "radiosity/tsan_scope.h"
-#include "radiosity/worker_threads.h"
+#include "base/tsan_scope.h"
+#include "base/worker_threads.h"
 
 namespace transillum {
 
