@@ -52,6 +52,8 @@ struct SceneDescription {
                                              ///< no face has a group
   std::vector<std::uint8_t> face_two_sided;  ///< 1: face f gives two opposite patches, front first;
                                              ///< 0: one; empty: all give one
+  double coordinate_rounding = 0;            ///< half a unit of the last digit of coordinates, m;
+                                             ///< 0: found from the digits of `points`
   std::vector<std::string> notes;            ///< the reader's warnings, for Scene::report()
   std::vector<std::string> files;            ///< read for it: the OBJ, then its MTL files
 
@@ -137,7 +139,8 @@ struct Patch {
   std::uint32_t outline_end = 0;    ///< one past the last index
 };
 
-/// A convex part of a patch, planar up to rounding. Pieces of one patch do not overlap.
+/// A convex part of a patch, planar up to rounding, also that of the coordinates in a file
+/// (decisions/0048-precision-of-files.md). Pieces of one patch do not overlap.
 struct Piece {
   PatchId patch = no_patch;  ///< the patch it is a part of
   std::uint32_t begin = 0;   ///< first index in the scene's piece corners

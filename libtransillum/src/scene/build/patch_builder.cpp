@@ -11,6 +11,7 @@
 #include "geometry/polygon_area.h"
 #include "scene/build/coincidence.h"
 #include "scene/build/description_check.h"
+#include "scene/build/precision.h"
 #include "scene/build/refinement.h"
 #include "transillum/at.h"
 
@@ -21,6 +22,12 @@ constexpr double epsilon = 0x1p-52;
 /// Largest deviation of a planar face from its plane, relative to its diameter and to its width.
 constexpr double largest_deviation_by_diameter = 1e-6;
 constexpr double largest_deviation_by_width = 1e-3;
+/// The same of a face that is planar but for the rounding of its file: a larger deviation is a
+/// feature, however few digits there are.
+constexpr double largest_rounding_by_width = 0.02;
+/// Distance of a corner from its face's plane by rounding, relative to that of a coordinate: up to
+/// sqrt(3) each for the corner and the plane.
+constexpr double bend_by_rounding = 4;
 constexpr std::size_t faces_between_cancellation_checks = 256;
 
 CornerList all_corners(std::size_t n) {
@@ -77,6 +84,10 @@ void PatchBuilder::build() {
     largest = std::max(largest, max_abs(at(description_.points, p)));
   }
   flatness_ = 64 * epsilon * largest;
+  const double rounding = description_.coordinate_rounding > 0
+                              ? description_.coordinate_rounding
+                              : coordinate_rounding(description_.points);
+  file_flatness_ = std::max(flatness_, bend_by_rounding * rounding);
   report.faces = static_cast<std::int64_t>(description_.face_count());
   report.warnings = description_.notes;
   for (std::size_t f = 0; f < description_.face_count(); ++f) {
@@ -275,11 +286,17 @@ void PatchBuilder::add_opposite() {
 /// A deviation that rounding explains makes no face non-planar, however thin the face is.
 bool PatchBuilder::is_planar(const PolygonShape& shape) const {
   const double width = shape.area / shape.diameter;
-  return is_flat(shape) || (shape.deviation <= largest_deviation_by_diameter * shape.diameter &&
-                            shape.deviation <= largest_deviation_by_width * width);
+  return is_flat(shape) || is_flat_in_file(shape) ||
+         (shape.deviation <= largest_deviation_by_diameter * shape.diameter &&
+          shape.deviation <= largest_deviation_by_width * width);
 }
 
 bool PatchBuilder::is_flat(const PolygonShape& shape) const { return shape.deviation <= flatness_; }
+
+bool PatchBuilder::is_flat_in_file(const PolygonShape& shape) const {
+  return shape.deviation <= file_flatness_ &&
+         shape.deviation <= largest_rounding_by_width * shape.area / shape.diameter;
+}
 
 std::vector<CornerList> PatchBuilder::convex_pieces(std::size_t face, const Outline& outline,
                                                     const PolygonShape& shape) const {
@@ -287,7 +304,7 @@ std::vector<CornerList> PatchBuilder::convex_pieces(std::size_t face, const Outl
     return {{0, 1, 2}};
   }
   const std::vector<PlanePoint> plane = drop_axis(table.points(), outline, shape.normal);
-  if (!is_flat(shape)) {
+  if (!is_flat(shape) && !is_flat_in_file(shape)) {
     return triangles_of(face, plane);
   }
   if (is_convex(plane)) {

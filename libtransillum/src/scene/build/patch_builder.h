@@ -61,6 +61,7 @@ class PatchBuilder {
 
   bool is_planar(const PolygonShape& shape) const;
   bool is_flat(const PolygonShape& shape) const;
+  bool is_flat_in_file(const PolygonShape& shape) const;
   /// The outline's convex pieces, each planar to rounding.
   /// @throws InputError if the outline crosses itself.
   std::vector<CornerList> convex_pieces(std::size_t face, const Outline& outline,
@@ -82,7 +83,8 @@ class PatchBuilder {
   const SceneOptions& options_;
   const Cancellation& cancellation_;
   std::vector<PointId> welded_;  // for each point of the description its number in `table`, or -1
-  double flatness_ = 0;          // deviation within which a polygon is treated as planar, m
+  double flatness_ = 0;          // deviation from a plane by the rounding of doubles, m
+  double file_flatness_ = 0;     // by the rounding of the coordinates in a file, m; >= flatness_
   std::size_t last_refined_ = no_face;
   Warnings warnings_;
 };

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/text_file.h"
+#include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
 #include "scene/read/obj_reader.h"
 #include "transillum/did_you_mean.h"
@@ -140,6 +141,9 @@ SceneDescription describe_scene(const std::string& spec, const ReadOptions& read
                                 const Cancellation& cancellation) {
   read.validate();
   SceneDescription description = describe_unscaled(spec, read, cancellation);
+  if (read.scale != 1) {
+    description.coordinate_rounding = read.scale * coordinate_rounding(description.points);
+  }
   for (Vec3& point : description.points) {
     point = read.scale * point;
   }

@@ -38,7 +38,7 @@ struct CorrectedScene {
   CorrectedScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)),
         tree(std::move(of_tree)),
-        outlines(*tree),
+        outlines(*scene, *tree),
         backs_hidden(fronts_see_no_backs(scene, tree)) {}
 };
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "transillum/at.h"
 #include "visibility/fast/exact_side.h"
@@ -80,9 +82,49 @@ FragmentBox box_of(const GridPoint* outline, std::size_t count) {
   return box;
 }
 
+bool is_convex_in_space(const Scene& scene, const std::vector<BspTree::Corner>& polygon) {
+  const auto corner = [&](std::size_t k) -> const Vec3& {
+    return scene.point(polygon[k % polygon.size()].point);
+  };
+  Vec3 doubled;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    doubled = doubled + cross(corner(k) - corner(0), corner(k + 1) - corner(0));
+  }
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    if (dot(doubled, cross(corner(k + 1) - corner(k), corner(k + 2) - corner(k + 1))) <= 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Adds a triangle to a polygon if they share an edge and their union is convex.
+bool join_triangle(const Scene& scene, std::span<const BspTree::Corner> triangle,
+                   std::vector<BspTree::Corner>& polygon) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const std::size_t after = k + 1 < polygon.size() ? k + 1 : 0;
+    for (std::size_t m = 0; m < 3; ++m) {
+      if (polygon[k].point != triangle[(m + 1) % 3].point ||
+          polygon[after].point != triangle[m].point) {
+        continue;
+      }
+      // The edge from corner k becomes the triangle's other two.
+      std::vector<BspTree::Corner> joined = polygon;
+      joined[k] = triangle[(m + 1) % 3];
+      joined.insert(joined.begin() + static_cast<std::ptrdiff_t>(k) + 1, triangle[(m + 2) % 3]);
+      if (!is_convex_in_space(scene, joined)) {
+        return false;
+      }
+      polygon = std::move(joined);
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-FragmentOutlines::FragmentOutlines(const BspTree& tree) : lines(tree.lines()) {
+FragmentOutlines::FragmentOutlines(const Scene& scene, const BspTree& tree) : lines(tree.lines()) {
   for (const BspTree::Fragment& fragment : tree.fragments()) {
     first.push_back(static_cast<std::uint32_t>(outlines.size()));
     const auto all = tree.corners(fragment);
@@ -102,6 +144,50 @@ FragmentOutlines::FragmentOutlines(const BspTree& tree) : lines(tree.lines()) {
     add(fragment.patch, rest);
   }
   first.push_back(static_cast<std::uint32_t>(outlines.size()));
+  join_triangles(scene, tree);
+  std::vector<double> areas;
+  for (const Patch& patch : scene.patches()) {
+    areas.push_back(patch.area);
+  }
+  if (!areas.empty()) {
+    const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
+    std::nth_element(areas.begin(), middle, areas.end());
+    median_area = *middle;
+  }
+}
+
+void FragmentOutlines::join_triangles(const Scene& scene, const BspTree& tree) {
+  const auto is_uncut_triangle = [&](const BspTree::Fragment& fragment) {
+    const auto corners_of = tree.corners(fragment);
+    return corners_of.size() == 3 &&
+           std::all_of(corners_of.begin(), corners_of.end(), [&](const BspTree::Corner& corner) {
+             return static_cast<std::size_t>(corner.point) < scene.points().size();
+           });
+  };
+  const auto& fragments = tree.fragments();
+  for (std::size_t f = 0, next = 0; f < fragments.size(); f = next) {
+    next = f + 1;
+    if (!is_uncut_triangle(fragments[f])) {
+      continue;
+    }
+    const auto whole = tree.corners(fragments[f]);
+    std::vector<BspTree::Corner> polygon(whole.begin(), whole.end());
+    while (next < fragments.size() && fragments[next].patch == fragments[f].patch &&
+           polygon.size() < max_corners && is_uncut_triangle(fragments[next]) &&
+           join_triangle(scene, tree.corners(fragments[next]), polygon)) {
+      ++next;
+    }
+    if (next == f + 1) {
+      continue;
+    }
+    join_of.resize(fragments.size(), -1);
+    std::fill(join_of.begin() + static_cast<std::ptrdiff_t>(f),
+              join_of.begin() + static_cast<std::ptrdiff_t>(next),
+              static_cast<std::int32_t>(joins.size()));
+    joins.push_back({static_cast<FragmentId>(f), static_cast<FragmentId>(next - 1),
+                     static_cast<std::uint32_t>(outlines.size())});
+    add(fragments[f].patch, polygon);
+  }
 }
 
 void FragmentOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& part) {
@@ -125,6 +211,9 @@ void FragmentOutlines::add(PatchId patch, const std::vector<BspTree::Corner>& pa
 void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
                                  const FragmentOutlines& outlines, const Vec3& omega,
                                  const Cancellation& cancellation, const PatchShaft* shaft) {
+  scene_ = &scene;
+  omega_ = omega;
+  median_area_ = outlines.median_area;
   grid.project(scene, tree, omega, cancellation);
   boxes.clear();
   fragments.clear();
@@ -141,13 +230,69 @@ void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
       cancellation.throw_if_canceled();
     }
     prefetch(outlines, order, index);
-    const auto fragment = static_cast<std::size_t>(order[index]);
-    for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
-      if (!add(outlines, k)) {
-        corners.resize(fragments.empty() ? 0 : fragments.back().end);
+    if (!outlines.joins.empty()) {
+      const std::size_t joined = add_joined(outlines, order, index);
+      if (joined > 0) {
+        index += joined - 1;
+        continue;
       }
     }
+    const auto fragment = static_cast<std::size_t>(order[index]);
+    for (std::uint32_t k = outlines.first[fragment]; k < outlines.first[fragment + 1]; ++k) {
+      add_or_drop(outlines, k);
+    }
   }
+}
+
+void ProjectedFragments::add_or_drop(const FragmentOutlines& outlines, std::uint32_t which) {
+  if (!add(outlines, which)) {
+    corners.resize(fragments.empty() ? 0 : fragments.back().end);
+  }
+}
+
+/// Projects fragments from order[index] on as the one polygon that they are parts of, if they
+/// follow one another and the polygon's projection is convex. Returns their number, or 0.
+std::size_t ProjectedFragments::add_joined(const FragmentOutlines& outlines,
+                                           const std::vector<FragmentId>& order,
+                                           std::size_t index) {
+  const std::int32_t number = at(outlines.join_of, order[index]);
+  if (number < 0) {
+    return 0;
+  }
+  const FragmentOutlines::Join& join = at(outlines.joins, number);
+  const auto count = static_cast<std::size_t>(join.last - join.first) + 1;
+  if (index + count > order.size() ||
+      !std::all_of(order.begin() + static_cast<std::ptrdiff_t>(index),
+                   order.begin() + static_cast<std::ptrdiff_t>(index + count),
+                   [&](FragmentId f) { return join.first <= f && f <= join.last; }) ||
+      !turns_one_way(outlines, outlines.outlines[join.outline])) {
+    return 0;
+  }
+  add_or_drop(outlines, join.outline);
+  return count;
+}
+
+/// Whether the projection of an outline turns to the same side at each corner, by more than
+/// rounding and bends can change.
+bool ProjectedFragments::turns_one_way(const FragmentOutlines& outlines,
+                                       const FragmentOutlines::Outline& outline) const {
+  const std::uint32_t count = outline.end - outline.begin;
+  const auto corner = [&](std::uint32_t k) -> const GridPoint& {
+    return at(grid.points, outlines.corners[outline.begin + k % count].point);
+  };
+  bool any_left = false, any_right = false;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const GridPoint &a = corner(k), &b = corner(k + 1), &c = corner(k + 2);
+    const double left = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - b.y);
+    const double right = static_cast<double>(b.y - a.y) * static_cast<double>(c.x - b.x);
+    const double least = 0x1p-16 * (std::abs(left) + std::abs(right));
+    any_left |= left - right > least;
+    any_right |= right - left > least;
+    if (std::abs(left - right) <= least || (any_left && any_right)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// BSP order visits outlines and points at scattered addresses: prefetches those that
@@ -194,9 +339,13 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
   if (needle && !is_convex(first, count, area)) {
     return false;
   }
+  // Corners are off their lines by up to a grid unit.
+  const auto is_inaccurate = [&] {
+    return 2 * std::sqrt(size) > accuracy * patch_area(outline.patch);
+  };
   boxes.push_back(box);
   fragments.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch,
-                       front, needle && !outline.plain, area});
+                       front, needle && !outline.plain && is_inaccurate(), area});
   if (fragments.back().cut_needle) {
     fragments.back().area = cut_needle_area(outlines, fragments.back());
   }

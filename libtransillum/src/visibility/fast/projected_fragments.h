@@ -42,11 +42,23 @@ struct FragmentOutlines {
   std::vector<Corner> corners;
   std::vector<Outline> outlines;
   std::vector<std::uint32_t> first;  ///< first outline of each fragment; one more at the end
+  /// Successive triangles of a patch, uncut, that are one convex polygon but for rounding, such as
+  /// those of a face that is planar only within the rounding of its file
+  /// (decisions/0048-precision-of-files.md).
+  struct Join {
+    FragmentId first, last;
+    std::uint32_t outline;  ///< of the polygon
+  };
+  std::vector<Join> joins;
+  double median_area = 0;             ///< of the patches, square meters
+  std::vector<std::int32_t> join_of;  ///< per fragment: in `joins`, or -1; empty if there are none
 
-  explicit FragmentOutlines(const BspTree& tree);
+  /// @param scene of the tree.
+  FragmentOutlines(const Scene& scene, const BspTree& tree);
 
  private:
   void add(PatchId patch, const std::vector<BspTree::Corner>& part);
+  void join_triangles(const Scene& scene, const BspTree& tree);
 };
 
 /// Bounds along x, y, x + y and x - y, in grid units, rounded outward: the four lower bounds, then
@@ -113,9 +125,13 @@ struct ProjectedFragments {
     std::uint32_t outline;     ///< its outline, whose order of corners is reversed if not `front`
     PatchId patch;
     bool front;       ///< front-facing: it receives for omega
-    bool cut_needle;  ///< thin, and cut by the tree: see position_of()
+    bool cut_needle;  ///< cut by the tree so thin that its corners are off their lines by more than
+                      ///< accuracy allows: see position_of()
     double area;      ///< of the projection, in square grid units; > 0
   };
+  /// Errors of areas, relative to patch_area(), must be below this.
+  static constexpr double accuracy = 0x1p-37;
+
   GridProjection grid;
   std::vector<FragmentBox> boxes;  ///< per fragment
   std::vector<Fragment> fragments;
@@ -128,6 +144,14 @@ struct ProjectedFragments {
   void project(const Scene& scene, const BspTree& tree, const FragmentOutlines& outlines,
                const Vec3& omega, const Cancellation& cancellation,
                const PatchShaft* shaft = nullptr);
+
+  /// The projected area of a patch, but not more than half of the patches have, in square grid units:
+  /// errors of a large patch count for the small ones that it sees.
+  double patch_area(PatchId patch) const {
+    const Patch& p = scene_->patch(patch);
+    return std::min(std::abs(dot(p.normal, omega_)) * p.area, median_area_) /
+           (grid.unit * grid.unit);
+  }
 
   /// Corner k of a fragment as a corner of its outline. The outline of a back-facing fragment is
   /// reversed: the edge that arrived at a corner leaves it.
@@ -150,10 +174,19 @@ struct ProjectedFragments {
   }
 
  private:
+  const Scene* scene_ = nullptr;
+  Vec3 omega_;
+  double median_area_ = 0;  ///< of the patches, square meters
+
   void prefetch(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                 std::size_t index) const;
   double cut_needle_area(const FragmentOutlines& outlines, const Fragment& fragment) const;
   bool add(const FragmentOutlines& outlines, std::uint32_t outline);
+  void add_or_drop(const FragmentOutlines& outlines, std::uint32_t outline);
+  std::size_t add_joined(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
+                         std::size_t index);
+  bool turns_one_way(const FragmentOutlines& outlines,
+                     const FragmentOutlines::Outline& outline) const;
 };
 
 }  // namespace transillum
