@@ -19,9 +19,6 @@ namespace {
 /// largest coordinate.
 constexpr double rounding = 0x1p-49;
 
-/// A fragment with an area below noise_limit times the rounding error of areas requires ExactView.
-constexpr double noise_limit = 0x1p36;
-
 /// A point relative to a bin's center.
 struct WidePoint {
   long double x, y;
@@ -84,7 +81,8 @@ void BoundaryView::start(double area, double reach) {
   area_ = region_area_ = area;
   cutter_.tolerance = rounding * reach;
   reach_ = reach;
-  failed_ = subject_->cut_needle || noise_limit * (cutter_.tolerance * reach) > subject_->area;
+  set_own_edges();
+  failed_ = subject_->cut_needle || is_inaccurate(cutter_.tolerance * reach, *subject_);
   find_window();
 }
 
@@ -142,6 +140,70 @@ void BoundaryView::find_window() {
   }
 }
 
+/// Whether the rounding error of an area is so large, relative to a fragment and to its patch, that
+/// ExactView is required.
+bool BoundaryView::is_inaccurate(double error, const ProjectedFragments::Fragment& fragment) const {
+  const double limit = error / ProjectedFragments::accuracy;
+  return limit > fragment.area && limit > projected_.patch_area(fragment.patch);
+}
+
+/// Stores the fragment's edges, for is_outside_own_edge().
+void BoundaryView::set_own_edges() {
+  const GridPoint* const corners = projected_.corners.data() + subject_->begin;
+  own_edges_.count = subject_->end - subject_->begin;
+  for (std::size_t k = 0; k < own_edges_.count; ++k) {
+    const GridPoint &a = corners[k], &b = corners[k + 1 < own_edges_.count ? k + 1 : 0];
+    own_edges_.x[k] = static_cast<double>(a.x - origin_.x);
+    own_edges_.y[k] = static_cast<double>(a.y - origin_.y);
+    own_edges_.dx[k] = static_cast<double>(b.x - a.x);
+    own_edges_.dy[k] = static_cast<double>(b.y - a.y);
+    own_edges_.length[k] = std::abs(own_edges_.dx[k]) + std::abs(own_edges_.dy[k]);
+  }
+}
+
+/// Whether a candidate has nothing but rounding on the inner side of one of the fragment's edges,
+/// as neighbors that share the edge have.
+bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) const {
+  const GridPoint* const corners = projected_.corners.data() + by.begin;
+  const std::size_t count = by.end - by.begin;
+  std::array<double, FragmentOutlines::max_corners> x, y;
+  double far = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    x[k] = static_cast<double>(corners[k].x - origin_.x);
+    y[k] = static_cast<double>(corners[k].y - origin_.y);
+    far = std::max(far, std::abs(x[k]) + std::abs(y[k]));
+  }
+  // Far from the fragment rounding is larger: only what is certain counts.
+  const double limit = far <= 4 * reach_ ? rounding * reach_ : -rounding * far;
+  for (std::size_t m = 0; m < own_edges_.count; ++m) {
+    const double from_x = own_edges_.x[m], from_y = own_edges_.y[m];
+    const double dx = own_edges_.dx[m], dy = own_edges_.dy[m];
+    double most = -HUGE_VAL;
+    for (std::size_t k = 0; k < count; ++k) {
+      most = std::max(most, dx * (y[k] - from_y) - dy * (x[k] - from_x));
+    }
+    if (most <= limit * own_edges_.length[m]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whether the region has nothing but rounding on the inner side of one of the cutter's edges.
+bool BoundaryView::is_outside_cutter() const {
+  for (std::size_t m = 0; m < cutter_.count; ++m) {
+    const double dx = cutter_.dx[m], dy = cutter_.dy[m];
+    double most = -HUGE_VAL;
+    for (std::size_t k = 0; k < region_->count; ++k) {
+      most = std::max(most, dx * region_->ay[k] - dy * region_->ax[k]);
+    }
+    if (most + cutter_.c[m] <= cutter_.tolerance * cutter_.length[m]) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double BoundaryView::subtract(std::int32_t candidate) {
   const ProjectedFragments::Fragment& by = at(projected_.fragments, candidate);
   if (!loaded_) {
@@ -155,18 +217,25 @@ double BoundaryView::subtract(std::int32_t candidate) {
       return 0;
     }
   }
+  ++counts_.pairs;
+  if (!backs_hidden_ && is_outside_own_edge(by)) {
+    return 0;
+  }
   set_cutter(cutter_, projected_.corners.data() + by.begin, by.end - by.begin, origin_, 4 * reach_);
+  if (is_outside_cutter()) {
+    return 0;
+  }
   // A point near the common area of both polygons.
   cutter_.pivot_x = std::clamp(cutter_.x[0], -extent_[4], extent_[0]);
   cutter_.pivot_y = std::clamp(cutter_.y[0], -extent_[5], extent_[1]);
-  ++counts_.pairs;
   counts_.decisions += static_cast<std::int64_t>(region_->count * cutter_.count);
   if (!cut_boundary(*region_, cutter_, cut_, *next_region_)) {
     return 0;
   }
   double twice_area = cut_.twice_area;
-  const double noise = 0.25 * cutter_.tolerance * cutter_.perimeter;
-  failed_ = by.cut_needle || noise_limit * noise > by.area || !add_edges(twice_area) ||
+  // Of a convex cutter's outline, no more than the region's bounds can be in the region.
+  const double noise = 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);
+  failed_ = by.cut_needle || is_inaccurate(noise, by) || !add_edges(twice_area) ||
             next_region_->count > BoundarySegments::max_count;
   const double area = 0.5 * twice_area;
   if (failed_ || area <= noise) {
@@ -237,9 +306,27 @@ inline void BoundaryView::find_crossings(std::size_t m, EdgeCrossings& crossings
   }
 }
 
+/// In a sliver, crossings nearer to each other than rounding may be in the wrong order.
+inline void BoundaryView::put_next_in_order(std::size_t m, std::size_t k, int winding,
+                                            EdgeCrossings& crossings) const {
+  const int next = winding + crossings.crossings[k].winding_change;
+  if (next >= 0 && next <= 1) {
+    return;
+  }
+  const double near = 4 * cutter_.tolerance * cutter_.length[m];
+  for (std::size_t j = k + 1;
+       j < crossings.count && crossings.crossings[j].along - crossings.crossings[k].along <= near;
+       ++j) {
+    if (crossings.crossings[j].winding_change != crossings.crossings[k].winding_change) {
+      std::swap(crossings.crossings[j], crossings.crossings[k]);
+      return;
+    }
+  }
+}
+
 /// Adds the parts of edge m. `winding` is the region's winding number at the edge's first corner,
 /// and on return at its second.
-inline bool BoundaryView::add_edge(std::size_t m, const EdgeCrossings& crossings, int& winding,
+inline bool BoundaryView::add_edge(std::size_t m, EdgeCrossings& crossings, int& winding,
                                    double& twice_area) {
   double from_x = cutter_.x[m], from_y = cutter_.y[m];
   const auto advance_to = [&](double x, double y) {
@@ -257,6 +344,7 @@ inline bool BoundaryView::add_edge(std::size_t m, const EdgeCrossings& crossings
     return true;
   };
   for (std::size_t k = 0; k < crossings.count; ++k) {
+    put_next_in_order(m, k, winding, crossings);
     if (!advance_to(crossings.crossings[k].x, crossings.crossings[k].y)) {
       return false;
     }

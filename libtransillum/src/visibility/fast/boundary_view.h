@@ -19,8 +19,9 @@ namespace transillum {
 /// ExactView.
 class BoundaryView {
  public:
-  BoundaryView(const ProjectedFragments& projected, PassCounts& counts)
-      : projected_(projected), counts_(counts) {}
+  /// @param backs_hidden candidates are of the opposite side, and so seldom neighbors.
+  BoundaryView(const ProjectedFragments& projected, PassCounts& counts, bool backs_hidden)
+      : projected_(projected), counts_(counts), backs_hidden_(backs_hidden) {}
 
   /// Begins the query of a whole fragment.
   void begin_query(std::int32_t fragment);
@@ -47,9 +48,14 @@ class BoundaryView {
   void load_whole();
   void load_part_in_bin();
   void start(double area, double reach);
+  bool is_inaccurate(double error, const ProjectedFragments::Fragment& fragment) const;
+  void set_own_edges();
+  bool is_outside_own_edge(const ProjectedFragments::Fragment& by) const;
+  bool is_outside_cutter() const;
   bool add_edges(double& twice_area);
   void find_crossings(std::size_t m, EdgeCrossings& crossings) const;
-  bool add_edge(std::size_t m, const EdgeCrossings& crossings, int& winding, double& twice_area);
+  void put_next_in_order(std::size_t m, std::size_t k, int winding, EdgeCrossings& crossings) const;
+  bool add_edge(std::size_t m, EdgeCrossings& crossings, int& winding, double& twice_area);
   void find_window();
 
   std::array<BoundarySegments, 2> segments_;
@@ -58,9 +64,11 @@ class BoundaryView {
 
   const ProjectedFragments& projected_;
   PassCounts& counts_;
+  const bool backs_hidden_;
 
   const ProjectedFragments::Fragment* subject_ = nullptr;  ///< the fragment of the query
   const FragmentBins::Bin* bin_ = nullptr;                 ///< nullptr: all of the fragment
+  Cutter own_edges_;                                       ///< the edges of the fragment
   bool loaded_ = false;  ///< the region is loaded when the first candidate is subtracted
   GridPoint origin_;
   double reach_ = 0;  ///< largest |x| + |y| of the fragment, or the size of the bin

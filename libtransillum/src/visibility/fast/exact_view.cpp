@@ -503,20 +503,31 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
   const Real flatness =
       edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
   Real error = nearness * flatness;
-  const PointId common = common_point(edge, cutting);
+  const auto [x0, x1] = std::minmax(polygon.x[from], polygon.x[to]);
+  const auto [y0, y1] = std::minmax(polygon.y[from], polygon.y[to]);
+  PointId common = common_point(edge, cutting);
   if (common != made_by_cut) {
     const GridPoint& p = at(projected_.grid.points, common);
-    x = static_cast<Real>(p.x - origin_.x);
-    y = static_cast<Real>(p.y - origin_.y);
-    error = 0;
-  } else if (!(flatness < 0x1p6) && edge.line != halving_line && cutting.line != halving_line) {
+    const auto common_x = static_cast<Real>(p.x - origin_.x);
+    const auto common_y = static_cast<Real>(p.y - origin_.y);
+    // Corners lie slightly off their lines, which may seem to cross far from where they meet.
+    const Real margin = 16 + 0x1p-30 * (x1 - x0 + (y1 - y0));
+    if (common_x >= x0 - margin && common_x <= x1 + margin && common_y >= y0 - margin &&
+        common_y <= y1 + margin) {
+      x = common_x;
+      y = common_y;
+      error = 0;
+    } else {
+      common = made_by_cut;
+    }
+  }
+  if (common == made_by_cut && !(flatness < 0x1p6) && edge.line != halving_line &&
+      cutting.line != halving_line) {
     // The lines meet at a small angle.
     ++counts_.exact_decisions;
     const Meeting meeting = exact_meeting(grid_line(edge), grid_line(cutting), origin_);
     if (!meeting.parallel) {
-      // Corners lie slightly off their lines: stay within the edge.
-      const auto [x0, x1] = std::minmax(polygon.x[from], polygon.x[to]);
-      const auto [y0, y1] = std::minmax(polygon.y[from], polygon.y[to]);
+      // Stay within the edge.
       x = std::clamp(static_cast<Real>(meeting.x), x0, x1);
       y = std::clamp(static_cast<Real>(meeting.y), y0, y1);
       error = nearness;

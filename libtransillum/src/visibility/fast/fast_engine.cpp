@@ -44,7 +44,7 @@ struct FastScene {
   std::optional<PatchShaft> shaft;  ///< if set, only fragments in it take part
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
-      : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*tree) {}
+      : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*scene, *tree) {}
 };
 
 /// The side to which a query is directed.
@@ -135,7 +135,7 @@ class FastPass {
         bins_(projected_, shared.backs_hidden),
         search_(bins_),
         exact_view_(shared.outlines, projected_, transfers_.counts),
-        boundary_view_(projected_, transfers_.counts) {}
+        boundary_view_(projected_, transfers_.counts, shared.backs_hidden) {}
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
@@ -233,7 +233,7 @@ class FastPass {
     if (toward == Toward::source) {
       return fragment.front;
     }
-    return !fragment.front && fragment.area - at(seen_from_front_, k) > 0x1p-38 * fragment.area;
+    return !fragment.front && fragment.area - at(seen_from_front_, k) > 0x1p-43 * fragment.area;
   }
 
   template <Toward toward>
