@@ -8,6 +8,7 @@
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Lines     (seconds)
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Accuracy  (minutes)
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Scaling   (minutes)
+//   build/release/bin/transillum_benchmarks --benchmark_filter=Imperfect (a minute)
 //   build/release/bin/transillum_benchmarks --benchmark_filter=Threads   (seconds; idle cores)
 //
 //   Lines     one pass of the fast engine on the sphere flake compared with 10 parallel lines per
@@ -17,6 +18,7 @@
 //             passes compared with cosine-weighted rays by Embree, and the ratios
 //   Scaling   milliseconds per pass on increasingly fine scenes, and the fitted exponent;
 //             TRANSILLUM_BENCHMARK_HUGE=1 adds a flake of a million patches
+//   Imperfect sorting and a pass on scenes as files have them, against the flake in the same run
 //   Threads   wall time of a solve on one thread over that on two
 //
 // Comparisons of one core measure CPU time, so other load on the machine has little effect.

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 
+#include "support/imperfect_scenes.h"
 #include "support/map_on_failure.h"
 #include "support/random_scenes.h"
 #include "support/scenes.h"
@@ -167,9 +168,11 @@ TEST(MapOnFailure, IsDrawnAndNamed) {
   std::filesystem::remove(path);
 }
 
+using MakeScene = testing::RandomScene (*)(std::uint64_t seed);
+
 /// If the engines disagree on a random scene, writes it to an .obj file.
-void expect_agreement_on(std::uint64_t seed) {
-  const testing::RandomScene random = testing::random_scene(seed);
+void expect_agreement_on(std::uint64_t seed, MakeScene make = testing::random_scene) {
+  const testing::RandomScene random = make(seed);
   const auto scene = std::make_shared<const Scene>(random.description, random.options);
   SCOPED_TRACE(fmt::format("{}{}", scene->name(), random.options.two_sided ? ", two-sided" : ""));
   const EngineComparison comparison(scene);
@@ -192,9 +195,10 @@ void expect_agreement_on(std::uint64_t seed) {
   std::cerr << "The scene: " << file << '\n';
 }
 
-void expect_agreement_on(std::uint64_t first, std::uint64_t count) {
+void expect_agreement_on(std::uint64_t first, std::uint64_t count,
+                         MakeScene make = testing::random_scene) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    expect_agreement_on(seed);
+    expect_agreement_on(seed, make);
     if (::testing::Test::HasFailure()) {
       return;
     }
@@ -221,6 +225,21 @@ TEST_P(NightlyAgreementRandom, OnDegenerateScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 500, 500);
 }
 INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyAgreementRandom, ::testing::Range(1, 21));
+
+/// Scenes as files have them: rounded, turned, touching, interpenetrating.
+class AgreementImperfect : public ::testing::TestWithParam<int> {};
+TEST_P(AgreementImperfect, OnRoundedAndTurnedScenes) {
+  expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 10, 10,
+                      testing::random_imperfect_scene);
+}
+INSTANTIATE_TEST_SUITE_P(Tens, AgreementImperfect, ::testing::Range(0, 20));
+
+class NightlyAgreementImperfect : public ::testing::TestWithParam<int> {};
+TEST_P(NightlyAgreementImperfect, OnRoundedAndTurnedScenes) {
+  expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 500, 500,
+                      testing::random_imperfect_scene);
+}
+INSTANTIATE_TEST_SUITE_P(FiveHundreds, NightlyAgreementImperfect, ::testing::Range(1, 21));
 
 }  // namespace
 }  // namespace transillum
