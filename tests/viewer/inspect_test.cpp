@@ -258,11 +258,23 @@ class InspectTest : public QObject {
     QVERIFY(shown.window->colors.missing().isEmpty());
   }
 
+  void each_overlay_changes_the_picture_data() {
+    QTest::addColumn<QString>("scene");
+    QTest::addColumn<QStringList>("overlays");
+    QTest::newRow("rooms") << "rooms"
+                           << QStringList{"show_normals", "show_back_faces", "show_wireframe",
+                                          "show_smooth"};
+    QTest::newRow("cut patches") << "boards" << QStringList{"show_fragments"};
+  }
+
   void each_overlay_changes_the_picture() {
-    const Inspected shown("rooms");
+    QFETCH(QString, scene);
+    QFETCH(QStringList, overlays);
+    const Inspected shown(scene.toStdString().c_str());
     QVERIFY(shown.ready);
-    for (const char* name :
-         {"show_normals", "show_back_faces", "show_fragments", "show_wireframe", "show_smooth"}) {
+    for (const QString& overlay : overlays) {
+      const QByteArray utf8 = overlay.toUtf8();
+      const char* const name = utf8.constData();
       const QImage before = shown.picture();
       shown.trigger(name);
       QVERIFY2(wait_for([&] { return shown.picture() != before; }, 3000), name);

@@ -176,6 +176,7 @@ bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) c
   // Far from the fragment rounding is larger: only what is certain counts.
   const double limit = far <= 4 * reach_ ? rounding * reach_ : -rounding * far;
   for (std::size_t m = 0; m < own_edges_.count; ++m) {
+    counts_.decisions += static_cast<std::int64_t>(count);
     const double from_x = own_edges_.x[m], from_y = own_edges_.y[m];
     const double dx = own_edges_.dx[m], dy = own_edges_.dy[m];
     double most = -HUGE_VAL;
@@ -192,6 +193,7 @@ bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) c
 /// Whether the region has nothing but rounding on the inner side of one of the cutter's edges.
 bool BoundaryView::is_outside_cutter() const {
   for (std::size_t m = 0; m < cutter_.count; ++m) {
+    counts_.decisions += static_cast<std::int64_t>(region_->count);
     const double dx = cutter_.dx[m], dy = cutter_.dy[m];
     double most = -HUGE_VAL;
     for (std::size_t k = 0; k < region_->count; ++k) {
