@@ -206,16 +206,11 @@ class RegionFinder {
   }
 
   /// Copies the parts of rest_, the one in which the point lies deepest first. Returns false where
-  /// the point lies inside none. Parts as thin as rounding are left out: between two fragments of one
-  /// patch they would connect what is on both sides of it.
+  /// the point lies inside none.
   bool collect_parts() {
     double deepest = 0;
-    const double thinnest = rounding * length_of(box_);
     rest_.for_each([&](std::span<const Point> corners) {
       Polygon part(corners.begin(), corners.end());
-      if (area_of(part) <= thinnest * length_of(box_of(part))) {
-        return;
-      }
       const auto sides = sides_of(part);
       double depth = sides.empty() ? -HUGE_VAL : HUGE_VAL;
       for (const PlaneRegion::Side& side : sides) {
