@@ -10,8 +10,8 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"
+#include "visibility/bsp/clean_planes.h"
 #include "visibility/bsp/disk_tree.h"
-#include "visibility/bsp/free_planes.h"
 
 namespace transillum {
 namespace {
@@ -183,16 +183,16 @@ TEST(DiskTree, FindsAllPolygonsThatReachAPlane) {
   }
 }
 
-TEST(FreePlanes, AgreeInSmallAndLargeSets) {
+TEST(CleanPlanes, AgreeInSmallAndLargeSets) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 1);
   sketch.triangles(60, 0.2, 5, gray).box({-1, -1, -1}, {2, 2, 2}, true, gray);
   add_sphere(sketch, 4, {0.5, 0.5, 3.2}, false, gray);
   const Pieces pieces(*sketch.scene());
-  FreePlanes search(pieces.planes, 1e-13, [] {});
-  const auto one_sided = [&](const std::vector<FreePlanes::Plane>& planes) {
+  CleanPlanes search(pieces.planes, 1e-13, [] {});
+  const auto one_sided = [&](const std::vector<CleanPlanes::Plane>& planes) {
     std::vector<std::int32_t> polygons;
-    for (const FreePlanes::Plane& plane : planes) {
+    for (const CleanPlanes::Plane& plane : planes) {
       if (plane.one_sided()) {
         polygons.push_back(plane.polygon);
         for (std::uint32_t k = plane.begin; k < plane.end; ++k) {

@@ -4,9 +4,9 @@
 // in the plane of a node. Every edge refers to a line through two points of its input edge or cut,
 // so that the engines can clip by the same line on both sides.
 //
-// Small sets first use free planes, which cut nothing. So do large sets whose best plane would
+// Small sets first use clean planes, which cut nothing. So do large sets whose best plane would
 // split off a single polygon: they are round, or nearly so, and every plane of a convex surface is
-// free. Then a chain of nodes is made at once; node by node it would take quadratic time.
+// clean. Then a chain of nodes is made at once; node by node it would take quadratic time.
 #include "visibility/bsp/subtree_builder.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace transillum {
 namespace {
 
-/// Sets up to this size are searched for free planes before any other.
+/// Sets up to this size are searched for clean planes before any other.
 constexpr std::size_t small_set = 128;
 /// Larger sets with many one-sided planes are divided first, so that several threads share them.
 constexpr std::size_t largest_round_set = 1U << 16;
@@ -31,7 +31,7 @@ constexpr std::size_t largest_round_set = 1U << 16;
 SubtreeBuilder::SubtreeBuilder(TreeInput& input)
     : input_(input),
       search_(input.planes, input.thickness),
-      free_planes_(input.planes, input.thickness, [this] { check_cancellation(); }) {}
+      clean_planes_(input.planes, input.thickness, [this] { check_cancellation(); }) {}
 
 Subtree SubtreeBuilder::build_root(SubtreeTask task) {
   built_ = {};
@@ -64,7 +64,7 @@ void SubtreeBuilder::check_cancellation() {
 void SubtreeBuilder::split(SubtreeTask task) {
   const std::size_t open_before = built_.open.size();
   std::int64_t work = BuildProgress::work(task.set.size());
-  if (!use_free_planes(task)) {
+  if (!use_clean_planes(task)) {
     use_best_plane(task);
   }
   for (std::size_t k = open_before; k < built_.open.size(); ++k) {
@@ -73,12 +73,12 @@ void SubtreeBuilder::split(SubtreeTask task) {
   input_.progress.add(work);
 }
 
-/// Uses free planes of a set, if there are any: one-sided ones if they are many, else, in a small
+/// Uses clean planes of a set, if there are any: one-sided ones if they are many, else, in a small
 /// set, the one that divides it most evenly.
-bool SubtreeBuilder::use_free_planes(SubtreeTask& task) {
+bool SubtreeBuilder::use_clean_planes(SubtreeTask& task) {
   const std::size_t n = task.set.size();
   if (n > small_set) {
-    if (task.peeled || !free_planes_.many_one_sided(task.set)) {
+    if (task.peeled || !clean_planes_.many_one_sided(task.set)) {
       return false;
     }
     if (n > largest_round_set) {
@@ -86,11 +86,11 @@ bool SubtreeBuilder::use_free_planes(SubtreeTask& task) {
       return false;
     }
   }
-  const std::vector<FreePlanes::Plane>& planes =
-      n > small_set ? free_planes_.find_one_sided(task.set) : free_planes_.find_all(task.set);
+  const std::vector<CleanPlanes::Plane>& planes =
+      n > small_set ? clean_planes_.find_one_sided(task.set) : clean_planes_.find_all(task.set);
   std::size_t one_sided = 0;
-  const FreePlanes::Plane* most_even = nullptr;
-  for (const FreePlanes::Plane& plane : planes) {
+  const CleanPlanes::Plane* most_even = nullptr;
+  for (const CleanPlanes::Plane& plane : planes) {
     if (plane.one_sided()) {
       one_sided += 1 + plane.end - plane.begin;
     } else if (!most_even || plane.smaller_side > most_even->smaller_side) {
@@ -114,7 +114,7 @@ bool SubtreeBuilder::use_free_planes(SubtreeTask& task) {
 void SubtreeBuilder::use_best_plane(SubtreeTask& task) {
   PlaneSearch::Choice choice = search_.best(task.set, !task.peeled);
   if (choice.one_sided) {
-    const auto& planes = free_planes_.find_one_sided(task.set);
+    const auto& planes = clean_planes_.find_one_sided(task.set);
     if (!planes.empty()) {
       add_chain(task, planes);
       return;
@@ -130,20 +130,20 @@ const BspTree::Plane& SubtreeBuilder::plane_of(const PolygonSet& set, std::int32
 
 /// Adds a chain of nodes with the one-sided planes among those found last, each below the one
 /// before, and leaves what is in none of them open. Parts of one piece follow one another.
-void SubtreeBuilder::add_chain(SubtreeTask& task, std::vector<FreePlanes::Plane> planes) {
+void SubtreeBuilder::add_chain(SubtreeTask& task, std::vector<CleanPlanes::Plane> planes) {
   std::sort(planes.begin(), planes.end(),
             [](const auto& a, const auto& b) { return a.polygon < b.polygon; });
   std::vector<char> placed(task.set.size(), 0);
   std::vector<std::int32_t> coplanar;
-  for (const FreePlanes::Plane& plane : planes) {
+  for (const CleanPlanes::Plane& plane : planes) {
     check_cancellation();
     if (!plane.one_sided() || at(placed, plane.polygon) != 0) {
       continue;
     }
     coplanar.assign(1, plane.polygon);
     for (std::uint32_t k = plane.begin; k < plane.end; ++k) {
-      if (at(placed, free_planes_.in_plane()[k]) == 0) {
-        coplanar.push_back(free_planes_.in_plane()[k]);
+      if (at(placed, clean_planes_.in_plane()[k]) == 0) {
+        coplanar.push_back(clean_planes_.in_plane()[k]);
       }
     }
     for (const std::int32_t p : coplanar) {

@@ -8,7 +8,7 @@
 
 #include "transillum/bsp_tree.h"
 #include "visibility/bsp/build_progress.h"
-#include "visibility/bsp/free_planes.h"
+#include "visibility/bsp/clean_planes.h"
 #include "visibility/bsp/plane_search.h"
 #include "visibility/bsp/polygon_set.h"
 
@@ -79,9 +79,9 @@ class SubtreeBuilder {
   void check_cancellation();
   const BspTree::Plane& plane_of(const PolygonSet& set, std::int32_t polygon) const;
   void split(SubtreeTask task);
-  bool use_free_planes(SubtreeTask& task);
+  bool use_clean_planes(SubtreeTask& task);
   void use_best_plane(SubtreeTask& task);
-  void add_chain(SubtreeTask& task, std::vector<FreePlanes::Plane> planes);
+  void add_chain(SubtreeTask& task, std::vector<CleanPlanes::Plane> planes);
   void split_by(const SubtreeTask& task, const BspTree::Plane& plane, std::int32_t own);
   std::int32_t add_node(const SubtreeTask& task, const BspTree::Plane& plane,
                         std::vector<std::int32_t> coplanar);
@@ -92,7 +92,7 @@ class SubtreeBuilder {
 
   TreeInput& input_;
   PlaneSearch search_;
-  FreePlanes free_planes_;
+  CleanPlanes clean_planes_;
   Subtree built_;
   std::uint32_t polygons_since_check_ = 0;
   /// Points made by the current plane, by edge: index in built_.points.

@@ -1,11 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "visibility/bsp/free_planes.h"
+#include "visibility/bsp/clean_planes.h"
 
 #include "transillum/at.h"
 
 namespace transillum {
 
-const std::vector<FreePlanes::Plane>& FreePlanes::find_all(const PolygonSet& set) {
+const std::vector<CleanPlanes::Plane>& CleanPlanes::find_all(const PolygonSet& set) {
   begin(set);
   for (std::size_t p = 0; p < set.size(); ++p) {
     if (covered_[p] == 0) {
@@ -16,7 +16,7 @@ const std::vector<FreePlanes::Plane>& FreePlanes::find_all(const PolygonSet& set
   return found_;
 }
 
-bool FreePlanes::many_one_sided(const PolygonSet& set) {
+bool CleanPlanes::many_one_sided(const PolygonSet& set) {
   constexpr std::size_t tested = 32;
   begin(set);
   std::size_t one_sided = 0;
@@ -28,7 +28,7 @@ bool FreePlanes::many_one_sided(const PolygonSet& set) {
 }
 
 /// Whether the polygons of a sample are on one side of a polygon's plane.
-bool FreePlanes::is_one_sided_in_sample(std::size_t polygon) {
+bool CleanPlanes::is_one_sided_in_sample(std::size_t polygon) {
   constexpr std::size_t sample = 512;
   const BspTree::Plane& plane = plane_of(static_cast<std::int32_t>(polygon));
   bool any_front = false, any_back = false;
@@ -43,7 +43,7 @@ bool FreePlanes::is_one_sided_in_sample(std::size_t polygon) {
   return !any_front || !any_back;
 }
 
-const std::vector<FreePlanes::Plane>& FreePlanes::find_one_sided(const PolygonSet& set) {
+const std::vector<CleanPlanes::Plane>& CleanPlanes::find_one_sided(const PolygonSet& set) {
   begin(set);
   const DiskTree tree(set, planes_, check_);
   for (const std::int32_t p : tree.polygons()) {
@@ -53,7 +53,7 @@ const std::vector<FreePlanes::Plane>& FreePlanes::find_one_sided(const PolygonSe
   return found_;
 }
 
-void FreePlanes::begin(const PolygonSet& set) {
+void CleanPlanes::begin(const PolygonSet& set) {
   set_ = &set;
   found_.clear();
   in_plane_.clear();
@@ -61,12 +61,12 @@ void FreePlanes::begin(const PolygonSet& set) {
   witnesses_.fill(0);
 }
 
-const BspTree::Plane& FreePlanes::plane_of(std::int32_t polygon) const {
+const BspTree::Plane& CleanPlanes::plane_of(std::int32_t polygon) const {
   return at(planes_, at(set_->polygons, polygon).plane);
 }
 
 /// Keeps the plane of a polygon with the polygons listed since the last one kept.
-void FreePlanes::keep(std::int32_t polygon, std::size_t front, std::size_t back) {
+void CleanPlanes::keep(std::int32_t polygon, std::size_t front, std::size_t back) {
   const std::uint32_t begin = found_.empty() ? 0 : found_.back().end;
   found_.push_back({polygon, front > 0, back > 0, std::min(front, back), begin,
                     static_cast<std::uint32_t>(in_plane_.size())});
@@ -76,7 +76,7 @@ void FreePlanes::keep(std::int32_t polygon, std::size_t front, std::size_t back)
   }
 }
 
-void FreePlanes::test_all(std::int32_t polygon) {
+void CleanPlanes::test_all(std::int32_t polygon) {
   const BspTree::Plane& plane = plane_of(polygon);
   const auto n = static_cast<std::int32_t>(set_->size());
   const std::size_t listed = in_plane_.size();
@@ -106,7 +106,7 @@ void FreePlanes::test_all(std::int32_t polygon) {
   keep(polygon, front, back);
 }
 
-void FreePlanes::test_one_sided(const DiskTree& tree, std::int32_t polygon) {
+void CleanPlanes::test_one_sided(const DiskTree& tree, std::int32_t polygon) {
   if (at(covered_, polygon) != 0) {
     return;
   }
@@ -126,7 +126,7 @@ void FreePlanes::test_one_sided(const DiskTree& tree, std::int32_t polygon) {
 
 /// Keeps the plane of a polygon if all others are on one side of it.
 /// @param front the side; if false and wrong, the other is tried.
-void FreePlanes::test_side(const DiskTree& tree, std::int32_t polygon, bool front) {
+void CleanPlanes::test_side(const DiskTree& tree, std::int32_t polygon, bool front) {
   const BspTree::Plane& own = plane_of(polygon);
   // `plane` has all others behind it.
   const BspTree::Plane plane =

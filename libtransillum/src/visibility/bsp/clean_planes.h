@@ -12,9 +12,9 @@
 
 namespace transillum {
 
-/// Finds polygons whose planes cut no other polygon of a set. Such a plane is free: it makes no
+/// Finds polygons whose planes cut no other polygon of a set. Such a plane is clean: it makes no
 /// cut, and no node that the polygon does not need anyway.
-class FreePlanes {
+class CleanPlanes {
  public:
   /// The plane of a polygon, and what the others of the set are to it.
   struct Plane {
@@ -28,16 +28,16 @@ class FreePlanes {
   /// @param planes of the polygons, by PolygonSet::Polygon::plane; not copied.
   /// @param thickness corners nearer to a plane are on it, m.
   /// @param check called often.
-  FreePlanes(const std::vector<BspTree::Plane>& planes, double thickness,
-             std::function<void()> check)
+  CleanPlanes(const std::vector<BspTree::Plane>& planes, double thickness,
+              std::function<void()> check)
       : planes_(planes), thickness_(thickness), check_(std::move(check)) {}
 
-  /// All free planes of a small set. O(n²).
+  /// All clean planes of a small set. O(n²).
   const std::vector<Plane>& find_all(const PolygonSet& set);
   /// Whether a sample of the set's planes has many one-sided ones.
   bool many_one_sided(const PolygonSet& set);
-  /// The one-sided free planes of a set, in an order that keeps neighbors together. O(n log² n) for
-  /// round convex sets.
+  /// The one-sided clean planes of a set, in an order that keeps neighbors together. O(n log² n)
+  /// for round convex sets.
   const std::vector<Plane>& find_one_sided(const PolygonSet& set);
   /// Numbers of polygons that Plane::begin and Plane::end refer to.
   const std::vector<std::int32_t>& in_plane() const { return in_plane_; }
