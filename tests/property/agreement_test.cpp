@@ -234,6 +234,11 @@ TEST_P(AgreementImperfect, OnRoundedAndTurnedScenes) {
 }
 INSTANTIATE_TEST_SUITE_P(Tens, AgreementImperfect, ::testing::Range(0, 20));
 
+/// A small box whose back a large wall sees by less than rounding of the wall's own area.
+TEST(AgreementImperfectRegression, OnASmallPatchSeenByALargeOne) {
+  expect_agreement_on(661, testing::random_imperfect_scene);
+}
+
 class NightlyAgreementImperfect : public ::testing::TestWithParam<int> {};
 TEST_P(NightlyAgreementImperfect, OnRoundedAndTurnedScenes) {
   expect_agreement_on(static_cast<std::uint64_t>(GetParam()) * 500, 500,
