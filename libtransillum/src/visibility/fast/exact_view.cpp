@@ -135,15 +135,17 @@ void ExactView::load_corners(const ProjectedFragments::Fragment& fragment, Polyg
   polygon.error = 0;
   for (std::uint32_t k = 0; k < fragment.end - fragment.begin; ++k) {
     const auto [x, y] = projected_.position_of(outlines_, fragment, k, origin_);
-    const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
-    polygon.add(x, y, 0, corner.exact ? corner.point : made_by_cut);
+    polygon.add(x, y, 0,
+                projected_.is_grid_point(outlines_, fragment, k)
+                    ? projected_.corner_of(outlines_, fragment, k).point
+                    : made_by_cut);
   }
 }
 
 void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon& polygon) {
   const bool plain = outlines_.outlines[fragment.outline].plain;
   for (std::uint32_t k = 0; k < polygon.count; ++k) {
-    const FragmentOutlines::Corner corner = ProjectedFragments::corner_of(outlines_, fragment, k);
+    const FragmentOutlines::Corner corner = projected_.corner_of(outlines_, fragment, k);
     if (plain) {
       // From the integer coordinates: differences of far rounded corners have lost digits.
       const std::uint32_t next = k + 1 < polygon.count ? k + 1 : 0;

@@ -18,7 +18,17 @@ namespace {
 
 // Grid units.
 constexpr double min_width = 2;
-constexpr std::int64_t max_meeting_distance = std::int64_t{1} << 32;
+constexpr int max_offset = 16;  ///< of a corner beyond the line of another corner's edge
+
+/// Whether two lines through a rounded corner may meet far away from it.
+bool are_nearly_parallel(const GridLine& p, const GridLine& q) {
+  const auto px = static_cast<long double>(p.b.x - p.a.x);
+  const auto py = static_cast<long double>(p.b.y - p.a.y);
+  const auto qx = static_cast<long double>(q.b.x - q.a.x);
+  const auto qy = static_cast<long double>(q.b.y - q.a.y);
+  return std::abs(px * qy - py * qx) <=
+         0x1p-20L * (std::abs(px) + std::abs(py)) * (std::abs(qx) + std::abs(qy));
+}
 
 /// Whether the outline turns left everywhere, up to rounding. An outline seen edge-on within
 /// rounding may not; it is left out, as by FragmentProjector.
@@ -218,6 +228,7 @@ void ProjectedFragments::project(const Scene& scene, const BspTree& tree,
   boxes.clear();
   fragments.clear();
   corners.clear();
+  changed_corners_.clear();
   boxes.reserve(outlines.outlines.size());
   fragments.reserve(outlines.outlines.size());
   corners.reserve(outlines.corners.size());
@@ -336,35 +347,105 @@ bool ProjectedFragments::add(const FragmentOutlines& outlines, std::uint32_t whi
     return false;
   }
   const bool needle = area < 0x1p-11 * size;
-  if (needle && !is_convex(first, count, area)) {
+  Fragment fragment{
+      begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch, front, false, -1,
+      area};
+  const bool changed = needle && !outline.plain && remove_turned_edges(outlines, fragment);
+  if (needle && !is_convex(first, fragment.end - begin, area)) {
     return false;
   }
   // Corners are off their lines by up to a grid unit.
   const auto is_inaccurate = [&] {
     return 2 * std::sqrt(size) > accuracy * patch_area(outline.patch);
   };
-  boxes.push_back(box);
-  fragments.push_back({begin, static_cast<std::uint32_t>(corners.size()), which, outline.patch,
-                       front, needle && !outline.plain && is_inaccurate(), area});
-  if (fragments.back().cut_needle) {
-    fragments.back().area = cut_needle_area(outlines, fragments.back());
+  fragment.cut_needle = changed || (needle && !outline.plain && is_inaccurate());
+  if (fragment.cut_needle) {
+    fragment.area = cut_needle_area(outlines, fragment);
   }
+  boxes.push_back(box);
+  fragments.push_back(fragment);
   return true;
 }
 
+/// Removes edges that are so short that rounding has turned them: the polygon is not on their left,
+/// or they have no direction. The polygon then ends where the lines of the edges before and after
+/// meet. Returns whether there are such edges.
+bool ProjectedFragments::remove_turned_edges(const FragmentOutlines& outlines, Fragment& fragment) {
+  for (std::uint32_t k = 0;
+       k < fragment.end - fragment.begin && fragment.end - fragment.begin > 3;) {
+    if (is_turned(fragment, k)) {
+      remove_edge(outlines, fragment, k);
+      k = 0;
+    } else {
+      ++k;
+    }
+  }
+  return fragment.changed >= 0;
+}
+
+bool ProjectedFragments::is_turned(const Fragment& fragment, std::uint32_t k) const {
+  const std::uint32_t count = fragment.end - fragment.begin;
+  const auto corner = [&](std::uint32_t j) -> const GridPoint& {
+    return corners[fragment.begin + (k + j) % count];
+  };
+  const GridPoint &before = corner(count - 1), &from = corner(0), &to = corner(1),
+                  &after = corner(2);
+  const auto length = static_cast<WideInteger>(std::abs(to.x - from.x)) + std::abs(to.y - from.y);
+  const WideInteger least = -max_offset * length;
+  return length <= max_offset || exact_turn(from, to, after) < least ||
+         exact_turn(from, to, before) < least;
+}
+
+/// Removes edge k and the corner at its end; the corner at its start becomes the meeting of the
+/// edges before and after.
+void ProjectedFragments::remove_edge(const FragmentOutlines& outlines, Fragment& fragment,
+                                     std::uint32_t k) {
+  const std::uint32_t count = fragment.end - fragment.begin;
+  if (fragment.changed < 0) {
+    const auto first = static_cast<std::int32_t>(changed_corners_.size());
+    for (std::uint32_t j = 0; j < count; ++j) {
+      changed_corners_.push_back(corner_of(outlines, fragment, j));
+    }
+    fragment.changed = first;
+  }
+  const std::uint32_t next = k + 1 < count ? k + 1 : 0;
+  const auto own = changed_corners_.begin() + fragment.changed;
+  own[k].line = own[next].line;
+  own[k].forward = own[next].forward;
+  own[k].exact = false;
+  changed_corners_.erase(own + next);
+  corners.erase(corners.begin() + fragment.begin + next);
+  --fragment.end;
+}
+
 FragmentOutlines::Corner ProjectedFragments::corner_of(const FragmentOutlines& outlines,
-                                                       const Fragment& fragment, std::uint32_t k) {
-  const FragmentOutlines::Corner* const corners =
+                                                       const Fragment& fragment,
+                                                       std::uint32_t k) const {
+  if (fragment.changed >= 0) {
+    return changed_corners_[static_cast<std::size_t>(fragment.changed) + k];
+  }
+  const FragmentOutlines::Corner* const own =
       outlines.corners.data() + outlines.outlines[fragment.outline].begin;
   if (fragment.front) {
-    return corners[k];
+    return own[k];
   }
   const std::uint32_t count = fragment.end - fragment.begin;
-  FragmentOutlines::Corner corner = corners[count - 1 - k];
-  const FragmentOutlines::Corner& next = corners[k + 1 < count ? count - 2 - k : count - 1];
+  FragmentOutlines::Corner corner = own[count - 1 - k];
+  const FragmentOutlines::Corner& next = own[k + 1 < count ? count - 2 - k : count - 1];
   corner.line = next.line;
   corner.forward = !next.forward;
   return corner;
+}
+
+bool ProjectedFragments::is_grid_point(const FragmentOutlines& outlines, const Fragment& fragment,
+                                       std::uint32_t k) const {
+  const FragmentOutlines::Corner leaving = corner_of(outlines, fragment, k);
+  if (leaving.exact) {
+    return true;
+  }
+  const FragmentOutlines::Corner arriving =
+      corner_of(outlines, fragment, k > 0 ? k - 1 : fragment.end - fragment.begin - 1);
+  return are_nearly_parallel(line_of(outlines, arriving), line_of(outlines, leaving));
 }
 
 ProjectedFragments::Position ProjectedFragments::position_of(const FragmentOutlines& outlines,
@@ -377,19 +458,14 @@ ProjectedFragments::Position ProjectedFragments::position_of(const FragmentOutli
   if (!fragment.cut_needle) {
     return rounded;
   }
-  const FragmentOutlines::Corner leaving = corner_of(outlines, fragment, k);
-  if (leaving.exact) {
+  if (is_grid_point(outlines, fragment, k)) {
     return rounded;
   }
+  const FragmentOutlines::Corner leaving = corner_of(outlines, fragment, k);
   const FragmentOutlines::Corner arriving =
       corner_of(outlines, fragment, k > 0 ? k - 1 : fragment.end - fragment.begin - 1);
   const Meeting meeting =
       exact_meeting(line_of(outlines, arriving), line_of(outlines, leaving), corner);
-  // Nearly coincident lines may meet anywhere.
-  const auto limit = static_cast<long double>(max_meeting_distance);
-  if (meeting.parallel || std::abs(meeting.x) > limit || std::abs(meeting.y) > limit) {
-    return rounded;
-  }
   return {rounded.x + meeting.x, rounded.y + meeting.y};
 }
 

@@ -127,7 +127,8 @@ struct ProjectedFragments {
     bool front;       ///< front-facing: it receives for omega
     bool cut_needle;  ///< cut by the tree so thin that its corners are off their lines by more than
                       ///< accuracy allows: see position_of()
-    double area;      ///< of the projection, in square grid units; > 0
+    std::int32_t changed;  ///< first of its own corners in changed_corners_, or -1: the outline's
+    double area;           ///< of the projection, in square grid units; > 0
   };
   /// Errors of areas, relative to patch_area(), must be below this.
   static constexpr double accuracy = 0x1p-37;
@@ -145,8 +146,8 @@ struct ProjectedFragments {
                const Vec3& omega, const Cancellation& cancellation,
                const PatchShaft* shaft = nullptr);
 
-  /// The projected area of a patch, but not more than half of the patches have, in square grid units:
-  /// errors of a large patch count for the small ones that it sees.
+  /// The projected area of a patch, but not more than half of the patches have, in square grid
+  /// units: errors of a large patch count for the small ones that it sees.
   double patch_area(PatchId patch) const {
     const Patch& p = scene_->patch(patch);
     return std::min(std::abs(dot(p.normal, omega_)) * p.area, median_area_) /
@@ -155,8 +156,12 @@ struct ProjectedFragments {
 
   /// Corner k of a fragment as a corner of its outline. The outline of a back-facing fragment is
   /// reversed: the edge that arrived at a corner leaves it.
-  static FragmentOutlines::Corner corner_of(const FragmentOutlines& outlines,
-                                            const Fragment& fragment, std::uint32_t k);
+  FragmentOutlines::Corner corner_of(const FragmentOutlines& outlines, const Fragment& fragment,
+                                     std::uint32_t k) const;
+  /// Whether corner k is the rounded point. Others are where the lines of their edges meet; if
+  /// these are nearly parallel, that may be far away.
+  bool is_grid_point(const FragmentOutlines& outlines, const Fragment& fragment,
+                     std::uint32_t k) const;
   struct Position {
     long double x, y;
   };
@@ -175,6 +180,8 @@ struct ProjectedFragments {
 
  private:
   const Scene* scene_ = nullptr;
+  /// Of fragments that lost corners by rounding, counter-clockwise.
+  std::vector<FragmentOutlines::Corner> changed_corners_;
   Vec3 omega_;
   double median_area_ = 0;  ///< of the patches, square meters
 
@@ -182,6 +189,9 @@ struct ProjectedFragments {
                 std::size_t index) const;
   double cut_needle_area(const FragmentOutlines& outlines, const Fragment& fragment) const;
   bool add(const FragmentOutlines& outlines, std::uint32_t outline);
+  bool remove_turned_edges(const FragmentOutlines& outlines, Fragment& fragment);
+  bool is_turned(const Fragment& fragment, std::uint32_t k) const;
+  void remove_edge(const FragmentOutlines& outlines, Fragment& fragment, std::uint32_t k);
   void add_or_drop(const FragmentOutlines& outlines, std::uint32_t outline);
   std::size_t add_joined(const FragmentOutlines& outlines, const std::vector<FragmentId>& order,
                          std::size_t index);
