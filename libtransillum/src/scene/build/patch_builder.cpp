@@ -13,6 +13,7 @@
 #include "scene/build/description_check.h"
 #include "scene/build/precision.h"
 #include "scene/build/refinement.h"
+#include "scene/build/rounding_repair.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -88,6 +89,8 @@ void PatchBuilder::build() {
                               ? description_.coordinate_rounding
                               : coordinate_rounding(description_.points);
   file_flatness_ = std::max(flatness_, bend_by_rounding * rounding);
+  points_ = without_rounding(description_, rounding, cancellation_);
+  note_moves(rounding);
   report.faces = static_cast<std::int64_t>(description_.face_count());
   report.warnings = description_.notes;
   for (std::size_t f = 0; f < description_.face_count(); ++f) {
@@ -127,7 +130,7 @@ PatchBuilder::Outline PatchBuilder::welded_outline(std::size_t face) {
   for (const PointId p : description_.outline(face)) {
     const auto i = static_cast<std::size_t>(p);
     if (welded_[i] < 0) {
-      welded_[i] = table.id_of(description_.points[i]);
+      welded_[i] = table.id_of(points_[i]);
     }
     if (outline.empty() || outline.back() != welded_[i]) {
       outline.push_back(welded_[i]);
@@ -348,6 +351,24 @@ void PatchBuilder::count_coincident() {
     warnings_.add("faces that get no light",
                   fmt::format("{}covered by a face on the same points: it gets no light (B = E)",
                               face_place(description_, static_cast<std::size_t>(face))));
+  }
+}
+
+void PatchBuilder::note_moves(double rounding) {
+  std::int64_t moved = 0;
+  double farthest = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const double distance = norm(points_[k] - description_.points[k]);
+    // Nearer than that, planes and faces are what they were.
+    moved += distance > flatness_ ? 1 : 0;
+    farthest = std::max(farthest, distance);
+  }
+  if (moved > 0) {
+    warnings_.add("notes",
+                  fmt::format("{}: {} of {} vertices moved by up to {:.2g} m, within the "
+                              "rounding of their coordinates ({:.2g} m), so that faces "
+                              "are planar and touch as before they were rounded",
+                              description_.name, moved, points_.size(), farthest, rounding));
   }
 }
 

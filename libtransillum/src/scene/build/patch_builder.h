@@ -76,12 +76,14 @@ class PatchBuilder {
 
   [[noreturn]] void throw_crossing(std::size_t face) const;
 
+  void note_moves(double rounding);
   void count_coincident();
   void count_unused();
 
   const SceneDescription& description_;
   const SceneOptions& options_;
   const Cancellation& cancellation_;
+  std::vector<Vec3> points_;     // of the description, without the rounding of its file
   std::vector<PointId> welded_;  // for each point of the description its number in `table`, or -1
   double flatness_ = 0;          // deviation from a plane by the rounding of doubles, m
   double file_flatness_ = 0;     // by the rounding of the coordinates in a file, m; >= flatness_
