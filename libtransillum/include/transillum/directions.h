@@ -19,6 +19,7 @@ enum class Sampling {
   halton,                ///< u = phi_2(k), v = phi_3(k)
   sobol,                 ///< Sobol's sequence, Owen-scrambled in base 2; seeded
   fibonacci,             ///< spherical Fibonacci lattice: v = (k+1/2)/M, u = k/golden ratio mod 1
+  antipodal,             ///< for two-way passes: M axes that are even together with their opposites
   random,                ///< independent uniform points; seeded
 };
 
@@ -37,6 +38,10 @@ const std::vector<std::string>& sampling_names();
 Sampling sampling_from_name(const std::string& name);
 /// The name in sampling_names().
 const std::string& name_of(Sampling sampling);
+
+/// The sampling that needs the fewest passes: antipodal where each pass also serves the opposite
+/// direction, fibonacci where it does not.
+Sampling default_sampling(bool two_way);
 
 /// Whether the points depend on the seed.
 bool is_seeded(Sampling sampling);
@@ -58,7 +63,8 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int begin, int e
 
 /// The set of M = `count` directions of one iteration of the semi-iterative scheme (section 6).
 /// Iteration 0 has make_directions(sampling, count, seed). The later ones have
-/// - random, scrambled_hammersley, fibonacci: independent points, scramblings or rotations, so that
+/// - random, scrambled_hammersley, fibonacci, antipodal: independent points, scramblings or
+/// rotations, so that
 ///   eq. 47 and with it eq. 46 hold;
 /// - halton, sobol: consecutive parts of one sequence, shuffled: in their natural order they would
 ///   violate eq. 46, because each part depends on the one before. Parts 2^p … 2^(p+1)-1 come in

@@ -12,9 +12,14 @@
 namespace transillum {
 
 const std::vector<std::string>& sampling_names() {
-  static const std::vector<std::string> names{
-      "hammersley", "centered-hammersley", "scrambled-hammersley", "halton", "sobol", "fibonacci",
-      "random"};
+  static const std::vector<std::string> names{"hammersley",
+                                              "centered-hammersley",
+                                              "scrambled-hammersley",
+                                              "halton",
+                                              "sobol",
+                                              "fibonacci",
+                                              "antipodal",
+                                              "random"};
   return names;
 }
 
@@ -36,6 +41,14 @@ bool is_extensible(Sampling sampling) {
          sampling == Sampling::random;
 }
 
+bool is_spiral(Sampling sampling) {
+  return sampling == Sampling::fibonacci || sampling == Sampling::antipodal;
+}
+
+Sampling default_sampling(bool two_way) {
+  return two_way ? Sampling::antipodal : Sampling::fibonacci;
+}
+
 std::vector<int> progressive_order(Sampling sampling, int count) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
@@ -45,7 +58,7 @@ std::vector<int> progressive_order(Sampling sampling, int count) {
   // Ranks of the radical inverses: the order in which van der Corput's points fill the interval,
   // scaled to 0 … count-1 for any count. The base differs from those of the sampling, else prefixes
   // would cover only a corner of the square.
-  const std::uint32_t base = sampling == Sampling::fibonacci ? 2 : 3;
+  const std::uint32_t base = is_spiral(sampling) ? 2 : 3;
   std::vector<std::pair<double, int>> keyed;
   keyed.reserve(order.size());
   for (int k = 0; k < count; ++k) {

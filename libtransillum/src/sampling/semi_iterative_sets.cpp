@@ -44,6 +44,7 @@ std::vector<DirectionSample> directions_of_iteration(Sampling sampling, int coun
     case Sampling::scrambled_hammersley:
       return make_directions(sampling, count, set_seed);
     case Sampling::fibonacci:
+    case Sampling::antipodal:
       return rotated(make_directions(sampling, count, seed), set_seed);
     case Sampling::halton:
     case Sampling::sobol: {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/bit_mixing.h"
+#include "sampling/antipodal_set.h"
 #include "sampling/owen_scrambling.h"
 #include "sampling/sphere_map.h"
 #include "transillum/errors.h"
@@ -134,6 +135,12 @@ std::vector<DirectionSample> make_directions(Sampling sampling, int count, std::
   }
   std::vector<DirectionSample> samples;
   samples.reserve(static_cast<std::size_t>(count));
+  if (sampling == Sampling::antipodal) {
+    for (const Vec3& axis : antipodal_set(count)) {
+      samples.push_back(sample_along(axis));
+    }
+    return samples;
+  }
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
     switch (sampling) {
       case Sampling::centered_hammersley:

@@ -11,6 +11,10 @@ namespace transillum {
 /// @throws InputError unless 1 <= count <= max_directions.
 void check_direction_count(int count);
 
+/// Whether consecutive points are a golden angle apart, on a spiral from pole to pole or to the
+/// equator.
+bool is_spiral(Sampling sampling);
+
 /// The digits of k in `base` mirrored at the radix point: van der Corput's sequence, in [0,1).
 double radical_inverse(std::uint32_t k, std::uint32_t base);
 
