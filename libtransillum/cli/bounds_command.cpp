@@ -53,8 +53,8 @@ int run(const BoundsCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   BoundsOptions options = call.options;
   options.directions = call.sequence.directions;
-  options.sets = {call.sequence.sampling, call.sequence.seed, call.sequence.rotation,
-                  !call.one_way};
+  options.sets = {call.sequence.used_sampling(!call.one_way), call.sequence.seed,
+                  call.sequence.rotation, !call.one_way};
   if (!call.scene.spec.empty()) {
     options.scene = load_input_scene(call.scene, outputs, cancellation);
   }

@@ -51,7 +51,7 @@ struct BoundsPrediction {
 /// The error estimate of a solve run, and the passes that would reach the accuracy.
 struct RunEstimate {
   std::string scene;
-  Sampling sampling = Sampling::fibonacci;
+  Sampling sampling = Sampling::antipodal;
   double passes = 0, error = 0;  ///< relative RMS error of B
   double estimated_passes = 0;   ///< to reach the accuracy, without replicas
 };

@@ -69,8 +69,9 @@ DirectionStatistics measure_directions(const SequenceOptions& set,
 
 std::string text_of(const DirectionStatistics& s) {
   const int m = s.set.directions;
-  std::string text = report_row("directions", fmt::format("{}, {}{}", m, name_of(s.set.sampling),
-                                                          s.set.rotation ? ", rotated" : ""));
+  std::string text =
+      report_row("directions", fmt::format("{}, {}{}", m, name_of(s.set.used_sampling()),
+                                           s.set.rotation ? ", rotated" : ""));
   text += report_row("star discrepancy",
                      fmt::format("{:.3e} on the unit square, exact (eq. 3)", s.star));
   text += report_row(
@@ -93,7 +94,7 @@ void write_direction_statistics(const std::string& path, const DirectionStatisti
   Json json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["directions"] = s.set.directions;
-  json["sampling"] = name_of(s.set.sampling);
+  json["sampling"] = name_of(s.set.used_sampling());
   json["seed"] = s.set.seed;
   json["rotation"] = s.set.rotation ? Json(*s.set.rotation) : Json();
   json["star_discrepancy"] = {{"value", s.star},

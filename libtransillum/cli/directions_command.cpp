@@ -70,7 +70,7 @@ void measure(const DirectionsCall& call, const std::vector<DirectionSample>& sam
 int run(const DirectionsCall& call) {
   const std::vector<std::string> outputs = checked_outputs(call);
   const SequenceOptions& sequence = call.sequence;
-  auto samples = make_directions(sequence.sampling, sequence.directions, sequence.seed);
+  auto samples = make_directions(sequence.used_sampling(), sequence.directions, sequence.seed);
   if (sequence.rotation) {
     samples = rotated(std::move(samples), *sequence.rotation);
   }

@@ -15,7 +15,9 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
                     });
   add_parsed_option(
       command, "--sampling", "NAME",
-      choice_help("sampling", sampling_names(), name_of(options.sampling)),
+      choice_help("sampling", sampling_names(),
+                  fmt::format("{}, one-way {}", name_of(default_sampling(true)),
+                              name_of(default_sampling(false)))),
       [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
   add_parsed_option(
       command, "--seed", "S", help_of("seed", options.seed),
@@ -26,7 +28,7 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
 }
 
 void check_seed(const CLI::App& command, const SequenceOptions& options) {
-  refuse_unless(is_seeded(options.sampling), command, "--seed",
+  refuse_unless(is_seeded(options.used_sampling()), command, "--seed",
                 "used only with sampling random, sobol or scrambled-hammersley");
 }
 

@@ -12,9 +12,14 @@ namespace transillum::cli {
 /// The set of directions, for all commands that use one.
 struct SequenceOptions {
   int directions = 1024;
-  Sampling sampling = Sampling::fibonacci;
+  std::optional<Sampling> sampling;
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> rotation;
+
+  /// `sampling`, or the default of two-way or one-way passes.
+  Sampling used_sampling(bool two_way = true) const {
+    return sampling.value_or(default_sampling(two_way));
+  }
 };
 
 /// -m, --sampling, --seed, --rotate

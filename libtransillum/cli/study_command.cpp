@@ -35,7 +35,7 @@ struct StudyCall {
   const CLI::App* command = nullptr;
   SceneInput scene;
   std::vector<int> directions{16, 64, 256, 1024};
-  std::vector<Sampling> samplings{Sampling::random, Sampling::hammersley, Sampling::fibonacci};
+  std::vector<Sampling> given_samplings;
   std::vector<Normalization> normalizations{Normalization::none};
   std::vector<Scheme> schemes{Scheme::fixed};
   std::vector<std::optional<double>> first_shots{std::nullopt};
@@ -49,15 +49,23 @@ struct StudyCall {
   std::string out;
   std::vector<std::string> plots;
   bool quiet = false;
+
+  bool uses(bool both_ways) const { return both_ways ? two_way || !one_way : one_way; }
+  /// Those given, or random, the paper's, and the default.
+  std::vector<Sampling> samplings() const {
+    return given_samplings.empty()
+               ? std::vector{Sampling::random, Sampling::hammersley, default_sampling(uses(true))}
+               : given_samplings;
+  }
 };
 
 /// All combinations of the options, valid or not.
 std::vector<StudySeries> all_combinations(const StudyCall& call) {
   std::vector<StudySeries> all;
   const int resolution = call.study.solve.engine_options.resolution;
-  for (const Sampling sampling : call.samplings) {
+  for (const Sampling sampling : call.samplings()) {
     for (const bool two_way : {false, true}) {
-      if (!(two_way ? call.two_way || !call.one_way : call.one_way)) {
+      if (!call.uses(two_way)) {
         continue;
       }
       for (const Normalization normalize : call.normalizations) {
@@ -83,8 +91,8 @@ std::vector<StudySeries> all_series(const StudyCall& call) {
   for (StudySeries& series : all_combinations(call)) {
     if (!takes_directions(series.engine)) {
       // Sampling and two-way passes do not apply to it.
-      series.sampling = call.samplings.front();
-      series.two_way = call.two_way || !call.one_way;
+      series.sampling = call.samplings().front();
+      series.two_way = call.uses(true);
       if (std::find(all.begin(), all.end(), series) != all.end()) {
         continue;
       }
@@ -291,8 +299,10 @@ void add_series_options(CLI::App& command, StudyCall& call) {
                   call.directions, parse_directions);
   add_list_option(
       command, "--sampling", "NAME,...",
-      fmt::format("{} (default random,hammersley,fibonacci)", fmt::join(sampling_names(), " | ")),
-      call.samplings,
+      fmt::format("{} (default random,hammersley,{}; --one-way alone: random,hammersley,{})",
+                  fmt::join(sampling_names(), " | "), name_of(default_sampling(true)),
+                  name_of(default_sampling(false))),
+      call.given_samplings,
       [](const std::string& text) { return std::vector{sampling_from_name(text)}; });
   command.add_flag("--one-way", call.one_way, "use each pass for one direction, as in the paper");
   command.add_flag(

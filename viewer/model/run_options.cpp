@@ -71,7 +71,10 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   SolveOptions& solve = options.solve;
   JsonObject object(value, where);
   object.read("directions", solve.directions, 1, 1 << 24);
-  read_named(object, "sampling", solve.sampling, sampling_from_name);
+  if (object.find("sampling")) {
+    read_named(object, "sampling", solve.sampling.emplace(default_sampling(true)),
+               sampling_from_name);
+  }
   read_seed(object, "seed", solve.seed);
   if (object.find("rotate")) {
     read_seed(object, "rotate", solve.rotation.emplace());
@@ -108,7 +111,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
 json to_json(const RunOptions& options) {
   const SolveOptions& solve = options.solve;
   json result = {{"directions", solve.directions},
-                 {"sampling", name_of(solve.sampling)},
+                 {"sampling", name_of(solve.used_sampling())},
                  {"seed", solve.seed},
                  {"rotate", solve.rotation ? json(*solve.rotation) : json()},
                  {"engine", name_of(solve.engine)},

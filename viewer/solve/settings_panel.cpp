@@ -20,6 +20,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "model/run_options.h"
 #include "support/number_text.h"
@@ -170,6 +171,12 @@ void SettingsPanel::connect_solve_rows() {
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
   }
+  connect(pass_serves_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
+    const bool two_way = index == 0;
+    if (sampling_->currentIndex() == static_cast<int>(default_sampling(!two_way))) {
+      sampling_->setCurrentIndex(static_cast<int>(default_sampling(two_way)));
+    }
+  });
   for (QSpinBox* box : {directions_, resolution_, replicas_, iterations_}) {
     connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
   }
@@ -199,7 +206,6 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
 SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
   options.directions = directions_->value();
-  options.sampling = static_cast<Sampling>(sampling_->currentIndex());
   bool number = false;
   if (const qulonglong seed = seed_->text().toULongLong(&number); number) {
     options.seed = seed;
@@ -208,6 +214,11 @@ SolveOptions SettingsPanel::solve_options() const {
   options.engine_options.resolution = resolution_->value();
   options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
   options.two_way = pass_serves_->currentIndex() == 0;
+  const auto sampling = static_cast<Sampling>(sampling_->currentIndex());
+  // The default stays unset, so that it equals that of a run that was started without a choice.
+  options.sampling = base_.sampling || sampling != default_sampling(options.two_way)
+                         ? std::optional(sampling)
+                         : std::nullopt;
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
   options.replicas = replicas_->value();
@@ -227,12 +238,13 @@ SceneOptions SettingsPanel::scene_options() const {
 void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
   base_ = solve;
   directions_->setValue(solve.directions);
-  sampling_->setCurrentIndex(static_cast<int>(solve.sampling));
   seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
   order_->setCurrentIndex(static_cast<int>(solve.engine_options.order));
   pass_serves_->setCurrentIndex(solve.two_way ? 0 : 1);
+  // After `pass_serves_`, which may change it.
+  sampling_->setCurrentIndex(static_cast<int>(solve.used_sampling()));
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
   scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
   replicas_->setValue(solve.replicas);

@@ -48,7 +48,7 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
   for (std::size_t k = 0; k < sampling_names().size(); ++k) {
     const auto sampling = static_cast<Sampling>(k);
     const bool on = sampling == Sampling::random || sampling == Sampling::hammersley ||
-                    sampling == Sampling::fibonacci;
+                    sampling == default_sampling(true);
     const QString name = QString::fromStdString(name_of(sampling));
     layout->addWidget(add_box(samplings_, name, name, static_cast<int>(k), on));
   }

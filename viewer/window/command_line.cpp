@@ -41,7 +41,8 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("-m,--directions", solve.directions, description_of("directions"))
       ->capture_default_str();
   app.add_option("--sampling", names.sampling, described("sampling", sampling_names()))
-      ->capture_default_str();
+      ->default_str(name_of(default_sampling(true)) + ", one-way " +
+                    name_of(default_sampling(false)));
   app.add_option("--seed", solve.seed, description_of("seed"))->capture_default_str();
   app.add_option("--rotate", solve.rotation, description_of("rotate"));
   app.add_option("--engine", names.engine, described("engine", engine_names()))
@@ -127,7 +128,9 @@ void add_scene_options(CLI::App& app, CommandLine& line) {
 
 void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   SolveOptions& solve = line.solve_options;
-  solve.sampling = sampling_from_name(names.sampling);
+  if (!names.sampling.empty()) {
+    solve.sampling = sampling_from_name(names.sampling);
+  }
   solve.engine = engine_from_name(names.engine);
   solve.two_way = !names.one_way;
   solve.normalize = normalization_from_name(names.normalize);
@@ -168,7 +171,6 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
   ParsedCommandLine parsed;
   CommandLine& line = parsed.command_line;
   Names names;
-  names.sampling = name_of(line.solve_options.sampling);
   names.engine = name_of(line.solve_options.engine);
   names.normalize = name_of(line.solve_options.normalize);
   names.scheme = name_of(line.solve_options.scheme);

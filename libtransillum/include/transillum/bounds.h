@@ -65,7 +65,7 @@ const PaperTables& paper_tables();
 
 /// A family of direction sets, one for each M, whose errors are measured instead of bounded.
 struct DirectionSetFamily {
-  Sampling sampling = Sampling::fibonacci;     ///< the sequence
+  Sampling sampling = Sampling::antipodal;     ///< the sequence
   std::uint64_t seed = 1;                      ///< of a seeded sequence
   std::optional<std::uint64_t> rotation = {};  ///< seed of a rotation of all directions, if any
   bool two_way = true;                         ///< count the opposites too

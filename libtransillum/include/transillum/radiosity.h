@@ -60,7 +60,7 @@ const std::string& name_of(Scheme scheme);
 /// Options of a solve run.
 struct SolveOptions {
   int directions = 1024;                          ///< M: passes per iteration, 1 … 2^24
-  Sampling sampling = Sampling::fibonacci;        ///< sequence of directions
+  std::optional<Sampling> sampling = {};          ///< set of directions; unset: used_sampling()
   std::uint64_t seed = 1;                         ///< of seeded samplings and of engine rays
   std::optional<std::uint64_t> rotation = {};     ///< seed of a rotation of all directions, if any
   Engine engine = Engine::fast;                   ///< computes the transfers
@@ -86,6 +86,8 @@ struct SolveOptions {
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
 
+  /// `sampling`, or default_sampling(two_way).
+  Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
   /// @throws InputError naming the option and its range.
   void validate() const;
   /// Exact comparison of all members.

@@ -43,13 +43,13 @@ const std::vector<std::string>& error_measure_names();
 /// @throws InputError listing the choices.
 ErrorMeasure error_measure_from_name(const std::string& name);
 
-/// Options of the reference solve: `passes` two-way passes of the default sampling under a rotation
-/// of its own, so that it shares no direction with the solves studied.
+/// Options of the reference solve: `passes` two-way passes of the Fibonacci lattice under a
+/// rotation of its own, so that it shares no direction with the solves studied.
 SolveOptions reference_options(int passes);
 
 /// One line in the plot of a study: settings that are solved with increasing M.
 struct StudySeries {
-  Sampling sampling = Sampling::fibonacci;        ///< SolveOptions::sampling
+  Sampling sampling = Sampling::antipodal;        ///< SolveOptions::sampling
   bool two_way = true;                            ///< SolveOptions::two_way
   Normalization normalize = Normalization::none;  ///< SolveOptions::normalize
   Scheme scheme = Scheme::fixed;                  ///< SolveOptions::scheme

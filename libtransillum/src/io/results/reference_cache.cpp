@@ -94,7 +94,7 @@ void add_scene(Hash& hash, const Scene& scene) {
 /// Adds the options that change B: not the memory nor the number of threads.
 void add_options(Hash& hash, const SolveOptions& options) {
   hash.add(options.directions);
-  hash.add(name_of(options.sampling));
+  hash.add(name_of(options.used_sampling()));
   hash.add(options.seed);
   hash.add(options.rotation ? std::to_string(*options.rotation) : std::string("none"));
   hash.add(name_of(options.engine));

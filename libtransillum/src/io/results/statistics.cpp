@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 Json options_json(const SolveOptions& options, const SceneOptions& scene_options) {
   Json json;
   json["directions"] = options.directions;
-  json["sampling"] = name_of(options.sampling);
+  json["sampling"] = name_of(options.used_sampling());
   json["seed"] = options.seed;
   json["rotation"] = options.rotation ? Json(*options.rotation) : Json();
   json["engine"] = name_of(options.engine);

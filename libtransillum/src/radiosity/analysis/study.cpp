@@ -245,6 +245,7 @@ ErrorMeasure error_measure_from_name(const std::string& name) {
 SolveOptions reference_options(int passes) {
   SolveOptions options;
   options.directions = passes;
+  options.sampling = Sampling::fibonacci;
   options.rotation = reference_rotation;
   options.tolerance = reference_tolerance;
   return options;

@@ -71,7 +71,7 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
     left_to_do_ = mean_.error(start_);
     // With equal sets the mean converges to B of that one set, and the spread of iterations says
     // nothing about its error.
-    record.error = differs_by_iteration(options_.sampling) ? left_to_do_ : std::nullopt;
+    record.error = differs_by_iteration(options_.used_sampling()) ? left_to_do_ : std::nullopt;
     record.contraction = records_.empty() ? 0.0 : start_.contraction();
   }
   b_ = averaged() ? mean_.b() : iterate.b();

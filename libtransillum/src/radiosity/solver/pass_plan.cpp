@@ -28,18 +28,18 @@ int PassPlan::passes(int iteration) const {
 
 std::vector<Vec3> PassPlan::directions(int iteration) const {
   const int replicas = options_.replicas;
+  const Sampling sampling = options_.used_sampling();
   std::vector<Vec3> directions(static_cast<std::size_t>(options_.directions));
   for (int r = 0; r < replicas; ++r) {
     const int count = (options_.directions - r + replicas - 1) / replicas;
-    auto set = renews()
-                   ? directions_of_iteration(options_.sampling, count, options_.seed, iteration)
-                   : make_directions(options_.sampling, count, options_.seed);
+    auto set = renews() ? directions_of_iteration(sampling, count, options_.seed, iteration)
+                        : make_directions(sampling, count, options_.seed);
     if (options_.rotation || replicas > 1) {
       set = rotated(std::move(set),
                     options_.rotation.value_or(options_.seed) + static_cast<std::uint64_t>(r));
     }
     auto place = static_cast<std::size_t>(r);
-    for (const int k : progressive_order(options_.sampling, count)) {
+    for (const int k : progressive_order(sampling, count)) {
       directions[place] = at(set, k).direction;
       place += static_cast<std::size_t>(replicas);
     }

@@ -18,8 +18,8 @@ bool has_pixels(const SolveOptions& solve) {
 bool draws_random_numbers(const SolveOptions& solve) {
   const bool seeded_rotations = solve.replicas > 1 && !solve.rotation;
   return has_directions(solve) &&
-         (is_seeded(solve.sampling) || solve.engine == Engine::rays || seeded_rotations ||
-          (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.sampling)));
+         (is_seeded(solve.used_sampling()) || solve.engine == Engine::rays || seeded_rotations ||
+          (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.used_sampling())));
 }
 
 /// A setting that only some solves read; all solves read the others.
