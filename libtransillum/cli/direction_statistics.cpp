@@ -59,6 +59,9 @@ DirectionStatistics measure_directions(const SequenceOptions& set,
   s.set = set;
   s.star = star_discrepancy(samples, cancellation);
   s.cap = cap_discrepancy(samples, cancellation);
+  const auto both = with_opposites(samples);
+  s.star_two_way = star_discrepancy(both, cancellation);
+  s.cap_two_way = cap_discrepancy(both, cancellation);
   const std::vector<Vec3> normals =
       scene ? normals_of(*scene) : spread_normals(spread_normal_count);
   s.one_way = quadrature_errors(normals, samples, false, cancellation);
@@ -76,8 +79,11 @@ std::string text_of(const DirectionStatistics& s) {
                      fmt::format("{:.3e} on the unit square, exact (eq. 3)", s.star));
   text += report_row(
       "", fmt::format("at most {:.3e} for hammersley (eq. 20)", star_discrepancy_bound(m)));
+  text += report_row("", fmt::format("{:.3e} with the opposites", s.star_two_way));
   text += report_row("cap discrepancy", fmt::format("{:.3e} on the sphere, {}", s.cap.value,
                                                     s.cap.exact ? "exact" : "a lower bound"));
+  text += report_row("", fmt::format("{:.3e} with the opposites, {}", s.cap_two_way.value,
+                                     s.cap_two_way.exact ? "exact" : "a lower bound"));
   text += fmt::format(
       "\nQuadrature error eps(M) of the integral of the cosine, exact value pi (eq. 17), over {} "
       "{}:\n",
@@ -98,8 +104,12 @@ void write_direction_statistics(const std::string& path, const DirectionStatisti
   json["seed"] = s.set.seed;
   json["rotation"] = s.set.rotation ? Json(*s.set.rotation) : Json();
   json["star_discrepancy"] = {{"value", s.star},
+                              {"two_way", s.star_two_way},
                               {"bound", star_discrepancy_bound(s.set.directions)}};
-  json["cap_discrepancy"] = {{"value", s.cap.value}, {"exact", s.cap.exact}};
+  json["cap_discrepancy"] = {{"value", s.cap.value},
+                             {"exact", s.cap.exact},
+                             {"two_way", s.cap_two_way.value},
+                             {"two_way_exact", s.cap_two_way.exact}};
   json["scene"] = s.scene ? Json(s.scene->name()) : Json();
   json["eps"] = {{"normals", s.one_way.size()},
                  {"bound", quadrature_error_bound(s.set.directions)},

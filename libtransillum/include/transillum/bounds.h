@@ -72,6 +72,10 @@ struct DirectionSetFamily {
 
   /// The set of M = `directions` directions.
   std::vector<DirectionSample> make(int directions) const;
+  /// D* of that set; of a two-way antipodal set, which is even only together with its opposites,
+  /// that of all 2M directions.
+  /// @throws Canceled
+  double star_discrepancy(int directions, const Cancellation& cancellation = {}) const;
 };
 /// eps of a set: the largest magnitude of eq. 17 over 518 normals spread over the sphere.
 /// @throws Canceled

@@ -84,6 +84,9 @@ bool differs_by_iteration(Sampling sampling);
 /// of the unit square. No seed gives the identity.
 std::vector<DirectionSample> rotated(std::vector<DirectionSample> samples, std::uint64_t seed);
 
+/// The directions and their opposites, 2M: what M two-way passes use.
+std::vector<DirectionSample> with_opposites(std::vector<DirectionSample> samples);
+
 /// The numbers 0 … count-1 in an order in which every prefix is spread over the whole sphere, so
 /// that an estimate from the passes done so far is unbiased by region.
 std::vector<int> progressive_order(Sampling sampling, int count);

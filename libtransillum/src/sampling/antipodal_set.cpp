@@ -2,8 +2,9 @@
 //
 // Axes that are even together with their opposites (decision 50). A Fibonacci lattice on the half
 // sphere is, except along the plane z = 0, where it meets its own mirror image. Repulsion between
-// neighbors closes that seam; then a smooth displacement makes the means of the even harmonics of
-// low degree exact, which repulsion over short distances would take thousands of steps to do.
+// neighbors closes that seam; then smooth displacements make the means of the even harmonics of low
+// degree exact, which repulsion over short distances would take thousands of steps to do, and the
+// projected areas of axis-parallel patches.
 //
 // Only +, -, *, / and square roots are used, which IEEE 754 defines to the last bit.
 #include "sampling/antipodal_set.h"
@@ -30,8 +31,11 @@ constexpr double reach = 2, list_radius = 2.4;
 constexpr double step_length = 0.04;
 /// Larger sets keep the lattice: only a share of 1/sqrt(M) of the directions is near the seam.
 constexpr std::size_t max_repelled = 1 << 16;
-/// Steps that make means of harmonics exact.
-constexpr int harmonic_steps = 2;
+/// Steps that make means of harmonics and of projected areas exact, each of which disturbs the
+/// other a little.
+constexpr int exact_steps = 2;
+/// Smaller sets have too few axes near each coordinate plane to move.
+constexpr std::size_t min_balanced = 16;
 
 /// Spacing of the 2M points: the side of a square of the area that belongs to one.
 double spacing(std::size_t axes) {
@@ -98,6 +102,28 @@ int harmonic_degree(std::size_t axes) {
   return std::min(static_cast<int>(degree) / 2 * 2, max_harmonic_degree);
 }
 
+/// Moves axes near a coordinate plane so that the mean of |coordinate| approaches 1/2, its mean
+/// over the sphere: axis-parallel patches then have the right projected area, without the error of
+/// eq. 17.
+void balance(std::vector<Vec3>& axes, double Vec3::*coordinate) {
+  const double width = spacing(axes.size());
+  const auto weight = [width](double x) {
+    const double rest = 1 - x * x / (width * width);
+    return rest > 0 ? rest * rest : 0;
+  };
+  double missing = static_cast<double>(axes.size()) / 2, weights = 0;
+  for (const Vec3& axis : axes) {
+    const double x = axis.*coordinate;
+    missing -= std::abs(x);
+    weights += weight(x) * (1 - x * x);
+  }
+  for (Vec3& axis : axes) {
+    const double x = axis.*coordinate;
+    axis.*coordinate += std::copysign(1.0, x) * weight(x) * missing / weights;
+    axis = normalized(axis);
+  }
+}
+
 /// Whether axis k lies on an even turn of the spiral. Axes of odd turns are replaced by their
 /// opposites, so that the set, and each part of it in its progressive order, has about as many
 /// directions above as below.
@@ -112,8 +138,13 @@ std::vector<Vec3> antipodal_set(int count) {
   if (axes.size() <= max_repelled) {
     repel(axes);
   }
-  for (int step = 0; step < harmonic_steps; ++step) {
+  for (int step = 0; step < exact_steps; ++step) {
     move_to_exact_harmonics(axes, harmonic_degree(axes.size()));
+    if (axes.size() >= min_balanced) {
+      for (const auto coordinate : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        balance(axes, coordinate);
+      }
+    }
   }
   for (std::size_t k = 0; k < axes.size(); ++k) {
     axes[k] = points_up(k) ? axes[k] : -axes[k];

@@ -7,6 +7,7 @@
 
 #include "base/choice.h"
 #include "sampling/sequences.h"
+#include "sampling/sphere_map.h"
 #include "transillum/at.h"
 
 namespace transillum {
@@ -47,6 +48,15 @@ bool is_spiral(Sampling sampling) {
 
 Sampling default_sampling(bool two_way) {
   return two_way ? Sampling::antipodal : Sampling::fibonacci;
+}
+
+std::vector<DirectionSample> with_opposites(std::vector<DirectionSample> samples) {
+  const std::size_t count = samples.size();
+  samples.reserve(2 * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    samples.push_back(sample_along(-samples[k].direction));
+  }
+  return samples;
 }
 
 std::vector<int> progressive_order(Sampling sampling, int count) {
