@@ -15,9 +15,7 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
                     });
   add_parsed_option(
       command, "--sampling", "NAME",
-      choice_help("sampling", sampling_names(),
-                  fmt::format("{}, one-way {}", name_of(default_sampling(true)),
-                              name_of(default_sampling(false)))),
+      choice_help("sampling", sampling_names(), name_of(default_sampling(true))),
       [&options](const std::string& text) { options.sampling = sampling_from_name(text); });
   add_parsed_option(
       command, "--seed", "S", help_of("seed", options.seed),

@@ -174,9 +174,22 @@ TEST(CliSolve, StatisticsHaveTheDocumentedKeys) {
   for (const char* phase : {"load", "bsp", "transfers", "iterate", "total"}) {
     EXPECT_GE(json.at("seconds").at(phase).get<double>(), 0) << phase;
   }
-  EXPECT_EQ(json.at("options").at("sampling"), "fibonacci");
+  EXPECT_EQ(json.at("options").at("sampling"), "antipodal");
   EXPECT_TRUE(json.at("options").at("tolerance").is_null());
   EXPECT_TRUE(json.at("complete"));
+}
+
+TEST(CliSolve, DefaultDirectionsDependOnWhatAPassServes) {
+  const TemporaryFolder folder;
+  const auto result = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"solve", "furnace", "-m", "24", "-q", "--out", folder / "b.csv"});
+    EXPECT_EQ(run_program(options).status, 0);
+    return read_file(folder / "b.csv");
+  };
+  EXPECT_EQ(result({}), result({"--sampling", "antipodal"}));
+  EXPECT_NE(result({}), result({"--sampling", "fibonacci"}));
+  EXPECT_EQ(result({"--one-way"}), result({"--one-way", "--sampling", "fibonacci"}));
 }
 
 TEST(CliSolve, OneWayUsesHalfTheDirections) {
@@ -442,12 +455,17 @@ TEST(CliDirections, RotateAppliesOneRotationToTheSet) {
 }
 
 TEST(CliDirections, StatsReportDiscrepanciesAndErrors) {
-  const ProgramResult text = run_program({"directions", "-m", "64", "--stats"});
+  const ProgramResult text =
+      run_program({"directions", "-m", "64", "--sampling", "fibonacci", "--stats"});
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, ::testing::ContainsRegex("star discrepancy +3.617e-02 "));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("cap discrepancy +7.289e-02 .*exact"));
   EXPECT_THAT(text.out, ::testing::ContainsRegex("two-way .* RMS, .* largest\n"));
   EXPECT_THAT(text.out, ::testing::Not(HasSubstr("u,v,x")));
+  const ProgramResult even = run_program({"directions", "-m", "64", "--stats"});
+  EXPECT_THAT(even.out, ::testing::ContainsRegex("directions +64, antipodal\n"));
+  EXPECT_THAT(even.out,
+              ::testing::ContainsRegex("cap discrepancy .*\n .* with the opposites, exact"));
 
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"directions", "-m", "300", "--sampling", "hammersley", "--stats",
@@ -458,6 +476,9 @@ TEST(CliDirections, StatsReportDiscrepanciesAndErrors) {
   EXPECT_EQ(json.at("directions"), 300);
   EXPECT_LE(json.at("star_discrepancy").at("value"), json.at("star_discrepancy").at("bound"));
   EXPECT_FALSE(json.at("cap_discrepancy").at("exact"));
+  EXPECT_FALSE(json.at("cap_discrepancy").at("two_way_exact"));
+  EXPECT_GT(json.at("cap_discrepancy").at("two_way"), 0);
+  EXPECT_GT(json.at("star_discrepancy").at("two_way"), 0);
   const auto& one_way = json.at("eps").at("one_way");
   EXPECT_EQ(one_way.at("patches").size(), 12U);
   double largest = 0;
@@ -515,7 +536,7 @@ TEST(CliBounds, EstimatesDirectionsFromASolveRun) {
             0);
   const ProgramResult solved =
       run_program({"bounds", "furnace", "--run", folder / "solved.json", "--accuracy", "0.0001"});
-  EXPECT_THAT(solved.out, ::testing::ContainsRegex("furnace: .* 64 passes, fibonacci"));
+  EXPECT_THAT(solved.out, ::testing::ContainsRegex("furnace: .* 64 passes, antipodal"));
 
   write_text(folder / "plain.json",
              R"({"passes": 400, "options": {"sampling": "random"}, "error_estimate": null})");

@@ -66,15 +66,18 @@ json to_json(const SceneInput& input) {
 
 }  // namespace
 
+std::optional<Sampling> unless_default(Sampling sampling, bool two_way) {
+  return sampling == default_sampling(two_way) ? std::nullopt : std::optional(sampling);
+}
+
 RunOptions run_options_from_json(const json& value, const std::string& where) {
   RunOptions options;
   SolveOptions& solve = options.solve;
   JsonObject object(value, where);
   object.read("directions", solve.directions, 1, 1 << 24);
-  if (object.find("sampling")) {
-    read_named(object, "sampling", solve.sampling.emplace(default_sampling(true)),
-               sampling_from_name);
-  }
+  const bool has_sampling = object.find("sampling");
+  Sampling sampling = default_sampling(true);
+  read_named(object, "sampling", sampling, sampling_from_name);
   read_seed(object, "seed", solve.seed);
   if (object.find("rotate")) {
     read_seed(object, "rotate", solve.rotation.emplace());
@@ -82,6 +85,9 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   read_named(object, "engine", solve.engine, engine_from_name);
   object.read("resolution", solve.engine_options.resolution, 0, EngineOptions::largest_resolution);
   object.read("two-way", solve.two_way);
+  if (has_sampling) {
+    solve.sampling = unless_default(sampling, solve.two_way);
+  }
   read_named(object, "normalize", solve.normalize, normalization_from_name);
   read_named(object, "scheme", solve.scheme, scheme_from_name);
   read_named(object, "first-shot", solve.first_shot, first_shot_from_name);

@@ -41,6 +41,10 @@ struct RunOptions {
   }
 };
 
+/// SolveOptions::sampling for a choice: unset for the default, so that options that say the same
+/// are equal.
+std::optional<Sampling> unless_default(Sampling sampling, bool two_way);
+
 /// Reads options from a lesson or session file. Names as on the command line, without dashes;
 /// missing options have their defaults. The numbers of threads and bytes depend on the computer and
 /// are not included.

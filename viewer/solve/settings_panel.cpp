@@ -20,7 +20,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "model/run_options.h"
 #include "support/number_text.h"
@@ -214,11 +213,8 @@ SolveOptions SettingsPanel::solve_options() const {
   options.engine_options.resolution = resolution_->value();
   options.engine_options.order = static_cast<PaintersOrder>(order_->currentIndex());
   options.two_way = pass_serves_->currentIndex() == 0;
-  const auto sampling = static_cast<Sampling>(sampling_->currentIndex());
-  // The default stays unset, so that it equals that of a run that was started without a choice.
-  options.sampling = base_.sampling || sampling != default_sampling(options.two_way)
-                         ? std::optional(sampling)
-                         : std::nullopt;
+  options.sampling =
+      unless_default(static_cast<Sampling>(sampling_->currentIndex()), options.two_way);
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
   options.replicas = replicas_->value();

@@ -41,8 +41,7 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("-m,--directions", solve.directions, description_of("directions"))
       ->capture_default_str();
   app.add_option("--sampling", names.sampling, described("sampling", sampling_names()))
-      ->default_str(name_of(default_sampling(true)) + ", one-way " +
-                    name_of(default_sampling(false)));
+      ->default_str(name_of(default_sampling(true)));
   app.add_option("--seed", solve.seed, description_of("seed"))->capture_default_str();
   app.add_option("--rotate", solve.rotation, description_of("rotate"));
   app.add_option("--engine", names.engine, described("engine", engine_names()))
@@ -128,11 +127,11 @@ void add_scene_options(CLI::App& app, CommandLine& line) {
 
 void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   SolveOptions& solve = line.solve_options;
-  if (!names.sampling.empty()) {
-    solve.sampling = sampling_from_name(names.sampling);
-  }
   solve.engine = engine_from_name(names.engine);
   solve.two_way = !names.one_way;
+  if (!names.sampling.empty()) {
+    solve.sampling = unless_default(sampling_from_name(names.sampling), solve.two_way);
+  }
   solve.normalize = normalization_from_name(names.normalize);
   solve.scheme = scheme_from_name(names.scheme);
   solve.first_shot = first_shot_from_name(names.first_shot);

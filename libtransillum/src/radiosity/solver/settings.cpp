@@ -18,9 +18,9 @@ std::vector<Setting> direction_settings(const SolveOptions& solve) {
   return {
       {"directions", "a number", "number of directions per iteration (one pass each)",
        fmt::to_string(solve.directions)},
-      {"sampling", "a name", "sequence of directions (section 4 of the paper)",
-       fmt::format("{}, one-way {}", name_of(default_sampling(true)),
-                   name_of(default_sampling(false)))},
+      {"sampling", "a name",
+       "set of directions (section 4 of the paper); of one-way passes fibonacci by default",
+       name_of(default_sampling(true))},
       {"seed", "a number",
        "random seed of random, sobol and scrambled-hammersley directions, and of the engine rays",
        fmt::to_string(solve.seed)},
