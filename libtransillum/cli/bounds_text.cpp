@@ -64,13 +64,18 @@ std::string tables_text(const BoundsReport& report) {
     text += table_row(rho_text(r.rho), count_text(r.paper_heterogeneous, "-"),
                       count_text(r.heterogeneous), count_text(r.estimated_heterogeneous));
   }
-  return text +
-         fmt::format(
-             "\npaper: values printed in the paper. formula: the equations with the bounds for "
-             "Hammersley points\n(eq. 20 and 21). {}: the equations with the measured errors of "
-             "such directions{}: eps(M)\nover all normals; star discrepancy of the points, "
-             "extrapolated to larger M.\n",
-             name_of(options.sets.sampling), options.sets.two_way ? " and their opposites" : "");
+  text += fmt::format(
+      "\npaper: values printed in the paper. formula: the equations with the bounds for "
+      "Hammersley points\n(eq. 20 and 21). {}: the equations with the measured errors of "
+      "such directions{}: eps(M)\nover all normals; star discrepancy of the points, "
+      "extrapolated to larger M.\n",
+      name_of(options.sets.sampling), options.sets.two_way ? " and their opposites" : "");
+  if (options.sets.sampling == Sampling::antipodal) {
+    text +=
+        "Antipodal sets are even on the sphere, not on the unit square where this discrepancy is "
+        "measured:\nthe estimate of Table 3 is far above what they need.\n";
+  }
+  return text;
 }
 
 std::string prediction_text(const BoundsReport& report) {

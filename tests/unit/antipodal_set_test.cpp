@@ -151,11 +151,11 @@ TEST(AntipodalSet, IsAsEvenAsTheLatticeInItsProgressiveOrder) {
 TEST(AntipodalSet, HasKnownBits) {
   const auto set = axes(100);
   EXPECT_EQ(set[0].direction,
-            (Vec3{0x1.11d8f12fa8e1p-1, 0x1.989ecec47720fp-1, 0x1.1c1ea481174eep-2}));
+            (Vec3{0x1.97db1b1c951c1p-4, 0x1.7679a5ec304d7p-9, 0x1.fd740d8f9dc5fp-1}));
   EXPECT_EQ(set[57].direction,
-            (Vec3{0x1.3325de29bc91bp-2, -0x1.c309efe063b9bp-1, 0x1.76d2a02826078p-2}));
+            (Vec3{-0x1.cb95409331ce7p-4, -0x1.ca96797f51a2dp-1, -0x1.b8a3edd30355bp-2}));
   EXPECT_EQ(set[99].direction,
-            (Vec3{0x1.3fc07fe3c519ep-2, -0x1.27aec72f58569p-1, 0x1.8234d7d277afap-1}));
+            (Vec3{-0x1.aaeb90b191cap-2, -0x1.d10c25e3a3e7p-1, -0x1.198d9de4b3081p-5}));
 }
 
 TEST(AntipodalSet, DoesNotDependOnTheSeed) {

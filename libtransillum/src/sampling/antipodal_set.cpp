@@ -60,13 +60,6 @@ std::vector<Vec3> half_sphere_lattice(int count) {
   return axes;
 }
 
-/// A rotation that brings z to (12, 20, 9) / 25. Walls and floors tend to be parallel to coordinate
-/// planes, and the rows of axes along the seam must not be.
-Vec3 turned(const Vec3& a) {
-  return Vec3{15 * a.x - 16 * a.y + 12 * a.z, 15 * a.y + 20 * a.z, 9 * a.z - 20 * a.x - 12 * a.y} /
-         25;
-}
-
 std::vector<Vec3> with_opposites(const std::vector<Vec3>& axes) {
   std::vector<Vec3> points = axes;
   points.reserve(2 * axes.size());
@@ -145,7 +138,6 @@ std::vector<Vec3> antipodal_set(int count) {
   if (axes.size() <= max_repelled) {
     repel(axes);
   }
-  std::transform(axes.begin(), axes.end(), axes.begin(), turned);
   for (int step = 0; step < exact_steps; ++step) {
     move_to_exact_harmonics(axes, harmonic_degree(axes.size()));
     if (axes.size() >= min_balanced) {
