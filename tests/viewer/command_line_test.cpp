@@ -41,6 +41,12 @@ class CommandLineTest : public QObject {
     QCOMPARE(outcome.parsed.command_line.solve_options.tolerance, solve.tolerance);
     QVERIFY(outcome.parsed.command_line.solve_options.two_way);
     QVERIFY(outcome.parsed.command_line.scene.empty());
+    QVERIFY(outcome.parsed.command_line.solve_options == solve);
+    QVERIFY(solve.used_sampling() == Sampling::antipodal);
+    const SolveOptions one_way = parse({"--one-way"}).parsed.command_line.solve_options;
+    QVERIFY(one_way.used_sampling() == Sampling::fibonacci);
+    const auto two_way_lattice = parse({"--sampling", "fibonacci"}).parsed.command_line;
+    QVERIFY(two_way_lattice.solve_options.used_sampling() == Sampling::fibonacci);
   }
 
   void a_screenshot_takes_fewer_directions_unless_told() {

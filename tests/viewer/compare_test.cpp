@@ -162,6 +162,30 @@ class CompareTest : public QObject {
     QCOMPARE(panel.scene_options().max_patch_area, 0.0);
   }
 
+  void settings_follow_the_default_sampling() {
+    SettingsPanel panel;
+    auto* serves = panel.findChild<QComboBox*>("pass_serves");
+    auto* sampling = panel.findChild<QComboBox*>("sampling");
+    QVERIFY(panel.solve_options() == SolveOptions());
+    QCOMPARE(sampling->currentText(), QString("Antipodal"));
+    serves->setCurrentIndex(1);
+    QCOMPARE(sampling->currentText(), QString("Fibonacci"));
+    SolveOptions one_way;
+    one_way.two_way = false;
+    QVERIFY(panel.solve_options() == one_way);
+    serves->setCurrentIndex(0);
+    QCOMPARE(sampling->currentText(), QString("Antipodal"));
+    // A choice stays.
+    sampling->setCurrentText(QStringLiteral("Halton"));
+    serves->setCurrentIndex(1);
+    QCOMPARE(sampling->currentText(), QString("Halton"));
+    // Options of a file too, whichever their pair.
+    SolveOptions given;
+    given.sampling = Sampling::fibonacci;
+    panel.set_options(given, {});
+    QVERIFY(panel.solve_options() == given);
+  }
+
   void settings_show_the_options_of_an_engine() {
     SettingsPanel panel;
     panel.show();

@@ -63,7 +63,7 @@ class StudyTest : public QObject {
     const auto snapshot = shown.dialog->snapshot();
     QVERIFY(snapshot->study.complete);
     QCOMPARE(snapshot->study.points.size(), std::size_t{4 * 3});
-    QCOMPARE(shown.cell(0, 0), QString("fibonacci/two-way"));
+    QCOMPARE(shown.cell(0, 0), QString("antipodal/two-way"));
     QVERIFY(shown.cell(0, 1).startsWith(QStringLiteral("−")));
     const QString rms_slope = shown.cell(0, 1);
     shown.dialog->findChild<QComboBox*>("study_error")->setCurrentIndex(1);

@@ -78,6 +78,7 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
   directions_->setGroupSeparatorShown(false);
   directions_->setToolTip(tip("directions"));
   sampling_ = new QComboBox;
+  sampling_->setObjectName("sampling");
   for (const std::string& name : sampling_names()) {
     sampling_->addItem(capitalized(QString::fromStdString(name)));
   }
@@ -114,6 +115,7 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
 
 void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   pass_serves_ = new QComboBox;
+  pass_serves_->setObjectName("pass_serves");
   pass_serves_->addItems({tr("serves ω and −ω"), tr("serves ω only (paper)")});
   pass_serves_->setToolTip(tip("two-way"));
   normalize_ = new QComboBox;
