@@ -34,7 +34,7 @@ struct BoundsRow {
   std::optional<double> paper_contract, paper_homogeneous, paper_heterogeneous;
   double contract = 0, homogeneous = 0, heterogeneous = 0;  ///< by formula
   std::optional<int> actual_contract, actual_homogeneous;
-  double estimated_heterogeneous = 0;
+  std::optional<double> estimated_heterogeneous;
 };
 
 /// Predictions for one rho with M directions: proven for Hammersley points (bound), and computed

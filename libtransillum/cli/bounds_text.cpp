@@ -62,7 +62,7 @@ std::string tables_text(const BoundsReport& report) {
   text += table_row("rho", "paper", "formula", set + ", estimated");
   for (const BoundsRow& r : report.rows) {
     text += table_row(rho_text(r.rho), count_text(r.paper_heterogeneous, "-"),
-                      count_text(r.heterogeneous), count_text(r.estimated_heterogeneous));
+                      count_text(r.heterogeneous), count_text(r.estimated_heterogeneous, "-"));
   }
   text += fmt::format(
       "\npaper: values printed in the paper. formula: the equations with the bounds for "
@@ -72,8 +72,8 @@ std::string tables_text(const BoundsReport& report) {
       name_of(options.sets.sampling), options.sets.two_way ? " and their opposites" : "");
   if (options.sets.sampling == Sampling::antipodal) {
     text +=
-        "Antipodal sets are even on the sphere, not on the unit square where this discrepancy is "
-        "measured:\nthe estimate of Table 3 is far above what they need.\n";
+        "Table 3 is not estimated for antipodal sets: they are even on the sphere, not on the "
+        "unit square,\nwhere the star discrepancy is measured.\n";
   }
   return text;
 }
@@ -118,7 +118,7 @@ std::string directions_text(const BoundsReport& report) {
   text += prediction_row("nearly homogeneous  (eq. 37)", count_text(r.homogeneous),
                          count_text(r.actual_homogeneous, "> 65536"));
   text += prediction_row("any environment  (eq. 43)", count_text(r.heterogeneous),
-                         count_text(r.estimated_heterogeneous));
+                         count_text(r.estimated_heterogeneous, "-"));
   return text;
 }
 
@@ -149,7 +149,7 @@ Json json_of(const BoundsRow& r) {
           {"heterogeneous",
            {{"paper", json_of(r.paper_heterogeneous)},
             {"formula", r.heterogeneous},
-            {"estimated", r.estimated_heterogeneous}}}};
+            {"estimated", json_of(r.estimated_heterogeneous)}}}};
 }
 
 Json json_of(const BoundsPrediction& p) {

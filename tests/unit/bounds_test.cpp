@@ -114,13 +114,14 @@ TEST(DirectionSetFamily, NeedFarFewerDirectionsThanProven) {
 
 TEST(DirectionSetFamily, EstimateOfTable3FollowsTheMeasuredDiscrepancy) {
   // At a measured M the estimate equals the measurement.
-  const DirectionSetFamily sets;
+  const DirectionSetFamily sets{Sampling::fibonacci};
   for (const int m : {1024, 16384}) {
-    const double accuracy = heterogeneous_error_bound(0.5, 9, sets.star_discrepancy(m));
-    EXPECT_NEAR(estimated_directions_if_heterogeneous(sets, 0.5, accuracy, 9), m, 1);
+    const double accuracy = heterogeneous_error_bound(0.5, 9, star_discrepancy(sets.make(m)));
+    EXPECT_NEAR(*estimated_directions_if_heterogeneous(sets, 0.5, accuracy, 9), m, 1);
   }
-  EXPECT_LT(estimated_directions_if_heterogeneous({Sampling::fibonacci}, 0.6, 0.01, 150),
+  EXPECT_LT(*estimated_directions_if_heterogeneous(sets, 0.6, 0.01, 150),
             directions_if_heterogeneous(0.6, 0.01, 150));
+  EXPECT_FALSE(estimated_directions_if_heterogeneous({Sampling::antipodal}, 0.6, 0.01, 150));
 }
 
 TEST(SceneMeasures, OfABox) {

@@ -490,7 +490,7 @@ TEST(CliDirections, StatsReportDiscrepanciesAndErrors) {
 }
 
 TEST(CliBounds, PrintsTheThreeTables) {
-  const ProgramResult result = run_program({"bounds"});
+  const ProgramResult result = run_program({"bounds", "--sampling", "fibonacci"});
   EXPECT_EQ(result.status, 0) << result.err;
   const auto row = [](const char* pattern) { return ::testing::ContainsRegex(pattern); };
   EXPECT_THAT(result.out, row("0.2 +5 +5 +1\n"));
@@ -498,9 +498,15 @@ TEST(CliBounds, PrintsTheThreeTables) {
   EXPECT_THAT(result.out, row("0.6 +5700 +5855 +88\n"));
   EXPECT_THAT(result.out, row("0.6 +1.80e\\+07 +1.76e\\+07 +8.08e\\+06\n"));
 
+  const ProgramResult antipodal = run_program({"bounds"});
+  EXPECT_THAT(antipodal.out, row("0.9 +272 +272 +9\n"));
+  EXPECT_THAT(antipodal.out, row("0.6 +5700 +5855 +59\n"));
+  EXPECT_THAT(antipodal.out, row("0.6 +1.80e\\+07 +1.76e\\+07 +-\n"));
+
   // The paper's values are printed only for the paper's accuracy and size ratio.
-  const ProgramResult other = run_program(
-      {"bounds", "--reflectance", "0.6", "--accuracy", "0.02", "--size-ratio", "9", "-m", "256"});
+  const ProgramResult other =
+      run_program({"bounds", "--sampling", "fibonacci", "--reflectance", "0.6", "--accuracy",
+                   "0.02", "--size-ratio", "9", "-m", "256"});
   EXPECT_THAT(other.out, row("0.6 +37 +37 "));
   EXPECT_THAT(other.out, row("0.6 +- +[0-9]+ +[0-9]+\n"));
   EXPECT_THAT(other.out, row("contraction per iteration .* 0.670312 +0.60"));

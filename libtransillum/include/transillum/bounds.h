@@ -72,10 +72,6 @@ struct DirectionSetFamily {
 
   /// The set of M = `directions` directions.
   std::vector<DirectionSample> make(int directions) const;
-  /// D* of that set; of a two-way antipodal set, which is even only together with its opposites,
-  /// that of all 2M directions.
-  /// @throws Canceled
-  double star_discrepancy(int directions, const Cancellation& cancellation = {}) const;
 };
 /// eps of a set: the largest magnitude of eq. 17 over 518 normals spread over the sphere.
 /// @throws Canceled
@@ -95,10 +91,12 @@ std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& se
 
 /// Estimate of the M that the bound of eq. 43 requires with the sets' own D*, measured for 1,024
 /// and 16,384 directions and extrapolated as a power of M.
+/// Nothing for antipodal sets, which are even on the sphere, not on the unit square of D*.
 /// @throws Canceled
-double estimated_directions_if_heterogeneous(const DirectionSetFamily& sets, double rho,
-                                             double accuracy, double size_ratio,
-                                             const Cancellation& cancellation = {});
+std::optional<double> estimated_directions_if_heterogeneous(const DirectionSetFamily& sets,
+                                                            double rho, double accuracy,
+                                                            double size_ratio,
+                                                            const Cancellation& cancellation = {});
 
 /// The properties of a scene that the bounds depend on.
 struct SceneMeasures {

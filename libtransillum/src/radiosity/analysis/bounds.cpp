@@ -140,15 +140,6 @@ std::vector<DirectionSample> DirectionSetFamily::make(int directions) const {
   return rotation ? rotated(std::move(samples), *rotation) : samples;
 }
 
-double DirectionSetFamily::star_discrepancy(int directions,
-                                            const Cancellation& cancellation) const {
-  auto samples = make(directions);
-  if (two_way && sampling == Sampling::antipodal) {
-    samples = with_opposites(std::move(samples));
-  }
-  return transillum::star_discrepancy(samples, cancellation);
-}
-
 double measured_quadrature_error(const DirectionSetFamily& sets, int directions,
                                  const Cancellation& cancellation) {
   static const std::vector<Vec3> normals = spread_normals(512);
@@ -175,18 +166,22 @@ std::optional<int> actual_directions_if_homogeneous(const DirectionSetFamily& se
   });
 }
 
-double estimated_directions_if_heterogeneous(const DirectionSetFamily& sets, double rho,
-                                             double accuracy, double size_ratio,
-                                             const Cancellation& cancellation) {
+std::optional<double> estimated_directions_if_heterogeneous(const DirectionSetFamily& sets,
+                                                            double rho, double accuracy,
+                                                            double size_ratio,
+                                                            const Cancellation& cancellation) {
   check_rho(rho);
   check_positive("accuracy", accuracy);
   check_positive("size ratio", size_ratio);
+  if (sets.sampling == Sampling::antipodal) {
+    return std::nullopt;
+  }
   if (rho == 0) {
     return 1;
   }
   constexpr int few = 1024, many = 16 * few;
-  const double of_few = sets.star_discrepancy(few, cancellation);
-  const double of_many = sets.star_discrepancy(many, cancellation);
+  const double of_few = star_discrepancy(sets.make(few), cancellation);
+  const double of_many = star_discrepancy(sets.make(many), cancellation);
   const double power = std::log(of_few / of_many) / std::log(many / few);
   const double error = heterogeneous_error_bound(rho, size_ratio, of_few);
   return std::max(1.0, std::ceil(few * std::pow(error / accuracy, 1 / power)));
