@@ -73,8 +73,8 @@ TEST(CliSolve, WarnsWhereTheDirectionsAreTooFew) {
   const ProgramResult dark = run_program({"solve", "cornell-box", "-m", "1"});
   EXPECT_EQ(dark.status, 0);
   EXPECT_THAT(dark.err, HasSubstr("warning: no patch receives light from another"));
-  const ProgramResult slow =
-      run_program({"solve", "furnace", "-m", "1", "--engine", "rays", "--iterations", "50"});
+  const ProgramResult slow = run_program({"solve", "furnace", "-m", "1", "--sampling", "fibonacci",
+                                          "--engine", "rays", "--iterations", "50"});
   EXPECT_EQ(slow.status, 0);
   EXPECT_THAT(slow.err, HasSubstr("warning: the changes decrease by a factor of only"));
   for (const char* scene : {"cornell-box", "furnace", "stars"}) {
