@@ -7,7 +7,6 @@
 #include "scene/build/rounding_repair.h"
 
 #include <Eigen/Dense>
-#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
@@ -40,6 +39,36 @@ struct Equation {
   static constexpr std::int32_t no_plane = -1;
 };
 
+/// The smallest least squares solution, by conjugate gradients. (As Eigen's solver, which cannot be
+/// interrupted.)
+Eigen::VectorXd least_squares(const Eigen::SparseMatrix<double>& matrix,
+                              const Eigen::VectorXd& right, const Cancellation& cancellation) {
+  Eigen::VectorXd scale(matrix.cols());
+  for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
+    const double size = matrix.col(k).squaredNorm();
+    scale[k] = size > 0 ? 1 / size : 1;
+  }
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(matrix.cols());
+  Eigen::VectorXd rest = right;
+  Eigen::VectorXd gradient = matrix.transpose() * rest;
+  Eigen::VectorXd direction = scale.cwiseProduct(gradient);
+  const double enough = solver_tolerance * gradient.norm();
+  double size = gradient.dot(direction);
+  for (int k = 0; k < most_solver_iterations && gradient.norm() > enough; ++k) {
+    cancellation.throw_if_canceled();
+    const Eigen::VectorXd change = matrix * direction;
+    const double step = size / change.squaredNorm();
+    solution += step * direction;
+    rest -= step * change;
+    gradient = matrix.transpose() * rest;
+    const Eigen::VectorXd scaled = scale.cwiseProduct(gradient);
+    const double before = size;
+    size = gradient.dot(scaled);
+    direction = scaled + (size / before) * direction;
+  }
+  return solution;
+}
+
 /// Newton's method for points on planes and edges.
 class Adjustment {
  public:
@@ -55,7 +84,7 @@ class Adjustment {
     for (int step = 0; step < most_steps && worst > goal && worst < 0.5 * before; ++step) {
       cancellation.throw_if_canceled();
       before = worst;
-      move(smallest_moves(), reach);
+      move(smallest_moves(cancellation), reach);
       worst = set_up();
     }
     return worst;
@@ -175,7 +204,7 @@ class Adjustment {
   }
 
   /// The smallest moves that solve the equations; of points, then planes.
-  Eigen::VectorXd smallest_moves() const {
+  Eigen::VectorXd smallest_moves(const Cancellation& cancellation) const {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right(static_cast<Eigen::Index>(equations_.size()));
     for (std::size_t row = 0; row < equations_.size(); ++row) {
@@ -198,10 +227,7 @@ class Adjustment {
     }
     Eigen::SparseMatrix<double> matrix(right.size(), columns_);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(matrix);
-    solver.setTolerance(solver_tolerance);
-    solver.setMaxIterations(most_solver_iterations);
-    return solver.solve(right);
+    return least_squares(matrix, right, cancellation);
   }
 
   void move(const Eigen::VectorXd& moves, double reach) {
