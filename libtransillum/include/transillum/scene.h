@@ -52,10 +52,11 @@ struct SceneDescription {
                                              ///< no face has a group
   std::vector<std::uint8_t> face_two_sided;  ///< 1: face f gives two opposite patches, front first;
                                              ///< 0: one; empty: all give one
-  double coordinate_rounding = 0;            ///< half a unit of the last digit of coordinates, m;
-                                             ///< 0: found from the digits of `points`
-  std::vector<std::string> notes;            ///< the reader's warnings, for Scene::report()
-  std::vector<std::string> files;            ///< read for it: the OBJ, then its MTL files
+  /// Half a unit of the last digit of coordinates, m; 0: found from the digits of `points`. A Scene
+  /// moves its points by up to 8 of it, so that faces are planar and touch as before rounding.
+  double coordinate_rounding = 0;
+  std::vector<std::string> notes;  ///< the reader's warnings, for Scene::report()
+  std::vector<std::string> files;  ///< read for it: the OBJ, then its MTL files
 
   /// Number of faces.
   std::size_t face_count() const { return face_begin.size(); }
