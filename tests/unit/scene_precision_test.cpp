@@ -67,10 +67,10 @@ TEST_P(Rounded, ScenesCostNoMore) {
     EXPECT_EQ(scene->patch_count(), exact->patch_count());
     const Passes passes = run_passes(scene);
     EXPECT_LE(passes.closure, 1e-10);
-    // Without the repair: 1.8 times (sphere-flake) to 4 times (rooms) the fragments. A few more
-    // where a plane is found by few points.
+    // Without the repair: 1.8 times (sphere-flake) to 4 times (rooms) the fragments. Some more
+    // where touching is given up: up to 1.061 times (sphere-flake, 7 digits).
     EXPECT_LE(static_cast<double>(passes.fragments),
-              1.03 * static_cast<double>(of_exact.fragments) + 4);
+              1.07 * static_cast<double>(of_exact.fragments) + 4);
     EXPECT_LE(static_cast<double>(passes.pairs), 1.15 * static_cast<double>(of_exact.pairs));
   }
 }

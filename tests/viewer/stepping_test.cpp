@@ -188,13 +188,16 @@ class SteppingTest : public QObject {
   void shows_why_newells_order_fails() {
     const Stepping s("boards");
     QVERIFY(s.ready);
-    s.focus.go_to({0, 3, 2});
-    QVERIFY(wait_for([&] { return s.focus.arrived(); }));
     s.trigger("map_newell");
-    QVERIFY(s.settles());
-    const auto pixels = s.map_view->canvas()->pixels();
-    QVERIFY2(pixels->failure.find("overlap in a cycle") != std::string::npos,
-             pixels->failure.c_str());
+    // Along some directions there is an order.
+    std::string failure;
+    for (int k = 0; k < s.focus.passes() && failure.empty(); ++k) {
+      s.focus.go_to({0, k, 2});
+      QVERIFY(wait_for([&] { return s.focus.arrived(); }));
+      QVERIFY(s.settles());
+      failure = s.map_view->canvas()->pixels()->failure;
+    }
+    QVERIFY2(failure.find("overlap in a cycle") != std::string::npos, failure.c_str());
     QVERIFY(s.text("map_text").contains("failed"));
     const QImage picture = s.map_view->canvas()->grab().toImage();
     QVERIFY(share_of(picture, theme::scene_background) > 0.8);
