@@ -365,9 +365,8 @@ void PatchBuilder::note_moves(double rounding) {
   }
   if (moved > 0) {
     warnings_.add("notes",
-                  fmt::format("{}: {} of {} vertices moved by up to {:.2g} m, within the "
-                              "rounding of their coordinates ({:.2g} m), so that faces "
-                              "are planar and touch as before they were rounded",
+                  fmt::format("{}: {} of {} vertices moved by up to {:.2g} m to undo the rounding "
+                              "of coordinates ({:.2g} m), which bends faces and opens gaps",
                               description_.name, moved, points_.size(), farthest, rounding));
   }
 }
