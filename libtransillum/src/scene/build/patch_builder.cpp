@@ -111,7 +111,7 @@ void PatchBuilder::build() {
 }
 
 void PatchBuilder::add_face(std::size_t face) {
-  const Outline outline = welded_outline(face);
+  const Outline outline = welded_outline(description_.outline(face), points_, welded_, table);
   const PolygonShape shape = measure(table.points(), outline);
   if (shape.degenerate) {
     if (is_bow_tie(table.points(), outline)) {
@@ -123,23 +123,6 @@ void PatchBuilder::add_face(std::size_t face) {
   } else {
     add_part(face, outline, shape);
   }
-}
-
-PatchBuilder::Outline PatchBuilder::welded_outline(std::size_t face) {
-  Outline outline;
-  for (const PointId p : description_.outline(face)) {
-    const auto i = static_cast<std::size_t>(p);
-    if (welded_[i] < 0) {
-      welded_[i] = table.id_of(points_[i]);
-    }
-    if (outline.empty() || outline.back() != welded_[i]) {
-      outline.push_back(welded_[i]);
-    }
-  }
-  while (outline.size() > 1 && outline.front() == outline.back()) {
-    outline.pop_back();
-  }
-  return outline;
 }
 
 void PatchBuilder::remove(std::size_t face) {

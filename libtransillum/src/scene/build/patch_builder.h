@@ -39,8 +39,6 @@ class PatchBuilder {
   static constexpr std::size_t no_face = static_cast<std::size_t>(-1);
 
   void add_face(std::size_t face);
-  /// The face's corners as points of `table`, without repeated ones.
-  Outline welded_outline(std::size_t face);
   void remove(std::size_t face);
   /// Why the face has no area, for messages.
   std::string no_area_reason(std::size_t face) const;

@@ -53,4 +53,23 @@ PointId PointTable::id_of(const Vec3& position) {
   return slots_[slot];
 }
 
+std::vector<PointId> welded_outline(std::span<const PointId> outline,
+                                    const std::vector<Vec3>& points, std::vector<PointId>& welded,
+                                    PointTable& table) {
+  std::vector<PointId> result;
+  for (const PointId p : outline) {
+    PointId& id = at(welded, p);
+    if (id < 0) {
+      id = table.id_of(at(points, p));
+    }
+    if (result.empty() || result.back() != id) {
+      result.push_back(id);
+    }
+  }
+  while (result.size() > 1 && result.front() == result.back()) {
+    result.pop_back();
+  }
+  return result;
+}
+
 }  // namespace transillum

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "transillum/scene.h"
@@ -23,5 +24,12 @@ class PointTable {
   std::vector<Vec3> points_;
   std::vector<PointId> slots_;  // hash table with open addressing; -1: free
 };
+
+/// A face's corners as points of `table`, without repeated ones.
+/// @param points of the description, to which `outline` refers
+/// @param welded for each of them its number in `table`, or -1; filled as points are met
+std::vector<PointId> welded_outline(std::span<const PointId> outline,
+                                    const std::vector<Vec3>& points, std::vector<PointId>& welded,
+                                    PointTable& table);
 
 }  // namespace transillum

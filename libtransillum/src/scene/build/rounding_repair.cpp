@@ -302,20 +302,10 @@ struct WeldedFaces {
   explicit WeldedFaces(const SceneDescription& description)
       : welded(description.points.size(), -1) {
     for (std::size_t f = 0; f < description.face_count(); ++f) {
-      std::vector<PointId>& outline = faces.emplace_back();
-      for (const PointId p : description.outline(f)) {
-        PointId& id = at(welded, p);
-        if (id < 0) {
-          id = table.id_of(at(description.points, p));
-          largest = std::max(largest, max_abs(at(description.points, p)));
-        }
-        if (outline.empty() || outline.back() != id) {
-          outline.push_back(id);
-        }
-      }
-      while (outline.size() > 1 && outline.front() == outline.back()) {
-        outline.pop_back();
-      }
+      faces.push_back(welded_outline(description.outline(f), description.points, welded, table));
+    }
+    for (const Vec3& p : table.points()) {
+      largest = std::max(largest, max_abs(p));
     }
   }
 };
