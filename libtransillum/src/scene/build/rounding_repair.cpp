@@ -25,6 +25,9 @@ constexpr int most_rounds = 6;       ///< of giving up incidences
 constexpr double farthest_move = 8;  ///< of a point, relative to the rounding of a coordinate
 constexpr double solver_tolerance = 1e-4;
 constexpr int most_solver_iterations = 300;
+/// Bounds of the iterations of all rounds: 60,000 incidences need about 450. Fine round meshes,
+/// bent by no more than rounding, would need thousands.
+constexpr std::int64_t fewest_iterations = 500, most_work = 100'000'000;
 
 bool is_corner(const PlaneIncidence& i) { return i.corner; }
 bool is_corner(const EdgeIncidence&) { return false; }
@@ -41,8 +44,10 @@ struct Equation {
 
 /// The smallest least squares solution, by conjugate gradients. (As Eigen's solver, which cannot be
 /// interrupted.)
+/// @param iterations_left decreased by those made; if it reaches 0, the solution is unfinished.
 Eigen::VectorXd least_squares(const Eigen::SparseMatrix<double>& matrix,
-                              const Eigen::VectorXd& right, const Cancellation& cancellation) {
+                              const Eigen::VectorXd& right, std::int64_t& iterations_left,
+                              const Cancellation& cancellation) {
   Eigen::VectorXd scale(matrix.cols());
   for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
     const double size = matrix.col(k).squaredNorm();
@@ -54,7 +59,8 @@ Eigen::VectorXd least_squares(const Eigen::SparseMatrix<double>& matrix,
   Eigen::VectorXd direction = scale.cwiseProduct(gradient);
   const double enough = solver_tolerance * gradient.norm();
   double size = gradient.dot(direction);
-  for (int k = 0; k < most_solver_iterations && gradient.norm() > enough; ++k) {
+  for (int k = 0; k < most_solver_iterations && iterations_left > 0 && gradient.norm() > enough;
+       ++k, --iterations_left) {
     cancellation.throw_if_canceled();
     const Eigen::VectorXd change = matrix * direction;
     const double step = size / change.squaredNorm();
@@ -78,13 +84,15 @@ class Adjustment {
 
   /// Solves the equations to within `goal`, m, as far as possible with moves of at most `reach`, m.
   /// Returns the largest residual.
-  double solve(double goal, double reach, const Cancellation& cancellation) {
+  double solve(double goal, double reach, std::int64_t& iterations_left,
+               const Cancellation& cancellation) {
     number_unknowns();
     double worst = set_up(), before = HUGE_VAL;
-    for (int step = 0; step < most_steps && worst > goal && worst < 0.5 * before; ++step) {
+    for (int step = 0;
+         step < most_steps && iterations_left > 0 && worst > goal && worst < 0.5 * before; ++step) {
       cancellation.throw_if_canceled();
       before = worst;
-      move(smallest_moves(cancellation), reach);
+      move(smallest_moves(iterations_left, cancellation), reach);
       worst = set_up();
     }
     return worst;
@@ -204,7 +212,8 @@ class Adjustment {
   }
 
   /// The smallest moves that solve the equations; of points, then planes.
-  Eigen::VectorXd smallest_moves(const Cancellation& cancellation) const {
+  Eigen::VectorXd smallest_moves(std::int64_t& iterations_left,
+                                 const Cancellation& cancellation) const {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right(static_cast<Eigen::Index>(equations_.size()));
     for (std::size_t row = 0; row < equations_.size(); ++row) {
@@ -227,7 +236,7 @@ class Adjustment {
     }
     Eigen::SparseMatrix<double> matrix(right.size(), columns_);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    return least_squares(matrix, right, cancellation);
+    return least_squares(matrix, right, iterations_left, cancellation);
   }
 
   void move(const Eigen::VectorXd& moves, double reach) {
@@ -334,9 +343,12 @@ void keep_exact_coordinates(const std::vector<Vec3>& original, const PlaneIncide
 std::vector<Vec3> adjusted(const std::vector<Vec3>& original, PlaneIncidences found,
                            double rounding, double goal, const Cancellation& cancellation) {
   const double reach = farthest_move * rounding;
-  for (int round = 0; round < most_rounds; ++round) {
+  const std::size_t count = found.incidences.size() + found.on_edges.size();
+  std::int64_t iterations_left =
+      std::max(fewest_iterations, most_work / static_cast<std::int64_t>(count + 1));
+  for (int round = 0; round < most_rounds && iterations_left > 0; ++round) {
     Adjustment adjustment(original, found);
-    const double worst = adjustment.solve(goal, reach, cancellation);
+    const double worst = adjustment.solve(goal, reach, iterations_left, cancellation);
     const auto is_far = [&](PointId p) {
       return norm(at(adjustment.points, p) - at(original, p)) > reach;
     };
