@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "scene/build/plane_incidences.h"
 #include "scene/build/point_table.h"
@@ -352,10 +353,17 @@ std::vector<Vec3> adjusted(const std::vector<Vec3>& original, PlaneIncidences fo
     const auto is_far = [&](PointId p) {
       return norm(at(adjustment.points, p) - at(original, p)) > reach;
     };
+    const auto moves_far = [&](const auto& i) {
+      if constexpr (std::is_same_v<decltype(i), const EdgeIncidence&>) {
+        return is_far(i.point) || is_far(i.from) || is_far(i.to);
+      } else {
+        return is_far(i.point);
+      }
+    };
     const double limit = std::max(goal, 0.25 * worst);
     const std::size_t all = found.incidences.size() + found.on_edges.size();
     const auto contradicts = [&](const auto& i) {
-      return is_far(i.point) || std::abs(adjustment.residual(i)) > limit;
+      return moves_far(i) || std::abs(adjustment.residual(i)) > limit;
     };
     PlaneIncidences kept = found;
     const std::size_t dropped = give_up(kept, contradicts);
