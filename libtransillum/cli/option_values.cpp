@@ -70,6 +70,22 @@ std::int64_t parse_whole_number(const std::string& option, const std::string& te
   return number;
 }
 
+double parse_accuracy(const std::string& option, const std::string& text) {
+  try {
+    return accuracy_from_text(text);
+  } catch (const InputError&) {
+    refuse(option, text, "a percentage such as 1%, or a number greater than 0 and less than 1");
+  }
+}
+
+AccuracyGoal parse_accuracy_of(const std::string& option, const std::string& text) {
+  try {
+    return accuracy_of_from_name(text);
+  } catch (const InputError&) {
+    refuse(option, text, "rms, max, mean or patch:I, where I is the number of a patch");
+  }
+}
+
 std::optional<double> parse_first_shot(const std::string& option, const std::string& text) {
   try {
     return first_shot_from_name(text);

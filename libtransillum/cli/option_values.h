@@ -21,6 +21,10 @@ namespace transillum::cli {
 std::int64_t parse_whole_number(const std::string& option, const std::string& text,
                                 std::int64_t low, std::int64_t high);
 std::optional<double> parse_first_shot(const std::string& option, const std::string& text);
+/// accuracy_from_text(), with the option in the error.
+double parse_accuracy(const std::string& option, const std::string& text);
+/// accuracy_of_from_name(), with the option in the error.
+AccuracyGoal parse_accuracy_of(const std::string& option, const std::string& text);
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 /// A finite number.
 double parse_number(const std::string& option, const std::string& text);

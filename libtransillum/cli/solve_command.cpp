@@ -18,6 +18,7 @@
 #include "sequence_options.h"
 #include "solve_summary.h"
 #include "standard_output.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/hemicube.h"
@@ -39,6 +40,7 @@ struct SolveCall {
   SolveOptions options;
   bool one_way = false, two_way = false;
   bool stop_given = false;  ///< --iterations or --tolerance
+  bool shot_given = false;  ///< --first-shot
   std::vector<std::string> out;
   std::string stats;
   bool quiet = false;
@@ -74,6 +76,9 @@ SolveOptions solve_options(const SolveCall& call) {
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
     options.averaged_iterations = default_averaged_iterations;
   }
+  if (options.goal.set() && !call.shot_given && takes_directions(options.engine)) {
+    options.first_shot = first_shot_where_it_pays;
+  }
   options.validate();
   refuse_unused(*call.command, {options});
   return options;
@@ -81,8 +86,11 @@ SolveOptions solve_options(const SolveCall& call) {
 
 void show_progress(ProgressDisplay& display, const RadiositySolver& solver) {
   const SolveProgress progress = solver.progress();
+  const int replicas = solver.options().replicas;
+  const std::string stage =
+      solver.options().goal.set() ? fmt::format("{} replicas, ", replicas) : std::string();
   if (progress.direction > 0) {
-    display.show_passes(fmt::format("iteration {}, ", progress.iteration + 1), progress);
+    display.show_passes(fmt::format("{}iteration {}, ", stage, progress.iteration + 1), progress);
   } else if (progress.iteration > 0) {
     display.show(fmt::format("iteration {}", progress.iteration), -1,
                  fmt::format("change {:.1e}", progress.change));
@@ -101,9 +109,10 @@ FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOpti
     return shot;
   }
   const auto start = Clock::now();
-  shot.light = std::make_shared<const DirectLight>(
-      shoot(*scene, find_small_sources(*scene, *options.first_shot), options.threads, cancellation,
-            [&](double share) { display.show("first shot", share); }));
+  shot.light = std::make_shared<const DirectLight>(shoot(
+      *scene,
+      first_shot_sources(*scene, *options.first_shot, expected_directions(options), cancellation),
+      options.threads, cancellation, [&](double share) { display.show("first shot", share); }));
   shot.seconds = seconds_since(start);
   return shot;
 }
@@ -115,6 +124,18 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
   const auto tree = build_tree(*scene, cancellation, display, options.threads);
   const double seconds_bsp = seconds_since(start);
   const auto shot = shoot_first(scene, options, cancellation, display);
+  if (options.goal.set()) {
+    Solution solution = solve_to_accuracy(
+        scene, options, tree, shot.light,
+        [&](const RadiositySolver& watched) {
+          show_progress(display, watched);
+          return true;
+        },
+        cancellation, seconds_since(start));
+    solution.statistics.seconds_bsp = seconds_bsp;
+    solution.statistics.seconds_first_shot = shot.seconds;
+    return solution;
+  }
   RadiositySolver solver(scene, options, tree, cancellation, shot.light);
   display.expect_passes("iteration 1, ", solver.progress().passes);
   try {
@@ -234,17 +255,17 @@ void add_estimator(CLI::App& command, SolveCall& call) {
       [&options](const std::string& text) { options.normalize = normalization_from_name(text); });
 }
 
-void add_scheme(CLI::App& command, SolveOptions& options) {
+void add_scheme(CLI::App& command, SolveCall& call) {
+  SolveOptions& options = call.options;
   add_parsed_option(
       command, "--scheme", "NAME", help_of("scheme", name_of(options.scheme)),
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
-  add_parsed_option(
-      command, "--first-shot", "RATIO",
-      choice_help("first-shot", {"none", fmt::format("auto ({})", small_source_ratio), "a number"},
-                  "none"),
-      [&options](const std::string& text) {
-        options.first_shot = parse_first_shot("--first-shot", text);
-      });
+  add_parsed_option(command, "--first-shot", "RATIO",
+                    choice_help("first-shot", {"none", "auto", "a number"}, "none"),
+                    [&call, &options](const std::string& text) {
+                      options.first_shot = parse_first_shot("--first-shot", text);
+                      call.shot_given = true;
+                    });
   add_parsed_option(
       command, "--burn-in", "N", help_of("burn-in", "auto"), [&options](const std::string& text) {
         options.burn_in.reset();
@@ -257,6 +278,26 @@ void add_scheme(CLI::App& command, SolveOptions& options) {
                       options.replicas =
                           static_cast<int>(parse_whole_number("--replicas", text, 1, 64));
                     });
+}
+
+void add_goal(CLI::App& command, AccuracyGoal& goal) {
+  add_parsed_option(
+      command, "--accuracy", "P%|X", description_of("accuracy"),
+      [&goal](const std::string& text) { goal.accuracy = parse_accuracy("--accuracy", text); });
+  add_parsed_option(command, "--accuracy-of", "NAME",
+                    choice_help("accuracy-of", {"rms", "max", "patch:I", "mean"}, "rms"),
+                    [&goal](const std::string& text) {
+                      const AccuracyGoal of = parse_accuracy_of("--accuracy-of", text);
+                      goal.of = of.of;
+                      goal.patch = of.patch;
+                    });
+  add_parsed_option(
+      command, "--seconds", "S", description_of("seconds"), [&goal](const std::string& text) {
+        goal.seconds = parse_number("--seconds", text);
+        if (!(goal.seconds > 0)) {
+          throw InputError(fmt::format("--seconds: \"{}\" is not greater than 0", text));
+        }
+      });
 }
 
 void add_outputs(CLI::App& command, SolveCall& call) {
@@ -285,7 +326,8 @@ Run add_solve_command(CLI::App& program) {
   add_scene_argument(command, call->scene);
   add_sequence_options(command, call->sequence);
   add_estimator(command, *call);
-  add_scheme(command, call->options);
+  add_scheme(command, *call);
+  add_goal(command, call->options.goal);
   add_stopping_rules(command, *call);
   add_scene_options(command, call->scene);
   add_machine_limits(command, call->options.memory, call->options.threads);

@@ -75,10 +75,26 @@ std::string passes_text(const SolveStatistics& s) {
 
 std::string error_text(const ErrorEstimate& error) {
   const Rgb half = error.quantile * error.mean_standard_error;
-  return report_row("error of B", fmt::format("{:.2g} % RMS, estimated from {} replicas",
-                                              100 * error.rms, error.replicas)) +
+  return report_row("error of B",
+                    fmt::format("{:.2g} % RMS, at most {:.2g} % (95 % confidence), estimated from "
+                                "{} replicas",
+                                100 * error.rms, 100 * error.rms_limit, error.replicas)) +
          report_row("B mean, error",
                     fmt::format("+- {} W/m2 (95 % confidence)", radiosity_text(half)));
+}
+
+std::string accuracy_text(const AccuracyReport& report) {
+  const AccuracyGoal& goal = report.goal;
+  const std::string asked =
+      goal.accuracy > 0 ? fmt::format("{:.3g} % asked", 100 * goal.accuracy) : "as fits the time";
+  const std::string reached = report.reached      ? "reached"
+                              : goal.accuracy > 0 ? "not reached"
+                                                  : "time is up";
+  return report_row("accuracy",
+                    fmt::format("{}, {}: {} error at most {:.3g} %; {} passes in {} "
+                                "stages",
+                                asked, reached, name_of_accuracy(goal), 100 * report.error,
+                                report.passes_made, report.stages.size()));
 }
 
 }  // namespace
@@ -111,6 +127,9 @@ std::string solve_summary(const Solution& solution) {
   text += report_row("B max, W/m2", radiosity_text(b.high));
   if (solution.error.replicas > 0) {
     text += error_text(solution.error);
+  }
+  if (solution.accuracy && !solution.accuracy->stages.empty()) {
+    text += accuracy_text(*solution.accuracy);
   }
   text += report_row("time", fmt::format("{} (loading {}, BSP tree {}, passes {}, iteration {})",
                                          time_text(s.seconds_total), time_text(s.seconds_load),
@@ -145,6 +164,15 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
                     "reflectance exceeds {:.3g}: form factors and B are too large",
                     s.iteration_records.back().contraction, s.rho_max) +
         remedy_hint(Remedy::directions_or_row_normalization));
+  }
+  const int replicas = std::max(solution.error.replicas, 1);
+  const double met = s.light_directions / replicas;
+  if (solution.error.replicas > 0 && met > 0 && met < least_light_directions) {
+    warnings.push_back(
+        fmt::format("the error estimate cannot be trusted: in a replica, a patch is lit directly "
+                    "along only {:.2g} directions, as an average by light; {} are needed. "
+                    "--first-shot 0 treats the sources separately; or give more --directions",
+                    met, least_light_directions));
   }
   return warnings;
 }

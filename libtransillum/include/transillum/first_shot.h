@@ -17,7 +17,11 @@ namespace transillum {
 /// than one on average meets it from a point half a scene away.
 inline constexpr double small_source_ratio = 1000;
 
-/// The threshold called `name`: `auto` (small_source_ratio), a number >= 0, or `none`.
+/// In place of a threshold: each source whose shot is expected to take less time than the passes
+/// that would be needed to reach its accuracy.
+inline constexpr double first_shot_where_it_pays = -1;
+
+/// The threshold called `name`: `auto` (first_shot_where_it_pays), a number >= 0, or `none`.
 /// @returns nothing for `none`.
 /// @throws InputError listing the choices.
 std::optional<double> first_shot_from_name(const std::string& name);
@@ -29,6 +33,19 @@ std::optional<double> first_shot_from_name(const std::string& name);
 /// @param ratio >= 0; 0 selects all bright sources.
 /// @returns patches, ascending.
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio = small_source_ratio);
+
+/// The sources that a first shot treats: find_small_sources(); or where it pays, by an estimate of
+/// both costs from counts, so that it does not depend on the machine (decisions/0052-accuracy.md).
+/// @param scene the scene.
+/// @param threshold R²/A, or first_shot_where_it_pays.
+/// @param directions M, of the passes to come.
+/// @param cancellation checked during computation.
+/// @returns patches, ascending.
+/// @throws Canceled
+std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, int directions,
+                                        const Cancellation& cancellation = {});
+/// The name that first_shot_from_name() reads.
+std::string name_of_first_shot(const std::optional<double>& threshold);
 
 /// The direct light from some sources to all patches.
 struct DirectLight {

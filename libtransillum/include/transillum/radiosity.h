@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "transillum/accuracy_goal.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
@@ -68,8 +69,8 @@ struct SolveOptions {
   bool two_way = true;                            ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;  ///< of the form factors
   Scheme scheme = Scheme::fixed;                  ///< of the iteration
-  /// R²/A from which sources are small and, if bright, are shot before the first iteration
-  /// (find_small_sources()); nothing: no first shot.
+  /// R²/A from which sources are small and, if bright, are shot before the first iteration, or
+  /// first_shot_where_it_pays (first_shot_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
   /// semi_iterative: iterations omitted from the mean; unset: until what is left of the start is
   /// below a quarter of the RMS change per iteration, or a tenth of the tolerance; at most half of
@@ -85,6 +86,9 @@ struct SolveOptions {
   double tolerance = 1e-6;
   std::uint64_t memory = 0;  ///< limit for kept form factors, bytes; 0: a quarter of the machine's
   int threads = 0;           ///< 0: all cores; the result does not depend on it
+  /// If set, solve() chooses `directions` and `replicas` (accuracy_plan.h). A RadiositySolver uses
+  /// those given.
+  AccuracyGoal goal = {};
 
   /// `sampling`, or default_sampling(two_way).
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
@@ -134,8 +138,14 @@ struct SolveProgress {
 struct ErrorEstimate {
   int replicas = 0;                 ///< 0: no estimate, all other members are empty
   std::vector<Rgb> standard_error;  ///< of B, W/m², one per patch
-  double quantile = 0;      ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
-  double rms = 0;           ///< RMS of the errors over RMS of B, over patches and channels
+  double quantile = 0;  ///< Student's t, two-sided 95 %, replicas - 1 degrees of freedom
+  double rms = 0;       ///< RMS of the errors over RMS of B, over patches and channels
+  /// What the relative RMS error does not exceed in 95 % of all runs. Larger than `rms` by the
+  /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
+  /// more independent the errors of the patches are.
+  double rms_limit = 0;
+  /// Number of independent errors that would vary as those of all patches do together, >= 1
+  double independent_errors = 1;
   Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
   Rgb mean_standard_error;  ///< of this mean, W/m²
 };
@@ -157,9 +167,13 @@ struct SolveStatistics {
   bool converged = false;             ///< the tolerance was reached, or changes are rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
-  double escaped = 0;                 ///< share of projected area with nothing above; 0: closed
-  double energy_defect = 0;           ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
-                                      ///< (ALGORITHM.md, oracle 4)
+  /// Directions that bring a patch its direct light: (sum c)² / sum c² of the light c that it
+  /// receives along each, mean over patches, weighted by that light. 0: no direct light. Below
+  /// least_light_directions per replica, the error estimate cannot be trusted.
+  double light_directions = 0;
+  double escaped = 0;                ///< share of projected area with nothing above; 0: closed
+  double energy_defect = 0;          ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
+                                     ///< (ALGORITHM.md, oracle 4)
   double energy_balance = 0;         ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
   double rho_max = 0;                ///< largest reflectance
   double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
@@ -174,6 +188,10 @@ struct SolveStatistics {
   double seconds_iterate = 0;     ///< iterating
   double seconds_total = 0;       ///< all of these
 };
+
+/// Number of directions per replica that must bring a patch its direct light for its error estimate
+/// to be trusted (SolveStatistics::light_directions; decisions/0052-accuracy.md).
+inline constexpr double least_light_directions = 4;
 
 struct Solution;
 
@@ -249,6 +267,12 @@ class RadiositySolver {
   /// Keeps form factors in the semi-iterative scheme too, from the next pass on. The other schemes
   /// always keep them if SolveOptions::memory suffices.
   void keep_form_factors();
+  /// Continues a finished solve with one replica more, whose set has as many directions as that of
+  /// the last: options().directions and options().replicas increase. radiosity() remains until the
+  /// next iteration is finished.
+  /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
+  /// conjugate_gradients, and it has at least 2 replicas.
+  void add_replica();
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
   /// all iterations.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
@@ -291,6 +315,7 @@ struct Solution {
   ErrorEstimate error;                 ///< from replicas, if there are any
   SolveStatistics statistics;          ///< figures of the run
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
+  std::optional<AccuracyReport> accuracy = {};  ///< of a solve with a goal
 };
 
 /// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so

@@ -30,6 +30,8 @@ namespace transillum {}
 #include "transillum/scene.h"
 
 // Solving: options, progress, solution, settings for user interfaces.
+#include "transillum/accuracy_goal.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/first_shot.h"
 #include "transillum/hemicube.h"
 #include "transillum/radiosity.h"

@@ -27,7 +27,9 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   const bool averages = options.scheme == Scheme::semi_iterative;
   json["burn_in"] = averages && options.burn_in ? Json(*options.burn_in) : Json();
   json["replicas"] = options.replicas;
-  json["first_shot"] = options.first_shot ? Json(*options.first_shot) : Json();
+  json["first_shot"] = options.first_shot == first_shot_where_it_pays ? Json("auto")
+                       : options.first_shot                           ? Json(*options.first_shot)
+                                                                      : Json();
   // The stopping rule is one of them; the others are null.
   const bool by_number = options.iterations > 0;
   const bool by_mean = averages && !by_number && options.averaged_iterations > 0;
@@ -60,10 +62,34 @@ Json error_json(const ErrorEstimate& error) {
   }
   return {{"replicas", error.replicas},
           {"rms", error.rms},
+          {"rms_limit", error.rms_limit},
+          {"independent_errors", error.independent_errors},
           {"confidence", 0.95},
           {"quantile", error.quantile},
           {"mean_B", list_of(error.mean_radiosity)},
           {"mean_B_standard_error", list_of(error.mean_standard_error)}};
+}
+
+/// What a solve with a goal reached; null without one.
+Json accuracy_json(const std::optional<AccuracyReport>& report) {
+  if (!report) {
+    return {};
+  }
+  const AccuracyGoal& goal = report->goal;
+  Json stages = Json::array();
+  for (const AccuracyStage& stage : report->stages) {
+    stages.push_back(
+        {{"directions", stage.directions}, {"replicas", stage.replicas}, {"error", stage.error}});
+  }
+  return {{"asked", goal.accuracy > 0 ? Json(goal.accuracy) : Json()},
+          {"of", name_of_accuracy(goal)},
+          {"seconds", goal.seconds > 0 ? Json(goal.seconds) : Json()},
+          {"error", report->error},
+          {"confidence", 0.95},
+          {"reached", report->reached},
+          {"trusted", report->trusted},
+          {"passes_made", report->passes_made},
+          {"stages", stages}};
 }
 
 /// Figures that are known only after an iteration are null without one.
@@ -86,6 +112,7 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["converged"] = statistics.converged;
   json["closure_defect_max"] = statistics.closure_defect_max;
   json["closure_defect_grazing"] = statistics.closure_defect_grazing;
+  json["light_directions"] = statistics.light_directions;
   json["escaped"] = statistics.escaped;
   json["energy_defect"] = stepped ? Json(statistics.energy_defect) : Json();
   json["energy_balance"] = stepped ? Json(statistics.energy_balance) : Json();
@@ -130,6 +157,7 @@ void write_statistics(const std::filesystem::path& path, const SolveOptions& opt
   json["options"] = options_json(options, solution.scene->options());
   json.update(statistics_json(solution.statistics));
   json["error_estimate"] = error_json(solution.error);
+  json["accuracy"] = accuracy_json(solution.accuracy);
   // nlohmann writes doubles in the shortest form that reads back, and what is not finite as null.
   // A scene's name may be a file name, which need not be UTF-8; JSON must be.
   const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -1,16 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The first shot (section 5.2): finds small bright sources of a Scene and computes the irradiance
-// that they cause directly, by exact form factors.
+// The first shot (section 5.2): computes the irradiance that sources of a Scene cause directly, by
+// exact form factors.
 #include "transillum/first_shot.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <thread>
 
@@ -24,39 +20,6 @@ namespace transillum {
 namespace {
 
 double sum(const Rgb& value) { return value.r + value.g + value.b; }
-
-double power(const Scene& scene, PatchId i) { return scene.patch(i).area * sum(scene.exitance(i)); }
-
-/// Finds connected sources (union-find): root() is the same point for all points of the emitting
-/// patches of one source.
-class SourceNumbers {
- public:
-  explicit SourceNumbers(const Scene& scene) : parents_(scene.points().size()) {
-    std::iota(parents_.begin(), parents_.end(), PointId{0});
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      if (power(scene, i) == 0) {
-        continue;
-      }
-      const auto outline = scene.outline(i);
-      for (const PointId p : outline) {
-        parents_[index(root(p))] = root(outline.front());
-      }
-    }
-  }
-
-  PointId root(PointId p) {
-    while (parents_[index(p)] != p) {
-      PointId& parent = parents_[index(p)];
-      p = parent = parents_[index(parent)];
-    }
-    return p;
-  }
-
- private:
-  static std::size_t index(PointId p) { return static_cast<std::size_t>(p); }
-
-  std::vector<PointId> parents_;
-};
 
 /// One part of zeros per material of the sources; none where they would take too much memory.
 std::vector<DirectLight::Part> empty_parts(const Scene& scene,
@@ -191,56 +154,6 @@ Rgb exitance_of_part(const DirectLight::Part& part, const std::vector<PatchId>& 
 }
 
 }  // namespace
-
-std::optional<double> first_shot_from_name(const std::string& name) {
-  if (name == "none") {
-    return {};
-  }
-  if (name == "auto") {
-    return small_source_ratio;
-  }
-  double ratio = -1;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), ratio);
-  if (error != std::errc() || end != name.data() + name.size() || !(ratio >= 0) ||
-      !std::isfinite(ratio)) {
-    throw InputError(
-        fmt::format("first shot: \"{}\" is not none, auto or a number of at least 0", name));
-  }
-  return ratio;
-}
-
-std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
-  constexpr double min_share = 1e-4;
-  struct Source {
-    double area = 0, power = 0;
-  };
-  SourceNumbers numbers(scene);
-  std::vector<Source> by_number(scene.points().size());
-  const auto source_of = [&](PatchId i) -> Source& {
-    return at(by_number, numbers.root(scene.outline(i).front()));
-  };
-  double total = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (power(scene, i) == 0) {
-      continue;
-    }
-    source_of(i).area += scene.patch(i).area;
-    source_of(i).power += power(scene, i);
-    total += power(scene, i);
-  }
-  const double square = scene.bounds().diagonal() * scene.bounds().diagonal();
-  std::vector<PatchId> small;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (power(scene, i) == 0) {
-      continue;
-    }
-    const Source& source = source_of(i);
-    if (square >= ratio * source.area && source.power >= min_share * total) {
-      small.push_back(i);
-    }
-  }
-  return small;
-}
 
 DirectLight shoot(const Scene& scene, const std::vector<PatchId>& sources, int threads,
                   const Cancellation& cancellation, const std::function<void(double)>& progress) {

@@ -21,10 +21,10 @@ using Clock = std::chrono::steady_clock;
 HemicubeOptions hemicube_options(const SolveOptions& options) {
   options.validate();
   if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
-      options.replicas > 1 || options.first_shot) {
+      options.replicas > 1 || options.first_shot || options.goal.set()) {
     throw InputError(
-        "engine hemicube has no directions, and therefore no schemes, normalizations, replicas or "
-        "first shot");
+        "engine hemicube has no directions, and therefore no schemes, normalizations, replicas, "
+        "first shot or accuracy");
   }
   HemicubeOptions hemicubes;
   if (options.engine_options.resolution > 0) {

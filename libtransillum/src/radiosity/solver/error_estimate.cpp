@@ -2,6 +2,7 @@
 #include "radiosity/solver/error_estimate.h"
 
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -46,6 +47,57 @@ Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
   return (1 / area) * power;
 }
 
+using Matrix = std::vector<std::vector<double>>;
+
+/// Scalar products of the deviations of replicas from `b`, over patches and channels.
+Matrix scalar_products(const std::vector<Rgb>& b, double scale,
+                       const std::vector<std::vector<Rgb>>& replicas) {
+  const std::size_t count = replicas.size();
+  Matrix products(count, std::vector<double>(count));
+  std::vector<Rgb> off(count);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    for (std::size_t r = 0; r < count; ++r) {
+      off[r] = scale * (replicas[r][i] - b[i]);
+      for (std::size_t s = 0; s <= r; ++s) {
+        const Rgb product = off[r] * off[s];
+        products[r][s] += product.r + product.g + product.b;
+      }
+    }
+  }
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t s = 0; s < r; ++s) {
+      products[s][r] = products[r][s];
+    }
+  }
+  return products;
+}
+
+/// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
+/// number of equal independent errors whose sum of squares varies as that of all. Both traces are
+/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4.
+/// @param products of the replicas
+double independent_errors(const Matrix& products) {
+  const auto product = [&](auto a, auto b, auto c, auto d) {  // of the differences a - b and c - d
+    return products[a][c] - products[a][d] - products[b][c] + products[b][d];
+  };
+  const std::size_t n = products.size();
+  double norms = 0, squares = 0;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t c = a + 1; c < n; ++c) {
+      for (std::size_t b = a + 1; b < n; ++b) {
+        for (std::size_t d = c + 1; b != c && d < n; ++d) {
+          if (d != b) {
+            norms += product(a, b, a, b) * product(c, d, c, d);
+            squares += std::pow(product(a, b, c, d), 2);
+          }
+        }
+      }
+    }
+  }
+  constexpr double most = 1e6;  // where the quantile is 1 to three digits
+  return squares > 0 ? std::clamp(norms / squares, 1.0, most) : 1.0;
+}
+
 }  // namespace
 
 ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
@@ -65,6 +117,11 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
     values += sum_of_squares(scale * b[patch]);
   }
   error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
+  error.independent_errors = independent_errors(scalar_products(b, scale, replicas));
+  // The sum of squared errors over its estimate, both as sums of so many squares.
+  const boost::math::fisher_f fisher(error.independent_errors,
+                                     (error.replicas - 1) * error.independent_errors);
+  error.rms_limit = error.rms * std::sqrt(quantile(fisher, confidence));
   std::vector<Rgb> means;
   for (const auto& replica : replicas) {
     means.push_back(mean_over_area(scene, replica));
@@ -87,7 +144,9 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));
   const double unit = max_norm(b);
   if (unit > 0) {
-    error.rms = std::hypot(error.rms, root_of_squares(bias, unit) / root_of_squares(b, unit));
+    const double relative = root_of_squares(bias, unit) / root_of_squares(b, unit);
+    error.rms = std::hypot(error.rms, relative);
+    error.rms_limit = std::hypot(error.rms_limit, relative);
   }
 }
 

@@ -87,12 +87,18 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
   stop(complete);
 }
 
+void IterationHistory::reopen(int directions) {
+  options_.directions = directions;
+  reopened_at_ = size();
+  finished_ = converged_ = false;
+}
+
 bool IterationHistory::reached_tolerance() const {
   if (semi_iterative()) {
     return left_to_do_ && *left_to_do_ <= options_.tolerance;
   }
   // Conjugate gradients solve in the second iteration.
-  if (options_.scheme == Scheme::conjugate_gradients && size() < 2) {
+  if (options_.scheme == Scheme::conjugate_gradients && size_since_reopening() < 2) {
     return false;
   }
   const IterationRecord& last = records_.back();
@@ -104,7 +110,7 @@ void IterationHistory::stop(bool complete) {
   const bool reached = complete && reached_tolerance();
   converged_ = reached && (!semi_iterative() || records_.back().error);
   if (options_.iterations > 0) {
-    finished_ = size() >= options_.iterations;
+    finished_ = size_since_reopening() >= options_.iterations;
   } else if (semi_iterative() && options_.averaged_iterations > 0) {
     finished_ = mean_.count() >= options_.averaged_iterations;
   } else {

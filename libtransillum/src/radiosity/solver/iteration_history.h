@@ -49,6 +49,11 @@ class IterationHistory {
   /// @param complete whether the iteration used all M directions
   /// @throws NotConvergent where changes have grown for several iterations
   void update(const RadiosityIterate& iterate, IterationRecord record, bool complete);
+  /// Continues after the end, because the set of directions has grown: iterations count anew for
+  /// the stopping rule.
+  void reopen(int directions);
+  /// Iterations finished since reopen().
+  int size_since_reopening() const { return size() - reopened_at_; }
 
  private:
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
@@ -67,6 +72,7 @@ class IterationHistory {
   std::vector<IterationRecord> records_;
   double last_change_ = 0;            ///< absolute, W/m²
   std::optional<double> left_to_do_;  ///< semi-iterative scheme: compared with the tolerance
+  int reopened_at_ = 0;               ///< size() at reopen()
   bool finished_ = false, converged_ = false;
 };
 

@@ -42,6 +42,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
       two_way_(input.options.two_way),
       renews_(renews),
       cancellation_(input.cancellation),
+      memory_(memory_limit(input.options.memory)),
       renewed_areas_(input.patch_count()) {
   const SolveOptions& options = input.options;
   if (options.normalize == Normalization::symmetric) {
@@ -49,10 +50,18 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
   } else if (options.scheme == Scheme::conjugate_gradients) {
     required_by_ = "the scheme conjugate-gradients";
   }
-  const std::uint64_t memory = memory_limit(options.memory);
   for (int r = 0; r < options.replicas; ++r) {
-    sums_.emplace_back(patches_, two_way_, memory / static_cast<std::uint64_t>(options.replicas),
+    sums_.emplace_back(patches_, two_way_, memory_ / static_cast<std::uint64_t>(options.replicas),
                        cancellation_);
+  }
+}
+
+void KeptExchanges::add_replica() {
+  const std::uint64_t used = size() * sizeof(Transfer);
+  const bool dropped = !available();
+  sums_.emplace_back(patches_, two_way_, memory_ > used ? memory_ - used : 0, cancellation_);
+  if (dropped) {
+    sums_.back().drop();
   }
 }
 
@@ -68,8 +77,8 @@ void KeptExchanges::check_available() const {
   }
 }
 
-void KeptExchanges::add(int k, ExchangeSums::Run run) {
-  sums_[static_cast<std::size_t>(k) % sums_.size()].add(std::move(run));
+void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
+  sums_[r].add(std::move(run));
   // Where one replica does not fit, the others are of no use.
   if (!available()) {
     for (ExchangeSums& part : sums_) {

@@ -34,9 +34,11 @@ class KeptExchanges {
   ExchangeSums::Run make_run(const std::vector<Transfer>& exchanges) const {
     return sums_.front().make_run(exchanges);
   }
-  /// Adds pass k of an iteration. Where it exceeds the limit, everything is dropped.
+  /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
   /// @throws MemoryLimitExceeded as check_available()
-  void add(int k, ExchangeSums::Run run);
+  void add(std::size_t r, ExchangeSums::Run run);
+  /// Appends sums for one replica, which have the memory that the others leave. After finish().
+  void add_replica();
   /// Adds the areas of a pass to renewed_areas(), if each iteration has its own directions and the
   /// exchanges are requested.
   void add_areas(const Transfers& transfers);
@@ -65,7 +67,8 @@ class KeptExchanges {
   bool requested_ = false;
   const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none
   Cancellation cancellation_;
-  std::vector<ExchangeSums> sums_;  ///< one per replica; pass k belongs to replica k mod R
+  std::uint64_t memory_;            ///< limit, bytes
+  std::vector<ExchangeSums> sums_;  ///< one per replica
   VisibleAreaSums renewed_areas_;
 };
 

@@ -15,9 +15,17 @@ constexpr int min_directions = 16;
 
 }  // namespace
 
+void PassPlan::add_replica() { ++added_; }
+
+std::size_t PassPlan::replica_of(int k) const {
+  return static_cast<std::size_t>(
+      k < options_.directions ? k % options_.replicas
+                              : options_.replicas + (k - options_.directions) / per_replica());
+}
+
 int PassPlan::passes(int iteration) const {
   if (options_.scheme != Scheme::growing) {
-    return options_.directions;
+    return directions();
   }
   int doublings = 0;
   while (options_.directions >> (doublings + 1) >= min_directions * options_.replicas) {
@@ -26,23 +34,35 @@ int PassPlan::passes(int iteration) const {
   return options_.directions >> std::max(doublings - iteration, 0);
 }
 
+std::vector<Vec3> PassPlan::set_of(int replica, int count, int iteration) const {
+  const Sampling sampling = options_.used_sampling();
+  auto set = renews() ? directions_of_iteration(sampling, count, options_.seed, iteration)
+                      : make_directions(sampling, count, options_.seed);
+  if (options_.rotation || options_.replicas > 1) {
+    set = rotated(std::move(set),
+                  options_.rotation.value_or(options_.seed) + static_cast<std::uint64_t>(replica));
+  }
+  std::vector<Vec3> ordered;
+  for (const int k : progressive_order(sampling, count)) {
+    ordered.push_back(at(set, k).direction);
+  }
+  return ordered;
+}
+
 std::vector<Vec3> PassPlan::directions(int iteration) const {
   const int replicas = options_.replicas;
-  const Sampling sampling = options_.used_sampling();
   std::vector<Vec3> directions(static_cast<std::size_t>(options_.directions));
   for (int r = 0; r < replicas; ++r) {
     const int count = (options_.directions - r + replicas - 1) / replicas;
-    auto set = renews() ? directions_of_iteration(sampling, count, options_.seed, iteration)
-                        : make_directions(sampling, count, options_.seed);
-    if (options_.rotation || replicas > 1) {
-      set = rotated(std::move(set),
-                    options_.rotation.value_or(options_.seed) + static_cast<std::uint64_t>(r));
-    }
     auto place = static_cast<std::size_t>(r);
-    for (const int k : progressive_order(sampling, count)) {
-      directions[place] = at(set, k).direction;
+    for (const Vec3& direction : set_of(r, count, iteration)) {
+      directions[place] = direction;
       place += static_cast<std::size_t>(replicas);
     }
+  }
+  for (int r = replicas; r < this->replicas(); ++r) {
+    const auto set = set_of(r, per_replica(), iteration);
+    directions.insert(directions.end(), set.begin(), set.end());
   }
   return directions;
 }

@@ -54,6 +54,11 @@ void RadiosityIterate::start_from(const Rgb& gathered) {
   }
 }
 
+void RadiosityIterate::start_from(const RadiosityIterate& other) {
+  b_ = other.b_;
+  unshot_ = other.unshot_;
+}
+
 void RadiosityIterate::begin() {
   std::fill(gathered_.begin(), gathered_.end(), Rgb{});
   std::fill(projected_.begin(), projected_.end(), 0.0);

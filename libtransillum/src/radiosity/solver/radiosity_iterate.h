@@ -32,6 +32,8 @@ class RadiosityIterate {
   /// Sets B to what follows if every patch gathers the irradiance `gathered`, in addition to that
   /// of the first shot, W/m².
   void start_from(const Rgb& gathered);
+  /// Sets B to that of `other`.
+  void start_from(const RadiosityIterate& other);
   /// Begins an iteration with nothing gathered.
   void begin();
   /// Begins an iteration with what the passes of `sums` gather; keep() must have been called.

@@ -3,6 +3,7 @@
 
 #include "base/seconds_since.h"
 #include "radiosity/solver/solver_state.h"
+#include "transillum/accuracy_plan.h"
 
 namespace transillum {
 
@@ -48,6 +49,7 @@ std::shared_ptr<const DirectLight> RadiositySolver::direct_light() const {
   return impl_->input.shot;
 }
 
+void RadiositySolver::add_replica() { impl_->add_replica(); }
 void RadiositySolver::keep_form_factors() { impl_->kept.request(); }
 
 const std::vector<Vec3>& RadiositySolver::directions() const { return impl_->iteration.directions; }
@@ -70,6 +72,9 @@ Vec3 RadiositySolver::direction(int iteration, int pass) const {
 
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
+  if (options.goal.set()) {
+    return solve_to_accuracy(scene, options, nullptr, nullptr, observer, cancellation);
+  }
   const auto start = std::chrono::steady_clock::now();
   RadiositySolver solver(std::move(scene), options, nullptr, cancellation);
   try {

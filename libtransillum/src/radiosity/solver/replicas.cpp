@@ -18,9 +18,15 @@ Replicas::Replicas(const SolverInput& input) {
   means_.resize(iterates_.size());
 }
 
-void Replicas::add(int k, const Transfers& transfers) {
+void Replicas::add_replica(const SolverInput& input, const RadiosityIterate& whole) {
+  iterates_.emplace_back(*input.scene, input.options, *input.shot);
+  iterates_.back().start_from(whole);
+  means_.emplace_back();
+}
+
+void Replicas::add(std::size_t r, const Transfers& transfers) {
   if (!iterates_.empty()) {
-    iterates_[static_cast<std::size_t>(k) % iterates_.size()].add(transfers);
+    iterates_[r].add(transfers);
   }
 }
 

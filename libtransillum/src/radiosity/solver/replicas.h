@@ -11,14 +11,16 @@
 namespace transillum {
 
 /// The radiosity of each of R independently rotated sets of directions, whose spread is the error
-/// estimate (eq. 47). Pass k of an iteration belongs to replica k mod R. Empty for one replica.
+/// estimate (eq. 47). Empty for one replica.
 class Replicas {
  public:
   /// Keeps references to the scene and the first shot of `input`.
   explicit Replicas(const SolverInput& input);
 
-  /// Adds pass k to the iteration of its replica.
-  void add(int k, const Transfers& transfers);
+  /// Adds one replica, which starts from B of `whole`.
+  void add_replica(const SolverInput& input, const RadiosityIterate& whole);
+  /// Adds a pass to the iteration of replica r; nothing for one replica.
+  void add(std::size_t r, const Transfers& transfers);
   /// Ends the iteration of every replica.
   void finish();
   /// Adds B of every replica to its mean over iterations (semi-iterative scheme).

@@ -64,7 +64,8 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        name_of(solve.scheme)},
       {"first-shot", "none, auto or a number",
        "treat small bright sources separately before the iteration: those with R2/A of at least "
-       "this ratio, R the scene's diagonal and A the source's area",
+       "this ratio, R the scene's diagonal and A the source's area; auto: those for which it takes "
+       "less time than the passes it saves; with an accuracy, auto is the default",
        "none"},
       {"burn-in", "a number, or auto",
        "semi-iterative: first iterations to exclude from the mean; auto: until what is left of the "
@@ -72,6 +73,15 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        "auto"},
       {"replicas", "a number", "split M into this many rotated sets; their spread gives error bars",
        fmt::to_string(solve.replicas)},
+      {"accuracy", "a percentage or a number, 0: none",
+       "choose M and the replicas so that the error of B is at most that, with 95 % confidence",
+       "none"},
+      {"accuracy-of", "a name",
+       "error that the accuracy is about: rms, the RMS error of B over the RMS of B; max, the "
+       "largest error over the largest B; patch:I, that of patch I; mean, that of the mean B",
+       name_of_accuracy(solve.goal)},
+      {"seconds", "a number, 0: none",
+       "time limit in s, loading excluded: the most accurate result that it allows", "none"},
       {"iterations", "a number, 0: none", "stop after this many iterations",
        fmt::to_string(solve.iterations)},
       {"tolerance", "a number",

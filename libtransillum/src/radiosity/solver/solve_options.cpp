@@ -9,6 +9,28 @@
 #include "transillum/radiosity.h"
 
 namespace transillum {
+namespace {
+
+/// @throws InputError where the spread of replicas of one set of directions would not show the
+/// error of B.
+void check_error_is_seen(const SolveOptions& options) {
+  if (options.scheme != Scheme::fixed && options.scheme != Scheme::conjugate_gradients) {
+    throw InputError(
+        fmt::format("accuracy: the scheme {} chooses its directions itself; choose fixed or "
+                    "conjugate-gradients",
+                    name_of(options.scheme)));
+  }
+  if (options.iterations > 0) {
+    throw InputError("accuracy: a given number of iterations leaves an error of its own");
+  }
+  const Engine engine = options.engine;
+  if (engine == Engine::zbuffer || engine == Engine::painter || engine == Engine::corrected) {
+    throw InputError(fmt::format(
+        "accuracy: the error of engine {} is not only that of the directions", name_of(engine)));
+  }
+}
+
+}  // namespace
 
 const std::vector<std::string>& normalization_names() {
   static const std::vector<std::string> names{"none", "rows", "symmetric"};
@@ -81,12 +103,17 @@ void SolveOptions::validate() const {
           "rows");
     }
   }
-  if (first_shot && !(*first_shot >= 0 && std::isfinite(*first_shot))) {
+  if (first_shot && *first_shot != first_shot_where_it_pays &&
+      !(*first_shot >= 0 && std::isfinite(*first_shot))) {
     throw InputError(
         fmt::format("first shot: {} is not a finite number of at least 0", *first_shot));
   }
   if (threads < 0 || threads > 4096) {
     throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
+  }
+  goal.validate();
+  if (goal.set()) {
+    check_error_is_seen(*this);
   }
 }
 

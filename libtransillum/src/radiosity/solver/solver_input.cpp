@@ -6,6 +6,7 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "transillum/accuracy_plan.h"
 
 namespace transillum {
 namespace {
@@ -34,7 +35,8 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
     const auto start = Clock::now();
     std::vector<PatchId> sources;
     if (options.first_shot) {
-      sources = find_small_sources(*scene, *options.first_shot);
+      sources = first_shot_sources(*scene, *options.first_shot, expected_directions(options),
+                                   cancellation);
     }
     shot =
         std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, cancellation));

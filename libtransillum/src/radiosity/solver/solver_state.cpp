@@ -4,6 +4,7 @@
 #include "radiosity/solver/solver_state.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "base/seconds_since.h"
@@ -23,7 +24,7 @@ RadiositySolver::Impl::Impl(SolverInput solver_input)
       whole(*input.scene, input.options, *input.shot),
       replicas(input),
       kept(input, plan.renews()),
-      statistics(*input.scene, input.options.two_way),
+      statistics(*input.scene, input.options.two_way, *input.shot),
       history(input, whole) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
@@ -36,7 +37,8 @@ void RadiositySolver::Impl::begin_iteration() {
     statistics.begin_set();
   }
   const bool from_sums = kept.available() && statistics.areas().passes > 0;
-  if (from_sums && input.options.scheme == Scheme::conjugate_gradients && history.size() == 1) {
+  if (from_sums && input.options.scheme == Scheme::conjugate_gradients &&
+      history.size_since_reopening() == 1) {
     // The error is up to 1 / (1 - rho_max) times the residual. One above 1e-6 could make B
     // negative.
     const double residual =
@@ -123,11 +125,12 @@ Pass RadiositySolver::Impl::make_pass(int k, int known) const {
 void RadiositySolver::Impl::add_pass(int k, Pass pass) {
   const auto start = Clock::now();
   const bool first = is_first_along(k, statistics.areas().passes);
+  const std::size_t replica = plan.replica_of(k);
   if (first && kept.available()) {
-    kept.add(k, std::move(pass.run));
+    kept.add(replica, std::move(pass.run));
   }
   whole.add(pass.transfers);
-  replicas.add(k, pass.transfers);
+  replicas.add(replica, pass.transfers);
   history.start().add(pass.transfers);
   if (first) {
     statistics.add(pass);
@@ -170,6 +173,21 @@ void RadiositySolver::Impl::finish_iteration() {
   const IterationRecord record{.change = change, .seconds = iteration.seconds + seconds};
   history.update(whole, record, complete);
   iteration.end(history.b());
+}
+
+void RadiositySolver::Impl::add_replica() {
+  const Scheme scheme = input.options.scheme;
+  if (!history.finished() || input.options.replicas < 2 ||
+      (scheme != Scheme::fixed && scheme != Scheme::conjugate_gradients)) {
+    throw std::logic_error("add_replica: the solve is unfinished or has no replicas of one set");
+  }
+  plan.add_replica();
+  input.options.directions = plan.directions();
+  input.options.replicas = plan.replicas();
+  iteration.directions = plan.directions(0);
+  replicas.add_replica(input, whole);
+  kept.add_replica();
+  history.reopen(input.options.directions);
 }
 
 double RadiositySolver::Impl::energy_defect() const {

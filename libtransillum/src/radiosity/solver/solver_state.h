@@ -67,6 +67,8 @@ struct RadiositySolver::Impl {
   double update_estimate();
   /// B(n+1) from what was gathered, and the stopping rule (eq. 25).
   void finish_iteration();
+  /// Continues with one replica more.
+  void add_replica();
   /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
   double energy_defect() const;
 

@@ -22,6 +22,8 @@ bool draws_random_numbers(const SolveOptions& solve) {
           (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.used_sampling())));
 }
 
+bool has_no_goal(const SolveOptions& solve) { return !solve.goal.set(); }
+
 /// A setting that only some solves read; all solves read the others.
 struct Use {
   std::string_view setting;
@@ -31,8 +33,15 @@ struct Use {
 
 constexpr const char* without_directions = "not used with engine hemicube, which has no directions";
 
+constexpr const char* chosen_by_goal = "not used with an accuracy or a time limit, which choose it";
+
 constexpr Use uses[] = {
     {"directions", has_directions, without_directions},
+    {"directions", has_no_goal, chosen_by_goal},
+    {"replicas", has_no_goal, chosen_by_goal},
+    {"iterations", has_no_goal, "not used with an accuracy or a time limit, which need its limit"},
+    {"accuracy-of", [](const SolveOptions& solve) { return solve.goal.set(); },
+     "used only with an accuracy or a time limit"},
     {"sampling", has_directions, without_directions},
     {"rotate", has_directions, without_directions},
     {"two-way", has_directions, without_directions},

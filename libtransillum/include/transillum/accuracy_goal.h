@@ -1,0 +1,63 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// The error that an AccuracyGoal is about. All are limits that are not exceeded in 95 % of all
+/// runs, by the spread of replicas.
+enum class AccuracyOf {
+  rms,    ///< RMS error of B over RMS of B, over patches and channels
+  max,    ///< largest error over the largest B
+  patch,  ///< error of one patch over its B, as lengths of RGB vectors
+  mean,   ///< error of the area-weighted mean of B over that mean, as lengths of RGB vectors
+};
+
+/// When a solve is accurate enough.
+struct AccuracyGoal {
+  double accuracy = 0;  ///< relative error, [0,1); 0: as small as `seconds` allow
+  AccuracyOf of = AccuracyOf::rms;
+  PatchId patch = 0;   ///< for AccuracyOf::patch
+  double seconds = 0;  ///< wall time of the solve, without loading; 0: not limited
+
+  /// Whether there is a goal.
+  bool set() const { return accuracy > 0 || seconds > 0; }
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+  /// Exact comparison of all members.
+  friend bool operator==(const AccuracyGoal&, const AccuracyGoal&) = default;
+};
+
+/// The relative accuracy in `text`: `1%`, or a number such as `0.01`.
+/// @throws InputError unless it is greater than 0 and less than 1 (100 %).
+double accuracy_from_text(const std::string& text);
+/// The error called `name`: `rms`, `max`, `mean`, or `patch:I` with a patch number.
+/// @returns a goal with only `of` and `patch` set.
+/// @throws InputError listing the choices.
+AccuracyGoal accuracy_of_from_name(const std::string& name);
+/// The name that accuracy_of_from_name() reads.
+std::string name_of_accuracy(const AccuracyGoal& goal);
+
+/// One run of a solve with a goal.
+struct AccuracyStage {
+  int directions = 0;  ///< M, of all replicas
+  int replicas = 0;    ///< 2 or more
+  double error = 0;    ///< relative: the limit of AccuracyGoal::of
+};
+
+/// What a solve with a goal has reached.
+struct AccuracyReport {
+  AccuracyGoal goal;                  ///< as given
+  std::vector<AccuracyStage> stages;  ///< in order; the last is that of the result
+  double error = 0;                   ///< relative: the limit of AccuracyGoal::of, of the result
+  bool reached = false;               ///< error <= goal.accuracy, and `trusted`
+  bool trusted = false;  ///< light sources were met by at least least_light_directions per replica
+  std::int64_t passes_made = 0;  ///< in all stages
+};
+
+}  // namespace transillum

@@ -1,0 +1,237 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Chooses the sources of a first shot (section 5.2): those that are small and bright, or those for
+// which it pays.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/bit_mixing.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/first_shot.h"
+#include "visibility/pairs/patch_exchange.h"
+
+namespace transillum {
+namespace {
+
+double power(const Scene& scene, PatchId i) {
+  const Rgb& exitance = scene.exitance(i);
+  return scene.patch(i).area * (exitance.r + exitance.g + exitance.b);
+}
+
+/// Finds connected sources (union-find): root() is the same point for all points of the emitting
+/// patches of one source.
+class SourceNumbers {
+ public:
+  explicit SourceNumbers(const Scene& scene) : parents_(scene.points().size()) {
+    std::iota(parents_.begin(), parents_.end(), PointId{0});
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      if (power(scene, i) == 0) {
+        continue;
+      }
+      const auto outline = scene.outline(i);
+      for (const PointId p : outline) {
+        parents_[index(root(p))] = root(outline.front());
+      }
+    }
+  }
+
+  PointId root(PointId p) {
+    while (parents_[index(p)] != p) {
+      PointId& parent = parents_[index(p)];
+      p = parent = parents_[index(parent)];
+    }
+    return p;
+  }
+
+ private:
+  static std::size_t index(PointId p) { return static_cast<std::size_t>(p); }
+
+  std::vector<PointId> parents_;
+};
+
+/// A set of connected emitting patches.
+struct Source {
+  std::vector<PatchId> patches;  ///< ascending
+  double area = 0;               ///< m²
+  double power = 0;              ///< W, sum of channels
+};
+
+/// All sources, by their first patch.
+std::vector<Source> sources_of(const Scene& scene) {
+  SourceNumbers numbers(scene);
+  std::map<PointId, std::size_t> places;
+  std::vector<Source> sources;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (power(scene, i) == 0) {
+      continue;
+    }
+    const auto [place, is_new] =
+        places.try_emplace(numbers.root(scene.outline(i).front()), sources.size());
+    if (is_new) {
+      sources.emplace_back();
+    }
+    Source& source = sources[place->second];
+    source.patches.push_back(i);
+    source.area += scene.patch(i).area;
+    source.power += power(scene, i);
+  }
+  return sources;
+}
+
+double total_power(const std::vector<Source>& sources) {
+  return std::accumulate(sources.begin(), sources.end(), 0.0,
+                         [](double sum, const Source& source) { return sum + source.power; });
+}
+
+std::vector<PatchId> patches_of(const std::vector<Source>& sources, auto is_chosen) {
+  std::vector<PatchId> patches;
+  for (const Source& source : sources) {
+    if (is_chosen(source)) {
+      patches.insert(patches.end(), source.patches.begin(), source.patches.end());
+    }
+  }
+  std::sort(patches.begin(), patches.end());
+  return patches;
+}
+
+/// Estimates what the shot of a source costs and saves, in passes.
+///
+/// What it saves: along a direction, light from the source falls on its shadow on all surfaces. To
+/// meet a patch as often as the light of all surfaces together does, which is what remains to the
+/// passes, they would have to be as many times more as the source is smaller; less so for a source
+/// of little of the light. Errors fall as M^(-3/4) (section 4 of the paper: jumps), so the share
+/// counts to the power 4/3.
+///
+/// What it costs: the mean over some pairs of patches, by counting.
+class ShotBalance {
+ public:
+  ShotBalance(const Scene& scene, const std::vector<Source>& sources, int directions,
+              const Cancellation& cancellation)
+      : scene_(scene),
+        cancellation_(cancellation),
+        exchange_(scene, cancellation),
+        directions_(directions),
+        power_(total_power(sources)) {
+    for (const Patch& patch : scene.patches()) {
+      area_ += patch.area;
+    }
+  }
+
+  bool pays(const Source& source) const {
+    const double saved = saved_passes(source);
+    return saved > 0 && cost(source, saved) < saved;
+  }
+
+ private:
+  /// Microseconds on one core, so that costs of pairs and passes compare: a pass by patch, a pair
+  /// without blockers, one blocker seen from one point. Only their ratios count.
+  static constexpr double pass_unit = 1.2, pair_unit = 4, blocker_unit = 0.4;
+  static constexpr int sampled_pairs = 48;
+
+  double saved_passes(const Source& source) const {
+    const double patch = std::sqrt(area_ / scene_.patch_count());
+    const double met = std::pow(std::sqrt(source.area) + patch, 2) / area_;
+    const double share = std::pow(source.power / power_, 4.0 / 3);
+    return directions_ * (share / (3 * met) - 1);
+  }
+
+  /// In passes; stops counting above `limit`.
+  double cost(const Source& source, double limit) const {
+    const double pairs = static_cast<double>(source.patches.size()) * scene_.patch_count();
+    const double pass = pass_unit * scene_.patch_count();
+    const auto allowed = static_cast<std::int64_t>(
+        std::min(1e6, limit * pass / pairs / blocker_unit * sampled_pairs));
+    const std::int64_t blockers = blockers_of_sample(source, allowed);
+    return pairs * (pair_unit + blocker_unit * static_cast<double>(blockers) / sampled_pairs) /
+           pass;
+  }
+
+  /// Blockers times points of sampled pairs; stops above `allowed`.
+  std::int64_t blockers_of_sample(const Source& source, std::int64_t allowed) const {
+    struct Enough {};
+    std::int64_t count = 0;
+    const auto tick = [&] {
+      cancellation_.throw_if_canceled();
+      if (++count > allowed) {
+        throw Enough{};
+      }
+    };
+    try {
+      for (std::uint64_t k = 0; k < sampled_pairs; ++k) {
+        const std::uint64_t random = mixed((k + 1) * golden_step);
+        const auto i =
+            static_cast<PatchId>(random % static_cast<std::uint64_t>(scene_.patch_count()));
+        const PatchId j = source.patches[(random >> 32) % source.patches.size()];
+        if (i != j) {
+          exchange_(i, j, tick);
+        }
+      }
+    } catch (const Enough&) {
+    }
+    return count;
+  }
+
+  const Scene& scene_;
+  Cancellation cancellation_;
+  ExchangeFinder exchange_;
+  double directions_;
+  double power_;
+  double area_ = 0;
+};
+
+}  // namespace
+
+std::optional<double> first_shot_from_name(const std::string& name) {
+  if (name == "none") {
+    return {};
+  }
+  if (name == "auto") {
+    return first_shot_where_it_pays;
+  }
+  double ratio = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), ratio);
+  if (error != std::errc() || end != name.data() + name.size() || !(ratio >= 0) ||
+      !std::isfinite(ratio)) {
+    throw InputError(
+        fmt::format("first shot: \"{}\" is not none, auto or a number of at least 0", name));
+  }
+  return ratio;
+}
+
+std::string name_of_first_shot(const std::optional<double>& threshold) {
+  if (!threshold) {
+    return "none";
+  }
+  return *threshold == first_shot_where_it_pays ? "auto" : fmt::format("{}", *threshold);
+}
+
+std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
+  constexpr double min_share = 1e-4;
+  const std::vector<Source> sources = sources_of(scene);
+  const double least = min_share * total_power(sources);
+  const double square = scene.bounds().diagonal() * scene.bounds().diagonal();
+  return patches_of(sources, [&](const Source& source) {
+    return square >= ratio * source.area && source.power >= least;
+  });
+}
+
+std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, int directions,
+                                        const Cancellation& cancellation) {
+  if (threshold != first_shot_where_it_pays) {
+    return find_small_sources(scene, threshold);
+  }
+  const std::vector<Source> sources = sources_of(scene);
+  if (sources.empty()) {
+    return {};
+  }
+  const ShotBalance balance(scene, sources, directions, cancellation);
+  return patches_of(sources, [&](const Source& source) { return balance.pays(source); });
+}
+
+}  // namespace transillum

@@ -1,0 +1,77 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "transillum/accuracy_goal.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "base/choice.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+const std::vector<std::string>& accuracy_of_names() {
+  static const std::vector<std::string> names{"rms", "max", "patch:I", "mean"};
+  return names;
+}
+
+/// Reads all of `text`; nothing else may follow.
+template <class Number>
+bool read_number(const std::string& text, Number& value) {
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  return error == std::errc() && end == last;
+}
+
+}  // namespace
+
+void AccuracyGoal::validate() const {
+  if (!(accuracy >= 0 && accuracy < 1)) {
+    throw InputError(fmt::format("accuracy: {} is not between 0 and 1 (100 %)", accuracy));
+  }
+  if (!(seconds >= 0 && std::isfinite(seconds))) {
+    throw InputError(fmt::format("seconds: {} is not a finite number of at least 0", seconds));
+  }
+  if (patch < 0) {
+    throw InputError(fmt::format("accuracy: patch {} does not exist", patch));
+  }
+}
+
+double accuracy_from_text(const std::string& text) {
+  const bool percent = text.ends_with('%');
+  double value = 0;
+  const bool number = read_number(percent ? text.substr(0, text.size() - 1) : text, value);
+  value *= percent ? 0.01 : 1;
+  if (!number || !(value > 0 && value < 1)) {
+    throw InputError(fmt::format(
+        "accuracy: \"{}\" is neither a percentage such as 1% nor a number between 0 and 1", text));
+  }
+  return value;
+}
+
+AccuracyGoal accuracy_of_from_name(const std::string& name) {
+  AccuracyGoal goal;
+  if (name.starts_with("patch:")) {
+    goal.of = AccuracyOf::patch;
+    if (!read_number(name.substr(6), goal.patch) || goal.patch < 0) {
+      throw InputError(
+          fmt::format("accuracy of: \"{}\" does not name a patch; write patch:0", name));
+    }
+    return goal;
+  }
+  goal.of = choice_from_name<AccuracyOf>(accuracy_of_names(), "accuracy", name);
+  if (goal.of == AccuracyOf::patch) {
+    throw InputError("accuracy of: patch:I needs the number of a patch, as in patch:0");
+  }
+  return goal;
+}
+
+std::string name_of_accuracy(const AccuracyGoal& goal) {
+  return goal.of == AccuracyOf::patch ? fmt::format("patch:{}", goal.patch)
+                                      : at(accuracy_of_names(), goal.of);
+}
+
+}  // namespace transillum

@@ -1,0 +1,234 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Solving to an accuracy: chooses the stages by the errors of those before, and makes them. Input:
+// a Scene and SolveOptions with a goal.
+#include "transillum/accuracy_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/seconds_since.h"
+#include "radiosity/ratio.h"
+#include "radiosity/solver/norms.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Fewest replicas whose spread shows how independent the errors of patches are. More would lose
+/// more of the evenness of one set than their smaller quantile gains.
+constexpr int replicas_at_first = 4;
+/// The largest of many errors needs a steadier estimate of each.
+constexpr int replicas_for_max = 8;
+constexpr int most_replicas = 16;
+constexpr int directions_at_first = 16;  ///< per replica
+constexpr int directions_at_least = 4;   ///< per replica, where time is short
+/// The error is expected to fall as M to this power, negative, before two stages show it.
+constexpr double expected_exponent = 0.8;
+/// A stage that is this many times smaller than the next costs little and shows the exponent.
+constexpr double largest_growth = 8;
+/// Share of the time left that a stage is made for.
+constexpr double time_share = 0.85;
+
+double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
+
+double largest_error(const std::vector<Rgb>& b, const ErrorEstimate& error) {
+  return ratio_or_zero(error.quantile * max_norm(error.standard_error), max_norm(b));
+}
+
+}  // namespace
+
+double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector<Rgb>& b,
+                 const ErrorEstimate& error) {
+  if (goal.of == AccuracyOf::patch && goal.patch >= scene.patch_count()) {
+    throw InputError(fmt::format("accuracy: there is no patch {}; the scene has {}, from 0",
+                                 goal.patch, scene.patch_count()));
+  }
+  if (error.replicas == 0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  switch (goal.of) {
+    case AccuracyOf::max:
+      return largest_error(b, error);
+    case AccuracyOf::patch:
+      return ratio_or_zero(error.quantile * length(at(error.standard_error, goal.patch)),
+                           length(at(b, goal.patch)));
+    case AccuracyOf::mean:
+      return ratio_or_zero(error.quantile * length(error.mean_standard_error),
+                           length(error.mean_radiosity));
+    case AccuracyOf::rms:
+      break;
+  }
+  return error.rms_limit;
+}
+
+AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene) : stage_(options) {
+  options.validate();
+  report_.goal = options.goal;
+  error_for(options.goal, scene, {}, {});  // checks the patch
+  stage_.replicas = options.goal.of == AccuracyOf::max ? replicas_for_max : replicas_at_first;
+  const bool short_of_time = options.goal.seconds > 0;
+  stage_.directions = stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
+  if (options.goal.accuracy > 0) {
+    double rho_max = 0;
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      rho_max = std::max(rho_max, max_abs(scene.reflectance(i)));
+    }
+    // What further iterations would change is then a fiftieth of the goal.
+    stage_.tolerance =
+        std::min(stage_.tolerance, std::max(0.02 * options.goal.accuracy * (1 - rho_max), 1e-12));
+  }
+}
+
+AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seconds) {
+  const SolveOptions& solved = solver.options();
+  const SolveStatistics statistics = solver.statistics();
+  const AccuracyGoal& goal = report_.goal;
+  report_.error = error_for(goal, solver.scene(), solver.radiosity(), solver.error_estimate());
+  report_.stages.push_back({solved.directions, solved.replicas, report_.error});
+  light_directions_ = statistics.light_directions / solved.replicas;
+  report_.trusted = light_directions_ >= least_light_directions || light_directions_ == 0;
+  report_.reached = report_.trusted && report_.error <= goal.accuracy;
+  const auto made = static_cast<double>(statistics.passes_made - passes_before_);
+  const double per_pass = (seconds - seconds_) / std::max(1.0, made);
+  report_.passes_made += statistics.passes_made - passes_before_;
+  passes_before_ = statistics.passes_made;
+  seconds_ = seconds;
+  const double left =
+      goal.seconds > 0 ? goal.seconds - seconds : std::numeric_limits<double>::infinity();
+  if (report_.reached || report_.error == 0 || left <= 0 || is_stalled()) {
+    return Next::done;
+  }
+  // As the root of the number of replicas; a new stage costs all passes anew, but gains more.
+  const double missing = report_.error / goal.accuracy;
+  const int replicas = solved.replicas, per_replica = solved.directions / replicas;
+  const double more = std::ceil(replicas * (missing * missing - 1));
+  const double factor = growth();
+  const bool replica_suffices = report_.trusted && goal.accuracy > 0 &&
+                                replicas + more <= most_replicas && more < replicas * factor;
+  if (replica_suffices && per_replica * per_pass <= left) {
+    return Next::replica;
+  }
+  return grow(factor, per_pass, left);
+}
+
+/// By how much M should grow for the goal. Of errors of different numbers of replicas, those are
+/// compared that the stage's own number would have.
+double AccuracyPlan::growth() const {
+  const auto& stages = report_.stages;
+  const auto per_replica = [](const AccuracyStage& stage) {
+    return static_cast<double>(stage.directions) / stage.replicas;
+  };
+  const auto error = [&](const AccuracyStage& stage) {
+    return stage.error * std::sqrt(static_cast<double>(stage.replicas) / stage_.replicas);
+  };
+  const AccuracyStage& last = stages.back();
+  const auto before = std::find_if(stages.rbegin(), stages.rend(), [&](const AccuracyStage& stage) {
+    return 2 * per_replica(stage) <= per_replica(last);
+  });
+  double exponent = expected_exponent;
+  if (before != stages.rend()) {
+    const double measured =
+        std::log(error(*before) / error(last)) / std::log(per_replica(last) / per_replica(*before));
+    exponent = std::clamp(measured, 0.6, 1.2);
+  }
+  const double accuracy = report_.goal.accuracy;
+  double factor =
+      accuracy > 0 ? std::pow(error(last) / accuracy, 1 / exponent) : 2 * largest_growth;
+  if (!report_.trusted) {
+    factor = std::max(factor, 1.2 * least_light_directions / light_directions_);
+  }
+  if (factor > largest_growth) {
+    factor = std::clamp(factor / largest_growth, 4.0, 2 * largest_growth);
+  }
+  return std::max(factor, 1.1);
+}
+
+AccuracyPlan::Next AccuracyPlan::grow(double factor, double seconds_per_pass, double seconds_left) {
+  const double before = stage_.directions, per_replica = before / stage_.replicas;
+  const double fits = time_share * seconds_left / seconds_per_pass;
+  const double wanted = std::min({factor * before, fits, double(max_directions)});
+  if (wanted < 1.1 * before) {
+    return Next::done;
+  }
+  const double count = std::ceil(per_replica * wanted / before);
+  stage_.directions = stage_.replicas * static_cast<int>(count);
+  passes_before_ = 0;
+  return Next::stage;
+}
+
+/// Whether something else than the number of directions bounds the error, as that of the first
+/// shot.
+bool AccuracyPlan::is_stalled() const {
+  const auto& stages = report_.stages;
+  if (stages.size() < 3) {
+    return false;
+  }
+  const AccuracyStage &last = stages.back(), &before = stages[stages.size() - 3];
+  return last.directions >= 4 * before.directions && last.error > 0.9 * before.error;
+}
+
+int expected_directions(const SolveOptions& options) {
+  if (!options.goal.set()) {
+    return options.directions;
+  }
+  // 1 % takes some hundred passes in most scenes.
+  constexpr double at_1_percent = 256, most = 1 << 20;
+  const double accuracy = options.goal.accuracy > 0 ? options.goal.accuracy : 1e-3;
+  return static_cast<int>(
+      std::clamp(at_1_percent * std::pow(0.01 / accuracy, 1 / expected_exponent), 64.0, most));
+}
+
+Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                           std::shared_ptr<const BspTree> tree,
+                           std::shared_ptr<const DirectLight> shot,
+                           const RadiositySolver::Observer& observer,
+                           const Cancellation& cancellation, double seconds) {
+  const auto start = Clock::now();
+  const auto used = [&] { return seconds + seconds_since(start); };
+  AccuracyPlan plan(options, *scene);
+  std::optional<Solution> best;
+  auto solver = std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree),
+                                                  cancellation, std::move(shot));
+  const SolveStatistics prepared = solver->statistics();
+  bool ended = false;
+  const auto watch = [&](const RadiositySolver& watched) {
+    const bool late = best && options.goal.seconds > 0 && used() > options.goal.seconds;
+    ended = observer && !observer(watched);
+    return !ended && !late;
+  };
+  try {
+    while (!solver->advance(RadiositySolver::Until::finished, watch)) {
+      const AccuracyPlan::Next next = plan.next(*solver, used());
+      best = solver->solution();
+      if (next == AccuracyPlan::Next::done) {
+        break;
+      }
+      if (next == AccuracyPlan::Next::replica) {
+        solver->add_replica();
+      } else {
+        solver = std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(),
+                                                   cancellation, solver->direct_light());
+      }
+    }
+  } catch (const Canceled&) {
+    ended = true;
+  }
+  Solution solution = best ? std::move(*best) : solver->solution();
+  solution.complete = solution.complete && !ended;
+  solution.accuracy = plan.report();
+  solution.statistics.seconds_bsp = prepared.seconds_bsp;
+  solution.statistics.seconds_first_shot = prepared.seconds_first_shot;
+  solution.statistics.seconds_total = seconds_since(start);
+  return solution;
+}
+
+}  // namespace transillum
