@@ -28,7 +28,8 @@ double error_for(const AccuracyGoal& goal, const Scene& scene, const std::vector
 /// discarded, so that the result is that of the last stage alone. Not thread-safe.
 class AccuracyPlan {
  public:
-  /// @param options with a goal; validated.
+  /// @param options with a goal; validated. If it has replicas, the first stage is its own
+  /// `directions` and `replicas`: a solve continues where another has ended.
   /// @param scene the scene.
   /// @throws InputError
   AccuracyPlan(const SolveOptions& options, const Scene& scene);

@@ -144,6 +144,7 @@ struct ErrorEstimate {
   /// uncertainty of an estimate from few replicas: a quantile of the F distribution, less so the
   /// more independent the errors of the patches are.
   double rms_limit = 0;
+  double rms_lowest = 0;  ///< what it exceeds in 95 % of all runs; with rms_limit a 90 % interval
   /// Number of independent errors that would vary as those of all patches do together, >= 1
   double independent_errors = 1;
   Rgb mean_radiosity;       ///< area-weighted mean of B, W/m²
@@ -167,9 +168,10 @@ struct SolveStatistics {
   bool converged = false;             ///< the tolerance was reached, or changes are rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
-  /// Directions that bring a patch its direct light: (sum c)² / sum c² of the light c that it
-  /// receives along each, mean over patches, weighted by that light. 0: no direct light. Below
-  /// least_light_directions per replica, the error estimate cannot be trusted.
+  /// Directions that bring a patch the light of a source: (sum c)² / sum c² of the light c that it
+  /// receives along each; harmonic mean over pairs of patch and source, weighted by that light. 0:
+  /// no direct light. Below least_light_directions per replica, the error estimate cannot be
+  /// trusted.
   double light_directions = 0;
   double escaped = 0;                ///< share of projected area with nothing above; 0: closed
   double energy_defect = 0;          ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
@@ -191,7 +193,7 @@ struct SolveStatistics {
 
 /// Number of directions per replica that must bring a patch its direct light for its error estimate
 /// to be trusted (SolveStatistics::light_directions; decisions/0052-accuracy.md).
-inline constexpr double least_light_directions = 4;
+inline constexpr double least_light_directions = 2;
 
 struct Solution;
 

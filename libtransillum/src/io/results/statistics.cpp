@@ -63,6 +63,7 @@ Json error_json(const ErrorEstimate& error) {
   return {{"replicas", error.replicas},
           {"rms", error.rms},
           {"rms_limit", error.rms_limit},
+          {"rms_lowest", error.rms_lowest},
           {"independent_errors", error.independent_errors},
           {"confidence", 0.95},
           {"quantile", error.quantile},

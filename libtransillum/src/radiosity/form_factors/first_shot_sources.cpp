@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "base/bit_mixing.h"
+#include "radiosity/light_sources.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/first_shot.h"
@@ -19,79 +19,14 @@
 namespace transillum {
 namespace {
 
-double power(const Scene& scene, PatchId i) {
-  const Rgb& exitance = scene.exitance(i);
-  return scene.patch(i).area * (exitance.r + exitance.g + exitance.b);
-}
-
-/// Finds connected sources (union-find): root() is the same point for all points of the emitting
-/// patches of one source.
-class SourceNumbers {
- public:
-  explicit SourceNumbers(const Scene& scene) : parents_(scene.points().size()) {
-    std::iota(parents_.begin(), parents_.end(), PointId{0});
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      if (power(scene, i) == 0) {
-        continue;
-      }
-      const auto outline = scene.outline(i);
-      for (const PointId p : outline) {
-        parents_[index(root(p))] = root(outline.front());
-      }
-    }
-  }
-
-  PointId root(PointId p) {
-    while (parents_[index(p)] != p) {
-      PointId& parent = parents_[index(p)];
-      p = parent = parents_[index(parent)];
-    }
-    return p;
-  }
-
- private:
-  static std::size_t index(PointId p) { return static_cast<std::size_t>(p); }
-
-  std::vector<PointId> parents_;
-};
-
-/// A set of connected emitting patches.
-struct Source {
-  std::vector<PatchId> patches;  ///< ascending
-  double area = 0;               ///< m²
-  double power = 0;              ///< W, sum of channels
-};
-
-/// All sources, by their first patch.
-std::vector<Source> sources_of(const Scene& scene) {
-  SourceNumbers numbers(scene);
-  std::map<PointId, std::size_t> places;
-  std::vector<Source> sources;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (power(scene, i) == 0) {
-      continue;
-    }
-    const auto [place, is_new] =
-        places.try_emplace(numbers.root(scene.outline(i).front()), sources.size());
-    if (is_new) {
-      sources.emplace_back();
-    }
-    Source& source = sources[place->second];
-    source.patches.push_back(i);
-    source.area += scene.patch(i).area;
-    source.power += power(scene, i);
-  }
-  return sources;
-}
-
-double total_power(const std::vector<Source>& sources) {
+double total_power(const std::vector<LightSource>& sources) {
   return std::accumulate(sources.begin(), sources.end(), 0.0,
-                         [](double sum, const Source& source) { return sum + source.power; });
+                         [](double sum, const LightSource& source) { return sum + source.power; });
 }
 
-std::vector<PatchId> patches_of(const std::vector<Source>& sources, auto is_chosen) {
+std::vector<PatchId> patches_of(const std::vector<LightSource>& sources, auto is_chosen) {
   std::vector<PatchId> patches;
-  for (const Source& source : sources) {
+  for (const LightSource& source : sources) {
     if (is_chosen(source)) {
       patches.insert(patches.end(), source.patches.begin(), source.patches.end());
     }
@@ -111,7 +46,7 @@ std::vector<PatchId> patches_of(const std::vector<Source>& sources, auto is_chos
 /// What it costs: the mean over some pairs of patches, by counting.
 class ShotBalance {
  public:
-  ShotBalance(const Scene& scene, const std::vector<Source>& sources, int directions,
+  ShotBalance(const Scene& scene, const std::vector<LightSource>& sources, int directions,
               const Cancellation& cancellation)
       : scene_(scene),
         cancellation_(cancellation),
@@ -123,7 +58,7 @@ class ShotBalance {
     }
   }
 
-  bool pays(const Source& source) const {
+  bool pays(const LightSource& source) const {
     const double saved = saved_passes(source);
     return saved > 0 && cost(source, saved) < saved;
   }
@@ -134,7 +69,7 @@ class ShotBalance {
   static constexpr double pass_unit = 1.2, pair_unit = 4, blocker_unit = 0.4;
   static constexpr int sampled_pairs = 48;
 
-  double saved_passes(const Source& source) const {
+  double saved_passes(const LightSource& source) const {
     const double patch = std::sqrt(area_ / scene_.patch_count());
     const double met = std::pow(std::sqrt(source.area) + patch, 2) / area_;
     const double share = std::pow(source.power / power_, 4.0 / 3);
@@ -142,7 +77,7 @@ class ShotBalance {
   }
 
   /// In passes; stops counting above `limit`.
-  double cost(const Source& source, double limit) const {
+  double cost(const LightSource& source, double limit) const {
     const double pairs = static_cast<double>(source.patches.size()) * scene_.patch_count();
     const double pass = pass_unit * scene_.patch_count();
     const auto allowed = static_cast<std::int64_t>(
@@ -153,7 +88,7 @@ class ShotBalance {
   }
 
   /// Blockers times points of sampled pairs; stops above `allowed`.
-  std::int64_t blockers_of_sample(const Source& source, std::int64_t allowed) const {
+  std::int64_t blockers_of_sample(const LightSource& source, std::int64_t allowed) const {
     struct Enough {};
     std::int64_t count = 0;
     const auto tick = [&] {
@@ -213,10 +148,10 @@ std::string name_of_first_shot(const std::optional<double>& threshold) {
 
 std::vector<PatchId> find_small_sources(const Scene& scene, double ratio) {
   constexpr double min_share = 1e-4;
-  const std::vector<Source> sources = sources_of(scene);
+  const std::vector<LightSource> sources = light_sources(scene);
   const double least = min_share * total_power(sources);
   const double square = scene.bounds().diagonal() * scene.bounds().diagonal();
-  return patches_of(sources, [&](const Source& source) {
+  return patches_of(sources, [&](const LightSource& source) {
     return square >= ratio * source.area && source.power >= least;
   });
 }
@@ -226,12 +161,12 @@ std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, in
   if (threshold != first_shot_where_it_pays) {
     return find_small_sources(scene, threshold);
   }
-  const std::vector<Source> sources = sources_of(scene);
+  const std::vector<LightSource> sources = light_sources(scene);
   if (sources.empty()) {
     return {};
   }
   const ShotBalance balance(scene, sources, directions, cancellation);
-  return patches_of(sources, [&](const Source& source) { return balance.pays(source); });
+  return patches_of(sources, [&](const LightSource& source) { return balance.pays(source); });
 }
 
 }  // namespace transillum

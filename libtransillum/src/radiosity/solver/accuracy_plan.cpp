@@ -29,12 +29,14 @@ constexpr int replicas_at_first = 4;
 /// The largest of many errors needs a steadier estimate of each.
 constexpr int replicas_for_max = 8;
 constexpr int most_replicas = 16;
-constexpr int directions_at_first = 16;  ///< per replica
-constexpr int directions_at_least = 4;   ///< per replica, where time is short
+/// Error over goal above which a new stage is cheaper than replicas.
+constexpr double most_missing = 1.25;
+constexpr int directions_at_first = 6;  ///< per replica
+constexpr int directions_at_least = 4;  ///< per replica, where time is short
 /// The error is expected to fall as M to this power, negative, before two stages show it.
-constexpr double expected_exponent = 0.8;
+constexpr double expected_exponent = 1;
 /// A stage that is this many times smaller than the next costs little and shows the exponent.
-constexpr double largest_growth = 8;
+constexpr double usual_growth = 8, largest_growth = 12;
 /// Share of the time left that a stage is made for.
 constexpr double time_share = 0.85;
 
@@ -74,9 +76,12 @@ AccuracyPlan::AccuracyPlan(const SolveOptions& options, const Scene& scene) : st
   options.validate();
   report_.goal = options.goal;
   error_for(options.goal, scene, {}, {});  // checks the patch
-  stage_.replicas = options.goal.of == AccuracyOf::max ? replicas_for_max : replicas_at_first;
-  const bool short_of_time = options.goal.seconds > 0;
-  stage_.directions = stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
+  if (options.replicas < 2) {
+    const bool short_of_time = options.goal.seconds > 0;
+    stage_.replicas = options.goal.of == AccuracyOf::max ? replicas_for_max : replicas_at_first;
+    stage_.directions =
+        stage_.replicas * (short_of_time ? directions_at_least : directions_at_first);
+  }
   if (options.goal.accuracy > 0) {
     double rho_max = 0;
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -111,13 +116,12 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   const double missing = report_.error / goal.accuracy;
   const int replicas = solved.replicas, per_replica = solved.directions / replicas;
   const double more = std::ceil(replicas * (missing * missing - 1));
-  const double factor = growth();
-  const bool replica_suffices = report_.trusted && goal.accuracy > 0 &&
-                                replicas + more <= most_replicas && more < replicas * factor;
+  const bool replica_suffices = report_.trusted && goal.accuracy > 0 && missing <= most_missing &&
+                                replicas + more <= most_replicas;
   if (replica_suffices && per_replica * per_pass <= left) {
     return Next::replica;
   }
-  return grow(factor, per_pass, left);
+  return grow(growth(), per_pass, left);
 }
 
 /// By how much M should grow for the goal. Of errors of different numbers of replicas, those are
@@ -138,16 +142,15 @@ double AccuracyPlan::growth() const {
   if (before != stages.rend()) {
     const double measured =
         std::log(error(*before) / error(last)) / std::log(per_replica(last) / per_replica(*before));
-    exponent = std::clamp(measured, 0.6, 1.2);
+    exponent = std::clamp(measured, 0.6, 1.3);
   }
   const double accuracy = report_.goal.accuracy;
-  double factor =
-      accuracy > 0 ? std::pow(error(last) / accuracy, 1 / exponent) : 2 * largest_growth;
+  double factor = accuracy > 0 ? std::pow(error(last) / accuracy, 1 / exponent) : largest_growth;
   if (!report_.trusted) {
     factor = std::max(factor, 1.2 * least_light_directions / light_directions_);
   }
   if (factor > largest_growth) {
-    factor = std::clamp(factor / largest_growth, 4.0, 2 * largest_growth);
+    factor = std::clamp(factor / usual_growth, 4.0, largest_growth);
   }
   return std::max(factor, 1.1);
 }
@@ -181,7 +184,7 @@ int expected_directions(const SolveOptions& options) {
     return options.directions;
   }
   // 1 % takes some hundred passes in most scenes.
-  constexpr double at_1_percent = 256, most = 1 << 20;
+  constexpr double at_1_percent = 128, most = 1 << 20;
   const double accuracy = options.goal.accuracy > 0 ? options.goal.accuracy : 1e-3;
   return static_cast<int>(
       std::clamp(at_1_percent * std::pow(0.01 / accuracy, 1 / expected_exponent), 64.0, most));

@@ -74,7 +74,8 @@ Matrix scalar_products(const std::vector<Rgb>& b, double scale,
 
 /// (trace C)² / trace C², where C is the covariance of the replicas over patches and channels: the
 /// number of equal independent errors whose sum of squares varies as that of all. Both traces are
-/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4.
+/// estimated without bias from differences of disjoint pairs of replicas; 1 for fewer than 4. The
+/// ratio of so few is uncertain, so it is taken rather too small (decisions/0052-accuracy.md).
 /// @param products of the replicas
 double independent_errors(const Matrix& products) {
   const auto product = [&](auto a, auto b, auto c, auto d) {  // of the differences a - b and c - d
@@ -94,8 +95,8 @@ double independent_errors(const Matrix& products) {
       }
     }
   }
-  constexpr double most = 1e6;  // where the quantile is 1 to three digits
-  return squares > 0 ? std::clamp(norms / squares, 1.0, most) : 1.0;
+  constexpr double caution = 1.3, most = 30;
+  return norms > 0 ? std::max(1.0, 1 / (caution * squares / norms + 1 / most)) : 1.0;
 }
 
 }  // namespace
@@ -122,6 +123,7 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   const boost::math::fisher_f fisher(error.independent_errors,
                                      (error.replicas - 1) * error.independent_errors);
   error.rms_limit = error.rms * std::sqrt(quantile(fisher, confidence));
+  error.rms_lowest = error.rms * std::sqrt(quantile(fisher, 1 - confidence));
   std::vector<Rgb> means;
   for (const auto& replica : replicas) {
     means.push_back(mean_over_area(scene, replica));
@@ -147,6 +149,7 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
     const double relative = root_of_squares(bias, unit) / root_of_squares(b, unit);
     error.rms = std::hypot(error.rms, relative);
     error.rms_limit = std::hypot(error.rms_limit, relative);
+    error.rms_lowest = std::hypot(error.rms_lowest, relative);
   }
 }
 

@@ -18,15 +18,7 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
       uncovered_(scene.patches().size()),
-      unshot_(scene.patches().size()),
-      light_(scene.patches().size()),
-      light_squares_(scene.patches().size()),
-      light_along_(scene.patches().size()) {
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
-    at(unshot_, i) = unshot.r + unshot.g + unshot.b;
-  }
-}
+      light_(scene, two_way, shot) {}
 
 void PassStatistics::begin_set() {
   areas_ = VisibleAreaSums(facing_area_.size());
@@ -52,46 +44,9 @@ void PassStatistics::add(const Pass& pass) {
   quadrature_errors_.push_back(std::numbers::pi * worst);
   closure_relative_ = std::max(closure_relative_, pass.closure.relative);
   closure_grazing_ = std::max(closure_grazing_, pass.closure.grazing);
-  add_light(transfers.exchanges);
+  light_.add(transfers.exchanges);
   counts_ += transfers.counts;
   transfer_count_ += std::ssize(transfers.exchanges);
-}
-
-/// A patch faces one of the two directions of a pass only, so its light along a pass is that along
-/// one direction.
-void PassStatistics::add_light(const std::vector<Transfer>& exchanges) {
-  std::vector<std::size_t> lit;
-  const auto receive = [&](PatchId receiver, PatchId source, double area) {
-    const double light = area * at(unshot_, source);
-    if (light > 0) {
-      if (at(light_along_, receiver) == 0) {
-        lit.push_back(static_cast<std::size_t>(receiver));
-      }
-      at(light_along_, receiver) += light;
-    }
-  };
-  for (const Transfer& t : exchanges) {
-    receive(t.receiver, t.source, t.area);
-    if (two_way_) {
-      receive(t.source, t.receiver, t.area);
-    }
-  }
-  for (const std::size_t i : lit) {
-    light_[i] += light_along_[i];
-    light_squares_[i] += light_along_[i] * light_along_[i];
-    light_along_[i] = 0;
-  }
-}
-
-/// With n_i = light_i² / squares_i directions, the harmonic mean weighted by light_i: patches that
-/// few directions light count most.
-double PassStatistics::light_directions() const {
-  double light = 0, inverse = 0;
-  for (std::size_t i = 0; i < light_.size(); ++i) {
-    light += light_[i];
-    inverse += ratio_or_zero(light_squares_[i], light_[i]);
-  }
-  return ratio_or_zero(light, inverse);
 }
 
 std::vector<double> PassStatistics::back_seen_shares() const {
@@ -105,7 +60,7 @@ std::vector<double> PassStatistics::back_seen_shares() const {
 void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.transfers = transfer_count_;
   statistics.counts = counts_;
-  statistics.light_directions = light_directions();
+  statistics.light_directions = light_.mean();
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
   // Of a two-sided face, the side counts from which less escapes: not the outside of a sealed room.

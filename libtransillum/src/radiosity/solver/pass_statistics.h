@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "radiosity/solver/light_directions.h"
 #include "radiosity/solver/pass_runner.h"
 #include "radiosity/solver/visible_area_sums.h"
 #include "transillum/first_shot.h"
@@ -36,9 +37,6 @@ class PassStatistics {
   void write_to(SolveStatistics& statistics) const;
 
  private:
-  void add_light(const std::vector<Transfer>& exchanges);
-  double light_directions() const;
-
   const Scene& scene_;
   bool two_way_;
   VisibleAreaSums areas_;
@@ -49,9 +47,7 @@ class PassStatistics {
   double projected_ = 0;             ///< projected area of all patches, m²
   double covered_ = 0;               ///< the part of it with a patch above, m²
   double closure_relative_ = 0, closure_grazing_ = 0;  ///< largest ClosureDefect so far
-  std::vector<double> unshot_;  ///< per patch: E, sum of channels, that passes gather
-  std::vector<double> light_, light_squares_;  ///< per patch: sums of direct light per direction
-  std::vector<double> light_along_;            ///< of the direction being added; else 0
+  LightDirections light_;
   std::int64_t transfer_count_ = 0;
   PassCounts counts_;
 };

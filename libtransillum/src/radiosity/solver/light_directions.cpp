@@ -1,0 +1,72 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "radiosity/solver/light_directions.h"
+
+#include <algorithm>
+
+#include "radiosity/light_sources.h"
+#include "radiosity/ratio.h"
+#include "transillum/at.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t most_pairs = std::size_t{1} << 22;
+
+}  // namespace
+
+LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectLight& shot)
+    : two_way_(two_way), exitance_(scene.patches().size()), column_(scene.patches().size()) {
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
+    at(exitance_, i) = unshot.r + unshot.g + unshot.b;
+  }
+  const std::vector<LightSource> sources = light_sources(scene);
+  columns_ = std::clamp(most_pairs / exitance_.size(), std::size_t{1},
+                        std::max(sources.size(), std::size_t{1}));
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    for (const PatchId j : sources[s].patches) {
+      at(column_, j) = s % columns_;
+    }
+  }
+  lights_.resize(exitance_.size() * columns_);
+}
+
+void LightDirections::receive(PatchId receiver, PatchId source, double area) {
+  const double light = area * at(exitance_, source);
+  if (light > 0) {
+    const std::size_t k = static_cast<std::size_t>(receiver) * columns_ + at(column_, source);
+    if (lights_[k].along == 0) {
+      lit_.push_back(k);
+    }
+    lights_[k].along += light;
+  }
+}
+
+/// A patch faces one of the two directions of a pass only, so its light along a pass is that along
+/// one direction.
+void LightDirections::add(const std::vector<Transfer>& exchanges) {
+  for (const Transfer& t : exchanges) {
+    receive(t.receiver, t.source, t.area);
+    if (two_way_) {
+      receive(t.source, t.receiver, t.area);
+    }
+  }
+  for (const std::size_t k : lit_) {
+    Light& light = lights_[k];
+    light.sum += light.along;
+    light.squares += light.along * light.along;
+    light.along = 0;
+  }
+  lit_.clear();
+}
+
+double LightDirections::mean() const {
+  double sum = 0, inverse = 0;
+  for (const Light& light : lights_) {
+    sum += light.sum;
+    inverse += ratio_or_zero(light.squares, light.sum);
+  }
+  return ratio_or_zero(sum, inverse);
+}
+
+}  // namespace transillum
