@@ -95,6 +95,12 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
     object.read("burn-in", solve.burn_in.emplace(), 0, 1'000'000);
   }
   object.read("replicas", solve.replicas, 1, 64);
+  object.read("accuracy", solve.goal.accuracy);
+  AccuracyGoal of;
+  read_named(object, "accuracy-of", of, accuracy_of_from_name);
+  solve.goal.of = of.of;
+  solve.goal.patch = of.patch;
+  object.read("seconds", solve.goal.seconds);
   object.read("iterations", solve.iterations, 0, 1'000'000);
   object.read("tolerance", solve.tolerance);
   object.read("two-sided", options.scene.two_sided);
@@ -125,9 +131,12 @@ json to_json(const RunOptions& options) {
                  {"two-way", solve.two_way},
                  {"normalize", name_of(solve.normalize)},
                  {"scheme", name_of(solve.scheme)},
-                 {"first-shot", solve.first_shot ? json(*solve.first_shot).dump() : "none"},
+                 {"first-shot", name_of_first_shot(solve.first_shot)},
                  {"burn-in", solve.burn_in ? json(*solve.burn_in) : json()},
                  {"replicas", solve.replicas},
+                 {"accuracy", solve.goal.accuracy},
+                 {"accuracy-of", name_of_accuracy(solve.goal)},
+                 {"seconds", solve.goal.seconds},
                  {"iterations", solve.iterations},
                  {"tolerance", solve.tolerance},
                  {"two-sided", options.scene.two_sided},

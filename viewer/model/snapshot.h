@@ -6,11 +6,13 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/patch_materials.h"
 #include "support/has_index.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/bsp_tree.h"
@@ -44,6 +46,12 @@ inline std::int64_t passes_done(const SolveProgress& progress,
                          std::int64_t{progress.direction});
 }
 
+/// The RMS error of B over RMS of B, estimated from replicas, and the limits that it is between in
+/// 90 % of all runs.
+struct ErrorBand {
+  double lowest = 0, estimate = 0, limit = 0;
+};
+
 /// The state of a solve run at one moment. Immutable: created by the worker, shown by the window.
 struct SolverSnapshot {
   std::shared_ptr<const LoadedScene> loaded;
@@ -75,7 +83,10 @@ struct SolverSnapshot {
   std::vector<double> estimate_changes;   ///< of the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass
   ErrorEstimate error;                    ///< from replicas; empty without
-  int estimate_iteration = 0;             ///< number of that iteration, from 0
+  std::vector<ErrorBand> errors;  ///< of B after each finished iteration; empty without replicas
+  /// Of a solve with a goal, once its first stage is finished.
+  std::optional<AccuracyReport> accuracy;
+  int estimate_iteration = 0;  ///< number of that iteration, from 0
 
   /// Directions of an iteration; the newest one's if they were not stored.
   const std::shared_ptr<const std::vector<Vec3>>& directions_of(int iteration) const {

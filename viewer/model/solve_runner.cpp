@@ -211,9 +211,8 @@ void SolveRunner::load(const OpenRequest& request) {
     if (request.options.solve.first_shot) {
       post_load_progress(tr("Computing the first shot"), -1);
     }
-    auto solver = std::make_unique<RadiositySolver>(loaded->scene, request.options.solve,
-                                                    loaded->tree, cancellation);
-    replace_scene(request, loaded, std::move(solver), cancellation);
+    replace_scene(request, loaded, make_solver(*loaded, request.options.solve, cancellation),
+                  cancellation);
   } catch (...) {
     post_current_failure(tr("%1 does not fit into memory").arg(name));
   }
@@ -271,8 +270,7 @@ void SolveRunner::build_tree(LoadedScene& loaded, const Cancellation& cancellati
 
 void SolveRunner::replace_scene(const OpenRequest& request,
                                 const std::shared_ptr<const LoadedScene>& loaded,
-                                std::unique_ptr<RadiositySolver> solver,
-                                const Cancellation& cancellation) {
+                                PlannedSolver solver, const Cancellation& cancellation) {
   {
     // From here on, stop() stops the solve of the new scene.
     const std::lock_guard lock(mutex_);
@@ -305,8 +303,7 @@ void SolveRunner::start_solve(const SolveOptions& options) {
     // The old solver has been canceled: if this fails, the next goal tries again.
     failed_start_ = options;
     more_to_do_ = true;
-    replace_solver(std::make_unique<RadiositySolver>(loaded_->scene, options, loaded_->tree,
-                                                     solve_cancellation_));
+    replace_solver(make_solver(*loaded_, options, solve_cancellation_));
     post_snapshot();
   } catch (...) {
     if (failed_start_) {
@@ -319,8 +316,23 @@ void SolveRunner::start_solve(const SolveOptions& options) {
   }
 }
 
-void SolveRunner::replace_solver(std::unique_ptr<RadiositySolver> solver) {
-  solver_ = std::move(solver);
+SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
+                                                    const SolveOptions& options,
+                                                    const Cancellation& cancellation) {
+  PlannedSolver made;
+  if (options.goal.set()) {
+    made.plan.emplace(options, *loaded.scene);
+  }
+  made.solver = std::make_unique<RadiositySolver>(
+      loaded.scene, made.plan ? made.plan->stage() : options, loaded.tree, cancellation);
+  return made;
+}
+
+void SolveRunner::replace_solver(PlannedSolver made) {
+  solver_ = std::move(made.solver);
+  plan_ = std::move(made.plan);
+  seconds_running_ = 0;
+  errors_.clear();
   solver_->keep_form_factors();
   kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
   kept_passes_ = {solver_->progress().passes};
@@ -342,6 +354,17 @@ void SolveRunner::store_radiosity() {
   if (radiosity.size() * (iteration + 1) * sizeof(Rgb) <= most_kept_bytes) {
     kept_radiosity_[iteration] = std::make_shared<const std::vector<Rgb>>(radiosity);
   }
+}
+
+void SolveRunner::store_errors() {
+  const auto iterations = static_cast<std::size_t>(solver_->progress().iteration);
+  if (solver_->options().replicas < 2 || errors_.size() >= iterations ||
+      solver_->progress().direction > 0) {
+    return;
+  }
+  const ErrorEstimate error = solver_->error_estimate();
+  errors_.resize(iterations);  // those of iterations that were not observed are 0
+  errors_.back() = {error.rms_lowest, error.rms, error.rms_limit};
 }
 
 void SolveRunner::store_directions() {
@@ -377,7 +400,18 @@ void SolveRunner::advance(const Goal& goal) {
     return;
   }
   post_state(RunState::running);
+  advance_stage(goal);
+  while (goal.kind == Goal::Kind::finished && more_to_do_ && !interrupted_ &&
+         solver_->progress().direction == 0 && solver_->progress().iteration == 0) {
+    advance_stage(goal);
+  }
+}
+
+/// Advances the solver; where its stage ends, begins the next.
+void SolveRunner::advance_stage(const Goal& goal) {
   using Until = RadiositySolver::Until;
+  QElapsedTimer timer;
+  timer.start();
   try {
     if (goal.kind == Goal::Kind::passes) {
       advance_exactly(goal.passes);
@@ -390,6 +424,8 @@ void SolveRunner::advance(const Goal& goal) {
         return !interrupted_.load(std::memory_order_relaxed);
       });
     }
+    seconds_running_ += seconds(timer);
+    more_to_do_ = more_to_do_ || begin_next_stage();
   } catch (const Canceled&) {
     return;
   } catch (...) {
@@ -401,6 +437,29 @@ void SolveRunner::advance(const Goal& goal) {
   } catch (...) {
     post_current_failure(tr("Not enough memory to show the result"));
   }
+}
+
+/// @returns whether there is one.
+bool SolveRunner::begin_next_stage() {
+  if (!plan_) {
+    return false;
+  }
+  store_errors();
+  const AccuracyPlan::Next next = plan_->next(*solver_, seconds_running_);
+  if (next == AccuracyPlan::Next::done) {
+    return false;
+  }
+  if (next == AccuracyPlan::Next::replica) {
+    solver_->add_replica();
+    kept_directions_.front() = std::make_shared<const std::vector<Vec3>>(solver_->directions());
+    return true;
+  }
+  const double running = seconds_running_;
+  auto solver = std::make_unique<RadiositySolver>(loaded_->scene, plan_->stage(), loaded_->tree,
+                                                  solve_cancellation_, solver_->direct_light());
+  replace_solver({std::move(solver), std::move(plan_)});
+  seconds_running_ = running;
+  return true;
 }
 
 void SolveRunner::advance_exactly(std::int64_t passes) {
@@ -429,6 +488,7 @@ void SolveRunner::advance_exactly(std::int64_t passes) {
 void SolveRunner::on_pass(const RadiositySolver& solver) {
   store_radiosity();
   store_directions();
+  store_errors();
   const SolveProgress progress = solver.progress();
   if (progress.direction == progress.passes) {
     // Store them: the solver clears them at the end of the iteration.
@@ -517,6 +577,11 @@ void SolveRunner::post_snapshot() {
   snapshot->estimate_changes = solver_->estimate_changes();
   snapshot->quadrature_errors = solver_->quadrature_errors();
   snapshot->error = solver_->error_estimate();
+  store_errors();
+  snapshot->errors = errors_;
+  if (plan_ && !plan_->report().stages.empty()) {
+    snapshot->accuracy = plan_->report();
+  }
   snapshot->estimate_iteration = snapshot->progress.iteration;
   if (snapshot->estimate_changes.empty() && snapshot->progress.iteration > 0) {
     snapshot->estimate_changes = iteration_changes_;

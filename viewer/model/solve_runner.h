@@ -17,6 +17,7 @@
 
 #include "model/run_options.h"
 #include "model/snapshot.h"
+#include "transillum/accuracy_plan.h"
 #include "transillum/cancellation.h"
 
 namespace transillum::viewer {
@@ -76,6 +77,14 @@ class SolveRunner : public QObject {
   void failed(const QString& message, bool bad_input);
 
  private:
+  /// A solver, and the plan of its stages if the solve has a goal.
+  struct PlannedSolver {
+    std::unique_ptr<RadiositySolver> solver;
+    std::optional<AccuracyPlan> plan;
+  };
+  static PlannedSolver make_solver(const LoadedScene& loaded, const SolveOptions& options,
+                                   const Cancellation& cancellation);
+
   void deliver_snapshot();
   // The rest runs on the worker's thread.
   void work();
@@ -86,15 +95,18 @@ class SolveRunner : public QObject {
   SceneDescription describe(const OpenRequest& request, const Cancellation& cancellation);
   void build_tree(LoadedScene& loaded, const Cancellation& cancellation);
   void replace_scene(const OpenRequest& request, const std::shared_ptr<const LoadedScene>& loaded,
-                     std::unique_ptr<RadiositySolver> solver, const Cancellation& cancellation);
+                     PlannedSolver solver, const Cancellation& cancellation);
   void start_solve(const SolveOptions& options);
-  void replace_solver(std::unique_ptr<RadiositySolver> solver);
+  void replace_solver(PlannedSolver solver);
   void advance(const Goal& goal);
+  void advance_stage(const Goal& goal);
+  bool begin_next_stage();
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;
   void on_pass(const RadiositySolver& solver);
   void store_radiosity();
   void store_directions();
+  void store_errors();
   void post(std::function<void()> message);
   void post_state(RunState state);
   void post_snapshot();
@@ -131,6 +143,9 @@ class SolveRunner : public QObject {
   // Used by the worker's thread only.
   std::shared_ptr<const LoadedScene> loaded_;
   std::unique_ptr<RadiositySolver> solver_;
+  std::optional<AccuracyPlan> plan_;
+  double seconds_running_ = 0;     // of the solve, all stages
+  std::vector<ErrorBand> errors_;  // as in SolverSnapshot
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
   std::vector<int> kept_passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;

@@ -15,6 +15,42 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+std::vector<LogChart::Level> levels_of(const SolverSnapshot& snapshot) {
+  std::vector<LogChart::Level> levels;
+  if (snapshot.options.iterations == 0) {
+    levels.push_back(
+        {ConvergenceView::tr("tolerance %1").arg(number_text(snapshot.options.tolerance)),
+         theme::warm, snapshot.options.tolerance});
+  }
+  const double accuracy = snapshot.options.goal.accuracy;
+  if (accuracy > 0) {
+    levels.push_back({ConvergenceView::tr("accuracy %1 %").arg(number_text(100 * accuracy)),
+                      theme::ink, accuracy});
+  }
+  return levels;
+}
+
+/// The error of B after each iteration, by the spread of replicas, between its limits.
+void add_error_band(const SolverSnapshot& snapshot, std::vector<LogChart::Line>& lines) {
+  if (snapshot.errors.empty()) {
+    return;
+  }
+  const auto add = [&](const QString& name, double ErrorBand::*member, ChartDashes dashes) {
+    std::vector<double> values;
+    for (const ErrorBand& error : snapshot.errors) {
+      values.push_back(error.*member);
+    }
+    lines.push_back({name, theme::ink, std::move(values), false, dashes});
+  };
+  add(ConvergenceView::tr("error of B"), &ErrorBand::estimate, ChartDashes::solid);
+  add(ConvergenceView::tr("its limits"), &ErrorBand::limit, ChartDashes::fine_dots);
+  add({}, &ErrorBand::lowest, ChartDashes::fine_dots);
+}
+
+}  // namespace
+
 std::vector<double> predicted_changes(const SolverSnapshot& snapshot) {
   const SolveStatistics& s = snapshot.statistics;
   const double rate = s.predicted_contraction;
@@ -85,17 +121,14 @@ void ConvergenceView::show_snapshot(const SolverSnapshot& snapshot) {
       mean_errors.push_back(iteration.error.value_or(0));
     }
   }
-  std::vector<LogChart::Level> levels;
-  if (snapshot.options.iterations == 0) {
-    levels.push_back({tr("tolerance %1").arg(number_text(snapshot.options.tolerance)), theme::warm,
-                      snapshot.options.tolerance});
-  }
-  iteration_chart_->show_lines(
-      {{tr("change"), theme::accent, std::move(changes), true},
-       averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
-                : LogChart::Line{tr("eq. 25"), theme::good, predicted_changes(snapshot), false,
-                                 ChartDashes::dash_dot}},
-      std::move(levels), std::max(snapshot.options.iterations, 8));
+  std::vector<LogChart::Line> lines{
+      {tr("change"), theme::accent, std::move(changes), true},
+      averages ? LogChart::Line{tr("error of the mean"), theme::good, std::move(mean_errors)}
+               : LogChart::Line{tr("eq. 25"), theme::good, predicted_changes(snapshot), false,
+                                ChartDashes::dash_dot}};
+  add_error_band(snapshot, lines);
+  iteration_chart_->show_lines(std::move(lines), levels_of(snapshot),
+                               std::max(snapshot.options.iterations, 8));
 
   direction_chart_->set_title(
       tr("Within iteration %1").arg(count_text(snapshot.estimate_iteration + 1)));

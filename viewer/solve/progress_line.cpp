@@ -21,6 +21,23 @@ QString iterations_text(int count) {
                     : ProgressLine::tr("%1 iterations").arg(count_text(count));
 }
 
+QString percent(double share) { return ProgressLine::tr("%1 %").arg(number_text(100 * share)); }
+
+// Of a finished solve with a goal.
+QString accuracy_text(const AccuracyReport& report) {
+  const QString passes = count_text(report.passes_made);
+  if (report.goal.accuracy == 0) {
+    return ProgressLine::tr("Time is up: error at most %1, %2 passes")
+        .arg(percent(report.error), passes);
+  }
+  if (!report.reached) {
+    return ProgressLine::tr("Not reached: error at most %1 of %2 asked, %3 passes")
+        .arg(percent(report.error), percent(report.goal.accuracy), passes);
+  }
+  return ProgressLine::tr("Good enough: error at most %1 of %2 asked, %3 passes")
+      .arg(percent(report.error), percent(report.goal.accuracy), passes);
+}
+
 // A result file: its own name and that of its scene.
 QString name_of(const LoadedScene& loaded) {
   const auto short_name = [](const std::string& path) {
@@ -125,7 +142,9 @@ void ProgressLine::show_solve() {
                                .arg(count_text(progress.iteration + 1),
                                     count_text(progress.direction), count_text(progress.passes))
                          : tr("%1 done").arg(iterations_text(progress.iteration));
-  if (state_ == RunState::finished) {
+  if (state_ == RunState::finished && snapshot_->accuracy) {
+    phase_->setText(accuracy_text(*snapshot_->accuracy));
+  } else if (state_ == RunState::finished) {
     phase_->setText((snapshot_->statistics.converged ? tr("Converged after %1, %2 s")
                                                      : tr("Finished after %1, %2 s"))
                         .arg(iterations_text(progress.iteration),

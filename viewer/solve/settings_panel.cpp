@@ -89,8 +89,30 @@ void SettingsPanel::add_direction_rows(QFormLayout& form) {
       new QRegularExpressionValidator(QRegularExpression(QStringLiteral("[0-9]{1,20}")), seed_));
   seed_->setToolTip(tip("seed"));
   form.addRow(tr("Directions M"), directions_);
+  add_accuracy_row(form);
   form.addRow(tr("Sampling"), sampling_);
   form.addRow(tr("Seed"), seed_);
+}
+
+void SettingsPanel::add_accuracy_row(QFormLayout& form) {
+  accuracy_ = new QLineEdit;
+  accuracy_->setObjectName("accuracy");
+  auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);
+  percent->setLocale(QLocale::c());
+  accuracy_->setValidator(percent);
+  accuracy_->setPlaceholderText(tr("M decides"));
+  accuracy_->setMinimumWidth(60);
+  accuracy_->setToolTip(tip("accuracy"));
+  accuracy_of_ = new QComboBox;
+  accuracy_of_->setObjectName("accuracy_of");
+  // In the order of AccuracyOf.
+  accuracy_of_->addItems({tr("% RMS"), tr("% largest"), tr("% patch"), tr("% mean")});
+  accuracy_of_->setToolTip(tip("accuracy-of"));
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  row->addWidget(accuracy_, 1);
+  row->addWidget(accuracy_of_, 1);
+  form.addRow(tr("Accuracy"), row);
 }
 
 void SettingsPanel::add_engine_rows(QFormLayout& form) {
@@ -167,7 +189,8 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
 }
 
 void SettingsPanel::connect_solve_rows() {
-  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_}) {
+  for (QComboBox* box :
+       {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_, accuracy_of_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
@@ -181,7 +204,7 @@ void SettingsPanel::connect_solve_rows() {
   for (QSpinBox* box : {directions_, resolution_, replicas_, iterations_}) {
     connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &SettingsPanel::show_state);
   }
-  for (QLineEdit* line : {seed_, tolerance_}) {
+  for (QLineEdit* line : {seed_, tolerance_, accuracy_}) {
     connect(line, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
   }
 }
@@ -204,8 +227,19 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
 }
 
+AccuracyGoal SettingsPanel::goal() const {
+  AccuracyGoal goal = base_.goal;
+  goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
+  goal.of = static_cast<AccuracyOf>(accuracy_of_->currentIndex());
+  return goal;
+}
+
 SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
+  options.goal = goal();
+  if (options.goal.set() && !options.first_shot) {
+    options.first_shot = first_shot_where_it_pays;
+  }
   options.directions = directions_->value();
   bool number = false;
   if (const qulonglong seed = seed_->text().toULongLong(&number); number) {
@@ -219,7 +253,7 @@ SolveOptions SettingsPanel::solve_options() const {
       unless_default(static_cast<Sampling>(sampling_->currentIndex()), options.two_way);
   options.normalize = static_cast<Normalization>(normalize_->currentIndex());
   options.scheme = static_cast<Scheme>(scheme_->currentIndex());
-  options.replicas = replicas_->value();
+  options.replicas = options.goal.set() ? 1 : replicas_->value();
   options.iterations = stop_at_->currentIndex() == 1 ? iterations_->value() : 0;
   const double tolerance = QLocale::c().toDouble(tolerance_->text(), &number);
   if (number && tolerance > 0) {
@@ -236,6 +270,10 @@ SceneOptions SettingsPanel::scene_options() const {
 void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& scene) {
   base_ = solve;
   directions_->setValue(solve.directions);
+  accuracy_->setText(solve.goal.accuracy > 0 ? exact_text(100 * solve.goal.accuracy) : QString());
+  accuracy_of_->setItemText(static_cast<int>(AccuracyOf::patch),
+                            tr("% patch %1").arg(solve.goal.patch));
+  accuracy_of_->setCurrentIndex(static_cast<int>(solve.goal.of));
   seed_->setText(QString::number(solve.seed));
   choose_engine(*engine_, solve.engine);
   resolution_->setValue(solve.engine_options.resolution);
@@ -261,7 +299,14 @@ void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions&
 }
 
 bool SettingsPanel::differ_from_effect() const {
-  return !(solve_options() == solve_in_effect_) || !same(scene_options(), scene_in_effect_);
+  SolveOptions given = solve_options();
+  if (given.goal.set() && given.goal == solve_in_effect_.goal) {
+    // The goal has chosen these.
+    given.directions = solve_in_effect_.directions;
+    given.replicas = solve_in_effect_.replicas;
+    given.tolerance = solve_in_effect_.tolerance;
+  }
+  return !(given == solve_in_effect_) || !same(scene_options(), scene_in_effect_);
 }
 
 void SettingsPanel::set_restart_enabled(bool enabled) {
@@ -285,6 +330,12 @@ void SettingsPanel::show_state() {
   }
   seed_->setEnabled(is_seeded(static_cast<Sampling>(sampling_->currentIndex())));
   stop_value_->setCurrentIndex(stop_at_->currentIndex());
+  const bool chosen = goal().set();
+  for (QWidget* widget : {static_cast<QWidget*>(directions_), static_cast<QWidget*>(replicas_)}) {
+    widget->setEnabled(!chosen);
+  }
+  directions_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("directions"));
+  replicas_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("replicas"));
   const Engine engine = engine_of(*engine_);
   engine_->setToolTip(engine_sentence(engine));
   show_row(resolution_, takes_resolution(engine));

@@ -39,6 +39,8 @@ class SettingsPanel : public QWidget {
 
  private:
   void add_direction_rows(QFormLayout& form);
+  void add_accuracy_row(QFormLayout& form);
+  AccuracyGoal goal() const;
   void add_engine_rows(QFormLayout& form);
   void add_estimator_rows(QFormLayout& form);
   void add_stop_row(QFormLayout& form);
@@ -53,6 +55,8 @@ class SettingsPanel : public QWidget {
   bool enabled_ = false;
   QFormLayout* form_;
   QSpinBox* directions_;
+  QLineEdit* accuracy_;  ///< percent; empty: none
+  QComboBox* accuracy_of_;
   QComboBox* sampling_;
   QLineEdit* seed_;
   QComboBox* engine_;

@@ -35,8 +35,9 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
                     tr("Factor by which the newest iteration reduced the change of B, and its\n"
                        "bound by eq. 22 with eq. 21"));
   error_ = grid->add_row(tr("Error of B"), {},
-                         tr("RMS over patches, from the spread of the replicas; set their number\n"
-                            "in Solve settings"));
+                         tr("RMS over patches, from the spread of the replicas, and what it does\n"
+                            "not exceed in 95 % of all runs; set an accuracy or the number of\n"
+                            "replicas in Solve settings"));
   bound_ =
       grid->add_row(tr("Directions for 1 %:\nguaranteed"), {},
                     tr("M by the paper's bounds, in a nearly homogeneous environment (eq. 37)\n"
@@ -70,7 +71,9 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
                     : s.escaped < rounding ? tr("0: closed scene")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
   error_->setText(snapshot.error.replicas > 0
-                      ? tr("%1 %").arg(number_text(100 * snapshot.error.rms))
+                      ? tr("%1 %, at most %2 %")
+                            .arg(number_text(100 * snapshot.error.rms),
+                                 number_text(100 * snapshot.error.rms_limit))
                       : tr("no replicas"));
   show_directions_needed(snapshot);
   energy_->setText(any_iteration ? number_text(s.energy_defect) : none);

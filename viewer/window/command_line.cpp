@@ -20,7 +20,8 @@ constexpr int screenshot_directions = 128;
 
 // As the command line keeps them, before names become enumerators.
 struct Names {
-  std::string sampling, engine, normalize, scheme, first_shot = "none", burn_in = "auto";
+  std::string sampling, engine, normalize, scheme, first_shot, burn_in = "auto";
+  std::string accuracy, accuracy_of = "rms";
   bool one_way = false, two_way = false;
 };
 
@@ -36,10 +37,27 @@ std::string described(const char* setting, const std::vector<std::string>& choic
   return with_choices(choices, description_of(setting));
 }
 
+/// @param chosen options that an accuracy or a time limit chooses
+void add_goal_options(CLI::App& app, AccuracyGoal& goal, Names& names,
+                      const std::vector<CLI::Option*>& chosen) {
+  auto* accuracy =
+      app.add_option("--accuracy", names.accuracy, description_of("accuracy"))->type_name("P%|X");
+  auto* seconds = app.add_option("--seconds", goal.seconds, description_of("seconds"))
+                      ->check(CLI::PositiveNumber);
+  for (CLI::Option* option : chosen) {
+    accuracy->excludes(option);
+    seconds->excludes(option);
+  }
+  app.add_option("--accuracy-of", names.accuracy_of,
+                 described("accuracy-of", {"rms", "max", "patch:I", "mean"}))
+      ->capture_default_str();
+}
+
 void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   SolveOptions& solve = line.solve_options;
-  app.add_option("-m,--directions", solve.directions, description_of("directions"))
-      ->capture_default_str();
+  auto* directions =
+      app.add_option("-m,--directions", solve.directions, description_of("directions"))
+          ->capture_default_str();
   app.add_option("--sampling", names.sampling, described("sampling", sampling_names()))
       ->default_str(name_of(default_sampling(true)));
   app.add_option("--seed", solve.seed, description_of("seed"))->capture_default_str();
@@ -57,11 +75,13 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
       ->capture_default_str();
   app.add_option("--first-shot", names.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
-      ->capture_default_str();
+      ->default_str("none");
   app.add_option("--burn-in", names.burn_in, description_of("burn-in"))
       ->check(CLI::IsMember({"auto"}) | CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  app.add_option("--replicas", solve.replicas, description_of("replicas"))->capture_default_str();
+  auto* replicas = app.add_option("--replicas", solve.replicas, description_of("replicas"))
+                       ->capture_default_str();
+  add_goal_options(app, solve.goal, names, {directions, replicas});
   auto* iterations = app.add_option("--iterations", solve.iterations, description_of("iterations"))
                          ->check(CLI::PositiveNumber);
   app.add_option("--tolerance", solve.tolerance, description_of("tolerance"))
@@ -134,7 +154,17 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   }
   solve.normalize = normalization_from_name(names.normalize);
   solve.scheme = scheme_from_name(names.scheme);
-  solve.first_shot = first_shot_from_name(names.first_shot);
+  if (!names.accuracy.empty()) {
+    solve.goal.accuracy = accuracy_from_text(names.accuracy);
+  }
+  const AccuracyGoal of = accuracy_of_from_name(names.accuracy_of);
+  solve.goal.of = of.of;
+  solve.goal.patch = of.patch;
+  if (!names.first_shot.empty()) {
+    solve.first_shot = first_shot_from_name(names.first_shot);
+  } else if (solve.goal.set()) {
+    solve.first_shot = first_shot_where_it_pays;
+  }
   if (names.burn_in != "auto") {
     solve.burn_in = std::stoi(names.burn_in);
   }

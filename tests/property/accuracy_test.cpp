@@ -1,0 +1,248 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Solves to an accuracy: the goal is reached, the reported limits contain the true error about as
+// often as stated, also when the solve stops by them, and little is wasted.
+#include "transillum/accuracy_plan.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/imperfect_scenes.h"
+#include "support/scenes.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+#include "transillum/study.h"
+
+namespace transillum {
+namespace {
+
+using ScenePtr = std::shared_ptr<const Scene>;
+
+ScenePtr box_in_a_room() {
+  testing::Sketch sketch("box in a room");
+  const int walls = sketch.material(0.6, 0), light = sketch.material(0, 10);
+  sketch.box({0, 0, 0}, {4, 4, 3}, true, walls);
+  sketch.box({1, 1, 0}, {2, 2.5, 1.2}, false, walls);
+  sketch.face({{1, 1, 2.9}, {1, 3, 2.9}, {3, 3, 2.9}, {3, 1, 2.9}}, light);
+  return sketch.scene({.max_patch_area = 0.5});
+}
+
+/// Shares of runs and of values.
+struct Coverage {
+  double limit = 0;      ///< runs whose RMS error is at most its limit
+  double intervals = 0;  ///< values of B in their 95 % interval
+  double above = 0;      ///< runs whose RMS error is above the goal
+  double passes = 0;     ///< mean over runs
+};
+
+/// Compares runs with a reference.
+class CoverageCount {
+ public:
+  CoverageCount(ScenePtr scene, const SolveOptions& options, int reference_passes)
+      : scene_(std::move(scene)),
+        tree_(std::make_shared<const BspTree>(*scene_)),
+        options_(options) {
+    SolveOptions reference = reference_options(reference_passes);
+    reference.first_shot = options.first_shot;
+    RadiositySolver solver(scene_, reference, tree_);
+    solver.advance(RadiositySolver::Until::finished);
+    shot_ = solver.direct_light();
+    truth_ = solver.radiosity();
+  }
+
+  /// @param runs with different rotations; with a goal, else with the options' directions.
+  Coverage of(int runs, const AccuracyGoal& goal) {
+    Coverage coverage;
+    for (int run = 0; run < runs; ++run) {
+      SolveOptions options = options_;
+      options.goal = goal;
+      options.seed = 1000 * static_cast<std::uint64_t>(run + 1);
+      const Solution solution =
+          goal.set() ? solve_to_accuracy(scene_, options, tree_, shot_) : solved(options);
+      const double error = radiosity_error(solution.radiosity, truth_).rms;
+      coverage.limit += (error <= solution.error.rms_limit) / double(runs);
+      coverage.above += (goal.set() && error > goal.accuracy) / double(runs);
+      coverage.intervals += share_within(solution) / runs;
+      coverage.passes +=
+          double(goal.set() ? solution.accuracy->passes_made : options.directions) / runs;
+    }
+    return coverage;
+  }
+
+ private:
+  Solution solved(const SolveOptions& options) {
+    RadiositySolver solver(scene_, options, tree_, {}, shot_);
+    solver.advance(RadiositySolver::Until::finished);
+    return solver.solution();
+  }
+
+  /// Sources, whose B is E, have no error and do not count.
+  double share_within(const Solution& solution) const {
+    double within = 0, all = 0;
+    const auto count = [&](double value, double truth, double standard_error) {
+      if (standard_error > 1e-12 * std::abs(truth)) {
+        all += 1;
+        within += std::abs(value - truth) <= solution.error.quantile * standard_error;
+      }
+    };
+    for (std::size_t i = 0; i < truth_.size(); ++i) {
+      const Rgb &b = solution.radiosity[i], &t = truth_[i], &e = solution.error.standard_error[i];
+      count(b.r, t.r, e.r);
+      count(b.g, t.g, e.g);
+      count(b.b, t.b, e.b);
+    }
+    return within / all;
+  }
+
+  ScenePtr scene_;
+  std::shared_ptr<const BspTree> tree_;
+  SolveOptions options_;
+  std::shared_ptr<const DirectLight> shot_;
+  std::vector<Rgb> truth_;
+};
+
+TEST(Accuracy, IsReachedAndReported) {
+  const ScenePtr scene = box_in_a_room();
+  SolveOptions options;
+  options.goal.accuracy = 0.01;
+  const Solution solution = solve(scene, options);
+  ASSERT_TRUE(solution.accuracy);
+  const AccuracyReport& report = *solution.accuracy;
+  EXPECT_TRUE(solution.complete);
+  EXPECT_TRUE(report.reached);
+  EXPECT_LE(report.error, 0.01);
+  EXPECT_EQ(report.error, solution.error.rms_limit);
+  EXPECT_EQ(report.error, report.stages.back().error);
+  EXPECT_EQ(solution.statistics.passes, report.stages.back().directions);
+  EXPECT_GE(report.passes_made, report.stages.back().directions);
+  const auto reference = solve(scene, reference_options(8192));
+  EXPECT_LE(radiosity_error(solution.radiosity, reference.radiosity).rms, 0.01);
+}
+
+/// The last stage is what `directions` and `replicas` give, if no replica was added.
+TEST(Accuracy, ResultIsThatOfTheLastStageAlone) {
+  const ScenePtr scene = box_in_a_room();
+  SolveOptions options;
+  options.goal.accuracy = 0.02;
+  const Solution solution = solve(scene, options);
+  SolveOptions alone;
+  alone.directions = solution.accuracy->stages.back().directions;
+  alone.replicas = solution.accuracy->stages.back().replicas;
+  alone.tolerance = 1e-10;
+  const Solution direct = solve(scene, alone);
+  EXPECT_LT(radiosity_error(solution.radiosity, direct.radiosity).max, 1e-5);
+}
+
+TEST(Accuracy, OfThreadsDependsNothing) {
+  SolveOptions options;
+  options.goal.accuracy = 0.02;
+  options.first_shot = first_shot_where_it_pays;
+  options.threads = 1;
+  const Solution one = solve(box_in_a_room(), options);
+  options.threads = 3;
+  const Solution three = solve(box_in_a_room(), options);
+  EXPECT_EQ(one.radiosity, three.radiosity);
+  EXPECT_EQ(one.accuracy->passes_made, three.accuracy->passes_made);
+}
+
+TEST(Accuracy, OfOtherErrors) {
+  const ScenePtr scene = box_in_a_room();
+  for (const char* name : {"max", "patch:3", "mean"}) {
+    SolveOptions options;
+    options.goal = accuracy_of_from_name(name);
+    options.goal.accuracy = 0.01;
+    const Solution solution = solve(scene, options);
+    EXPECT_TRUE(solution.accuracy->reached) << name;
+    EXPECT_LE(error_for(options.goal, *scene, solution.radiosity, solution.error), 0.01) << name;
+  }
+  SolveOptions options;
+  options.goal = accuracy_of_from_name("patch:100000");
+  options.goal.accuracy = 0.01;
+  EXPECT_THROW(solve(scene, options), InputError);
+}
+
+/// A time limit ends a solve that could go on; what the goal asks for ends it before.
+TEST(Accuracy, EndsWithTheTime) {
+  SolveOptions options;
+  options.goal.seconds = 0.5;
+  const Solution solution = solve(box_in_a_room(), options);
+  EXPECT_TRUE(solution.complete);
+  EXPECT_FALSE(solution.accuracy->reached);
+  EXPECT_GE(solution.accuracy->stages.size(), 1U);
+  EXPECT_TRUE(std::isfinite(solution.accuracy->error));
+}
+
+TEST(Accuracy, IsRefusedWhereReplicasDoNotShowTheError) {
+  SolveOptions options;
+  options.goal.accuracy = 0.01;
+  for (const auto& set :
+       {+[](SolveOptions& o) { o.engine = Engine::zbuffer; },
+        +[](SolveOptions& o) { o.scheme = Scheme::semi_iterative; },
+        +[](SolveOptions& o) { o.iterations = 3; }, +[](SolveOptions& o) { o.goal.accuracy = 1; },
+        +[](SolveOptions& o) { o.goal.seconds = -1; }}) {
+    SolveOptions bad = options;
+    set(bad);
+    EXPECT_THROW(bad.validate(), InputError);
+  }
+}
+
+/// One replica more is the run that had it from the start, up to the order of the sums.
+TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
+  const ScenePtr scene = box_in_a_room();
+  for (const Scheme scheme : {Scheme::fixed, Scheme::conjugate_gradients}) {
+    SolveOptions options{.directions = 64, .scheme = scheme, .replicas = 4, .tolerance = 1e-12};
+    RadiositySolver solver(scene, options);
+    EXPECT_THROW(solver.add_replica(), std::logic_error);
+    solver.advance(RadiositySolver::Until::finished);
+    solver.add_replica();
+    EXPECT_EQ(solver.options().directions, 80);
+    EXPECT_FALSE(solver.advance(RadiositySolver::Until::finished));
+    EXPECT_EQ(solver.statistics().passes_made, 80);
+    options.directions = 80;
+    options.replicas = 5;
+    const Solution whole = solve(scene, options);
+    EXPECT_LT(radiosity_error(solver.radiosity(), whole.radiosity).max, 1e-10);
+    EXPECT_NEAR(solver.error_estimate().rms / whole.error.rms, 1, 1e-6);
+  }
+}
+
+/// A lamp of 4 cm in a room of 10 m: 64 directions meet it from hardly any patch.
+TEST(Accuracy, IsNotTrustedWhereSourcesAreHardlyMet) {
+  testing::Sketch sketch("small lamp");
+  const int walls = sketch.material(0.5, 0), lamp = sketch.material(0, 1e4);
+  sketch.box({0, 0, 0}, {10, 10, 10}, true, walls);
+  sketch.box({5, 5, 5}, {5.04, 5.04, 5.04}, false, lamp);
+  const ScenePtr scene = sketch.scene({.max_patch_area = 1});
+  SolveOptions options{.directions = 64, .replicas = 4};
+  const Solution few = solve(scene, options);
+  EXPECT_LT(few.statistics.light_directions / 4, least_light_directions);
+  // Shot first, it is no longer a matter of directions.
+  options.first_shot = first_shot_where_it_pays;
+  const Solution shot = solve(scene, options);
+  EXPECT_EQ(shot.statistics.shot_sources, 6);
+  EXPECT_EQ(shot.statistics.light_directions, 0);
+}
+
+/// It pays for a ceiling lamp, and not where all walls emit.
+TEST(Accuracy, FirstShotIsTakenWhereItPays) {
+  const Scene box(describe_scene("cornell-box"), {.max_patch_area = 0.01});
+  EXPECT_EQ(first_shot_sources(box, first_shot_where_it_pays, 128), find_small_sources(box, 0));
+  EXPECT_TRUE(find_small_sources(box).empty());
+  const Scene furnace(describe_scene("furnace"), {});
+  EXPECT_TRUE(first_shot_sources(furnace, first_shot_where_it_pays, 128).empty());
+}
+
+TEST(Accuracy, LimitsHoldAsOftenAsStated) {
+  CoverageCount count(box_in_a_room(), {.directions = 96, .replicas = 4}, 8192);
+  const Coverage fixed = count.of(40, {});
+  EXPECT_GE(fixed.limit, 0.9);
+  EXPECT_GE(fixed.intervals, 0.9);
+  EXPECT_LE(fixed.intervals, 0.98);
+}
+
+}  // namespace
+}  // namespace transillum
