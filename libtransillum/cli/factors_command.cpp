@@ -15,6 +15,7 @@
 #include "standard_output.h"
 #include "transillum/files.h"
 #include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
 
 namespace transillum::cli {
 namespace {
@@ -54,6 +55,27 @@ FormFactors draw_hemicubes(const FactorsCall& call, const Scene& scene,
                                [&](double share) { display.show("drawing hemicubes", share); });
 }
 
+PairOptions pair_options(const FactorsCall& call) {
+  PairOptions options;
+  if (call.passes.engine_options.points > 0) {
+    options.points = call.passes.engine_options.points;
+  }
+  options.memory = call.passes.memory;
+  options.threads = call.passes.threads;
+  return options;
+}
+
+FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
+                          const Cancellation& cancellation, ProgressDisplay& display) {
+  display.begin("computing pairs");
+  return pair_form_factors(scene, pair_options(call), cancellation,
+                           [&](double share) {
+                             const double patches = scene.patch_count();
+                             display.show_rate("computing pairs", share,
+                                               patches * (patches - 1) / 2, "pairs");
+                           });
+}
+
 SolveOptions pass_options(const FactorsCall& call) {
   SolveOptions options = call.passes;
   options.directions = call.sequence.directions;
@@ -82,6 +104,8 @@ FormFactors compute_form_factors(const FactorsCall& call, const std::shared_ptr<
       return gather_by_rays(call, *scene, cancellation, display);
     case Engine::hemicube:
       return draw_hemicubes(call, *scene, cancellation, display);
+    case Engine::pairs:
+      return compute_pairs(call, *scene, cancellation, display);
     default:
       return sum_passes(call, scene, cancellation, display);
   }
@@ -133,9 +157,13 @@ Run add_factors_command(CLI::App& program) {
   add_parsed_option(
       command, "--engine", "NAME",
       fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
-                  "directions; hemicube: a hemicube on every patch instead of directions",
+                  "directions; hemicube: a hemicube on every patch; pairs: pair by pair",
                   fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
       [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
+  add_parsed_option(command, "--points", "P", help_of("points", EngineOptions::default_points),
+                    [call](const std::string& text) {
+                      call->passes.engine_options.points = parse_points("--points", text);
+                    });
   add_parsed_option(
       command, "--rays", "N",
       fmt::format("engine rays: rays per patch (default {})", call->rays.rays_per_patch),

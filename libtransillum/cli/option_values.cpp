@@ -193,6 +193,10 @@ int parse_resolution(const std::string& option, const std::string& text) {
   return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_resolution));
 }
 
+int parse_points(const std::string& option, const std::string& text) {
+  return static_cast<int>(parse_whole_number(option, text, 1, EngineOptions::largest_points));
+}
+
 void add_engine_details(CLI::App& command, EngineOptions& options) {
   add_parsed_option(command, "--lines", "L", help_of("lines", options.lines_per_patch),
                     [&options](const std::string& text) {
@@ -207,6 +211,11 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
       [&options](const std::string& text) {
         options.resolution = parse_resolution("--resolution", text);
       });
+  add_parsed_option(command, "--points", "P",
+                    help_of("points", EngineOptions::default_points),
+                    [&options](const std::string& text) {
+                      options.points = parse_points("--points", text);
+                    });
   add_order_option(command, options);
   command.add_flag_callback(
       "--random-lines", [&options] { options.gridded = false; }, description_of("random-lines"));

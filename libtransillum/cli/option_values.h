@@ -30,6 +30,8 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text);
 double parse_number(const std::string& option, const std::string& text);
 /// EngineOptions::resolution
 int parse_resolution(const std::string& option, const std::string& text);
+/// EngineOptions::points
+int parse_points(const std::string& option, const std::string& text);
 /// A number of threads
 int parse_thread_count(const std::string& option, const std::string& text);
 /// A size in bytes: a number, optionally followed by K, M, G or T (powers of 1024).
@@ -63,7 +65,7 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
 
 /// --direction, required; normalized to a unit vector
 void add_direction_option(CLI::App& command, Vec3& direction);
-/// --engine, --lines, --resolution, --order and --random-lines
+/// --engine, --lines, --resolution, --points, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// The same without --engine.
 void add_engine_details(CLI::App& command, EngineOptions& options);

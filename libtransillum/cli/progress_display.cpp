@@ -98,7 +98,21 @@ void ProgressDisplay::expect_passes(const std::string& label, int passes) {
   repeat({fmt::format("{}pass 0/{}", label, passes), 0, {}});
 }
 
-void ProgressDisplay::begin(const std::string& what) { repeat({what, -1, {}}); }
+void ProgressDisplay::begin(const std::string& what) {
+  begun_ = Clock::now();
+  repeat({what, -1, {}});
+}
+
+void ProgressDisplay::show_rate(const std::string& what, double share, double total,
+                                const char* units) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  if (!(share > 0 && seconds > 0)) {
+    return;
+  }
+  show(what, share,
+       fmt::format("{:.0f} {}/s, {} left", share * total / seconds, units,
+                   time_text(seconds * (1 - share) / share)));
+}
 
 void ProgressDisplay::repeat(const Line& line) {
   if (quiet_) {

@@ -36,6 +36,9 @@ class ProgressDisplay {
   void expect_passes(const std::string& label, int passes);
   /// A task begins whose share is unknown and which may take long: its name is repeated.
   void begin(const std::string& what);
+  /// Shows the finished share of the task begun, with rate and time left.
+  /// @param total number of `units` in the task
+  void show_rate(const std::string& what, double share, double total, const char* units);
   /// Clears the line, before other text is printed.
   void clear();
 
@@ -60,6 +63,7 @@ class ProgressDisplay {
   Clock::time_point last_;
   Line repeated_;            ///< empty while neither passes nor a task begun are under way
   Clock::time_point since_;  ///< when repeated_ was set
+  Clock::time_point begun_;  ///< when the last task began
   std::condition_variable_any stopping_;
   std::jthread repeater_;
 };

@@ -21,7 +21,7 @@
 #include "transillum/accuracy_plan.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
-#include "transillum/hemicube.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/study.h"
 
 namespace transillum::cli {
@@ -155,20 +155,26 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
   return solution;
 }
 
-Solution solve_with_hemicubes(const std::shared_ptr<const Scene>& scene,
-                              const SolveOptions& options, const Cancellation& cancellation,
-                              ProgressDisplay& display) {
-  double drawn = 0;
+Solution solve_without_directions(const std::shared_ptr<const Scene>& scene,
+                                  const SolveOptions& options, const Cancellation& cancellation,
+                                  ProgressDisplay& display) {
+  const bool hemicubes = options.engine == Engine::hemicube;
+  const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
+  const double patches = scene->patch_count();
+  double done = 0;
+  display.begin(task);
   try {
-    return solve_by_hemicubes(scene, options, cancellation, [&](double share) {
-      drawn = share;
-      display.show("drawing hemicubes", share);
+    return solve_by_form_factors(scene, options, cancellation, [&](double share) {
+      done = share;
+      display.show_rate(task, share, hemicubes ? patches : patches * (patches - 1) / 2,
+                        hemicubes ? "hemicubes" : "pairs");
     });
   } catch (const Canceled&) {
     // Without all rows of F there is no useful estimate of B.
-    throw NothingToSave(fmt::format(
-        "{:.0f} % of the hemicubes were drawn, but B requires all of them: nothing is saved",
-        std::floor(100 * drawn)));
+    throw NothingToSave(
+        fmt::format("{:.0f} % of the {}, but B requires all of them: nothing is saved",
+                    std::floor(100 * done),
+                    hemicubes ? "hemicubes were drawn" : "pairs were computed"));
   }
 }
 
@@ -205,7 +211,7 @@ int run(const SolveCall& call) {
   const double seconds_load = seconds_since(start);
 
   const auto solve_scene =
-      takes_directions(options.engine) ? solve_by_passes : solve_with_hemicubes;
+      takes_directions(options.engine) ? solve_by_passes : solve_without_directions;
   Solution solution = solve_scene(scene, options, cancellation, display);
   display.clear();
   solution.statistics.seconds_load = seconds_load;

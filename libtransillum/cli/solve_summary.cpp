@@ -69,6 +69,10 @@ std::string passes_text(const SolveStatistics& s) {
     return report_row("hemicubes", fmt::format("{} of {} pixels each, {} threads", s.hemicubes,
                                                s.directions, s.threads));
   }
+  if (s.pairs > 0) {
+    return report_row("pairs", fmt::format("{}, by {} points where something is between, {} threads",
+                                           s.pairs, s.directions, s.threads));
+  }
   return report_row("passes", fmt::format("{} per iteration, {} directions, {} threads", s.passes,
                                           s.directions, s.threads));
 }
@@ -105,7 +109,10 @@ std::string solve_summary(const Solution& solution) {
   std::string text = report_row("scene", solution.scene->name());
   text += report_row("patches", fmt::format("{}, {} fragments", s.patches, s.fragments));
   text += passes_text(s);
-  if (s.passes_made > 0) {
+  if (s.pairs > 0) {
+    text += report_row("time per pair", fmt::format("{:.3g} us", 1e6 * s.seconds_transfers /
+                                                                     static_cast<double>(s.pairs)));
+  } else if (s.passes_made > 0) {
     text += report_row(s.hemicubes > 0 ? "time per hemicube" : "time per pass",
                        fmt::format("{:.3g} ms, {} in total",
                                    1000 * s.seconds_transfers / static_cast<double>(s.passes_made),

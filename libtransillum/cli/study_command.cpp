@@ -26,7 +26,7 @@ namespace {
 
 struct StudiedEngine {
   Engine engine;
-  int resolution;  ///< 0: that of --resolution
+  int resolution;  ///< 0: that of --resolution; of engine pairs, points, 0: those of --points
 
   friend bool operator==(const StudiedEngine&, const StudiedEngine&) = default;
 };
@@ -62,7 +62,13 @@ struct StudyCall {
 /// All combinations of the options, valid or not.
 std::vector<StudySeries> all_combinations(const StudyCall& call) {
   std::vector<StudySeries> all;
-  const int resolution = call.study.solve.engine_options.resolution;
+  const EngineOptions& common = call.study.solve.engine_options;
+  const auto resolution_of = [&common](const StudiedEngine& studied) {
+    if (studied.resolution > 0) {
+      return studied.resolution;
+    }
+    return studied.engine == Engine::pairs ? common.points : common.resolution;
+  };
   for (const Sampling sampling : call.samplings()) {
     for (const bool two_way : {false, true}) {
       if (!call.uses(two_way)) {
@@ -73,7 +79,7 @@ std::vector<StudySeries> all_combinations(const StudyCall& call) {
           for (const std::optional<double>& first_shot : call.first_shots) {
             for (const StudiedEngine& studied : call.engines) {
               all.push_back({sampling, two_way, normalize, scheme, first_shot, studied.engine,
-                             studied.resolution > 0 ? studied.resolution : resolution});
+                             resolution_of(studied)});
             }
           }
         }
@@ -130,7 +136,7 @@ void check_options(const StudyCall& call, const StudyOptions& options) {
     return takes_directions(solve.engine);
   });
   refuse_unused(command, solves, by_passes && options.rotations > 1 ? "seed" : "");
-  refuse_unless(by_passes, command, "--rotations", "not used with engine hemicube");
+  refuse_unless(by_passes, command, "--rotations", "not used with engine hemicube or pairs");
   refuse_unless(!call.plots.empty(), command, "--against", "used only with --plot");
 }
 
@@ -282,12 +288,13 @@ std::vector<int> parse_directions(const std::string& text) {
   return powers;
 }
 
-/// `fast`, or `zbuffer:256`.
+/// `fast`, `zbuffer:256` or `pairs:16`.
 StudiedEngine parse_engine(const std::string& text) {
   const std::size_t colon = text.find(':');
   StudiedEngine engine{engine_from_name(text.substr(0, colon)), 0};
   if (colon != std::string::npos) {
-    engine.resolution = parse_resolution("--engines", text.substr(colon + 1));
+    const auto parse = engine.engine == Engine::pairs ? parse_points : parse_resolution;
+    engine.resolution = parse("--engines", text.substr(colon + 1));
   }
   return engine;
 }
@@ -335,7 +342,8 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       fmt::format("random seed of samplings and rotations (default {})", call.study.solve.seed),
       [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
   add_list_option(command, "--engines,--engine", "NAME[:R],...",
-                  fmt::format("{}; R: its resolution, instead of --resolution (default {})",
+                  fmt::format("{}; R: its resolution (of pairs: its points), instead of --resolution and --points "
+                              "(default {})",
                               fmt::join(engine_names(), " | "), name_of(Engine::fast)),
                   call.engines,
                   [](const std::string& text) { return std::vector{parse_engine(text)}; });
@@ -400,8 +408,8 @@ Run add_study_command(CLI::App& program) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_parsed_option(
       command, "--against", "AXIS",
-      fmt::format("{}: horizontal axis of the plots (default passes); hemicubes appear in plots "
-                  "over seconds only",
+      fmt::format("{}: horizontal axis of the plots (default passes); hemicubes and pairs "
+                  "appear in plots over seconds only",
                   fmt::join(study_axis_names(), " | ")),
       [call](const std::string& text) { call->against = study_axis_from_name(text); });
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");

@@ -31,16 +31,19 @@ std::string cost_text(const std::optional<StudyCost>& cost) {
                      time_text(cost->seconds));
 }
 
-/// The row of a hemicube series: one solve, without passes.
-std::string hemicubes_text(const std::string& name, std::size_t width,
-                           const std::vector<StudyPoint>& points, ErrorMeasure error) {
+/// The row of a series without passes: one solve.
+std::string single_solve_text(const std::string& name, Engine engine, std::size_t width,
+                              const std::vector<StudyPoint>& points, ErrorMeasure error) {
   if (points.empty()) {
     return {};
   }
   const StudyPoint& point = points.front();
-  return fmt::format("{:<{}}  {} % by {} hemicubes of {} pixels, {}\n", name, width,
-                     percent_text(point.error(error)), point.passes, point.directions,
-                     time_text(point.seconds));
+  const std::string means =
+      engine == Engine::hemicube
+          ? fmt::format("{} hemicubes of {} pixels", point.passes, point.directions)
+          : fmt::format("the pairs of {} patches, {} points", point.passes, point.directions);
+  return fmt::format("{:<{}}  {} % by {}, {}\n", name, width, percent_text(point.error(error)),
+                     means, time_text(point.seconds));
 }
 
 /// M and bound of every number of passes studied.
@@ -109,7 +112,7 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
     const auto points = points_of(study, series);
     text += takes_directions(options.series[series].engine)
                 ? fmt::format("{:<{}}", names[series], width) + series_text(points, bounds, error)
-                : hemicubes_text(names[series], width, points, error);
+                : single_solve_text(names[series], options.series[series].engine, width, points, error);
   }
 
   text += fmt::format("{:<{}}", bound_name, width);

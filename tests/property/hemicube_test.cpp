@@ -12,6 +12,7 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/exact_form_factors.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/hemicube_image.h"
 #include "visibility/pixels/hemicube.h"
 
@@ -271,8 +272,9 @@ TEST(HemicubeSolve, ApproachesTheExactEngineAsPatchesShrink) {
     const auto scene = load_scene("cornell-box", {.max_patch_area = patch_area});
     SolveOptions options{.directions = 256};
     const Solution exact = solve(scene, options);
+    options.engine = Engine::hemicube;
     options.engine_options.resolution = 64;
-    const Solution hemicubes = solve_by_hemicubes(scene, options);
+    const Solution hemicubes = solve_by_form_factors(scene, options);
     EXPECT_TRUE(hemicubes.complete && hemicubes.statistics.converged);
     EXPECT_LT(hemicubes.statistics.escaped, 1e-9);
     EXPECT_LT(hemicubes.statistics.energy_defect, patch_area > 0 ? 0.05 : 0.5);
@@ -286,18 +288,18 @@ TEST(HemicubeSolve, ApproachesTheExactEngineAsPatchesShrink) {
 
 TEST(HemicubeSolve, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto scene = load_scene("rooms");
-  SolveOptions options{.threads = 1};
-  const Solution one = solve_by_hemicubes(scene, options);
+  SolveOptions options{.engine = Engine::hemicube, .threads = 1};
+  const Solution one = solve_by_form_factors(scene, options);
   options.threads = 3;
-  EXPECT_TRUE(solve_by_hemicubes(scene, options).radiosity == one.radiosity);
+  EXPECT_TRUE(solve_by_form_factors(scene, options).radiosity == one.radiosity);
 }
 
 TEST(HemicubeSolve, RefusesUnsupportedOptions) {
   const auto scene = load_scene("furnace");
   const auto solve_with = [&](auto change) {
-    SolveOptions options;
+    SolveOptions options{.engine = Engine::hemicube};
     change(options);
-    return solve_by_hemicubes(scene, options);
+    return solve_by_form_factors(scene, options);
   };
   EXPECT_THROW(solve_with([](auto& o) { o.replicas = 4; }), InputError);
   EXPECT_THROW(solve_with([](auto& o) { o.engine_options.resolution = 63; }), InputError);
@@ -305,7 +307,7 @@ TEST(HemicubeSolve, RefusesUnsupportedOptions) {
   EXPECT_THROW(solve_with([](auto& o) { o.memory = 100; }), std::runtime_error);
   Cancellation cancellation;
   cancellation.cancel();
-  EXPECT_THROW(solve_by_hemicubes(scene, {}, cancellation), Canceled);
+  EXPECT_THROW(solve_by_form_factors(scene, {.engine = Engine::hemicube}, cancellation), Canceled);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "base/power_of_two.h"
 #include "support/scenes.h"
-#include "transillum/hemicube.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
 #include "transillum/study.h"
 
@@ -47,8 +47,8 @@ std::vector<Rgb> over(double power, std::vector<Rgb> values) {
 }
 
 Solution solved(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) {
-  return options.engine == Engine::hemicube ? solve_by_hemicubes(scene, options)
-                                            : solve(scene, options);
+  return takes_directions(options.engine) ? solve(scene, options)
+                                          : solve_by_form_factors(scene, options);
 }
 
 void expect_same(const Solution& solution, const Solution& expected, double power) {

@@ -10,7 +10,7 @@
 #include "scene_test_support.h"
 #include "support/scenes.h"
 #include "transillum/at.h"
-#include "transillum/hemicube.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -329,7 +329,7 @@ TEST(TwoSidedFaces, OfASealedRoomLetNothingEscape) {
     const auto scene = load_scene(spec, {.two_sided = true});
     const Solution solution =
         passes ? solve(scene, {.directions = 16, .iterations = 2})
-               : solve_by_hemicubes(scene, {.engine = Engine::hemicube, .iterations = 2});
+               : solve_by_form_factors(scene, {.engine = Engine::hemicube, .iterations = 2});
     return solution.statistics.escaped;
   };
   for (const bool passes : {true, false}) {

@@ -58,8 +58,9 @@ QString direction_text(const EngineComparison& c) {
 
 QString row_text(const EngineComparison& c, std::size_t directions) {
   QString text = CompareView::tr(
-                     "A hemicube has no direction, so one patch is compared: “%4” assigns %3 of "
-                     "what patch %1 sees by “%2” to other patches (all %5 directions of the run).")
+                     "Form factors have no direction, so one patch is compared: “%4” assigns %3 "
+                     "of what patch %1 sees by “%2” to other patches (all %5 directions of the "
+                     "run).")
                      .arg(c.eye)
                      .arg(engine_label(c.first.engine), percent_text(c.transfers.misplaced),
                           engine_label(c.other.engine))
@@ -114,7 +115,7 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   });
   connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
   connect(&selection_, &Selection::changed, this, [this] {
-    if (first_.is_hemicube() || other_.is_hemicube()) {
+    if (!first_.has_directions() || !other_.has_directions()) {
       request_timer_->start();
     }
   });
@@ -192,6 +193,8 @@ void CompareView::link(const std::vector<MapCanvas*>& maps) {
 }
 
 bool CompareView::Choice::is_hemicube() const { return engine_of(*engine) == Engine::hemicube; }
+
+bool CompareView::Choice::has_directions() const { return takes_directions(engine_of(*engine)); }
 
 bool CompareView::Choice::up_to_date() const {
   return is_hemicube() ? hemicube->up_to_date() : map->up_to_date();

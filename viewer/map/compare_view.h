@@ -49,6 +49,7 @@ class CompareView : public QWidget {
     QLabel* figures;
 
     bool is_hemicube() const;
+    bool has_directions() const;
     bool up_to_date() const;
     /// As in EngineComparer::Request: 0 for an engine without one; even for a hemicube.
     int requested_resolution() const;

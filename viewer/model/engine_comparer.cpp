@@ -13,6 +13,7 @@
 #include "transillum/at.h"
 #include "transillum/engine.h"
 #include "transillum/errors.h"
+#include "transillum/exact_form_factors.h"
 #include "transillum/hemicube_image.h"
 
 namespace transillum::viewer {
@@ -71,6 +72,16 @@ std::vector<double> row_by_hemicube(const EngineComparer::Request& request, int 
   return row;
 }
 
+std::vector<double> row_by_pairs(const EngineComparer::Request& request,
+                                 const Cancellation& cancellation) {
+  const Scene& scene = *request.loaded->scene;
+  std::vector<double> row = exact_form_factors(scene, request.eye, cancellation);
+  for (double& factor : row) {
+    factor *= scene.patch(request.eye).area;
+  }
+  return row;
+}
+
 /// A row A_i F_ij as the transfers of one direction, with A_i as the projected area.
 Transfers as_transfers(const EngineComparer::Request& request, const std::vector<double>& row) {
   Transfers transfers;
@@ -102,9 +113,16 @@ Transfers find_transfers(const EngineComparer::Request& request, EngineCompariso
     throw std::runtime_error("select a patch: its row of form factors will be compared");
   }
   const double start = thread_seconds();
-  const std::vector<double> row = side.engine == Engine::hemicube
-                                      ? row_by_hemicube(request, side.resolution, cancellation)
-                                      : row_by_directions(request, engine(), cancellation);
+  const std::vector<double> row = [&] {
+    switch (side.engine) {
+      case Engine::hemicube:
+        return row_by_hemicube(request, side.resolution, cancellation);
+      case Engine::pairs:
+        return row_by_pairs(request, cancellation);
+      default:
+        return row_by_directions(request, engine(), cancellation);
+    }
+  }();
   side.seconds = thread_seconds() - start;
   return as_transfers(request, row);
 }

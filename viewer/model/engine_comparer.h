@@ -12,8 +12,8 @@
 
 namespace transillum::viewer {
 
-/// Two engines on the same direction. If one is a hemicube, which has no direction: the row of one
-/// patch by both engines, over all directions of the solve run.
+/// Two engines on the same direction. If one has no directions (hemicube, pairs): the row of form
+/// factors of one patch by both engines, over all directions of the solve run.
 struct EngineComparison {
   struct Side {
     Engine engine = Engine::fast;
@@ -46,12 +46,12 @@ class EngineComparer : public QObject {
     EngineOptions options;  ///< except the resolution
     Engine first = Engine::fast, other = Engine::corrected;
     int first_resolution = 0, other_resolution = 0;
-    // If one is a hemicube:
+    // If one has no directions:
     PatchId eye = no_patch;
     std::shared_ptr<const std::vector<Vec3>> directions;
     bool two_way = true;
 
-    bool compares_rows() const { return first == Engine::hemicube || other == Engine::hemicube; }
+    bool compares_rows() const { return !takes_directions(first) || !takes_directions(other); }
     friend bool operator==(const Request&, const Request&) = default;
   };
 

@@ -32,6 +32,8 @@ QString engine_label(Engine engine) {
       return tr("No cutting, corrected");
     case Engine::hemicube:
       return tr("Hemicube");
+    case Engine::pairs:
+      return tr("Pairs of patches");
   }
   return {};
 }
@@ -63,6 +65,10 @@ QString engine_sentence(Engine engine) {
       return tr(
           "Form factors from the center of each patch through the pixels of half a cube; uses "
           "no directions");
+    case Engine::pairs:
+      return tr(
+          "Form factors pair by pair: exact where nothing is between, otherwise past the shadows "
+          "of blockers; uses no directions");
   }
   return {};
 }
@@ -72,10 +78,10 @@ bool takes_resolution(Engine engine) {
          engine == Engine::hemicube;
 }
 
-void add_engines(QComboBox& box, bool with_hemicubes) {
+void add_engines(QComboBox& box, bool with_rows) {
   for (const std::string& name : engine_names()) {
     const Engine engine = engine_from_name(name);
-    if (!with_hemicubes && !takes_directions(engine)) {
+    if (!with_rows && !takes_directions(engine)) {
       continue;
     }
     box.addItem(engine_label(engine), static_cast<int>(engine));

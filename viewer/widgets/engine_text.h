@@ -20,8 +20,8 @@ bool takes_resolution(Engine engine);
 
 /// Fills an empty box with the engines, each with its sentence as tool tip; data: the engine as
 /// int.
-/// @param with_hemicubes also Engine::hemicube, which uses no directions
-void add_engines(QComboBox& box, bool with_hemicubes);
+/// @param with_rows also the engines that use no directions
+void add_engines(QComboBox& box, bool with_rows);
 /// The engine selected in such a box.
 Engine engine_of(const QComboBox& box);
 void choose_engine(QComboBox& box, Engine engine);

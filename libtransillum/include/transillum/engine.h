@@ -24,7 +24,8 @@ enum class Engine {
   painter,    ///< the painter's algorithm of section 2: one item buffer, painted back to front
   rays,       ///< parallel lines through the scene: statistical
   corrected,  ///< no cutting: partly hidden polygons stay whole, areas are corrected (section 8)
-  hemicube,   ///< no directions: item buffers at each patch's center, by solve_by_hemicubes()
+  hemicube,   ///< no directions: item buffers at each patch's center, by solve_by_form_factors()
+  pairs,      ///< no directions: form factors pair by pair, by solve_by_form_factors()
 };
 /// The names of the engines as in options and files, in the order of the enumeration.
 const std::vector<std::string>& engine_names();
@@ -33,7 +34,7 @@ const std::vector<std::string>& engine_names();
 Engine engine_from_name(const std::string& name);
 /// The name in engine_names().
 const std::string& name_of(Engine engine);
-/// Whether make_engine() accepts it: all but hemicube.
+/// Whether make_engine() accepts it: all but hemicube and pairs.
 bool takes_directions(Engine engine);
 
 /// Computes the Transfers of a direction omega (unit). A pure function without shared mutable
@@ -58,6 +59,8 @@ const std::string& name_of(PaintersOrder order);
 struct EngineOptions {
   static constexpr int default_resolution = 512;    ///< of zbuffer and painter, pixels
   static constexpr int largest_resolution = 16384;  ///< pixels
+  static constexpr int default_points = 16;         ///< of pairs
+  static constexpr int largest_points = 1024;       ///< of pairs
 
   double lines_per_patch = 100;  ///< rays: lines per direction over number of patches, (0, 1e6]
   bool gridded = true;           ///< rays: on a jittered grid; else uniformly random
@@ -68,6 +71,8 @@ struct EngineOptions {
   /// default.
   int resolution = 0;
   PaintersOrder order = PaintersOrder::bsp;  ///< painter
+  /// pairs: PairOptions::points, up to largest_points; 0: default_points.
+  int points = 0;
 
   /// Exact comparison of all members.
   friend bool operator==(const EngineOptions&, const EngineOptions&) = default;

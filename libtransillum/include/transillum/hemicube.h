@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 
 #include "transillum/cancellation.h"
 #include "transillum/form_factors.h"
-#include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
 namespace transillum {
@@ -38,26 +36,5 @@ struct HemicubeOptions {
 FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& options,
                                   const Cancellation& cancellation = {},
                                   const std::function<void(double)>& progress = {});
-
-/// Checks options for solve_by_hemicubes().
-/// @throws InputError where solve_by_hemicubes() would.
-void check_hemicube_options(const SolveOptions& options);
-
-/// Solves with hemicube_form_factors() by the iteration of solve(), to the same tolerance or number
-/// of iterations.
-///
-/// In the statistics a hemicube counts as a pass and one of its pixels as a direction; `escaped` is
-/// the share of all pixels that show no front side, and `energy_defect` the error in the energy
-/// balance due to the missing reciprocity.
-/// @param scene the scene.
-/// @param options tolerance, iterations, engine_options.resolution (0: the default), memory and
-/// threads apply.
-/// @param cancellation checked during computation.
-/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
-/// @throws InputError where an option requires directions
-/// @throws Canceled; std::runtime_error where the iteration diverges.
-Solution solve_by_hemicubes(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-                            const Cancellation& cancellation = {},
-                            const std::function<void(double)>& progress = {});
 
 }  // namespace transillum

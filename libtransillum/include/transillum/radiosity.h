@@ -159,6 +159,7 @@ struct SolveStatistics {
   int passes = 0;                     ///< M
   std::int64_t passes_made = 0;       ///< by the engine, in all iterations
   std::int64_t hemicubes = 0;         ///< drawn instead of passes; a direction is then one pixel
+  std::int64_t pairs = 0;             ///< of patches, computed instead of passes
   int iterations = 0;                 ///< finished
   int burn_in = 0;                    ///< semi_iterative: iterations omitted from the mean
   int threads = 0;                    ///< used

@@ -55,7 +55,7 @@ struct StudySeries {
   Scheme scheme = Scheme::fixed;                  ///< SolveOptions::scheme
   std::optional<double> first_shot = {};          ///< SolveOptions::first_shot
   Engine engine = Engine::fast;                   ///< SolveOptions::engine
-  int resolution = 0;                             ///< EngineOptions::resolution
+  int resolution = 0;  ///< EngineOptions::resolution; of engine pairs EngineOptions::points
 
   /// Exact comparison of all members.
   friend bool operator==(const StudySeries&, const StudySeries&) = default;
@@ -98,13 +98,15 @@ struct StudyOptions {
 /// The result of one series for one M.
 struct StudyPoint {
   std::size_t series = 0;  ///< index in StudyOptions::series
-  /// M; in the semi-iterative scheme M times the iterations; for hemicubes the number of patches.
+  /// M; in the semi-iterative scheme M times the iterations; for hemicubes and
+  /// pairs the number of patches.
   std::int64_t passes = 0;
-  std::int64_t directions = 0;  ///< passes, or twice as many; for hemicubes the pixels of one
+  std::int64_t directions = 0;  ///< passes, or twice as many; for hemicubes the pixels of one, for
+                                ///< pairs PairOptions::points
   double rms_error = 0;         ///< RMS over the rotations
   double max_error = 0;         ///< largest over the rotations
   double bound = 0;             ///< of the error in a nearly homogeneous environment, by eq. 37 and
-                                ///< 21; NaN for hemicubes
+                                ///< 21; NaN for hemicubes and pairs
   double seconds = 0;           ///< processor time of passes and iteration, all threads; mean over
                                 ///< the rotations
   /// Why the errors are NaN: too few directions for convergence, or insufficient memory. Empty:

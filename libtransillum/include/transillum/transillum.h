@@ -33,7 +33,7 @@ namespace transillum {}
 #include "transillum/accuracy_goal.h"
 #include "transillum/accuracy_plan.h"
 #include "transillum/first_shot.h"
-#include "transillum/hemicube.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/radiosity.h"
 #include "transillum/relight.h"
 #include "transillum/settings.h"
@@ -61,6 +61,8 @@ namespace transillum {}
 // Form factors by other methods, for comparison.
 #include "transillum/exact_form_factors.h"
 #include "transillum/form_factors.h"
+#include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
 
 // Studies of the error against the number of passes.
 #include "transillum/reference_cache.h"

@@ -16,7 +16,7 @@ namespace transillum {
 
 const std::vector<std::string>& engine_names() {
   static const std::vector<std::string> names{"fast",    "local", "global",    "exact",   "zbuffer",
-                                              "painter", "rays",  "corrected", "hemicube"};
+                                              "painter", "rays",  "corrected", "hemicube", "pairs"};
   return names;
 }
 
@@ -26,7 +26,9 @@ Engine engine_from_name(const std::string& name) {
 
 const std::string& name_of(Engine engine) { return at(engine_names(), engine); }
 
-bool takes_directions(Engine engine) { return engine != Engine::hemicube; }
+bool takes_directions(Engine engine) {
+  return engine != Engine::hemicube && engine != Engine::pairs;
+}
 
 const std::vector<std::string>& painters_order_names() {
   static const std::vector<std::string> names{"bsp", "newell"};
@@ -73,6 +75,8 @@ TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
     case Engine::hemicube:
       throw InputError(
           "engine hemicube has no directions; it draws the scene as seen from each patch");
+    case Engine::pairs:
+      throw InputError("engine pairs has no directions; it computes form factors pair by pair");
   }
   throw InputError("no such engine");
 }

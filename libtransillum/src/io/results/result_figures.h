@@ -17,6 +17,7 @@ void visit_figures(Result& solution, Visit visit) {
   visit("passes", s.passes);
   visit("passes_made", s.passes_made);
   visit("hemicubes", s.hemicubes);
+  visit("pairs", s.pairs);
   visit("iterations", s.iterations);
   visit("transfers", s.transfers);
   visit("form_factors", s.form_factors);

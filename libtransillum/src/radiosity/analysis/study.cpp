@@ -20,7 +20,7 @@
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
-#include "transillum/hemicube.h"
+#include "transillum/form_factor_solve.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
@@ -89,7 +89,7 @@ class StudyRun {
 
   const std::vector<StudyPoint>& points() const { return points_; }
   void add_point(std::size_t series, int m) { points_.push_back(point(series, m)); }
-  void add_hemicubes(std::size_t series) { points_.push_back(hemicubes(series)); }
+  void add_single_solve(std::size_t series) { points_.push_back(single_solve(series)); }
 
  private:
   /// The part of B that errors are computed of.
@@ -128,8 +128,8 @@ class StudyRun {
     return point;
   }
 
-  /// One point for any M and rotation: hemicubes have no directions.
-  StudyPoint hemicubes(std::size_t series) {
+  /// One point for any M and rotation, of an engine without directions.
+  StudyPoint single_solve(std::size_t series) {
     const double start = processor_seconds(), before = done_passes_;
     StudyPoint point;
     point.series = series;
@@ -137,7 +137,7 @@ class StudyRun {
     point.bound = std::numeric_limits<double>::quiet_NaN();
     SolveOptions solve = options_.solve_options(options_.series[series], 1);
     solve.rotation = std::nullopt;
-    const Solution solution = solve_by_hemicubes(scene_, solve, cancellation_, [&](double share) {
+    const Solution solution = solve_by_form_factors(scene_, solve, cancellation_, [&](double share) {
       done_passes_ = before + share * static_cast<double>(point.passes);
       report(series, static_cast<int>(point.passes));
     });
@@ -296,7 +296,8 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.scheme = of.scheme;
   options.first_shot = of.first_shot;
   options.engine = of.engine;
-  options.engine_options.resolution = of.resolution;
+  (of.engine == Engine::pairs ? options.engine_options.points : options.engine_options.resolution) =
+      of.resolution;
   if (of.scheme == Scheme::semi_iterative && options.averaged_iterations == 0) {
     options.averaged_iterations = default_averaged_iterations;
   }
@@ -354,7 +355,7 @@ void StudyOptions::validate() const {
       solve_options(one, m).validate();
     }
     if (!takes_directions(one.engine)) {
-      check_hemicube_options(solve_options(one, 1));
+      check_form_factor_options(solve_options(one, 1));
     }
   }
 }
@@ -397,7 +398,7 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
     }
     for (std::size_t series = 0; series < options.series.size(); ++series) {
       if (!takes_directions(options.series[series].engine)) {
-        run.add_hemicubes(series);
+        run.add_single_solve(series);
       }
     }
     study.complete = true;

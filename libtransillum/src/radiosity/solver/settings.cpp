@@ -38,6 +38,10 @@ std::vector<Setting> engine_settings(const SolveOptions& solve, const EngineOpti
        "along that side, instead of a number per patch; hemicube: pixels along a side of the "
        "cube, even",
        fmt::format("{}, hemicube 64", EngineOptions::default_resolution)},
+      {"points", "a number",
+       "engine pairs: number of points along a patch as large as its distance from the other, where "
+       "something is between",
+       fmt::to_string(EngineOptions::default_points), false},
       {"lines", "a number", "engine rays: lines per patch and direction",
        fmt::to_string(engine.lines_per_patch), false},
       {"order", "a name",

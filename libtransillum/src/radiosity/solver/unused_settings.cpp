@@ -31,7 +31,8 @@ struct Use {
   const char* why_not;
 };
 
-constexpr const char* without_directions = "not used with engine hemicube, which has no directions";
+constexpr const char* without_directions =
+    "not used with engine hemicube or pairs, which have no directions";
 
 constexpr const char* chosen_by_goal = "not used with an accuracy or a time limit, which choose it";
 
@@ -49,6 +50,8 @@ constexpr Use uses[] = {
      "used only with sampling random, sobol or scrambled-hammersley, with engine rays, with scheme "
      "semi-iterative, or to rotate replicas"},
     {"resolution", has_pixels, "used only with engine zbuffer, painter, rays or hemicube"},
+    {"points", [](const SolveOptions& solve) { return solve.engine == Engine::pairs; },
+     "used only with engine pairs"},
     {"lines",
      [](const SolveOptions& solve) {
        return solve.engine == Engine::rays && solve.engine_options.resolution == 0;

@@ -177,7 +177,7 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 /// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
 void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector<Corners>& blockers,
                                  const std::function<void()>& tick, PatchExchange& exchange) const {
-  constexpr double min_divisions = 0.2, max_divisions = 32;
+  constexpr double min_divisions = 0.2;
   const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
   const double radius_p = radius_about(middle_p, facing.p);
   const double radius_q = radius_about(middle_q, facing.q);
@@ -190,7 +190,7 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector
   const double ideal = density_ * size;
   const int divisions = ideal < min_divisions
                             ? 0
-                            : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, max_divisions));
+                            : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, 2 * std::max(density_, 1.0)));
   PointView view(large, blockers);
   const auto by_points = [&](int number) {
     double sum = 0;

@@ -1,0 +1,59 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "transillum/cancellation.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// Checks options for solve_by_form_factors().
+/// @throws InputError where solve_by_form_factors() would.
+void check_form_factor_options(const SolveOptions& options);
+
+/// Solves with an engine that has no directions, by hemicube_form_factors() or pair_form_factors()
+/// and the iteration of solve(), to the same tolerance or number of iterations.
+///
+/// In the statistics a row of form factors counts as a pass. For engine hemicube, a pixel of a
+/// hemicube counts as a direction, `escaped` is the share of all pixels that show no front side,
+/// and `energy_defect` the error in the energy balance due to the missing reciprocity. For engine
+/// pairs, PairOptions::points is reported as the number of directions.
+/// @param scene the scene.
+/// @param options engine (hemicube or pairs), tolerance, iterations, engine_options.resolution or
+/// points (0: the default), memory and threads apply.
+/// @param cancellation checked during computation.
+/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @throws InputError where an option requires directions
+/// @throws Canceled, MemoryLimitExceeded, NotConvergent
+Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                               const Cancellation& cancellation = {},
+                               const std::function<void(double)>& progress = {});
+
+/// The result of solve_by_pairs().
+struct PairSolution {
+  Solution solution;
+  int points = 0;        ///< PairOptions::points of the last solve
+  double error = 0;      ///< estimated RMS error of B over RMS of B; 0: nothing is partly hidden
+  bool reached = false;  ///< error <= accuracy
+};
+
+/// Solves with pair_form_factors() to an accuracy of B: doubles the number of points until B changes
+/// by at most `accuracy`, which is then a cautious estimate of the remaining error. Stops at
+/// EngineOptions::largest_points.
+/// @param scene the scene.
+/// @param options as for solve_by_form_factors() with engine pairs; engine_options.points is the
+/// number to start from (0: a quarter of the default). The tolerance is lowered to a tenth of
+/// `accuracy` if it is above that.
+/// @param accuracy RMS error of B over RMS of B, between 0 and 1.
+/// @param cancellation checked during computation.
+/// @param progress if set, called at intervals with the number of points of the solve under way and
+/// its share done, in [0,1], on this thread.
+/// @throws InputError, Canceled, MemoryLimitExceeded, NotConvergent
+PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                            double accuracy, const Cancellation& cancellation = {},
+                            const std::function<void(int points, double share)>& progress = {});
+
+}  // namespace transillum

@@ -1,0 +1,44 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "transillum/cancellation.h"
+#include "transillum/engine.h"
+#include "transillum/form_factors.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// Options of pair_form_factors().
+struct PairOptions {
+  /// Number of points along a patch as large as its distance from the other, where blockers hide
+  /// part of the one from the other; 1 … EngineOptions::largest_points. Other pairs need none.
+  int points = EngineOptions::default_points;
+  std::uint64_t memory = 0;  ///< limit for the form factors, bytes; 18 per nonzero entry while they
+                             ///< are assembled; 0: a quarter of the machine's
+  int threads = 0;           ///< 0: all cores; the result does not depend on it
+
+  /// @throws InputError naming the option and its range.
+  void validate() const;
+};
+
+/// Form factors of all pairs of patches, without directions, pixels or rays: a reference for the
+/// others.
+///
+/// Each pair is computed once, as the rows by exact_form_factors(): in closed form where nothing is
+/// between; otherwise from points of the smaller patch, where the blockers hide parts of the other.
+/// Thus A_i F_ij = A_j F_ji up to one rounding of each, in closed scenes rows sum to 1 up to the
+/// distance of the points, and for pairs with nothing between exactly. Time grows as the square of
+/// the number of patches, times that of the blockers between two.
+/// @param scene the scene.
+/// @param options points, memory and threads.
+/// @param cancellation checked during computation, also within a pair.
+/// @param progress if set, called at intervals with the share done, in [0,1], on this thread.
+/// @throws InputError, Canceled, MemoryLimitExceeded
+FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
+                              const Cancellation& cancellation = {},
+                              const std::function<void(double)>& progress = {});
+
+}  // namespace transillum

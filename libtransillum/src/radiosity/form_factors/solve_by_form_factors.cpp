@@ -1,0 +1,181 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Solves with form factors from an engine without directions (hemicubes, pairs) and fills in the
+// statistics of a Solution. Input: a Scene and SolveOptions.
+#include "transillum/form_factor_solve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/seconds_since.h"
+#include "base/worker_threads.h"
+#include "radiosity/form_factors/jacobi.h"
+#include "radiosity/ratio.h"
+#include "radiosity/two_sided.h"
+#include "transillum/errors.h"
+#include "transillum/hemicube.h"
+#include "transillum/pair_form_factors.h"
+#include "transillum/study.h"
+
+namespace transillum {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+HemicubeOptions hemicube_options(const SolveOptions& options) {
+  HemicubeOptions hemicubes;
+  if (options.engine_options.resolution > 0) {
+    hemicubes.resolution = options.engine_options.resolution;
+  }
+  hemicubes.memory = options.memory;
+  hemicubes.threads = options.threads;
+  return hemicubes;
+}
+
+PairOptions pair_options(const SolveOptions& options) {
+  PairOptions pairs;
+  if (options.engine_options.points > 0) {
+    pairs.points = options.engine_options.points;
+  }
+  pairs.memory = options.memory;
+  pairs.threads = options.threads;
+  return pairs;
+}
+
+/// Computes the form factors and sets the figures that differ between the engines.
+FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options,
+                                 const Cancellation& cancellation,
+                                 const std::function<void(double)>& progress,
+                                 SolveStatistics& statistics) {
+  const std::int64_t patches = scene.patch_count();
+  if (options.engine == Engine::hemicube) {
+    const HemicubeOptions hemicubes = hemicube_options(options);
+    statistics.hemicubes = patches;
+    statistics.directions = 3 * hemicubes.resolution * hemicubes.resolution;
+    return hemicube_form_factors(scene, hemicubes, cancellation, progress);
+  }
+  const PairOptions pairs = pair_options(options);
+  statistics.pairs = patches * (patches - 1) / 2;
+  statistics.directions = pairs.points;
+  return pair_form_factors(scene, pairs, cancellation, progress);
+}
+
+/// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
+void add_power(const Scene& scene, const FormFactors& form_factors,
+               const JacobiIteration& iteration, SolveStatistics& statistics) {
+  double area = 0, visible = 0, outside = 0, previous = 0;
+  Rgb received, sent, absorbed, emitted;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    double sum = 0;
+    for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
+      sum += form_factors.value[k];
+    }
+    const double own = scene.patch(i).area;
+    area += own;
+    visible += own * sum;
+    if (are_two_sides(scene, i - 1)) {
+      outside += own * std::abs(sum - previous);
+    }
+    previous = sum;
+    statistics.closure_defect_max = std::max(statistics.closure_defect_max, std::abs(1 - sum));
+    received += own * iteration.h[row];
+    sent += own * sum * iteration.b[row];
+    absorbed += own * ((Rgb{1, 1, 1} - scene.reflectance(i)) * iteration.h[row]);
+    emitted += own * scene.exitance(i);
+    statistics.rho_max = std::max(statistics.rho_max, max_abs(scene.reflectance(i)));
+  }
+  statistics.escaped = area > 0 ? std::max(0.0, 1 - (visible + outside) / area) : 0.0;
+  statistics.energy_defect = ratio_or_zero(max_abs(received - sent), max_abs(sent));
+  statistics.energy_balance =
+      ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
+}
+
+}  // namespace
+
+void check_form_factor_options(const SolveOptions& options) {
+  options.validate();
+  if (takes_directions(options.engine)) {
+    throw InputError("engine " + name_of(options.engine) + " has directions");
+  }
+  if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
+      options.replicas > 1 || options.first_shot) {
+    throw InputError("engine " + name_of(options.engine) +
+                     " has no directions, and therefore no schemes, normalizations, replicas or "
+                     "first shot");
+  }
+  if (options.engine == Engine::hemicube) {
+    hemicube_options(options).validate();
+  } else {
+    pair_options(options).validate();
+  }
+}
+
+Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                               const Cancellation& cancellation,
+                               const std::function<void(double)>& progress) {
+  check_form_factor_options(options);
+  const auto start = Clock::now();
+  Solution solution;
+  SolveStatistics& statistics = solution.statistics;
+  const FormFactors form_factors =
+      compute_form_factors(*scene, options, cancellation, progress, statistics);
+  statistics.seconds_transfers = seconds_since(start);
+  const auto start_iteration = Clock::now();
+  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
+  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
+                options.iterations > 0 ? 0 : options.tolerance, cancellation);
+  statistics.seconds_iterate = seconds_since(start_iteration);
+  add_power(*scene, form_factors, iteration, statistics);
+  statistics.patches = statistics.fragments = scene->patch_count();
+  statistics.passes = scene->patch_count();
+  statistics.passes_made = scene->patch_count();
+  statistics.iterations = static_cast<int>(iteration.records.size());
+  statistics.threads = thread_count(options.threads);
+  statistics.form_factors = static_cast<std::int64_t>(form_factors.size());
+  statistics.kept_form_factors = true;
+  statistics.converged = iteration.converged;
+  statistics.predicted_contraction = statistics.rho_max;
+  statistics.iteration_records = std::move(iteration.records);
+  statistics.seconds_total = seconds_since(start);
+  solution.scene = std::move(scene);
+  solution.radiosity = std::move(iteration.b);
+  solution.irradiance = std::move(iteration.h);
+  solution.complete = true;
+  return solution;
+}
+
+PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
+                            double accuracy, const Cancellation& cancellation,
+                            const std::function<void(int points, double share)>& progress) {
+  if (!(accuracy > 0 && accuracy < 1)) {
+    throw InputError(fmt::format("accuracy: {} is not between 0 and 1", accuracy));
+  }
+  SolveOptions step = options;
+  step.engine = Engine::pairs;
+  step.tolerance = std::min(options.tolerance, 0.1 * accuracy);
+  int& points = step.engine_options.points;
+  points = points > 0 ? points : EngineOptions::default_points / 4;
+  const auto solved = [&] {
+    return solve_by_form_factors(scene, step, cancellation, [&](double share) {
+      if (progress) {
+        progress(points, share);
+      }
+    });
+  };
+  PairSolution result{solved(), points, HUGE_VAL, false};
+  while (!result.reached && 2 * points <= EngineOptions::largest_points) {
+    points *= 2;
+    Solution finer = solved();
+    result.error = radiosity_error(result.solution.radiosity, finer.radiosity).rms;
+    result.solution = std::move(finer);
+    result.points = points;
+    result.reached = result.error <= accuracy;
+  }
+  return result;
+}
+
+}  // namespace transillum
