@@ -14,6 +14,7 @@
 #include "visibility/pairs/merged_pieces.h"
 #include "visibility/pairs/point_view.h"
 #include "visibility/pairs/shaft.h"
+#include "visibility/pairs/smooth_cells.h"
 
 namespace transillum {
 namespace {
@@ -191,12 +192,15 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector
   const int divisions = ideal < min_divisions
                             ? 0
                             : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, 2 * std::max(density_, 1.0)));
+  const std::vector<Corners> cells = smooth_cells(small, large, blockers, tolerance_);
   PointView view(large, blockers);
   const auto by_points = [&](int number) {
     double sum = 0;
-    for_points_of(small, number, [&](const Vec3& x, double weight) {
-      sum += weight * view.form_factor(x, normal, tick);
-    });
+    for (const Corners& cell : cells) {
+      for_points_of(cell, number, [&](const Vec3& x, double weight) {
+        sum += weight * view.form_factor(x, normal, tick);
+      });
+    }
     return sum;
   };
   const double area = by_points(divisions);
