@@ -68,12 +68,10 @@ PairOptions pair_options(const FactorsCall& call) {
 FormFactors compute_pairs(const FactorsCall& call, const Scene& scene,
                           const Cancellation& cancellation, ProgressDisplay& display) {
   display.begin("computing pairs");
-  return pair_form_factors(scene, pair_options(call), cancellation,
-                           [&](double share) {
-                             const double patches = scene.patch_count();
-                             display.show_rate("computing pairs", share,
-                                               patches * (patches - 1) / 2, "pairs");
-                           });
+  return pair_form_factors(scene, pair_options(call), cancellation, [&](double share) {
+    const double patches = scene.patch_count();
+    display.show_rate("computing pairs", share, patches * (patches - 1) / 2, "pairs");
+  });
 }
 
 SolveOptions pass_options(const FactorsCall& call) {

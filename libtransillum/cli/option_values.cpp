@@ -211,11 +211,9 @@ void add_engine_details(CLI::App& command, EngineOptions& options) {
       [&options](const std::string& text) {
         options.resolution = parse_resolution("--resolution", text);
       });
-  add_parsed_option(command, "--points", "P",
-                    help_of("points", EngineOptions::default_points),
-                    [&options](const std::string& text) {
-                      options.points = parse_points("--points", text);
-                    });
+  add_parsed_option(
+      command, "--points", "P", help_of("points", EngineOptions::default_points),
+      [&options](const std::string& text) { options.points = parse_points("--points", text); });
   add_order_option(command, options);
   command.add_flag_callback(
       "--random-lines", [&options] { options.gridded = false; }, description_of("random-lines"));

@@ -171,10 +171,9 @@ Solution solve_without_directions(const std::shared_ptr<const Scene>& scene,
     });
   } catch (const Canceled&) {
     // Without all rows of F there is no useful estimate of B.
-    throw NothingToSave(
-        fmt::format("{:.0f} % of the {}, but B requires all of them: nothing is saved",
-                    std::floor(100 * done),
-                    hemicubes ? "hemicubes were drawn" : "pairs were computed"));
+    throw NothingToSave(fmt::format(
+        "{:.0f} % of the {}, but B requires all of them: nothing is saved", std::floor(100 * done),
+        hemicubes ? "hemicubes were drawn" : "pairs were computed"));
   }
 }
 

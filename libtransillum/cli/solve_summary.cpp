@@ -70,8 +70,9 @@ std::string passes_text(const SolveStatistics& s) {
                                                s.directions, s.threads));
   }
   if (s.pairs > 0) {
-    return report_row("pairs", fmt::format("{}, by {} points where something is between, {} threads",
-                                           s.pairs, s.directions, s.threads));
+    return report_row(
+        "pairs", fmt::format("{}, by {} points where something is between, {} threads", s.pairs,
+                             s.directions, s.threads));
   }
   return report_row("passes", fmt::format("{} per iteration, {} directions, {} threads", s.passes,
                                           s.directions, s.threads));

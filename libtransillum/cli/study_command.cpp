@@ -341,12 +341,13 @@ void add_series_options(CLI::App& command, StudyCall& call) {
       command, "--seed", "S",
       fmt::format("random seed of samplings and rotations (default {})", call.study.solve.seed),
       [&call](const std::string& text) { call.study.solve.seed = parse_seed("--seed", text); });
-  add_list_option(command, "--engines,--engine", "NAME[:R],...",
-                  fmt::format("{}; R: its resolution (of pairs: its points), instead of --resolution and --points "
-                              "(default {})",
-                              fmt::join(engine_names(), " | "), name_of(Engine::fast)),
-                  call.engines,
-                  [](const std::string& text) { return std::vector{parse_engine(text)}; });
+  add_list_option(
+      command, "--engines,--engine", "NAME[:R],...",
+      fmt::format(
+          "{}; R: its resolution (of pairs: its points), instead of --resolution and --points "
+          "(default {})",
+          fmt::join(engine_names(), " | "), name_of(Engine::fast)),
+      call.engines, [](const std::string& text) { return std::vector{parse_engine(text)}; });
   add_engine_details(command, call.study.solve.engine_options);
 }
 

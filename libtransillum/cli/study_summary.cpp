@@ -110,9 +110,10 @@ std::string study_summary(const Scene& scene, const StudyOptions& options, const
 
   for (std::size_t series = 0; series < names.size(); ++series) {
     const auto points = points_of(study, series);
-    text += takes_directions(options.series[series].engine)
-                ? fmt::format("{:<{}}", names[series], width) + series_text(points, bounds, error)
-                : single_solve_text(names[series], options.series[series].engine, width, points, error);
+    text +=
+        takes_directions(options.series[series].engine)
+            ? fmt::format("{:<{}}", names[series], width) + series_text(points, bounds, error)
+            : single_solve_text(names[series], options.series[series].engine, width, points, error);
   }
 
   text += fmt::format("{:<{}}", bound_name, width);

@@ -40,9 +40,9 @@ struct PairSolution {
   bool reached = false;  ///< error <= accuracy
 };
 
-/// Solves with pair_form_factors() to an accuracy of B: doubles the number of points until B changes
-/// by at most `accuracy`, which is then a cautious estimate of the remaining error. Stops at
-/// EngineOptions::largest_points.
+/// Solves with pair_form_factors() to an accuracy of B: doubles the number of points until B
+/// changes by at most `accuracy`, which is then a cautious estimate of the remaining error. Stops
+/// at EngineOptions::largest_points.
 /// @param scene the scene.
 /// @param options as for solve_by_form_factors() with engine pairs; engine_options.points is the
 /// number to start from (0: a quarter of the default). The tolerance is lowered to a tenth of

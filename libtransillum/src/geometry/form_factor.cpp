@@ -166,7 +166,12 @@ FacingPolygons::FacingPolygons(Outline whole_p, Outline whole_q)
     : FacingPolygons(whole_p, whole_q, rounding_of(whole_p, whole_q)) {}
 
 FacingPolygons::FacingPolygons(Outline whole_p, Outline whole_q, double tolerance)
-    : before_p(lit_half_space(whole_p)), before_q(lit_half_space(whole_q)) {
+    : FacingPolygons(whole_p, lit_half_space(whole_p), whole_q, lit_half_space(whole_q),
+                     tolerance) {}
+
+FacingPolygons::FacingPolygons(Outline whole_p, const HalfSpace& front_p, Outline whole_q,
+                               const HalfSpace& front_q, double tolerance)
+    : before_p(front_p), before_q(front_q) {
   const auto reaches_before = [tolerance](Outline polygon, const HalfSpace& space) {
     return std::any_of(polygon.begin(), polygon.end(),
                        [&](const Vec3& x) { return space.distance(x) > tolerance; });

@@ -55,6 +55,9 @@ struct FacingPolygons {
   FacingPolygons(Outline whole_p, Outline whole_q);
   /// Corners within `tolerance` of the other's plane are treated as on it.
   FacingPolygons(Outline whole_p, Outline whole_q, double tolerance);
+  /// The same with the half-spaces in front of both, if these are known.
+  FacingPolygons(Outline whole_p, const HalfSpace& front_p, Outline whole_q,
+                 const HalfSpace& front_q, double tolerance);
   /// Whether they see nothing of each other.
   bool empty() const { return p.empty() || q.empty(); }
 

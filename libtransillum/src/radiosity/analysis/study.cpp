@@ -137,10 +137,11 @@ class StudyRun {
     point.bound = std::numeric_limits<double>::quiet_NaN();
     SolveOptions solve = options_.solve_options(options_.series[series], 1);
     solve.rotation = std::nullopt;
-    const Solution solution = solve_by_form_factors(scene_, solve, cancellation_, [&](double share) {
-      done_passes_ = before + share * static_cast<double>(point.passes);
-      report(series, static_cast<int>(point.passes));
-    });
+    const Solution solution =
+        solve_by_form_factors(scene_, solve, cancellation_, [&](double share) {
+          done_passes_ = before + share * static_cast<double>(point.passes);
+          report(series, static_cast<int>(point.passes));
+        });
     point.directions = solution.statistics.directions;
     const RadiosityError error = radiosity_error(compared(solution.radiosity), reference_);
     point.rms_error = error.rms;

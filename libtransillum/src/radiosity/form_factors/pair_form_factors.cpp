@@ -18,24 +18,19 @@ constexpr PatchId batch = 4;
 /// Rows of the upper triangle: the exchanges of patch i and every j > i, m².
 class UpperRows {
  public:
-  UpperRows(const ExchangeFinder& exchange, PatchId patches, const Cancellation& cancellation)
-      : exchange_(exchange), patches_(patches), cancellation_(cancellation) {}
+  UpperRows(const ExchangeFinder& exchange, const Cancellation& cancellation)
+      : exchange_(exchange), cancellation_(cancellation) {}
 
   FormFactorRow gather(PatchId i) const {
     FormFactorRow row;
-    const std::function<void()> check = [this] { cancellation_.throw_if_canceled(); };
-    for (PatchId j = i + 1; j < patches_; ++j) {
-      check();
-      if (const double area = exchange_(i, j, check).area; area > 0) {
-        row.emplace_back(j, area);
-      }
-    }
+    exchange_.for_each_after(
+        i, [this] { cancellation_.throw_if_canceled(); },
+        [&](PatchId j, double area) { row.emplace_back(j, area); });
     return row;
   }
 
  private:
   const ExchangeFinder& exchange_;
-  PatchId patches_;
   const Cancellation& cancellation_;
 };
 
@@ -92,7 +87,7 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
       scene.patch_count(), options.threads, batch, memory_limit(options.memory) / 3,
-      [&] { return UpperRows(exchange, scene.patch_count(), cancellation); }, cancellation,
+      [&] { return UpperRows(exchange, cancellation); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return both_ways(scene, upper);
 }

@@ -1,13 +1,16 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Merges the patches of refined faces back into one polygon where that is convex, so that fewer
-// blockers have to be tested (ExchangeFinder). Input: the patches and pieces of a scene.
+// Merges coplanar patches, as those of refined faces, into one polygon where that is convex, so
+// that fewer blockers have to be tested (ExchangeFinder). Input: the patches and pieces of a scene.
 #include "visibility/pairs/merged_pieces.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
+
+#include "transillum/at.h"
 
 namespace transillum {
 namespace {
@@ -81,39 +84,114 @@ bool is_flat(Outline polygon) {
   });
 }
 
+/// Whether a patch is on the same side of its face as the first patch of that.
+std::vector<bool> on_first_side(const Scene& scene) {
+  std::vector<bool> first_side;
+  for (PatchId begin = 0, i = 0; i < scene.patch_count(); ++i) {
+    if (scene.patch(i).face != scene.patch(begin).face) {
+      begin = i;
+    }
+    first_side.push_back(dot(scene.patch(i).normal, scene.patch(begin).normal) > 0);
+  }
+  return first_side;
+}
+
+/// Sets of patches with the same root are joined.
+class JoinedPatches {
+ public:
+  explicit JoinedPatches(PatchId patches) : parent_(static_cast<std::size_t>(patches)) {
+    std::iota(parent_.begin(), parent_.end(), PatchId{0});
+  }
+  PatchId root(PatchId i) {
+    while (at(parent_, i) != i) {
+      i = at(parent_, i) = at(parent_, at(parent_, i));
+    }
+    return i;
+  }
+  void join(PatchId i, PatchId j) {
+    const PatchId a = root(i), b = root(j);
+    at(parent_, std::max(a, b)) = std::min(a, b);
+  }
+
+ private:
+  std::vector<PatchId> parent_;
+};
+
+/// Patches by the set that they belong to: coplanar ones that share edges.
+std::map<PatchId, std::vector<PatchId>> coplanar_sets(const Scene& scene,
+                                                      const std::vector<bool>& first_side) {
+  constexpr double flat = 1 - 1e-12;
+  JoinedPatches joined(scene.patch_count());
+  std::map<std::pair<PointId, PointId>, PatchId> by_edge;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto outline = scene.outline(i);
+    for (std::size_t k = 0; at(first_side, i) && k < outline.size(); ++k) {
+      const PointId a = outline[k], b = outline[(k + 1) % outline.size()];
+      by_edge[{a, b}] = i;
+      const auto other = by_edge.find({b, a});
+      if (other != by_edge.end() &&
+          dot(scene.patch(i).normal, scene.patch(other->second).normal) >= flat) {
+        joined.join(i, other->second);
+      }
+    }
+  }
+  std::map<PatchId, std::vector<PatchId>> sets;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (at(first_side, i)) {
+      sets[joined.root(i)].push_back(i);
+    }
+  }
+  return sets;
+}
+
 }  // namespace
 
-std::vector<Corners> merged_pieces(const Scene& scene) {
-  std::vector<Corners> merged;
-  std::size_t piece = 0;
-  const auto add_pieces_before = [&](PatchId end, bool keep) {
-    for (; piece < scene.pieces().size() && scene.pieces()[piece].patch < end; ++piece) {
-      if (!keep) {
-        continue;
-      }
-      Corners& corners = merged.emplace_back();
-      for (const PointId p : scene.corners(scene.pieces()[piece])) {
-        corners.push_back(scene.point(p));
-      }
-    }
-  };
-  // The patches of a face are consecutive.
-  for (PatchId begin = 0, end = 0; begin < scene.patch_count(); begin = end) {
-    std::vector<PatchId> patches;
-    const Patch& first = scene.patch(begin);
-    for (; end < scene.patch_count() && scene.patch(end).face == first.face; ++end) {
-      // Of a two-sided face, take the patches of one side only.
-      if (dot(scene.patch(end).normal, first.normal) > 0) {
-        patches.push_back(end);
-      }
-    }
+std::vector<MergedFace> merged_faces(const Scene& scene) {
+  std::vector<MergedFace> merged;
+  const auto add = [&](const std::vector<PatchId>& patches) {
     const Corners outline =
         patches.size() > 1 ? convex_outline(loop_about(scene, patches)) : Corners{};
-    const bool whole = !outline.empty() && is_flat(outline);
-    if (whole) {
-      merged.push_back(outline);
+    if (outline.empty() || !is_flat(outline)) {
+      return false;
     }
-    add_pieces_before(end, !whole);
+    merged.push_back({patches, outline});
+    return true;
+  };
+  for (const auto& [root, patches] : coplanar_sets(scene, on_first_side(scene))) {
+    if (add(patches)) {
+      continue;
+    }
+    // The patches of a face are consecutive.
+    for (auto begin = patches.begin(), end = begin; begin != patches.end(); begin = end) {
+      end = std::find_if(begin, patches.end(), [&](PatchId i) {
+        return scene.patch(i).face != scene.patch(*begin).face;
+      });
+      add({begin, end});
+    }
+  }
+  std::sort(merged.begin(), merged.end(), [](const MergedFace& a, const MergedFace& b) {
+    return a.patches.front() < b.patches.front();
+  });
+  return merged;
+}
+
+std::vector<Corners> merged_pieces(const Scene& scene) {
+  std::vector<bool> kept = on_first_side(scene);
+  std::vector<Corners> merged;
+  for (const MergedFace& face : merged_faces(scene)) {
+    merged.push_back(face.outline);
+    for (const PatchId i : face.patches) {
+      at(kept, i) = false;
+    }
+  }
+  for (const Piece& piece : scene.pieces()) {
+    if (!at(kept, piece.patch)) {
+      continue;
+    }
+    Corners& corners = merged.emplace_back();
+    for (const PointId p : scene.corners(piece)) {
+      corners.push_back(scene.point(p));
+    }
   }
   return merged;
 }

@@ -8,8 +8,17 @@
 
 namespace transillum {
 
-/// Convex polygons whose union is that of the scene's patches; they may overlap. If the patches of
-/// a face form a convex polygon, that polygon; otherwise their pieces.
+/// Coplanar patches that form one convex polygon.
+struct MergedFace {
+  std::vector<PatchId> patches;  ///< at least 2, ascending; if two-sided, those of one side
+  Corners outline;
+};
+/// All convex polygons of coplanar patches that share edges, or else of the patches of one face; in
+/// the order of their first patches. None has a patch in common with another.
+std::vector<MergedFace> merged_faces(const Scene& scene);
+
+/// Convex polygons whose union is that of the scene's patches; they may overlap: those of
+/// merged_faces(), and the pieces of the other patches.
 std::vector<Corners> merged_pieces(const Scene& scene);
 
 }  // namespace transillum

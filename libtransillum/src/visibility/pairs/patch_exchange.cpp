@@ -7,6 +7,7 @@
 #include "visibility/pairs/patch_exchange.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/build/cover_rank.h"
 #include "transillum/at.h"
@@ -90,9 +91,17 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (Corners& part : parts[i]) {
-      parts_.push_back(std::move(part));
+      const HalfSpace front = lit_half_space(part);
+      parts_.push_back({std::move(part), front});
     }
     part_begin_[i + 1] = parts_.size();
+  }
+  for (MergedFace& face : merged_faces(scene)) {
+    // Of two-sided faces, the patches of both sides alternate.
+    if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
+        face.patches.size()) {
+      faces_.push_back(std::move(face));
+    }
   }
 }
 
@@ -135,17 +144,29 @@ std::vector<Corners> ExchangeFinder::open_parts(std::size_t piece, const BoxTree
   return covering.empty() ? std::vector<Corners>{corners} : uncovered(corners, covering);
 }
 
-void ExchangeFinder::collect_blockers(const FacingPolygons& facing,
-                                      std::vector<Corners>& blockers) const {
+/// Finds the blockers between two polygons, of those in `among`, or of all if that is null.
+void ExchangeFinder::collect_blockers(const FacingPolygons& facing, const Numbers* among,
+                                      Numbers& blockers) const {
   blockers.clear();
+  if (among != nullptr && among->empty()) {
+    return;
+  }
   const Shaft shaft(facing, tolerance_);
-  tree_.for_each([&](const CenteredBox& box) { return shaft.reaches(box); },
-                 [&](std::int32_t number) {
-                   const Corners& blocker = at(blockers_, number);
-                   if (shaft.meets(blocker)) {
-                     blockers.push_back(blocker);
-                   }
-                 });
+  const auto add = [&](std::int32_t number) {
+    if (shaft.meets(at(blockers_, number))) {
+      blockers.push_back(number);
+    }
+  };
+  if (among != nullptr) {
+    std::for_each(among->begin(), among->end(), add);
+  } else {
+    tree_.for_each([&](const CenteredBox& box) { return shaft.reaches(box); }, add);
+  }
+}
+
+bool ExchangeFinder::is_any_hiding(const FacingPolygons& facing, const Numbers& blockers) const {
+  return std::any_of(blockers.begin(), blockers.end(),
+                     [&](std::int32_t number) { return is_hidden(facing, at(blockers_, number)); });
 }
 
 /// Whether one blocker alone hides the two polygons from each other: if it meets every line between
@@ -176,9 +197,9 @@ bool ExchangeFinder::is_hidden(const FacingPolygons& facing, const Corners& bloc
 }
 
 /// Adds the exchange of two polygons past blockers, by points of the smaller polygon.
-void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector<Corners>& blockers,
-                                 const std::function<void()>& tick, PatchExchange& exchange) const {
-  constexpr double min_divisions = 0.2;
+void ExchangeFinder::add_partial(const FacingPolygons& facing, const Numbers& blockers,
+                                 bool estimate, const std::function<void()>& tick,
+                                 PatchExchange& exchange) const {
   const Vec3 middle_p = middle_of(facing.p), middle_q = middle_of(facing.q);
   const double radius_p = radius_about(middle_p, facing.p);
   const double radius_q = radius_about(middle_q, facing.q);
@@ -188,52 +209,104 @@ void ExchangeFinder::add_partial(const FacingPolygons& facing, const std::vector
   const Vec3& normal = (p_is_smaller ? facing.before_p : facing.before_q).normal;
   const double size =
       std::min(radius_p, radius_q) / std::max(norm(middle_p - middle_q), tolerance_);
-  const double ideal = density_ * size;
-  const int divisions = ideal < min_divisions
-                            ? 0
-                            : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, 2 * std::max(density_, 1.0)));
-  const std::vector<Corners> cells = smooth_cells(small, large, blockers, tolerance_);
-  PointView view(large, blockers);
-  const auto by_points = [&](int number) {
-    double sum = 0;
-    for (const Corners& cell : cells) {
+  std::vector<Corners> polygons;
+  for (const std::int32_t number : blockers) {
+    polygons.push_back(at(blockers_, number));
+  }
+  PointView view(large, polygons);
+  const double whole = norm(area_vector(small));
+  for (const Corners& cell : smooth_cells(small, large, polygons, tolerance_)) {
+    const double cell_size = size * std::sqrt(norm(area_vector(cell)) / whole);
+    const int divisions = divisions_of(cell_size);
+    const auto by_points = [&](int number) {
+      double sum = 0;
       for_points_of(cell, number, [&](const Vec3& x, double weight) {
         sum += weight * view.form_factor(x, normal, tick);
       });
+      return sum;
+    };
+    const double area = by_points(divisions);
+    exchange.area += area;
+    if (estimate) {
+      // Half the distance between points leaves a quarter of the error, and takes three quarters
+      // away.
+      exchange.error +=
+          divisions == 0 ? cell_size * cell_size * area : (area - by_points(divisions / 2)) / 3;
     }
-    return sum;
-  };
-  const double area = by_points(divisions);
-  exchange.area += area;
-  // Half the distance between points leaves a quarter of the error, and takes three quarters away.
-  exchange.error += divisions == 0 ? size * size * area : (area - by_points(divisions / 2)) / 3;
+  }
 }
 
-PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
-                                         const std::function<void()>& tick) const {
+/// Into how many parts to divide the sides of the triangles of a cell; 0: a point suffices.
+int ExchangeFinder::divisions_of(double size) const {
+  constexpr double min_divisions = 0.2;
+  const double ideal = density_ * size;
+  return ideal < min_divisions
+             ? 0
+             : static_cast<int>(std::clamp(std::ceil(ideal), 1.0, 2 * std::max(density_, 1.0)));
+}
+
+PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among, bool estimate,
+                                      const std::function<void()>& tick) const {
   PatchExchange exchange;
-  std::vector<Corners> blockers;
-  for (const Corners& p : parts_of(i)) {
-    for (const Corners& q : parts_of(j)) {
-      const FacingPolygons facing(p, q, tolerance_);
+  Numbers blockers;
+  for (const Part& p : parts_of(i)) {
+    for (const Part& q : parts_of(j)) {
+      const FacingPolygons facing(p.corners, p.front, q.corners, q.front, tolerance_);
       if (facing.empty()) {
         continue;
       }
-      collect_blockers(facing, blockers);
+      collect_blockers(facing, among, blockers);
       if (blockers.empty()) {
         exchange.area += polygon_exchange(facing);
-      } else {
-        exchange.whole = false;
-        const bool hidden =
-            std::any_of(blockers.begin(), blockers.end(),
-                        [&](const Corners& blocker) { return is_hidden(facing, blocker); });
-        if (!hidden) {
-          add_partial(facing, blockers, tick, exchange);
-        }
+        continue;
+      }
+      exchange.whole = false;
+      if (!is_any_hiding(facing, blockers)) {
+        add_partial(facing, blockers, estimate, tick, exchange);
       }
     }
   }
   return exchange;
+}
+
+PatchExchange ExchangeFinder::operator()(PatchId i, PatchId j,
+                                         const std::function<void()>& tick) const {
+  return between(i, j, nullptr, true, tick);
+}
+
+void ExchangeFinder::for_each_after(
+    PatchId i, const std::function<void()>& tick,
+    const std::function<void(PatchId j, double area)>& visit) const {
+  const auto visit_pairs = [&](PatchId begin, PatchId end, const Numbers* among) {
+    for (PatchId j = begin; j < end; ++j) {
+      if (tick) {
+        tick();
+      }
+      if (const double area = between(i, j, among, false, tick).area; area > 0) {
+        visit(j, area);
+      }
+    }
+  };
+  PatchId next = i + 1;
+  Numbers blockers;
+  auto face =
+      std::upper_bound(faces_.begin(), faces_.end(), next,
+                       [](PatchId j, const MergedFace& f) { return j <= f.patches.back(); });
+  // A patch in several parts may see a face by each of them.
+  for (; face != faces_.end() && parts_of(i).size() == 1; ++face) {
+    visit_pairs(next, face->patches.front(), nullptr);
+    const Part& p = parts_of(i)[0];
+    const FacingPolygons facing(p.corners, p.front, face->outline, lit_half_space(face->outline),
+                                tolerance_);
+    if (!facing.empty()) {
+      collect_blockers(facing, nullptr, blockers);
+      if (!is_any_hiding(facing, blockers)) {
+        visit_pairs(std::max(next, face->patches.front()), face->patches.back() + 1, &blockers);
+      }
+    }
+    next = face->patches.back() + 1;
+  }
+  visit_pairs(next, scene_.patch_count(), nullptr);
 }
 
 }  // namespace transillum

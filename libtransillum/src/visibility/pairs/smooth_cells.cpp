@@ -8,6 +8,25 @@ namespace {
 
 constexpr std::size_t most_blockers = 8, most_lines = 12;
 
+/// An edge of a polygon.
+struct Side {
+  Vec3 begin, end;
+};
+
+template <class Visit>
+void for_each_side(Outline polygon, Visit&& visit) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    visit(Side{polygon[k], polygon[k + 1 < polygon.size() ? k + 1 : 0]});
+  }
+}
+
+bool are_parallel(const Side& a, const Side& b) {
+  constexpr double sine = 1e-9;
+  const Vec3 along_a = a.end - a.begin, along_b = b.end - b.begin;
+  const Vec3 across = cross(along_a, along_b);
+  return dot(across, across) <= sine * sine * dot(along_a, along_a) * dot(along_b, along_b);
+}
+
 /// The cells of a polygon, cut by one plane after the other.
 class Cells {
  public:
@@ -15,61 +34,61 @@ class Cells {
     cells_.emplace_back().assign(polygon.begin(), polygon.end());
   }
 
-  bool full() const { return lines_.size() > most_lines; }
+  bool full() const { return lines_ >= most_lines; }
   std::vector<Corners> take() && { return std::move(cells_); }
 
-  /// Cuts by the plane through `apex` and the edge from a to b, where the sector that they span
-  /// meets the polygon: beyond the edge, or beyond the apex (`sign` -1).
-  void cut(const Vec3& apex, const Vec3& a, const Vec3& b, double sign) {
-    const Vec3 to_a = sign * (a - apex), to_b = sign * (b - apex);
-    const Vec3 across = cross(to_a, to_b);
+  /// Cuts by the plane through two parallel edges, if the shadow of the one before the light from
+  /// the other may reach a cell.
+  void cut(const Side& edge, const Side& light) {
+    const Vec3 across = cross(edge.end - edge.begin, light.begin - edge.begin);
     const double length = norm(across);
-    if (length <= tolerance_ * max_abs(to_a)) {
+    if (full() || length <= tolerance_ * norm(edge.end - edge.begin)) {
       return;
     }
-    HalfSpace side{across / length};
-    side.offset = dot(side.normal, apex);
-    const Corners& whole = cells_.front();
-    if (lines_.empty() ? !meets(whole, side, apex, to_a, to_b)
-                       : std::none_of(cells_.begin(), cells_.end(), [&](const Corners& cell) {
-                           return meets(cell, side, apex, to_a, to_b);
-                         })) {
-      return;
+    const Vec3 normal = across / length;
+    const HalfSpace plane{normal, dot(normal, edge.begin)};
+    if (std::any_of(cells_.begin(), cells_.end(), [&](const Corners& cell) {
+          return is_cut(cell, plane) && (is_shadow_in(cell, plane, edge, light.begin) ||
+                                         is_shadow_in(cell, plane, edge, light.end));
+        })) {
+      split(plane);
+      ++lines_;
     }
-    lines_.push_back(side);
-    if (full()) {
-      return;
-    }
-    split(side);
   }
 
  private:
-  /// Whether the plane cuts the polygon within the sector.
-  bool meets(const Corners& polygon, const HalfSpace& side, const Vec3& apex, const Vec3& to_a,
-             const Vec3& to_b) const {
-    const Vec3 after_a = cross(side.normal, to_a), before_b = cross(to_b, side.normal);
-    double low = 0, high = 0;
-    bool reaches_a = false, reaches_b = false;
+  bool is_cut(const Corners& polygon, const HalfSpace& plane) const {
+    bool below = false, above = false;
     for (const Vec3& x : polygon) {
-      const double distance = side.distance(x);
-      low = std::min(low, distance);
-      high = std::max(high, distance);
-      reaches_a = reaches_a || dot(after_a, x - apex) > 0;
-      reaches_b = reaches_b || dot(before_b, x - apex) > 0;
+      const double distance = plane.distance(x);
+      below = below || distance < -tolerance_;
+      above = above || distance > tolerance_;
     }
-    return low < -tolerance_ && high > tolerance_ && reaches_a && reaches_b;
+    return below && above;
   }
 
-  void split(const HalfSpace& side) {
-    const HalfSpace opposite{-side.normal, -side.offset};
+  /// Whether the polygon reaches between the planes through `light` and the ends of the edge that
+  /// are perpendicular to `plane`, on the edge's side of `light`.
+  static bool is_shadow_in(const Corners& polygon, const HalfSpace& plane, const Side& edge,
+                           const Vec3& light) {
+    const Vec3 to_begin = edge.begin - light, to_end = edge.end - light;
+    const double turn = dot(plane.normal, cross(to_begin, to_end)) > 0 ? 1 : -1;
+    const Vec3 after = turn * cross(plane.normal, to_begin),
+               before = turn * cross(to_end, plane.normal);
+    bool reaches_begin = false, reaches_end = false;
+    for (const Vec3& x : polygon) {
+      reaches_begin = reaches_begin || dot(after, x - light) > 0;
+      reaches_end = reaches_end || dot(before, x - light) > 0;
+    }
+    return reaches_begin && reaches_end;
+  }
+
+  void split(const HalfSpace& plane) {
+    const HalfSpace opposite{-plane.normal, -plane.offset};
     for (std::size_t k = cells_.size(); k-- > 0;) {
-      const auto is_beyond = [&](const HalfSpace& of) {
-        return std::any_of(cells_[k].begin(), cells_[k].end(),
-                           [&](const Vec3& x) { return of.distance(x) > tolerance_; });
-      };
-      if (is_beyond(side) && is_beyond(opposite)) {
+      if (is_cut(cells_[k], plane)) {
         Corners rest = clipped(cells_[k], opposite, tolerance_);
-        cells_[k] = clipped(cells_[k], side, tolerance_);
+        cells_[k] = clipped(cells_[k], plane, tolerance_);
         cells_.push_back(std::move(rest));
       }
     }
@@ -77,7 +96,7 @@ class Cells {
 
   double tolerance_;
   std::vector<Corners> cells_;
-  std::vector<HalfSpace> lines_;
+  std::size_t lines_ = 0;  ///< that cut a cell
 };
 
 }  // namespace
@@ -85,27 +104,19 @@ class Cells {
 std::vector<Corners> smooth_cells(Outline small, Outline large,
                                   const std::vector<Corners>& blockers, double tolerance) {
   Cells cells(small, tolerance);
-  const auto for_each_edge = [](Outline polygon, auto visit) {
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      visit(polygon[k], polygon[k + 1 < polygon.size() ? k + 1 : 0]);
-    }
-  };
+  if (blockers.size() > most_blockers) {
+    return std::move(cells).take();
+  }
   for (const Corners& blocker : blockers) {
-    if (blockers.size() > most_blockers || cells.full()) {
-      break;
-    }
-    for_each_edge(blocker, [&](const Vec3& a, const Vec3& b) {
-      for (const Vec3& corner : large) {
-        cells.cut(corner, a, b, 1);
-      }
-    });
-    for_each_edge(large, [&](const Vec3& a, const Vec3& b) {
-      for (const Vec3& corner : blocker) {
-        cells.cut(corner, a, b, -1);
-      }
+    for_each_side(blocker, [&](const Side& edge) {
+      for_each_side(large, [&](const Side& light) {
+        if (!cells.full() && are_parallel(edge, light)) {
+          cells.cut(edge, light);
+        }
+      });
     });
   }
-  return cells.full() ? Cells(small, tolerance).take() : std::move(cells).take();
+  return std::move(cells).take();
 }
 
 }  // namespace transillum

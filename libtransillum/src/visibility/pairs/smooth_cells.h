@@ -7,14 +7,12 @@
 
 namespace transillum {
 
-/// Cuts `small` along the lines where the visible part of `large` changes its shape: where a corner
-/// of one of `large` and a blocker crosses an edge of the other, as seen from the point. Within a
-/// cell, the form factor to the visible part is a smooth function of the point, except where edges
-/// of two blockers and of `large` meet in one line of sight.
+/// Cuts `small` along the lines from which an edge of `large` and a parallel edge of a blocker are
+/// in line. There, the form factor to the visible part of `large` has a kink as a function of the
+/// point; where other edges and corners are in line, only its second derivative jumps.
 /// @param small convex; the cells are convex and make it up.
 /// @param tolerance lines that reach no deeper into a cell do not cut it, m.
-/// @returns `small` alone if more than a few lines cut it: then many points of a cell would cost
-/// more than they gain.
+/// @returns a few dozen cells at most: further lines, and those of many blockers, cut nothing.
 std::vector<Corners> smooth_cells(Outline small, Outline large,
                                   const std::vector<Corners>& blockers, double tolerance);
 
