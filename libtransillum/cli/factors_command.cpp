@@ -121,7 +121,7 @@ void check_options(const FactorsCall& call) {
   }
   // Here its rays start at patches: there is no direction, no plane of pixels, no memory limit.
   for (const char* option :
-       {"--directions", "--sampling", "--rotate", "--resolution", "--memory"}) {
+       {"--directions", "--sampling", "--rotate", "--resolution", "--points", "--memory"}) {
     refuse_unless(false, *call.command, option, "not used with engine rays");
   }
 }

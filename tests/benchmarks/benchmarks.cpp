@@ -14,8 +14,9 @@
 //   Lines     one pass of the fast engine on the sphere flake compared with 10 parallel lines per
 //             patch with all their hits, traced by Embree in the fastest way found; prints
 //             `lines ratio`
-//   Accuracy  seconds on one core to 1 % and 0.2 % RMS error of B, reflectance 0.6 everywhere:
-//             passes compared with cosine-weighted rays by Embree, and the ratios
+//   Accuracy  seconds on one core to an RMS error of B, on five scenes: passes compared with
+//             cosine-weighted rays by Embree and with engine pairs, and the ratios;
+//             TRANSILLUM_BENCHMARK_PLOT=FILE.svg draws the runs
 //   Scaling   milliseconds per pass on increasingly fine scenes, and the fitted exponent;
 //             TRANSILLUM_BENCHMARK_HUGE=1 adds a flake of a million patches
 //   Imperfect sorting and a pass on scenes as files have them, against the flake in the same run

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "support/scenes.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "transillum/directions.h"
@@ -30,6 +32,19 @@ Sketch& Sketch::face(const std::vector<Vec3>& outline, int material) {
     description_.points.push_back(p);
   }
   description_.add_face(ids, material);
+  return *this;
+}
+
+Sketch& Sketch::grid(const Vec3& corner, const Vec3& u, const Vec3& v, int divisions,
+                     const std::function<int(double s, double t)>& material) {
+  const double step = 1.0 / divisions;
+  for (int i = 0; i < divisions; ++i) {
+    for (int j = 0; j < divisions; ++j) {
+      const auto at = [&](int a, int b) { return corner + a * step * u + b * step * v; };
+      face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)},
+           material((i + 0.5) * step, (j + 0.5) * step));
+    }
+  }
   return *this;
 }
 
@@ -87,6 +102,30 @@ Sketch& Sketch::tetrahedra(int count, double size, std::uint64_t seed, int mater
   return *this;
 }
 
+Sketch box_in_cube(int wall, int side, const std::function<Vec3(const Vec3&)>& move) {
+  Sketch sketch("box-in-cube");
+  const int gray = sketch.material(0.5, 0), light = sketch.material(0.5, 1);
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, low{0.3, 0.3, 0.3}, high{0.7, 0.7, 0.7};
+  const auto all_gray = [&](double, double) { return gray; };
+  const auto lit_middle = [&](double s, double t) {
+    return std::max(std::abs(s - 0.5), std::abs(t - 0.5)) < 0.25 ? light : gray;
+  };
+  sketch.grid({}, x, y, wall, all_gray).grid(z, y, x, wall, lit_middle);
+  sketch.grid({}, y, z, wall, all_gray).grid(x, z, y, wall, all_gray);
+  sketch.grid({}, z, x, wall, all_gray).grid(y, x, z, wall, all_gray);
+  const auto add_side = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+    const Vec3 at = move(corner);
+    sketch.grid(at, move(corner + 0.4 * u) - at, move(corner + 0.4 * v) - at, side, all_gray);
+  };
+  add_side(low, y, x);
+  add_side(low, z, y);
+  add_side(low, x, z);
+  add_side(high, -x, -y);
+  add_side(high, -y, -z);
+  add_side(high, -z, -x);
+  return sketch;
+}
+
 SceneDescription moved(const SceneDescription& description,
                        const std::function<Vec3(const Vec3&)>& move) {
   SceneDescription result = description;
@@ -114,6 +153,12 @@ std::function<Vec3(const Vec3&)> random_rotation(std::uint64_t seed) {
   const Vec3 y = normalized(cross(two[1].direction, x));
   const Vec3 z = cross(x, y);
   return [=](const Vec3& p) { return p.x * x + p.y * y + p.z * z; };
+}
+
+std::function<Vec3(const Vec3&)> random_rotation_about(const Vec3& center, std::uint64_t seed) {
+  return [center, rotation = random_rotation(seed)](const Vec3& p) {
+    return center + rotation(p - center);
+  };
 }
 
 std::vector<Vec3> test_directions(int count, std::uint64_t seed) {

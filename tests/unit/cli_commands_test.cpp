@@ -387,6 +387,11 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
   }
   EXPECT_EQ(factors({"--engine", "rays", "--rays", "20000", "--seed", "3", "--threads", "1"}),
             rays);
+  const auto pairs = factors({"--engine", "pairs", "--points", "64"});
+  EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+  for (const auto& row : pairs) {
+    EXPECT_NEAR(row[2], (matrix[{row[0], row[1]}]), 1e-3);
+  }
   const auto hemicubes = factors({"--engine", "hemicube", "--resolution", "128"});
   EXPECT_TRUE(std::is_sorted(hemicubes.begin(), hemicubes.end()));
   // From the centers of such large patches the visible areas differ, but rows still sum to 1.
@@ -397,6 +402,17 @@ TEST(CliFactors, PassesAndRaysGiveTheSameMatrix) {
   for (const auto& [i, sum] : sums) {
     EXPECT_NEAR(sum, 1, 1e-12) << i;
   }
+}
+
+TEST(CliSolve, PairsReplacePasses) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program({"solve", "cornell-box", "--engine", "pairs", "--points", "8", "--out",
+                   folder / "b.csv", "--out", folder / "b.vtp", "--stats", folder / "s.json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("351, by 8 points where something is between"));
+  EXPECT_THAT(folder.names(), ElementsAre("b.csv", "b.vtp", "s.json"));
+  EXPECT_THAT(read_file(folder / "s.json"), HasSubstr("\"points\": 8"));
 }
 
 TEST(CliSolve, HemicubesReplacePasses) {

@@ -62,6 +62,11 @@ const InvalidCall invalid_calls[] = {
     {{"solve", "furnace", "--engine", "painter", "--order", "depth"}, "bsp, newell"},
     {{"transfers", "furnace", "--lines", "nan"}, "--lines"},
     {{"transfers", "furnace", "--direction", "1,2,3", "--engine", "hemicube"}, "no directions"},
+    {{"transfers", "furnace", "--direction", "1,2,3", "--engine", "pairs"}, "no directions"},
+    {{"solve", "furnace", "--engine", "pairs", "--points", "0"}, "from 1 to 1024"},
+    {{"factors", "furnace", "--engine", "pairs", "--points", "1025"}, "from 1 to 1024"},
+    {{"solve", "furnace", "--engine", "pairs", "--scheme", "growing"}, "no directions"},
+    {{"study", "furnace", "--engines", "pairs:2000"}, "from 1 to 1024"},
     {{"factors", "furnace", "--engine", "hemicube", "--resolution", "31"}, "even"},
     {{"solve", "furnace", "--engine", "hemicube", "--resolution", "4096"}, "from 2 to 2048"},
     {{"solve", "furnace", "--engine", "hemicube", "--replicas", "4"}, "no directions"},
@@ -180,6 +185,8 @@ TEST(CliErrors, HintsNameTheOption) {
   expect_hint({"factors", "furnace", "-m", "9", "--memory", "1"}, 1,
               "the form factors exceed the memory limit", " (try a larger --memory)");
   expect_hint({"factors", "furnace", "--engine", "hemicube", "--memory", "1"}, 1,
+              "the form factors exceed the memory limit", " (try a larger --memory)");
+  expect_hint({"solve", "furnace", "--engine", "pairs", "--memory", "1"}, 1,
               "the form factors exceed the memory limit", " (try a larger --memory)");
   expect_hint({"transfers", "furnace", "--direction", "1,2,3", "--engine", "hemicube"}, 2,
               "has no directions", " (try solve, factors or study)");

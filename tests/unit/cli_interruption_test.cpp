@@ -118,18 +118,30 @@ TEST_F(CliInterruption, WritesNothingBeforeTheFirstPass) {
 }
 
 /// B requires the complete matrix.
-TEST_F(CliInterruption, HemicubesSaveNothingAndReportWhy) {
-  const TemporaryFolder folder;
-  RunningProgram program({"solve", "sphere-flake:levels=1", "--engine", "hemicube", "--resolution",
-                          "1024", "--out", folder / "a.csv"});
-  for (int k = 0; k < 600 && program.err_so_far().find("hemicubes") == std::string::npos; ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+TEST_F(CliInterruption, EnginesWithoutDirectionsSaveNothingAndReportWhy) {
+  struct Run {
+    std::vector<std::string> options;
+    const char *progress, *message;
+  };
+  for (const Run& run : {Run{{"--engine", "hemicube", "--resolution", "1024"},
+                             "hemicubes",
+                             "% of the hemicubes were drawn, but B requires all of them"},
+                         Run{{"--engine", "pairs", "--points", "512"},
+                             "pairs/s",
+                             "% of the pairs were computed, but B requires all of them"}}) {
+    const TemporaryFolder folder;
+    std::vector<std::string> call{"solve", "sphere-flake:levels=1", "--out", folder / "a.csv"};
+    call.insert(call.end(), run.options.begin(), run.options.end());
+    RunningProgram program(call);
+    for (int k = 0; k < 600 && program.err_so_far().find(run.progress) == std::string::npos; ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    program.send(SIGINT);
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.status, 130) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(run.message));
+    EXPECT_THAT(folder.names(), ::testing::IsEmpty());
   }
-  program.send(SIGINT);
-  const ProgramResult result = program.wait();
-  EXPECT_EQ(result.status, 130) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("% of the hemicubes were drawn, but B requires all of them"));
-  EXPECT_THAT(folder.names(), ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -54,14 +54,16 @@ TEST(CliStudy, ComparesEngines) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_program({"study", "furnace", "--directions", "8,16", "--sampling", "fibonacci,hammersley",
-                   "--engines", "fast,zbuffer:64,corrected,hemicube,hemicube:16", "--reference",
-                   "64", "--no-cache", "--out", folder / "s.csv", "--plot", folder / "s.svg",
-                   "--against", "seconds"});
+                   "--engines", "fast,zbuffer:64,corrected,hemicube,hemicube:16,pairs:4,pairs:8",
+                   "--reference", "64", "--no-cache", "--out", folder / "s.csv", "--plot",
+                   folder / "s.svg", "--against", "seconds"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("12 hemicubes of 768 pixels"));
   const auto lines = lines_of(read_file(folder / "s.csv"));
   // Samplings and numbers of directions do not apply to hemicubes.
-  ASSERT_THAT(lines, SizeIs(1 + 2 * 3 * 2 + 2));
+  ASSERT_THAT(lines, SizeIs(1 + 2 * 3 * 2 + 2 + 2));
+  EXPECT_THAT(result.err, HasSubstr("the pairs of 12 patches, 8 points"));
+  EXPECT_THAT(lines, Contains(AllOf(StartsWith("pairs:4,4,12,"), EndsWith(",pairs,4"))));
   EXPECT_THAT(lines,
               Contains(AllOf(StartsWith("fibonacci/zbuffer:64,32,16,"), EndsWith(",zbuffer,64"))));
   EXPECT_THAT(lines,

@@ -26,6 +26,7 @@ const Call transfers{"transfers", "furnace", "--direction", "1,2,3"};
 const Call map{"map", "furnace", "--direction", "1,2,3"};
 const Call factors{"factors", "furnace"};
 const Call study{"study", "furnace", "-q", "--no-cache", "-m", "8", "--sampling", "fibonacci"};
+const Call by_pairs{"solve", "furnace", "-q", "--engine", "pairs"};
 const Call study_hemicubes{"study", "furnace", "-q", "--no-cache", "--engines", "hemicube:16"};
 
 /// A call, and options of which the last is not used.
@@ -54,6 +55,12 @@ const Unused unused[] = {
     {by_hemicubes, {"-m", "64"}, "--directions: not used with engine hemicube"},
     {by_hemicubes, {"--rotate", "2"}, "--rotate: not used with engine hemicube"},
     {by_hemicubes, {"--seed", "2"}, "--seed: used only with"},
+    {by_pairs, {"-m", "64"}, "--directions: not used with engine hemicube or pairs"},
+    {by_pairs, {"--resolution", "64"}, "--resolution: used only with"},
+    {by_hemicubes, {"--points", "8"}, "--points: used only with engine pairs"},
+    {solve, {"--points", "8"}, "--points: used only with engine pairs"},
+    {factors, {"--points", "8"}, "--points: used only with engine pairs"},
+    {factors, {"--engine", "rays", "--points", "8"}, "--points: not used with engine rays"},
     {transfers, {"--resolution", "64"}, "--resolution: used only with"},
     {transfers, {"--order", "newell"}, "--order: used only with"},
     {transfers, {"--lines", "10"}, "--lines: used only with"},
@@ -117,6 +124,8 @@ TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
       joined(by_hemicubes, {"--resolution", "16", "--iterations", "3", "--scheme", "fixed"}),
       joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", "64"}),
       joined(factors, {"--engine", "rays", "--rays", "10", "--seed", "2"}),
+      joined(by_pairs, {"--points", "16", "--iterations", "3", "--scheme", "fixed"}),
+      joined(factors, {"--engine", "pairs", "--points", "16"}),
       joined(factors, {"--engine", "hemicube", "--resolution", "16"}),
       joined(map, {"--out", "m.svg", "--out", "m.json", "--size", "300"}),
       {"directions", "-m", "4", "--sampling", "random", "--seed", "2"},

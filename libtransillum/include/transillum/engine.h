@@ -59,7 +59,7 @@ const std::string& name_of(PaintersOrder order);
 struct EngineOptions {
   static constexpr int default_resolution = 512;    ///< of zbuffer and painter, pixels
   static constexpr int largest_resolution = 16384;  ///< pixels
-  static constexpr int default_points = 16;         ///< of pairs
+  static constexpr int default_points = 32;         ///< of pairs
   static constexpr int largest_points = 1024;       ///< of pairs
 
   double lines_per_patch = 100;  ///< rays: lines per direction over number of patches, (0, 1e6]

@@ -45,7 +45,7 @@ struct PairSolution {
 /// at EngineOptions::largest_points.
 /// @param scene the scene.
 /// @param options as for solve_by_form_factors() with engine pairs; engine_options.points is the
-/// number to start from (0: a quarter of the default). The tolerance is lowered to a tenth of
+/// number to start from (0: an eighth of the default). The tolerance is lowered to a tenth of
 /// `accuracy` if it is above that.
 /// @param accuracy RMS error of B over RMS of B, between 0 and 1.
 /// @param cancellation checked during computation.

@@ -21,6 +21,8 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["engine"] = name_of(options.engine);
   const int resolution = options.engine_options.resolution;
   json["resolution"] = resolution > 0 ? Json(resolution) : Json();
+  const int points = options.engine_options.points;
+  json["points"] = points > 0 ? Json(points) : Json();
   json["two_way"] = options.two_way;
   json["normalize"] = name_of(options.normalize);
   json["scheme"] = name_of(options.scheme);

@@ -158,7 +158,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   step.engine = Engine::pairs;
   step.tolerance = std::min(options.tolerance, 0.1 * accuracy);
   int& points = step.engine_options.points;
-  points = points > 0 ? points : EngineOptions::default_points / 4;
+  points = points > 0 ? points : EngineOptions::default_points / 8;
   const auto solved = [&] {
     return solve_by_form_factors(scene, step, cancellation, [&](double share) {
       if (progress) {

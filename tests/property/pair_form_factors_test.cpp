@@ -1,0 +1,203 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Form factors pair by pair and what is solved with them: known values, closure, reciprocity, and
+// agreement with passes, which share nothing with them but the scene.
+#include "transillum/pair_form_factors.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "support/scenes.h"
+#include "transillum/errors.h"
+#include "transillum/exact_form_factors.h"
+#include "transillum/form_factor_solve.h"
+#include "transillum/study.h"
+
+namespace transillum {
+namespace {
+
+using testing::box_in_cube;
+using testing::Sketch;
+
+std::vector<double> dense_row(const Scene& scene, const FormFactors& f, PatchId i) {
+  std::vector<double> row(scene.patches().size());
+  for (std::size_t k = f.row_begin[static_cast<std::size_t>(i)];
+       k < f.row_begin[static_cast<std::size_t>(i) + 1]; ++k) {
+    row[static_cast<std::size_t>(f.source[k])] = f.value[k];
+  }
+  return row;
+}
+
+double sum(const std::vector<double>& row) { return std::accumulate(row.begin(), row.end(), 0.0); }
+
+/// Largest difference of a row sum from 1.
+double closure_error(const Scene& scene, const FormFactors& f) {
+  double error = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    error = std::max(error, std::abs(sum(dense_row(scene, f, i)) - 1));
+  }
+  return error;
+}
+
+const auto turned = testing::random_rotation_about({0.5, 0.5, 0.5}, 4);
+
+TEST(PairFormFactors, OfOppositeSquaresAreTheClosedForm) {
+  Sketch sketch;
+  const int gray = sketch.material(0.5, 0);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, gray);
+  sketch.face({{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, gray);
+  const auto scene = sketch.scene();
+  const FormFactors f = pair_form_factors(*scene, {});
+  ASSERT_EQ(f.size(), 2U);
+  EXPECT_NEAR(f.value[0], 0.1998248957, 1e-10);
+  EXPECT_EQ(f.value[0], f.value[1]);
+}
+
+TEST(PairFormFactors, RowsOfAConvexRoomSumToOne) {
+  Sketch sketch;
+  sketch.box({0, 0, 0}, {3, 1, 2}, true, sketch.material(0.5, 1));
+  const auto scene = sketch.scene({.max_patch_area = 0.1});
+  EXPECT_LT(closure_error(*scene, pair_form_factors(*scene, {.points = 1})), 1e-12);
+}
+
+/// Twice as many points leave a third of the error or less, where edges are parallel and where none
+/// are.
+TEST(PairFormFactors, RowsPastBlockersSumToOneTheBetterTheMorePoints) {
+  for (const bool parallel : {true, false}) {
+    const auto scene = parallel ? box_in_cube(4, 2).scene() : box_in_cube(4, 2, turned).scene();
+    double last = closure_error(*scene, pair_form_factors(*scene, {.points = 8}));
+    EXPECT_LT(last, 1e-2);
+    for (const int points : {16, 32, 64}) {
+      const double error = closure_error(*scene, pair_form_factors(*scene, {.points = points}));
+      EXPECT_LT(error, last) << points;
+      last = error;
+    }
+    EXPECT_LT(last, 2e-4);
+  }
+}
+
+TEST(PairFormFactors, AreReciprocal) {
+  const auto scene = load_scene("cornell-box", {.max_patch_area = 0.05});
+  const FormFactors f = pair_form_factors(*scene, {});
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    const std::vector<double> row = dense_row(*scene, f, i);
+    for (PatchId j = 0; j < i; ++j) {
+      const double one = scene->patch(i).area * row[static_cast<std::size_t>(j)];
+      const double other =
+          scene->patch(j).area * dense_row(*scene, f, j)[static_cast<std::size_t>(i)];
+      // Either is rounded by a division and a product.
+      EXPECT_LE(std::abs(one - other), 2 * std::numeric_limits<double>::epsilon() * one);
+    }
+  }
+}
+
+TEST(PairFormFactors, AreTheRowsOfExactFormFactors) {
+  for (const bool two_sided : {false, true}) {
+    const auto scene = load_scene("rooms", {.two_sided = two_sided});
+    const FormFactors f = pair_form_factors(*scene, {.points = 16});
+    for (PatchId i = 0; i < scene->patch_count(); i += 31) {
+      const std::vector<double> row = dense_row(*scene, f, i),
+                                exact = exact_form_factors(*scene, i);
+      for (std::size_t j = 0; j < row.size(); ++j) {
+        EXPECT_NEAR(row[j], exact[j], 1e-14) << i << " " << j;
+      }
+    }
+  }
+}
+
+TEST(PairFormFactors, AreTheSameBitsForAnyNumberOfThreads) {
+  const auto scene = box_in_cube(4, 2, turned).scene();
+  const FormFactors one = pair_form_factors(*scene, {.threads = 1});
+  const FormFactors many = pair_form_factors(*scene, {.threads = 5});
+  EXPECT_EQ(one.row_begin, many.row_begin);
+  EXPECT_EQ(one.source, many.source);
+  EXPECT_EQ(one.value, many.value);
+}
+
+TEST(PairFormFactors, RefuseBadOptionsAndRespectTheMemoryLimit) {
+  const auto scene = load_scene("furnace");
+  EXPECT_THROW(pair_form_factors(*scene, {.points = 0}), InputError);
+  EXPECT_THROW(pair_form_factors(*scene, {.points = 1025}), InputError);
+  EXPECT_THROW(pair_form_factors(*scene, {.threads = -1}), InputError);
+  EXPECT_THROW(pair_form_factors(*scene, {.memory = 100}), MemoryLimitExceeded);
+}
+
+TEST(PairFormFactors, AreCanceledWithinARow) {
+  const auto scene = load_scene("sphere-flake:levels=1");
+  const Cancellation cancellation;
+  double last = 0;
+  EXPECT_THROW(pair_form_factors(*scene, {.threads = 1}, cancellation,
+                                 [&](double share) {
+                                   EXPECT_GE(share, last);
+                                   last = share;
+                                   cancellation.cancel();
+                                 }),
+               Canceled);
+  EXPECT_GT(last, 0);
+  EXPECT_LT(last, 0.1);
+}
+
+Solution solved_by_pairs(const std::shared_ptr<const Scene>& scene, int points) {
+  SolveOptions options{.engine = Engine::pairs, .tolerance = 1e-9};
+  options.engine_options.points = points;
+  return solve_by_form_factors(scene, options);
+}
+
+/// Two methods that share only the scene: pairs without directions, and rotated passes, whose error
+/// their replicas estimate.
+TEST(PairSolve, AgreesWithPassesWithinTheirError) {
+  for (const auto& scene : {box_in_cube().scene(), box_in_cube(8, 4, turned).scene(),
+                            load_scene("cornell-box", {.max_patch_area = 0.05})}) {
+    const Solution passes = solve(scene, {.directions = 8192, .tolerance = 1e-8, .replicas = 8});
+    const Solution pairs = solved_by_pairs(scene, 64);
+    const RadiosityError error = radiosity_error(pairs.radiosity, passes.radiosity);
+    // 95 % of all estimates are below the quantile; the RMS over many patches is closer.
+    EXPECT_LT(error.rms, passes.error.quantile * passes.error.rms);
+    EXPECT_LT(error.rms, 1e-4);
+  }
+}
+
+TEST(PairSolve, ReportsItsFigures) {
+  const auto scene = box_in_cube(4, 2).scene();
+  const Solution solution = solved_by_pairs(scene, 32);
+  const SolveStatistics& s = solution.statistics;
+  EXPECT_TRUE(solution.complete && s.converged);
+  EXPECT_EQ(s.pairs, 120 * 119 / 2);
+  EXPECT_EQ(s.directions, 32);
+  EXPECT_LT(s.closure_defect_max, 1e-3);
+  EXPECT_LT(s.energy_defect, 1e-12);
+  EXPECT_NEAR(s.energy_balance, 1, 1e-3);
+}
+
+TEST(PairSolve, RefusesWhatNeedsDirections) {
+  const auto scene = load_scene("furnace");
+  EXPECT_THROW(solve_by_form_factors(scene, {.engine = Engine::pairs, .replicas = 2}), InputError);
+  EXPECT_THROW(solve_by_form_factors(scene, {.engine = Engine::fast}), InputError);
+  EXPECT_THROW(make_engine(Engine::pairs, scene, nullptr), InputError);
+  EXPECT_FALSE(takes_directions(Engine::pairs));
+}
+
+/// The estimate is at least the error, compared with many more points.
+TEST(PairSolve, ReachesAnAccuracy) {
+  const auto scene = box_in_cube(6, 3, turned).scene();
+  const Solution reference = solved_by_pairs(scene, 512);
+  for (const double accuracy : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    const PairSolution result = solve_by_pairs(scene, {}, accuracy);
+    EXPECT_TRUE(result.reached);
+    EXPECT_LE(result.error, accuracy);
+    EXPECT_LE(radiosity_error(result.solution.radiosity, reference.radiosity).rms, result.error);
+  }
+  EXPECT_THROW(solve_by_pairs(scene, {}, 0), InputError);
+}
+
+TEST(PairSolve, IsExactAtOnceWhereNothingIsBetween) {
+  const PairSolution result = solve_by_pairs(load_scene("furnace"), {}, 1e-9);
+  EXPECT_TRUE(result.reached);
+  EXPECT_EQ(result.error, 0);
+}
+
+}  // namespace
+}  // namespace transillum
