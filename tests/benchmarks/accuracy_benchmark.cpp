@@ -93,13 +93,13 @@ struct Case {
 std::vector<Case> cases() {
   const std::vector<double> coarse{1e-2, 1e-3, 1e-4};
   return {
-      {"cornell-box, 290 patches", load_scene("cornell-box", {.max_patch_area = 0.01}), coarse, 8,
-       65536, 256, 3},
-      {"rooms, 254 patches", load_scene("rooms"), coarse, 8, 65536, 256, 3},
-      {"box in a cube, 480 patches", testing::box_in_cube().scene(), coarse, 8, 65536, 256, 3},
+      {"cornell-box, 290 patches", load_scene("cornell-box", {.max_patch_area = 0.01}), coarse, 4,
+       32768, 128, 2},
+      {"rooms, 254 patches", load_scene("rooms"), coarse, 4, 32768, 128, 2},
+      {"box in a cube, 480 patches", testing::box_in_cube().scene(), coarse, 4, 32768, 128, 2},
       {"box turned in a cube, 480 patches",
        testing::box_in_cube(8, 4, testing::random_rotation_about({0.5, 0.5, 0.5}, 4)).scene(),
-       coarse, 8, 65536, 256, 3},
+       coarse, 4, 32768, 128, 2},
       {"sphere-flake, 19976 patches", gray_flake(), {1e-2, 2e-3, 1e-3}, 30, 4096, 0, 1},
   };
 }
