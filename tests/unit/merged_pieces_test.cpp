@@ -32,6 +32,18 @@ TEST(MergedPieces, OfARefinedBoxAreItsSides) {
   }
 }
 
+/// The walls and sides of a box in a cube, of one patch a face.
+TEST(MergedPieces, OfCoplanarFacesThatShareEdgesAreOnePolygon) {
+  const auto scene = testing::box_in_cube(4, 2).scene();
+  const auto polygons = merged_pieces(*scene);
+  ASSERT_EQ(polygons.size(), 12U);
+  EXPECT_NEAR(area(polygons), 6 + 6 * 0.16, 1e-12);
+  for (const MergedFace& face : merged_faces(*scene)) {
+    EXPECT_TRUE(std::is_sorted(face.patches.begin(), face.patches.end()));
+    EXPECT_EQ(face.patches.size(), face.patches.front() < 96 ? 16U : 4U);
+  }
+}
+
 TEST(MergedPieces, OfConcaveAndNonplanarFacesAreTheirPieces) {
   Sketch sketch;
   const int gray = sketch.material(0.5, 0);

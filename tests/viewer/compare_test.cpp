@@ -143,6 +143,11 @@ class CompareTest : public QObject {
     view->findChild<QSpinBox*>("first_resolution")->setValue(128);
     view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Hemicube"));
     QVERIFY(wait_for([&] { return picture->share(14) == 0; }));
+    // Pairs have no directions either, and hemicubes differ from them.
+    view->findChild<QComboBox*>("first_engine")->setCurrentText(QStringLiteral("Pairs of patches"));
+    QVERIFY(wait_for([&] { return view->up_to_date() && picture->share(14) > 0.01; }));
+    view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Pairs of patches"));
+    QVERIFY(wait_for([&] { return view->up_to_date() && picture->share(14) == 0; }));
   }
 
   void settings_keep_every_value() {
