@@ -155,9 +155,31 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
   return solution;
 }
 
+/// Engine pairs with as many points as an accuracy takes.
+Solution solve_by_pairs_to(const AccuracyGoal& goal, const std::shared_ptr<const Scene>& scene,
+                           const SolveOptions& options, const Cancellation& cancellation,
+                           ProgressDisplay& display) {
+  check_form_factor_options(options);
+  PairSolution pairs =
+      solve_by_pairs(scene, options, goal.accuracy, cancellation, [&](int points, double share) {
+        display.show(fmt::format("computing pairs, {} points", points), share);
+      });
+  AccuracyReport report;
+  report.goal = goal;
+  report.stages.push_back({pairs.points, 1, pairs.error});
+  report.error = pairs.error;
+  report.reached = pairs.reached;
+  report.trusted = true;
+  pairs.solution.accuracy = report;
+  return std::move(pairs.solution);
+}
+
 Solution solve_without_directions(const std::shared_ptr<const Scene>& scene,
                                   const SolveOptions& options, const Cancellation& cancellation,
                                   ProgressDisplay& display) {
+  if (options.goal.set() && options.engine == Engine::pairs) {
+    return solve_by_pairs_to(options.goal, scene, options, cancellation, display);
+  }
   const bool hemicubes = options.engine == Engine::hemicube;
   const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
   const double patches = scene->patch_count();

@@ -107,6 +107,13 @@ void check_form_factor_options(const SolveOptions& options) {
                      " has no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");
   }
+  const AccuracyGoal& goal = options.goal;
+  if (goal.set() &&
+      (options.engine != Engine::pairs || goal.of != AccuracyOf::rms || goal.seconds > 0)) {
+    throw InputError(
+        "accuracy: engine hemicube has none to choose, and engine pairs estimates "
+        "only the RMS error, without a time limit");
+  }
   if (options.engine == Engine::hemicube) {
     hemicube_options(options).validate();
   } else {
