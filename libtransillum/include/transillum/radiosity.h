@@ -170,9 +170,9 @@ struct SolveStatistics {
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
   /// Directions that bring a patch the light of a source: (sum c)² / sum c² of the light c that it
-  /// receives along each; harmonic mean over pairs of patch and source, weighted by that light. 0:
-  /// no direct light. Below least_light_directions per replica, the error estimate cannot be
-  /// trusted.
+  /// receives along each; mean over pairs of patch and source, each weighted by what it contributes
+  /// to the variance of B. 0: no direct light. Below least_light_directions per replica, the error
+  /// estimate cannot be trusted.
   double light_directions = 0;
   double escaped = 0;                ///< share of projected area with nothing above; 0: closed
   double energy_defect = 0;          ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
@@ -194,7 +194,7 @@ struct SolveStatistics {
 
 /// Number of directions per replica that must bring a patch its direct light for its error estimate
 /// to be trusted (SolveStatistics::light_directions; decisions/0052-accuracy.md).
-inline constexpr double least_light_directions = 2;
+inline constexpr double least_light_directions = 3;
 
 struct Solution;
 

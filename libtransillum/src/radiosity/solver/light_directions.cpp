@@ -2,6 +2,7 @@
 #include "radiosity/solver/light_directions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
@@ -15,9 +16,13 @@ constexpr std::size_t most_pairs = std::size_t{1} << 22;
 }  // namespace
 
 LightDirections::LightDirections(const Scene& scene, bool two_way, const DirectLight& shot)
-    : two_way_(two_way), exitance_(scene.patches().size()), column_(scene.patches().size()) {
+    : two_way_(two_way),
+      weight_(scene.patches().size()),
+      exitance_(scene.patches().size()),
+      column_(scene.patches().size()) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const Rgb unshot = scene.exitance(i) - at(shot.exitance, i);
+    at(weight_, i) = std::pow(max_abs(scene.reflectance(i)) / scene.patch(i).area, 2);
     at(exitance_, i) = unshot.r + unshot.g + unshot.b;
   }
   const std::vector<LightSource> sources = light_sources(scene);
@@ -60,13 +65,15 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
   lit_.clear();
 }
 
+/// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.
 double LightDirections::mean() const {
-  double sum = 0, inverse = 0;
-  for (const Light& light : lights_) {
-    sum += light.sum;
-    inverse += ratio_or_zero(light.squares, light.sum);
+  double sums = 0, squares = 0;
+  for (std::size_t k = 0; k < lights_.size(); ++k) {
+    const double weight = weight_[k / columns_];
+    sums += weight * lights_[k].sum * lights_[k].sum;
+    squares += weight * lights_[k].squares;
   }
-  return ratio_or_zero(sum, inverse);
+  return ratio_or_zero(sums, squares);
 }
 
 }  // namespace transillum

@@ -19,8 +19,8 @@ class LightDirections {
 
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);
-  /// With n = (sum c)² / sum c² directions per pair of patch and source, the harmonic mean weighted
-  /// by light: pairs that are lit by few count most. 0 without light.
+  /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
+  /// weighted by what the pair contributes to the variance of B. 0 without light.
   double mean() const;
 
  private:
@@ -33,6 +33,7 @@ class LightDirections {
 
   bool two_way_;
   std::size_t columns_ = 1;
+  std::vector<double> weight_;       ///< per patch: (rho / A)²
   std::vector<double> exitance_;     ///< per patch: sum of channels, less that of the shot
   std::vector<std::size_t> column_;  ///< per patch: of its source
   std::vector<Light> lights_;        ///< by patch, then column

@@ -147,14 +147,14 @@ std::map<PatchId, std::vector<PatchId>> coplanar_sets(const Scene& scene,
 }  // namespace
 
 std::vector<MergedFace> merged_faces(const Scene& scene) {
-  std::vector<MergedFace> merged;
+  std::map<PatchId, MergedFace> by_first;
   const auto add = [&](const std::vector<PatchId>& patches) {
     const Corners outline =
         patches.size() > 1 ? convex_outline(loop_about(scene, patches)) : Corners{};
     if (outline.empty() || !is_flat(outline)) {
       return false;
     }
-    merged.push_back({patches, outline});
+    by_first.insert({patches.front(), {patches, outline}});
     return true;
   };
   for (const auto& [root, patches] : coplanar_sets(scene, on_first_side(scene))) {
@@ -169,9 +169,11 @@ std::vector<MergedFace> merged_faces(const Scene& scene) {
       add({begin, end});
     }
   }
-  std::sort(merged.begin(), merged.end(), [](const MergedFace& a, const MergedFace& b) {
-    return a.patches.front() < b.patches.front();
-  });
+  std::vector<MergedFace> merged;
+  merged.reserve(by_first.size());
+  for (const auto& [first, face] : by_first) {
+    merged.push_back(face);
+  }
   return merged;
 }
 
