@@ -262,7 +262,8 @@ void TimeToAccuracyOfB(benchmark::State& state) {
     }
   }
   if (const char* file = std::getenv("TRANSILLUM_BENCHMARK_PLOT")) {
-    write_charts(file, charts, {.width = 640, .height = 320, .scale = 1});
+    write_charts(file, charts,
+                 {.width = 640, .height = 320.0 * static_cast<double>(charts.size()), .scale = 1});
   }
 }
 BENCHMARK(TimeToAccuracyOfB)->Name("Accuracy")->Iterations(1)->Unit(benchmark::kSecond);

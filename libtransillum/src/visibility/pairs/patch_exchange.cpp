@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/power_of_two.h"
 #include "scene/build/cover_rank.h"
 #include "transillum/at.h"
 #include "transillum/bsp_tree.h"
@@ -59,6 +60,15 @@ Bounds bounds_of(Outline polygon) {
   return box;
 }
 
+std::vector<Corners> scaled(std::vector<Corners> polygons, double scale) {
+  for (Corners& polygon : polygons) {
+    for (Vec3& corner : polygon) {
+      corner = scale * corner;
+    }
+  }
+  return polygons;
+}
+
 std::vector<Bounds> bounds_of(const std::vector<Corners>& polygons) {
   std::vector<Bounds> boxes;
   for (const Corners& polygon : polygons) {
@@ -72,8 +82,10 @@ std::vector<Bounds> bounds_of(const std::vector<Corners>& polygons) {
 ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellation, double density)
     : scene_(scene),
       density_(density),
-      tolerance_(std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
-      blockers_(merged_pieces(scene)),
+      scale_(scale_to_one(scene.bounds().diagonal())),
+      tolerance_(scale_ *
+                 std::max(1e-12 * scene.bounds().diagonal(), 2 * BspTree::thickness(scene))),
+      blockers_(scaled(merged_pieces(scene), scale_)),
       tree_(bounds_of(blockers_)),
       part_begin_(static_cast<std::size_t>(scene.patch_count()) + 1) {
   std::vector<Bounds> boxes;
@@ -100,6 +112,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
     // Of two-sided faces, the patches of both sides alternate.
     if (static_cast<std::size_t>(face.patches.back() - face.patches.front()) + 1 ==
         face.patches.size()) {
+      face.outline = scaled({face.outline}, scale_).front();
       faces_.push_back(std::move(face));
     }
   }
@@ -108,7 +121,7 @@ ExchangeFinder::ExchangeFinder(const Scene& scene, const Cancellation& cancellat
 Corners ExchangeFinder::corners_of(const Piece& piece) const {
   Corners corners;
   for (const PointId p : scene_.corners(piece)) {
-    corners.push_back(scene_.point(p));
+    corners.push_back(scale_ * scene_.point(p));
   }
   return corners;
 }
@@ -266,6 +279,8 @@ PatchExchange ExchangeFinder::between(PatchId i, PatchId j, const Numbers* among
       }
     }
   }
+  exchange.area /= scale_ * scale_;
+  exchange.error /= scale_ * scale_;
   return exchange;
 }
 

@@ -80,7 +80,8 @@ class ExchangeFinder {
 
   const Scene& scene_;
   double density_;
-  double tolerance_;
+  double scale_;      ///< from meters to the finder's unit of length, a power of two
+  double tolerance_;  ///< in that unit
   std::vector<Corners> blockers_;
   BoxTree tree_;  ///< of blockers_
   std::vector<Part> parts_;
