@@ -118,7 +118,7 @@ TEST(FirstShot, IsIncludedBeforeTheFirstPass) {
 
 TEST(FirstShot, OptionsAreParsedAndChecked) {
   EXPECT_EQ(first_shot_from_name("none"), std::nullopt);
-  EXPECT_EQ(first_shot_from_name("auto"), small_source_ratio);
+  EXPECT_EQ(first_shot_from_name("auto"), first_shot_where_it_pays);
   EXPECT_EQ(first_shot_from_name("2.5e3"), 2500.0);
   for (const char* name : {"", "-1", "nan", "inf", "12x", "Auto"}) {
     try {

@@ -110,7 +110,8 @@ void add_options(Hash& hash, const SolveOptions& options) {
   hash.add(options.averaged_iterations);
   hash.add(options.replicas);
   hash.add(options.iterations);
-  hash.add(options.first_shot.value_or(-1));
+  constexpr double no_shot = -2;  // no value that the option can have
+  hash.add(options.first_shot.value_or(no_shot));
   hash.add(options.tolerance);
 }
 

@@ -276,7 +276,7 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
                       [](const auto& how) { return engine_text(how.first, how.second); });
   append_if_different([](const StudySeries& s) { return s.first_shot; },
                       [](const std::optional<double>& ratio) {
-                        return ratio ? fmt::format("first-shot {:g}", *ratio)
+                        return ratio ? "first-shot " + name_of_first_shot(ratio)
                                      : std::string("no-shot");
                       });
   for (std::size_t k = 0; k < series.size(); ++k) {

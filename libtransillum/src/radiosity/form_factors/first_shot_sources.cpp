@@ -50,7 +50,6 @@ class ShotBalance {
               const Cancellation& cancellation)
       : scene_(scene),
         cancellation_(cancellation),
-        exchange_(scene, cancellation),
         directions_(directions),
         power_(total_power(sources)) {
     for (const Patch& patch : scene.patches()) {
@@ -58,7 +57,7 @@ class ShotBalance {
     }
   }
 
-  bool pays(const LightSource& source) const {
+  bool pays(const LightSource& source) {
     const double saved = saved_passes(source);
     return saved > 0 && cost(source, saved) < saved;
   }
@@ -77,7 +76,7 @@ class ShotBalance {
   }
 
   /// In passes; stops counting above `limit`.
-  double cost(const LightSource& source, double limit) const {
+  double cost(const LightSource& source, double limit) {
     const double pairs = static_cast<double>(source.patches.size()) * scene_.patch_count();
     const double pass = pass_unit * scene_.patch_count();
     const auto allowed = static_cast<std::int64_t>(
@@ -88,7 +87,10 @@ class ShotBalance {
   }
 
   /// Blockers times points of sampled pairs; stops above `allowed`.
-  std::int64_t blockers_of_sample(const LightSource& source, std::int64_t allowed) const {
+  std::int64_t blockers_of_sample(const LightSource& source, std::int64_t allowed) {
+    if (!exchange_) {
+      exchange_.emplace(scene_, cancellation_);
+    }
     struct Enough {};
     std::int64_t count = 0;
     const auto tick = [&] {
@@ -104,7 +106,7 @@ class ShotBalance {
             static_cast<PatchId>(random % static_cast<std::uint64_t>(scene_.patch_count()));
         const PatchId j = source.patches[(random >> 32) % source.patches.size()];
         if (i != j) {
-          exchange_(i, j, tick);
+          (*exchange_)(i, j, tick);
         }
       }
     } catch (const Enough&) {
@@ -114,7 +116,7 @@ class ShotBalance {
 
   const Scene& scene_;
   Cancellation cancellation_;
-  ExchangeFinder exchange_;
+  std::optional<ExchangeFinder> exchange_;  ///< made for the first source that may pay
   double directions_;
   double power_;
   double area_ = 0;
@@ -165,7 +167,7 @@ std::vector<PatchId> first_shot_sources(const Scene& scene, double threshold, in
   if (sources.empty()) {
     return {};
   }
-  const ShotBalance balance(scene, sources, directions, cancellation);
+  ShotBalance balance(scene, sources, directions, cancellation);
   return patches_of(sources, [&](const LightSource& source) { return balance.pays(source); });
 }
 
