@@ -16,7 +16,7 @@ bool has_pixels(const SolveOptions& solve) {
 }
 
 bool draws_random_numbers(const SolveOptions& solve) {
-  const bool seeded_rotations = solve.replicas > 1 && !solve.rotation;
+  const bool seeded_rotations = (solve.replicas > 1 || solve.goal.set()) && !solve.rotation;
   return has_directions(solve) &&
          (is_seeded(solve.used_sampling()) || solve.engine == Engine::rays || seeded_rotations ||
           (solve.scheme == Scheme::semi_iterative && differs_by_iteration(solve.used_sampling())));
@@ -40,7 +40,6 @@ constexpr Use uses[] = {
     {"directions", has_directions, without_directions},
     {"directions", has_no_goal, chosen_by_goal},
     {"replicas", has_no_goal, chosen_by_goal},
-    {"iterations", has_no_goal, "not used with an accuracy or a time limit, which need its limit"},
     {"accuracy-of", [](const SolveOptions& solve) { return solve.goal.set(); },
      "used only with an accuracy or a time limit"},
     {"sampling", has_directions, without_directions},

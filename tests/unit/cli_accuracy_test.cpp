@@ -1,0 +1,92 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// `transillum solve --accuracy` and `--seconds`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(CliAccuracy, ChoosesPassesAndReportsWhatItReached) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"solve", "rooms", "--accuracy", "0.5%", "--first-shot",
+                                            "none", "--stats", folder / "s.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("0.5 % asked, reached: rms error at most"));
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  const auto& accuracy = json.at("accuracy");
+  EXPECT_TRUE(accuracy.at("reached"));
+  EXPECT_EQ(accuracy.at("asked"), 0.005);
+  EXPECT_LE(accuracy.at("error").get<double>(), 0.005);
+  EXPECT_EQ(accuracy.at("error"), json.at("error_estimate").at("rms_limit"));
+  EXPECT_EQ(accuracy.at("stages").back().at("directions"), json.at("passes"));
+  EXPECT_LE(json.at("error_estimate").at("rms_lowest"), json.at("error_estimate").at("rms"));
+}
+
+/// The first shot is taken by itself, unless it is given.
+TEST(CliAccuracy, ShootsLampsFirst) {
+  const TemporaryFolder folder;
+  const ProgramResult shot = run_program({"solve", "cornell-box", "--max-patch-area", "0.03",
+                                          "--accuracy", "0.01", "--stats", folder / "s.json"});
+  ASSERT_EQ(shot.status, 0) << shot.err;
+  const auto json = nlohmann::json::parse(read_file(folder / "s.json"));
+  EXPECT_EQ(json.at("options").at("first_shot"), "auto");
+  EXPECT_GT(json.at("first_shot").at("sources"), 0);
+  EXPECT_EQ(json.at("light_directions"), 0);
+}
+
+TEST(CliAccuracy, EndsWithTheTime) {
+  const ProgramResult result = run_program({"solve", "furnace", "--seconds", "0.2"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("as fits the time, time is up: rms error at most"));
+}
+
+TEST(CliAccuracy, OfEnginePairsTakesPoints) {
+  const ProgramResult result =
+      run_program({"solve", "boards", "--engine", "pairs", "--accuracy", "0.1%"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("0.1 % asked, reached: estimated error"));
+}
+
+TEST(CliAccuracy, WarnsWhereItCannotBeTrusted) {
+  const ProgramResult result =
+      run_program({"solve", "stars", "-m", "64", "--replicas", "4", "--max-patch-area", "1"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("the error estimate cannot be trusted"));
+  EXPECT_THAT(result.err, HasSubstr("--first-shot 0"));
+}
+
+TEST(CliAccuracy, RefusesWhatItCannotKeep) {
+  const std::pair<std::vector<std::string>, std::string> calls[] = {
+      {{"--accuracy", "0"}, "--accuracy: \"0\" is not a percentage"},
+      {{"--accuracy", "100%"}, "--accuracy: \"100%\" is not"},
+      {{"--accuracy", "1 percent"}, "--accuracy: \"1 percent\" is not"},
+      {{"--accuracy", "1%", "-m", "64"}, "--directions: not used with an accuracy"},
+      {{"--accuracy", "1%", "--replicas", "8"}, "--replicas: not used with an accuracy"},
+      {{"--accuracy", "1%", "--iterations", "3"}, "number of iterations"},
+      {{"--accuracy", "1%", "--scheme", "growing"}, "growing"},
+      {{"--accuracy", "1%", "--engine", "painter"}, "engine painter"},
+      {{"--accuracy", "1%", "--engine", "hemicube"}, "accuracy"},
+      {{"--accuracy", "1%", "--accuracy-of", "patch:99999"}, "there is no patch 99999"},
+      {{"--accuracy", "1%", "--accuracy-of", "best"}, "--accuracy-of: \"best\" is not rms, max"},
+      {{"--accuracy-of", "max"}, "--accuracy-of: used only with an accuracy"},
+      {{"--seconds", "0"}, "--seconds: \"0\" is not greater than 0"},
+      {{"--seconds", "nan"}, "--seconds"},
+  };
+  for (const auto& [options, expected] : calls) {
+    std::vector<std::string> call{"solve", "furnace", "-q"};
+    call.insert(call.end(), options.begin(), options.end());
+    const ProgramResult result = run_program(call);
+    EXPECT_EQ(result.status, 2) << expected;
+    EXPECT_THAT(result.err, HasSubstr(expected));
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace transillum::testing
