@@ -126,7 +126,7 @@ TEST_F(CliInterruption, EnginesWithoutDirectionsSaveNothingAndReportWhy) {
   for (const Run& run : {Run{{"--engine", "hemicube", "--resolution", "1024"},
                              "hemicubes",
                              "% of the hemicubes were drawn, but B requires all of them"},
-                         Run{{"--engine", "pairs", "--points", "512"},
+                         Run{{"--engine", "pairs", "--points", "64"},
                              "pairs/s",
                              "% of the pairs were computed, but B requires all of them"}}) {
     const TemporaryFolder folder;

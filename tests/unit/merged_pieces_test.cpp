@@ -44,14 +44,14 @@ TEST(MergedPieces, OfCoplanarFacesThatShareEdgesAreOnePolygon) {
   }
 }
 
-TEST(MergedPieces, OfConcaveAndNonplanarFacesAreTheirPieces) {
-  Sketch sketch;
-  const int gray = sketch.material(0.5, 0);
-  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}}, gray);
-  sketch.face({{0, 0, 1}, {1, 0, 1}, {1, 1, 1.5}, {0, 1, 1}}, gray);
+TEST(MergedPieces, OfConcaveFacesAreTheirPiecesAndOfNonplanarOnesTheirTriangles) {
+  Sketch concave, nonplanar;
+  concave.face({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}}, concave.material(0.5, 0));
+  nonplanar.face({{0, 0, 1}, {1, 0, 1}, {1, 1, 1.5}, {0, 1, 1}}, nonplanar.material(0.5, 0));
   for (const double area_bound : {0.0, 0.1}) {
-    const auto scene = sketch.scene({.max_patch_area = area_bound});
+    const auto scene = concave.scene({.max_patch_area = area_bound});
     EXPECT_EQ(merged_pieces(*scene).size(), scene->pieces().size());
+    EXPECT_EQ(merged_pieces(*nonplanar.scene({.max_patch_area = area_bound})).size(), 2U);
   }
 }
 
