@@ -167,6 +167,30 @@ class CompareTest : public QObject {
     QCOMPARE(panel.scene_options().max_patch_area, 0.0);
   }
 
+  // It chooses the directions and replicas; those in effect are no difference.
+  void settings_ask_for_an_accuracy() {
+    SettingsPanel panel;
+    auto* directions = panel.findChild<QSpinBox*>("directions");
+    QVERIFY(directions->isEnabled());
+    panel.findChild<QLineEdit*>("accuracy")->setText("0.7");
+    const SolveOptions asked = panel.solve_options();
+    QCOMPARE(asked.goal.accuracy, 0.7 / 100);
+    QVERIFY(asked.first_shot == first_shot_where_it_pays);
+    QCOMPARE(asked.replicas, 1);
+    QVERIFY(!directions->isEnabled());
+    SolveOptions stage = asked;
+    stage.directions = 200;
+    stage.replicas = 4;
+    stage.tolerance = 1e-8;
+    panel.set_in_effect(stage, {});
+    QVERIFY(!panel.differ_from_effect());
+    panel.findChild<QLineEdit*>("accuracy")->setText("0.5");
+    QVERIFY(panel.differ_from_effect());
+    panel.findChild<QLineEdit*>("accuracy")->clear();
+    QVERIFY(!panel.solve_options().goal.set());
+    QVERIFY(directions->isEnabled());
+  }
+
   void settings_follow_the_default_sampling() {
     SettingsPanel panel;
     auto* serves = panel.findChild<QComboBox*>("pass_serves");

@@ -107,6 +107,24 @@ class SolveRunnerTest : public QObject {
     }
   }
 
+  // Stages follow one another without a pause; the last is the result.
+  void an_accuracy_is_reached_in_stages() {
+    Watched w;
+    SolveOptions options;
+    options.goal.accuracy = 0.02;
+    w.runner.open({"rooms", {options}, {Goal::Kind::finished}});
+    QVERIFY(w.reaches(RunState::finished));
+    QTRY_VERIFY(w.snapshot && w.snapshot->accuracy && w.snapshot->accuracy->reached);
+    const SolverSnapshot& last = *w.snapshot;
+    QVERIFY(last.accuracy->stages.size() >= 2);
+    QCOMPARE(last.options.directions, last.accuracy->stages.back().directions);
+    QCOMPARE(last.errors.size(), last.statistics.iteration_records.size());
+    const ErrorBand& error = last.errors.back();
+    QVERIFY(error.lowest <= error.estimate && error.estimate <= error.limit);
+    QVERIFY(error.limit <= 0.02);
+    QCOMPARE(last.error.rms_limit, last.accuracy->error);
+  }
+
   void a_goal_of_passes_is_reached_exactly() {
     Watched w;
     w.open("furnace", 64, {Goal::Kind::passes, 23});

@@ -229,7 +229,9 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
 
 AccuracyGoal SettingsPanel::goal() const {
   AccuracyGoal goal = base_.goal;
-  goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
+  if (accuracy_->text() != exact_text(100 * goal.accuracy)) {
+    goal.accuracy = QLocale::c().toDouble(accuracy_->text()) / 100;
+  }
   goal.of = static_cast<AccuracyOf>(accuracy_of_->currentIndex());
   return goal;
 }
