@@ -400,18 +400,17 @@ void SolveRunner::advance(const Goal& goal) {
     return;
   }
   post_state(RunState::running);
-  advance_stage(goal);
-  while (goal.kind == Goal::Kind::finished && more_to_do_ && !interrupted_ &&
-         solver_->progress().direction == 0 && solver_->progress().iteration == 0) {
-    advance_stage(goal);
+  while (advance_stage(goal) && goal.kind == Goal::Kind::finished && !interrupted_) {
   }
 }
 
 /// Advances the solver; where its stage ends, begins the next.
-void SolveRunner::advance_stage(const Goal& goal) {
+/// @returns whether a next stage has begun.
+bool SolveRunner::advance_stage(const Goal& goal) {
   using Until = RadiositySolver::Until;
   QElapsedTimer timer;
   timer.start();
+  bool stage_begins = false;
   try {
     if (goal.kind == Goal::Kind::passes) {
       advance_exactly(goal.passes);
@@ -425,9 +424,10 @@ void SolveRunner::advance_stage(const Goal& goal) {
       });
     }
     seconds_running_ += seconds(timer);
-    more_to_do_ = more_to_do_ || begin_next_stage();
+    stage_begins = !more_to_do_ && begin_next_stage();
+    more_to_do_ = more_to_do_ || stage_begins;
   } catch (const Canceled&) {
-    return;
+    return false;
   } catch (...) {
     more_to_do_ = false;
     post_failure(current_failure_text(), false);
@@ -437,6 +437,7 @@ void SolveRunner::advance_stage(const Goal& goal) {
   } catch (...) {
     post_current_failure(tr("Not enough memory to show the result"));
   }
+  return stage_begins;
 }
 
 /// @returns whether there is one.

@@ -99,7 +99,7 @@ class SolveRunner : public QObject {
   void start_solve(const SolveOptions& options);
   void replace_solver(PlannedSolver solver);
   void advance(const Goal& goal);
-  void advance_stage(const Goal& goal);
+  bool advance_stage(const Goal& goal);
   bool begin_next_stage();
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;

@@ -18,18 +18,16 @@ namespace transillum::viewer {
 namespace {
 
 std::vector<LogChart::Level> levels_of(const SolverSnapshot& snapshot) {
-  std::vector<LogChart::Level> levels;
-  if (snapshot.options.iterations == 0) {
-    levels.push_back(
-        {ConvergenceView::tr("tolerance %1").arg(number_text(snapshot.options.tolerance)),
-         theme::warm, snapshot.options.tolerance});
-  }
   const double accuracy = snapshot.options.goal.accuracy;
-  if (accuracy > 0) {
-    levels.push_back({ConvergenceView::tr("accuracy %1 %").arg(number_text(100 * accuracy)),
-                      theme::ink, accuracy});
+  if (accuracy > 0) {  // it has chosen the tolerance
+    return {{ConvergenceView::tr("accuracy %1 %").arg(number_text(100 * accuracy)), theme::ink,
+             accuracy}};
   }
-  return levels;
+  if (snapshot.options.iterations > 0) {
+    return {};
+  }
+  return {{ConvergenceView::tr("tolerance %1").arg(number_text(snapshot.options.tolerance)),
+           theme::warm, snapshot.options.tolerance}};
 }
 
 /// The error of B after each iteration, by the spread of replicas, between its limits.
@@ -45,7 +43,7 @@ void add_error_band(const SolverSnapshot& snapshot, std::vector<LogChart::Line>&
     lines.push_back({name, theme::ink, std::move(values), false, dashes});
   };
   add(ConvergenceView::tr("error of B"), &ErrorBand::estimate, ChartDashes::solid);
-  add(ConvergenceView::tr("its limits"), &ErrorBand::limit, ChartDashes::fine_dots);
+  add({}, &ErrorBand::limit, ChartDashes::fine_dots);
   add({}, &ErrorBand::lowest, ChartDashes::fine_dots);
 }
 

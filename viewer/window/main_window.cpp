@@ -167,8 +167,8 @@ void MainWindow::make_docks() {
   constexpr auto bottom = Qt::BottomDockWidgetArea;
   docks_.add(tr("Lesson"), "lesson_dock", lesson_panel_, {{teach, left, 700}});
   docks_.add(tr("Notes"), "notes_dock", notes_, {{teach, left, 700, true}});
-  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 455}});
-  docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 345}});
+  docks_.add(tr("Solve settings"), "settings_dock", scrollable(settings_), {{inspect, left, 495}});
+  docks_.add(tr("Patch"), "inspector_dock", scrollable(inspector_), {{inspect, left, 305}});
   docks_.add(tr("Figures"), "summary_dock", scrollable(summary_), {{inspect, left, 345, true}});
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
