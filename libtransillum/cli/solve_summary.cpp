@@ -95,6 +95,11 @@ std::string accuracy_text(const AccuracyReport& report) {
   const std::string reached = report.reached      ? "reached"
                               : goal.accuracy > 0 ? "not reached"
                                                   : "time is up";
+  if (report.passes_made == 0) {  // engine pairs
+    return report_row("accuracy",
+                      fmt::format("{}, {}: estimated error {:.2g} %, {} points", asked, reached,
+                                  100 * report.error, report.stages.back().directions));
+  }
   return report_row("accuracy",
                     fmt::format("{}, {}: {} error at most {:.3g} %; {} passes in {} "
                                 "stages",

@@ -145,12 +145,13 @@ TEST(CliStudy, ComparesWithAndWithoutAFirstShot) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"study", "stars", "--directions", "16", "--sampling", "fibonacci", "--first-shot",
-       "none,auto", "--without-sources", "--error", "max", "--reference", "64", "--no-cache"});
+       "none,1000,auto", "--without-sources", "--error", "max", "--reference", "64", "--no-cache"});
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out,
               StartsWith("Largest error of B in %, without sources, by number of passes"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/no-shot"));
   EXPECT_THAT(result.out, HasSubstr("fibonacci/first-shot 1000"));
+  EXPECT_THAT(result.out, HasSubstr("fibonacci/first-shot auto"));
 }
 
 TEST(CliStudy, SavesPointsSoFarWhenInterrupted) {

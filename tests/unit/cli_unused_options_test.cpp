@@ -157,7 +157,7 @@ TEST(CliUnusedOptions, TheTableNamesSettings) {
   for (const Setting& setting : settings()) {
     count += why_unused(setting.name, {}).empty() ? 0 : 1;
   }
-  EXPECT_EQ(count, 11U);
+  EXPECT_EQ(count, 13U);
 }
 
 }  // namespace

@@ -159,6 +159,7 @@ TEST_F(FileTables, Results) {
 }
 
 TEST_F(FileTables, Statistics) {
+  options_.goal.accuracy = 0.5;
   write_statistics(folder_ / "s.json", options_, solve(scene_, options_));
   EXPECT_THAT(keys_of(folder_ / "s.json"), ::testing::ContainerEq(leaf_keys("Statistics JSON")));
 }

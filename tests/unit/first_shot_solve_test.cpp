@@ -129,7 +129,7 @@ TEST(FirstShot, OptionsAreParsedAndChecked) {
     }
   }
   SolveOptions options;
-  options.first_shot = -1;
+  options.first_shot = -2;
   EXPECT_THROW(options.validate(), InputError);
 }
 
