@@ -242,6 +242,11 @@ TEST(Accuracy, LimitsHoldAsOftenAsStated) {
   EXPECT_GE(fixed.limit, 0.9);
   EXPECT_GE(fixed.intervals, 0.9);
   EXPECT_LE(fixed.intervals, 0.98);
+  // Stopping when the error looks small must not make it look smaller than it is.
+  const Coverage stopped = count.of(40, {.accuracy = 0.01});
+  EXPECT_GE(stopped.limit, 0.9);
+  EXPECT_GE(stopped.intervals, 0.9);
+  EXPECT_LE(stopped.above, 0.1);
 }
 
 }  // namespace
