@@ -200,6 +200,11 @@ TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
     solver.advance(RadiositySolver::Until::finished);
     solver.add_replica();
     EXPECT_EQ(solver.options().directions, 80);
+    const std::size_t before = solver.statistics().iteration_records.size();
+    EXPECT_TRUE(solver.advance(RadiositySolver::Until::iteration));
+    // Its change is no measure of contraction, so it does not bound what is left.
+    EXPECT_EQ(solver.statistics().iteration_records.at(before).contraction, 0);
+    EXPECT_TRUE(std::isfinite(solver.error_estimate().rms));
     EXPECT_FALSE(solver.advance(RadiositySolver::Until::finished));
     EXPECT_EQ(solver.statistics().passes_made, 80);
     options.directions = 80;

@@ -34,10 +34,10 @@ class CliMemory : public ::testing::Test {
     constexpr int first = 100, last = 220, step = 2;
     for (int megabytes = first; megabytes <= last; megabytes += step) {
       SCOPED_TRACE(megabytes);
-      const ProgramResult result = run(arguments, megabytes);
-      if (result.status == 127) {
-        continue;  // its libraries were not loaded
+      if (run({"--version"}, megabytes).status != 0) {
+        continue;  // its libraries were not loaded, or had no memory to start
       }
+      const ProgramResult result = run(arguments, megabytes);
       EXPECT_LE(result.status, 1) << result.err;
       EXPECT_EQ(line_count(result.err), result.status == 0 ? 0U : 1U) << result.err;
     }

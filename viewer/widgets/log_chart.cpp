@@ -217,8 +217,9 @@ void LogChart::add_lines(LineChart& chart) const {
       }
     }
     any = any || gaps < std::ssize(line.values);
-    const QString name =
-        gaps == 0 ? line.name : tr("%1 (%2 zero)").arg(line.name, count_text(gaps));
+    const QString name = gaps == 0 || line.name.isEmpty()
+                             ? line.name
+                             : tr("%1 (%2 zero)").arg(line.name, count_text(gaps));
     series.name = name.toStdString();
     series.color = chart_color(line.color);
     series.width = (line.dots ? 2 : line.width) * theme::scale();

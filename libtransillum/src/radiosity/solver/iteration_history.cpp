@@ -63,7 +63,8 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
                               bool complete) {
   const double change = record.change;
   record.change = ratio_or_zero(change, max_norm(iterate.b()));
-  record.contraction = records_.empty() ? 0.0 : ratio_or_zero(change, last_change_);
+  // The first change after reopening is that of the directions, not of an iteration.
+  record.contraction = size_since_reopening() == 0 ? 0.0 : ratio_or_zero(change, last_change_);
   last_change_ = change;
   if (semi_iterative()) {
     start_.finish(iterate);
