@@ -254,5 +254,45 @@ TEST(Accuracy, LimitsHoldAsOftenAsStated) {
   EXPECT_LE(stopped.above, 0.1);
 }
 
+struct CoverageCase {
+  const char* spec;
+  double max_patch_area;  ///< m², 0: none
+  double accuracy;
+  bool shot;
+};
+
+/// The table of RESULTS.md: 60 runs by accuracy, and 60 of as many directions.
+class NightlyAccuracy : public ::testing::TestWithParam<CoverageCase> {};
+TEST_P(NightlyAccuracy, Coverage) {
+  const CoverageCase& of = GetParam();
+  const auto scene = load_scene(of.spec, {.max_patch_area = of.max_patch_area});
+  SolveOptions options;
+  if (of.shot) {
+    options.first_shot = first_shot_where_it_pays;
+  }
+  CoverageCount count(scene, options, 8192);
+  const Coverage stopped = count.of(60, {.accuracy = of.accuracy});
+  options.replicas = 4;
+  options.directions = 4 * static_cast<int>(stopped.passes / 5);  // about those of the last stage
+  const Coverage fixed = CoverageCount(scene, options, 8192).of(60, {});
+  fmt::print(
+      "{}{}, {} %: {:.0f} passes, limits {:.1f} % ({:.1f} % without stopping), intervals "
+      "{:.1f} % ({:.1f} %)\n",
+      of.spec, of.shot ? ", first shot" : "", 100 * of.accuracy, stopped.passes,
+      100 * stopped.limit, 100 * fixed.limit, 100 * stopped.intervals, 100 * fixed.intervals);
+  EXPECT_GE(stopped.intervals, 0.9);
+  EXPECT_GE(fixed.intervals, 0.9);
+  EXPECT_GE(stopped.limit, 0.8);
+}
+INSTANTIATE_TEST_SUITE_P(EightScenes, NightlyAccuracy,
+                         ::testing::Values(CoverageCase{"rooms", 0, 0.01, false},
+                                           CoverageCase{"cornell-box", 0.01, 0.01, false},
+                                           CoverageCase{"sphere-flake:levels=1", 0, 0.01, false},
+                                           CoverageCase{"boards", 0, 0.01, false},
+                                           CoverageCase{"furnace", 0.1, 0.005, false},
+                                           CoverageCase{"rooms", 0, 0.0005, true},
+                                           CoverageCase{"cornell-box", 0.01, 0.0005, true},
+                                           CoverageCase{"boards", 0, 0.0005, true}));
+
 }  // namespace
 }  // namespace transillum
