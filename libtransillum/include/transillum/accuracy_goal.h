@@ -20,10 +20,10 @@ enum class AccuracyOf {
 
 /// When a solve is accurate enough.
 struct AccuracyGoal {
-  double accuracy = 0;  ///< relative error, [0,1); 0: as small as `seconds` allow
-  AccuracyOf of = AccuracyOf::rms;
-  PatchId patch = 0;   ///< for AccuracyOf::patch
-  double seconds = 0;  ///< wall time of the solve, without loading; 0: not limited
+  double accuracy = 0;              ///< relative error, [0,1); 0: as small as `seconds` allow
+  AccuracyOf of = AccuracyOf::rms;  ///< which error
+  PatchId patch = 0;                ///< for AccuracyOf::patch
+  double seconds = 0;               ///< wall time of the solve, without loading; 0: not limited
 
   /// Whether there is a goal.
   bool set() const { return accuracy > 0 || seconds > 0; }

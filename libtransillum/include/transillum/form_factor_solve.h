@@ -34,7 +34,7 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
 
 /// The result of solve_by_pairs().
 struct PairSolution {
-  Solution solution;
+  Solution solution;     ///< of the last solve
   int points = 0;        ///< PairOptions::points of the last solve
   double error = 0;      ///< estimated RMS error of B over RMS of B; 0: nothing is partly hidden
   bool reached = false;  ///< error <= accuracy
