@@ -15,6 +15,7 @@
 #include "support/scenes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/solve_errors.h"
 #include "transillum/study.h"
 
 namespace transillum {
@@ -230,6 +231,40 @@ TEST(Accuracy, IsNotTrustedWhereSourcesAreHardlyMet) {
   const Solution shot = solve(scene, options);
   EXPECT_EQ(shot.statistics.shot_sources, 6);
   EXPECT_EQ(shot.statistics.light_directions, 0);
+}
+
+/// Few directions let B grow without bound where hardly any light is absorbed.
+TEST(Accuracy, IsReachedWhereFewDirectionsDiverge) {
+  testing::Sketch sketch("bright room");
+  const int walls = sketch.material(0.97, 0.1);
+  sketch.box({0, 0, 0}, {1, 1, 1}, true, walls);
+  const ScenePtr scene = sketch.scene({.max_patch_area = 0.3});
+  const SolveOptions first{.directions = 6};
+  EXPECT_THROW(solve(scene, first), NotConvergent);
+  SolveOptions options;
+  options.goal.accuracy = 0.05;
+  const Solution solution = solve(scene, options);
+  EXPECT_TRUE(solution.accuracy->reached);
+  for (const Rgb& b : solution.radiosity) {
+    EXPECT_NEAR(b.r, 0.1 / 0.03, 0.05 * 0.1 / 0.03);
+  }
+}
+
+TEST(Accuracy, IsCanceledAtOnce) {
+  SolveOptions options;
+  options.goal.accuracy = 1e-4;
+  const Cancellation cancellation;
+  int passes = 0;
+  const auto observer = [&](const RadiositySolver&) {
+    if (++passes == 40) {
+      cancellation.cancel();
+    }
+    return true;
+  };
+  const Solution solution = solve(box_in_a_room(), options, observer, cancellation);
+  EXPECT_FALSE(solution.complete);
+  EXPECT_FALSE(solution.accuracy->reached);
+  EXPECT_THROW(solve(box_in_a_room(), options, {}, cancellation), Canceled);
 }
 
 /// It pays for a ceiling lamp, and not where all walls emit.

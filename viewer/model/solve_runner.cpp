@@ -428,6 +428,14 @@ bool SolveRunner::advance_stage(const Goal& goal) {
     more_to_do_ = more_to_do_ || stage_begins;
   } catch (const Canceled&) {
     return false;
+  } catch (const NotConvergent&) {
+    if (!plan_ || !plan_->enlarge()) {
+      more_to_do_ = false;
+      post_failure(current_failure_text(), false);
+      return false;
+    }
+    stage_begins = true;
+    begin_stage();
   } catch (...) {
     more_to_do_ = false;
     post_failure(current_failure_text(), false);
@@ -455,12 +463,16 @@ bool SolveRunner::begin_next_stage() {
     kept_directions_.front() = std::make_shared<const std::vector<Vec3>>(solver_->directions());
     return true;
   }
+  begin_stage();
+  return true;
+}
+
+void SolveRunner::begin_stage() {
   const double running = seconds_running_;
   auto solver = std::make_unique<RadiositySolver>(loaded_->scene, plan_->stage(), loaded_->tree,
                                                   solve_cancellation_, solver_->direct_light());
   replace_solver({std::move(solver), std::move(plan_)});
   seconds_running_ = running;
-  return true;
 }
 
 void SolveRunner::advance_exactly(std::int64_t passes) {

@@ -101,6 +101,7 @@ class SolveRunner : public QObject {
   void advance(const Goal& goal);
   bool advance_stage(const Goal& goal);
   bool begin_next_stage();
+  void begin_stage();
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;
   void on_pass(const RadiositySolver& solver);

@@ -46,6 +46,10 @@ class AccuracyPlan {
   /// @param solver the solver.
   /// @param seconds wall time since the start of the solve.
   Next next(const RadiositySolver& solver, double seconds);
+  /// To be called where the solver of a stage throws NotConvergent: its directions are too few for
+  /// the scene's reflectance.
+  /// @returns whether stage() now has more; false where so many should converge.
+  bool enlarge();
   /// The stages so far and whether the last reached the goal.
   const AccuracyReport& report() const { return report_; }
 

@@ -17,6 +17,7 @@
 #include "radiosity/solver/norms.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
+#include "transillum/solve_errors.h"
 
 namespace transillum {
 namespace {
@@ -37,6 +38,8 @@ constexpr int directions_at_least = 4;  ///< per replica, where time is short
 constexpr double expected_exponent = 1;
 /// A stage that is this many times smaller than the next costs little and shows the exponent.
 constexpr double usual_growth = 8, largest_growth = 12;
+/// Directions of a stage from which on a solve that diverges is not tried with more.
+constexpr int enough_to_converge = 1 << 14;
 /// Share of the time left that a stage is made for.
 constexpr double time_share = 0.85;
 
@@ -44,6 +47,14 @@ double length(const Rgb& v) { return std::hypot(v.r, v.g, v.b); }
 
 double largest_error(const std::vector<Rgb>& b, const ErrorEstimate& error) {
   return ratio_or_zero(error.quantile * max_norm(error.standard_error), max_norm(b));
+}
+
+/// Times of a whole solve instead of those of its last stage.
+/// @param prepared of the first stage, which makes tree and first shot
+void set_times(SolveStatistics& statistics, const SolveStatistics& prepared, double total) {
+  statistics.seconds_bsp = prepared.seconds_bsp;
+  statistics.seconds_first_shot = prepared.seconds_first_shot;
+  statistics.seconds_total = total;
 }
 
 }  // namespace
@@ -98,6 +109,9 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   const SolveStatistics statistics = solver.statistics();
   const AccuracyGoal& goal = report_.goal;
   report_.error = error_for(goal, solver.scene(), solver.radiosity(), solver.error_estimate());
+  if (!std::isfinite(report_.error)) {  // replicas of few directions may diverge
+    report_.error = std::numeric_limits<double>::infinity();
+  }
   report_.stages.push_back({solved.directions, solved.replicas, report_.error});
   light_directions_ = statistics.light_directions / solved.replicas;
   report_.trusted = light_directions_ >= least_light_directions || light_directions_ == 0;
@@ -138,8 +152,11 @@ double AccuracyPlan::growth() const {
   const auto before = std::find_if(stages.rbegin(), stages.rend(), [&](const AccuracyStage& stage) {
     return 2 * per_replica(stage) <= per_replica(last);
   });
+  if (!std::isfinite(last.error)) {
+    return usual_growth;
+  }
   double exponent = expected_exponent;
-  if (before != stages.rend()) {
+  if (before != stages.rend() && std::isfinite(before->error)) {
     const double measured =
         std::log(error(*before) / error(last)) / std::log(per_replica(last) / per_replica(*before));
     exponent = std::clamp(measured, 0.6, 1.3);
@@ -179,6 +196,16 @@ bool AccuracyPlan::is_stalled() const {
   return last.directions >= 4 * before.directions && last.error > 0.9 * before.error;
 }
 
+bool AccuracyPlan::enlarge() {
+  if (stage_.directions >= enough_to_converge) {
+    return false;
+  }
+  constexpr int growth = 4;
+  stage_.directions *= growth;
+  passes_before_ = 0;
+  return true;
+}
+
 int expected_directions(const SolveOptions& options) {
   if (!options.goal.set()) {
     return options.directions;
@@ -208,8 +235,27 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
     ended = observer && !observer(watched);
     return !ended && !late;
   };
+  const auto begin_stage = [&] {
+    solver = std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(),
+                                               cancellation, solver->direct_light());
+  };
+  // Whether the solver has finished its stage, or has a larger one to make.
+  const auto advance = [&] {
+    try {
+      return !solver->advance(RadiositySolver::Until::finished, watch);
+    } catch (const NotConvergent&) {
+      if (!plan.enlarge()) {
+        throw;
+      }
+      begin_stage();
+      return true;
+    }
+  };
   try {
-    while (!solver->advance(RadiositySolver::Until::finished, watch)) {
+    while (advance()) {
+      if (!solver->progress().finished) {
+        continue;
+      }
       const AccuracyPlan::Next next = plan.next(*solver, used());
       best = solver->solution();
       if (next == AccuracyPlan::Next::done) {
@@ -218,19 +264,20 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
       if (next == AccuracyPlan::Next::replica) {
         solver->add_replica();
       } else {
-        solver = std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(),
-                                                   cancellation, solver->direct_light());
+        begin_stage();
       }
     }
   } catch (const Canceled&) {
+    const SolveProgress progress = solver->progress();
+    if (!best && progress.direction == 0 && progress.iteration == 0) {
+      throw;
+    }
     ended = true;
   }
   Solution solution = best ? std::move(*best) : solver->solution();
   solution.complete = solution.complete && !ended;
   solution.accuracy = plan.report();
-  solution.statistics.seconds_bsp = prepared.seconds_bsp;
-  solution.statistics.seconds_first_shot = prepared.seconds_first_shot;
-  solution.statistics.seconds_total = seconds_since(start);
+  set_times(solution.statistics, prepared, seconds_since(start));
   return solution;
 }
 
