@@ -1,10 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Time to accuracy of B on one core: passes of the fast engine, cosine-weighted rays by Embree with
-// Jacobi iteration, and form factors pair by pair. Every method runs with increasing effort on the
-// same scene, trees and iteration included; errors are RMS over patches, relative to the RMS of B,
-// against a reference by another method or by a rotated set of directions. Prints all runs and a
-// table; draws the runs if TRANSILLUM_BENCHMARK_PLOT names a .svg or .png file.
+// Time to accuracy of B on one core: passes of the fast engine, with and without a first shot,
+// cosine-weighted rays by Embree with Jacobi iteration, and form factors pair by pair. Every method
+// runs with increasing effort on the same scene, trees and iteration included; errors are RMS over
+// patches, relative to the RMS of B, against a reference by another method or by a rotated set of
+// directions. Prints all runs and a table; draws the runs if TRANSILLUM_BENCHMARK_PLOT names a .svg
+// or .png file.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -47,9 +48,13 @@ struct Method {
   std::function<Radiosity(const std::shared_ptr<const Scene>&, int effort, int repeat)> radiosity;
 };
 
-Method passes(int repeats) {
-  return {"passes", "passes", 16, repeats, [](const auto& scene, int directions, int repeat) {
-            SolveOptions options{.directions = directions, .tolerance = tolerance, .threads = 1};
+Method passes(int repeats, std::optional<double> first_shot) {
+  return {first_shot ? "passes, first shot" : "passes", "passes", 16, repeats,
+          [first_shot](const auto& scene, int directions, int repeat) {
+            SolveOptions options{.directions = directions,
+                                 .first_shot = first_shot,
+                                 .tolerance = tolerance,
+                                 .threads = 1};
             if (repeat > 0) {
               options.rotation = static_cast<std::uint64_t>(repeat);
             }
@@ -176,9 +181,9 @@ ChartAxis logarithmic(const char* title, double low, double high, double unit) {
 
 LineChart chart_of(const Case& of,
                    const std::vector<std::pair<std::string, std::vector<Run>>>& all) {
-  constexpr ChartColor colors[] = {{0, 115, 179}, {214, 94, 0}, {0, 140, 107}};
+  constexpr ChartColor colors[] = {{0, 115, 179}, {214, 94, 0}, {0, 140, 107}, {120, 94, 240}};
   constexpr ChartMarker markers[] = {ChartMarker::circle, ChartMarker::square,
-                                     ChartMarker::triangle};
+                                     ChartMarker::triangle, ChartMarker::diamond};
   LineChart chart;
   chart.title = "Error of B: " + of.name;
   double shortest = 1e9, longest = 0, smallest = 1;
@@ -217,11 +222,13 @@ CaseResult measure(const Case& of) {
                of.reference_directions, of.reference_points, radiosity_error(other, by_passes).rms);
   }
   CaseResult result;
-  for (const Method& method : {passes(of.repeats), rays(of.repeats)}) {
+  for (const Method& method : {passes(of.repeats, {}), rays(of.repeats)}) {
     result.runs.emplace_back(method.name, measure(method, of, other));
   }
   if (of.reference_points > 0) {
     result.runs.emplace_back(pairs().name, measure(pairs(), of, by_passes));
+    const Method shot = passes(of.repeats, first_shot_where_it_pays);
+    result.runs.emplace_back(shot.name, measure(shot, of, other));
   }
   return result;
 }
