@@ -100,7 +100,7 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
   auto* percent = new QDoubleValidator(0, 99, 6, accuracy_);
   percent->setLocale(QLocale::c());
   accuracy_->setValidator(percent);
-  accuracy_->setPlaceholderText(tr("M decides"));
+  accuracy_->setPlaceholderText(tr("None"));
   accuracy_->setMinimumWidth(60);
   accuracy_->setToolTip(tip("accuracy"));
   accuracy_of_ = new QComboBox;
@@ -108,6 +108,7 @@ void SettingsPanel::add_accuracy_row(QFormLayout& form) {
   // In the order of AccuracyOf.
   accuracy_of_->addItems({tr("% RMS"), tr("% largest"), tr("% patch"), tr("% mean")});
   accuracy_of_->setToolTip(tip("accuracy-of"));
+  accuracy_of_->setMinimumWidth(60);
   auto* row = new QHBoxLayout;
   row->setSpacing(6);
   row->addWidget(accuracy_, 1);
