@@ -410,7 +410,7 @@ bool SolveRunner::advance_stage(const Goal& goal) {
   using Until = RadiositySolver::Until;
   QElapsedTimer timer;
   timer.start();
-  bool stage_begins = false;
+  bool stage_begins = false, diverged = false;
   try {
     if (goal.kind == Goal::Kind::passes) {
       advance_exactly(goal.passes);
@@ -429,18 +429,21 @@ bool SolveRunner::advance_stage(const Goal& goal) {
   } catch (const Canceled&) {
     return false;
   } catch (const NotConvergent&) {
-    if (!plan_ || !plan_->enlarge()) {
+    seconds_running_ += seconds(timer);
+    diverged = plan_ && plan_->enlarge();
+    if (!diverged) {
       more_to_do_ = false;
       post_failure(current_failure_text(), false);
-      return false;
     }
-    stage_begins = true;
-    begin_stage();
   } catch (...) {
     more_to_do_ = false;
     post_failure(current_failure_text(), false);
   }
   try {
+    if (diverged) {
+      begin_stage();
+      stage_begins = true;
+    }
     post_snapshot();
   } catch (...) {
     post_current_failure(tr("Not enough memory to show the result"));

@@ -126,7 +126,7 @@ AccuracyPlan::Next AccuracyPlan::next(const RadiositySolver& solver, double seco
   if (report_.reached || report_.error == 0 || left <= 0 || is_stalled()) {
     return Next::done;
   }
-  // As the root of the number of replicas; a new stage costs all passes anew, but gains more.
+  // As the root of the number of replicas; a new stage makes all its passes, but gains more.
   const double missing = report_.error / goal.accuracy;
   const int replicas = solved.replicas, per_replica = solved.directions / replicas;
   const double more = std::ceil(replicas * (missing * missing - 1));

@@ -49,8 +49,8 @@ class IterationHistory {
   /// @param complete whether the iteration used all M directions
   /// @throws NotConvergent where changes have grown for several iterations
   void update(const RadiosityIterate& iterate, IterationRecord record, bool complete);
-  /// Continues after the end, because the set of directions has grown: iterations count anew for
-  /// the stopping rule.
+  /// Continues after the end, because the set of directions has grown: the stopping rule counts
+  /// iterations from here.
   void reopen(int directions);
   /// Iterations finished since reopen().
   int size_since_reopening() const { return size() - reopened_at_; }
