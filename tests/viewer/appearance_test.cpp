@@ -9,11 +9,13 @@
 #include <QFontInfo>
 #include <QMenuBar>
 #include <QRegularExpression>
+#include <QSettings>
 #include <QTextBrowser>
 
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
 #include "widgets/full_screen.h"
+#include "window/dock_layouts.h"
 #include "window/key_list.h"
 
 using namespace transillum;
@@ -101,6 +103,17 @@ class AppearanceTest : public QObject {
     QVERIFY(map->isVisible());
   }
 
+  void full_screen_returns_to_a_maximized_window() {
+    const auto window = make_active_window();
+    window->showMaximized();
+    QVERIFY(wait_for([&] { return window->isMaximized(); }, 5000));
+    for (const bool full : {true, false}) {
+      QTest::keyClick(window.get(), Qt::Key_F11);
+      QVERIFY(wait_for([&] { return window->isFullScreen() == full; }, 5000));
+    }
+    QVERIFY(window->isMaximized());
+  }
+
   void all_keys_are_documented_and_have_one_use() {
     const auto window = make_active_window();
     std::map<QString, QString> uses;
@@ -159,6 +172,48 @@ class AppearanceTest : public QObject {
     window->findChild<QDockWidget*>("breakpoint_dock")->close();
     QTest::keyClick(window.get(), Qt::Key_0, Qt::ControlModifier);
     QVERIFY(shown("breakpoint_dock"));
+  }
+
+  void a_layout_is_as_the_user_left_it_until_it_is_reset() {
+    const auto window = make_active_window();
+    auto* map = window->findChild<QDockWidget*>("map_dock");
+    map->close();
+    QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
+    QVERIFY(map->isVisible());
+    QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+    QVERIFY(!map->isVisible());
+    QTest::keyClick(window.get(), Qt::Key_0, Qt::ControlModifier);
+    QVERIFY(map->isVisible());
+  }
+
+  void all_layouts_are_remembered() {
+    QSettings settings("transillum", "layouts");
+    {
+      const auto window = make_active_window();
+      window->findChild<QDockWidget*>("map_dock")->close();
+      QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
+      window->parts().docks.save(settings);
+    }
+    const auto window = make_active_window();
+    QVERIFY(window->parts().docks.load(settings));
+    QVERIFY(window->findChild<QDockWidget*>("breakpoint_dock")->isVisible());
+    QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+    QVERIFY(!window->findChild<QDockWidget*>("map_dock")->isVisible());
+    QVERIFY(window->findChild<QDockWidget*>("settings_dock")->isVisible());
+  }
+
+  void a_floating_panel_can_be_maximized_and_docks_again() {
+    const auto window = make_active_window();
+    auto* panel = window->findChild<QDockWidget*>("compare_dock");
+    for (const char* layout : {"layout_inspect", "layout_reset", "layout_teach"}) {
+      window->parts().docks.bring_to_front("compare");
+      panel->setFloating(true);
+      QVERIFY(panel->isFloating() && panel->isVisible());
+      QVERIFY(panel->windowFlags().testFlag(Qt::WindowMaximizeButtonHint));
+      window->findChild<QAction*>(layout)->trigger();
+      QVERIFY2(!panel->isFloating(), layout);
+    }
+    QVERIFY(!panel->isVisible());
   }
 };
 

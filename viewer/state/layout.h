@@ -5,5 +5,6 @@ namespace transillum::viewer {
 
 /// Arrangements of the docks, one per task.
 enum class Layout { teach, inspect, debug };
+inline constexpr int layout_count = 3;
 
 }  // namespace transillum::viewer

@@ -48,7 +48,7 @@ void FullScreen::show_only(QWidget* view) {
   active_ = true;
   action_->setChecked(true);
   state_ = window_.saveState();
-  was_full_ = window_.isFullScreen();
+  states_before_ = window_.windowState();
   // Shortcuts work only while a widget with the action is visible; the menu bar will be hidden.
   for (QAction* menu : window_.menuBar()->actions()) {
     if (menu->menu()) {
@@ -77,9 +77,7 @@ void FullScreen::show_all() {
   }
   active_ = false;
   action_->setChecked(false);
-  if (!was_full_) {
-    window_.showNormal();
-  }
+  window_.setWindowState(states_before_);
   for (QWidget* widget : hidden_) {
     widget->show();
   }

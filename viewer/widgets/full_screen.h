@@ -33,7 +33,7 @@ class FullScreen : public QObject {
   QMainWindow& window_;
   QAction* action_;
   bool active_ = false;
-  bool was_full_ = false;
+  Qt::WindowStates states_before_;
   QByteArray state_;
   QList<QWidget*> hidden_;  ///< widgets other than docks and tool bars
 };

@@ -5,6 +5,7 @@
 #include <QChildEvent>
 #include <QDockWidget>
 #include <QMenu>
+#include <QSettings>
 #include <QTabBar>
 #include <QTimer>
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "support/checked_bytes.h"
+#include "transillum/at.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -67,38 +69,44 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
   content->setSizePolicy(policy);
   connect(dock, &QDockWidget::visibilityChanged, content,
           [dock, content](bool visible) { content->setVisible(visible || dock->isHidden()); });
+  // A floating panel becomes a window like others, which can be maximized.
+  connect(dock, &QDockWidget::topLevelChanged, dock, [dock](bool floating) {
+    if (floating) {
+      dock->setWindowFlags(Qt::Window | Qt::CustomizeWindowHint | Qt::WindowTitleHint |
+                           Qt::WindowSystemMenuHint | Qt::WindowMinMaxButtonsHint |
+                           Qt::WindowCloseButtonHint);
+      dock->show();
+    }
+  });
   docks_.push_back({dock, std::move(places)});
   return dock;
 }
 
+void DockLayouts::choose(Layout layout) {
+  if (layout == current_) {
+    reset();
+    return;
+  }
+  at(kept_, current_) = window_.saveState(layout_version);
+  arrange(layout);
+  if (const QByteArray& kept = at(kept_, layout); !kept.isEmpty()) {
+    window_.restoreState(kept, layout_version);
+  }
+}
+
+void DockLayouts::reset() { arrange(current_); }
+
 void DockLayouts::arrange(Layout layout) {
   current_ = layout;
   for (const Dock& dock : docks_) {
-    window_.removeDockWidget(dock.widget);
+    // In this order: a dock that has been removed does not come back from floating.
     dock.widget->setFloating(false);
+    window_.removeDockWidget(dock.widget);
   }
   QList<QDockWidget*> shown;
   QList<int> heights;
   for (const Dock& dock : docks_) {
-    // A dock without a place in this layout opens at its place in another one.
-    if (!dock.places.empty()) {
-      window_.addDockWidget(dock.places.front().area, dock.widget);
-    }
-    dock.widget->hide();
-    for (const Place& place : dock.places) {
-      if (place.layout != layout) {
-        continue;
-      }
-      window_.addDockWidget(place.area, dock.widget);
-      dock.widget->show();
-      if (place.behind) {
-        window_.tabifyDockWidget(shown.back(), dock.widget);
-        shown.back()->raise();
-        continue;
-      }
-      shown << dock.widget;
-      heights << place.height;
-    }
+    place(dock, layout, shown, heights);
   }
   window_.resizeDocks(shown, heights, Qt::Vertical);
   follow_type();
@@ -110,6 +118,30 @@ void DockLayouts::arrange(Layout layout) {
       }
     }
   });
+}
+
+/// @param shown, heights what is in front in the layout so far
+void DockLayouts::place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown,
+                        QList<int>& heights) {
+  // A dock without a place in this layout opens at its place in another one.
+  if (!dock.places.empty()) {
+    window_.addDockWidget(dock.places.front().area, dock.widget);
+  }
+  dock.widget->hide();
+  for (const Place& place : dock.places) {
+    if (place.layout != layout) {
+      continue;
+    }
+    window_.addDockWidget(place.area, dock.widget);
+    dock.widget->show();
+    if (place.behind) {
+      window_.tabifyDockWidget(shown.back(), dock.widget);
+      shown.back()->raise();
+      continue;
+    }
+    shown << dock.widget;
+    heights << place.height;
+  }
 }
 
 void DockLayouts::follow_type() {
@@ -149,11 +181,33 @@ QByteArray DockLayouts::state() const { return with_checksum(window_.saveState(l
 
 bool DockLayouts::restore(int layout, const QByteArray& state) {
   const std::optional<QByteArray> checked = without_checksum(state);
-  if (layout < 0 || layout > static_cast<int>(Layout::debug) || !checked) {
+  if (layout < 0 || layout >= layout_count || !checked) {
     return false;
   }
   arrange(static_cast<Layout>(layout));
   return window_.restoreState(*checked, layout_version);
+}
+
+namespace {
+
+QString key_of(int layout) { return QStringLiteral("window/kept/%1").arg(layout); }
+
+}  // namespace
+
+void DockLayouts::save(QSettings& settings) const {
+  settings.setValue("window/state", state());
+  settings.setValue("window/layout", static_cast<int>(current_));
+  for (int k = 0; k < layout_count; ++k) {
+    settings.setValue(key_of(k), with_checksum(at(kept_, k)));
+  }
+}
+
+bool DockLayouts::load(const QSettings& settings) {
+  for (int k = 0; k < layout_count; ++k) {
+    at(kept_, k) = without_checksum(settings.value(key_of(k)).toByteArray()).value_or(QByteArray());
+  }
+  return restore(settings.value("window/layout", -1).toInt(),
+                 settings.value("window/state").toByteArray());
 }
 
 void DockLayouts::add_to(QMenu& menu) {
@@ -164,15 +218,14 @@ void DockLayouts::add_to(QMenu& menu) {
   const auto add_layout = [&](Layout layout, const char* name, const QString& text,
                               const char* key) {
     QAction* action = menu.addAction(
-        text, this, [this, layout] { arrange(layout); }, QKeySequence(QString::fromLatin1(key)));
+        text, this, [this, layout] { choose(layout); }, QKeySequence(QString::fromLatin1(key)));
     action->setObjectName(QString::fromLatin1(name));
   };
   add_layout(Layout::teach, "layout_teach", tr("Lay out to teach"), "Ctrl+1");
   add_layout(Layout::inspect, "layout_inspect", tr("Lay out to inspect a solve"), "Ctrl+2");
   add_layout(Layout::debug, "layout_debug", tr("Lay out to debug a map"), "Ctrl+3");
-  menu.addAction(
-          tr("Reset the layout"), this, [this] { arrange(current_); },
-          QKeySequence(QStringLiteral("Ctrl+0")))
+  menu.addAction(tr("Reset the layout"), this, &DockLayouts::reset,
+                 QKeySequence(QStringLiteral("Ctrl+0")))
       ->setObjectName("layout_reset");
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QByteArray>
+#include <QList>
 #include <QMainWindow>
 #include <QObject>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 
 class QDockWidget;
 class QMenu;
+class QSettings;
 
 namespace transillum::viewer {
 
@@ -31,7 +34,12 @@ class DockLayouts : public QObject {
   /// Docks on one side are stacked in the order in which they were added.
   QDockWidget* add(const QString& title, const char* name, QWidget* content,
                    std::vector<Place> places);
+  /// Switches to a layout as it is at first.
   void arrange(Layout layout);
+  /// Switches to a layout as the user left it; the one in use is reset.
+  void choose(Layout layout);
+  /// Arranges the layout in use as it was at first.
+  void reset();
   /// Sets the widths of the sides for the current font size.
   void follow_type();
   /// The places and sizes of all docks, for restore().
@@ -39,7 +47,12 @@ class DockLayouts : public QObject {
   /// Restores a state saved in layout number `layout`. False where it is damaged or does not fit
   /// this version.
   bool restore(int layout, const QByteArray& state);
-  /// The layout arranged last.
+  /// Saves the places and sizes of all docks in all layouts, and the layout in use.
+  void save(QSettings& settings) const;
+  /// Arranges the saved layout. Saved places that are damaged or do not fit this version are left
+  /// out. @returns false where those of the layout in use are
+  bool load(const QSettings& settings);
+  /// The layout in use.
   Layout current() const { return current_; }
   /// Shows a panel, in front of the others in its place.
   /// @param panel the name of its dock without "_dock"
@@ -58,8 +71,11 @@ class DockLayouts : public QObject {
     QDockWidget* widget;
     std::vector<Place> places;
   };
+  void place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown, QList<int>& heights);
+
   QMainWindow& window_;
   std::vector<Dock> docks_;
+  std::array<QByteArray, layout_count> kept_;  ///< states of the layouts that are not in use
   Layout current_ = Layout::inspect;
 };
 

@@ -79,7 +79,7 @@ void ViewStateApplier::apply(const ViewState& state) {
   leaving_ = false;
   parts_.notifier.dismiss();
   if (requested_.layout && *requested_.layout != parts_.docks.current()) {
-    parts_.docks.arrange(*requested_.layout);
+    parts_.docks.choose(*requested_.layout);
   }
   for (const std::string& panel : requested_.panels) {
     parts_.docks.bring_to_front(panel);
