@@ -4,16 +4,20 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QHeaderView>
+#include <QLineEdit>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QToolBar>
 #include <QUrl>
 #include <set>
 
 #include "solved_window.h"
+#include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
 
 using namespace transillum;
@@ -358,6 +362,85 @@ class WindowTest : public QObject {
     window->findChild<QAction*>("projector")->trigger();
     QVERIFY(wider);
     QVERIFY(fits);
+  }
+
+  void another_scene_has_its_own_patch_area() {
+    const auto window = make_window(8);
+    window->set_options(SolveOptions{.directions = 8}, {false, 0.05});
+    window->files().open_scene("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    const std::size_t refined = window->snapshot()->radiosity.size();
+    QVERIFY(refined > 40);
+    window->files().open_scene("cornell-box");
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    QCOMPARE(window->snapshot()->radiosity.size(), refined);
+    window->files().open_scene("boards");
+    QVERIFY(wait_for([&] { return window->windowTitle().contains("boards"); }));
+    QCOMPARE(window->parts().settings.scene_options().max_patch_area, 0.0);
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QCOMPARE(window->snapshot()->loaded->scene->patch_count(), load_scene("boards")->patch_count());
+  }
+
+  void says_how_many_patches_an_area_makes_and_asks_about_very_many() {
+    const SolvedWindow solved("cornell-box", {.directions = 8});
+    auto* area = solved.window->findChild<QLineEdit*>("max_patch_area");
+    const auto* forecast = solved.window->findChild<QLabel*>("patch_forecast");
+    QVERIFY(forecast->isHidden());
+    area->setText("0.01");
+    const std::int64_t count = count_patches(*solved.window->snapshot()->loaded->scene, 0.01);
+    QVERIFY(wait_for([&] { return forecast->text().startsWith(count_text(count)); }));
+    QVERIFY(!forecast->isHidden());
+    area->clear();
+    QVERIFY(forecast->isHidden());
+
+    area->setText("1e-6");
+    bool asked = false;
+    QTimer answer;
+    connect(&answer, &QTimer::timeout, solved.window.get(), [&] {
+      if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+        asked = box->text().contains("GB");
+        box->button(QMessageBox::Cancel)->click();
+      }
+    });
+    answer.start(20);
+    solved.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] { return asked; }));
+    QVERIFY(solved.window->settled());
+    area->setText("0.01");
+    solved.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] {
+      return solved.window->snapshot() &&
+             static_cast<std::int64_t>(solved.window->snapshot()->radiosity.size()) == count;
+    }));
+  }
+
+  void loading_shows_what_is_loaded_and_can_be_canceled_data() {
+    QTest::addColumn<bool>("has_scene");
+    QTest::newRow("first scene") << false;
+    QTest::newRow("with an open scene") << true;
+  }
+  void loading_shows_what_is_loaded_and_can_be_canceled() {
+    QFETCH(bool, has_scene);
+    const auto window = make_window(8);
+    if (has_scene) {
+      window->open("boards");
+      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    }
+    const QString title = window->windowTitle();
+    auto* bar = window->findChild<Banner*>("loading_bar");
+    for (const bool by_key : {false, true}) {
+      window->files().open_scene("sphere-flake:levels=4");
+      QVERIFY(wait_for([&] { return bar->isVisible(); }));
+      QCOMPARE(window->windowTitle(), QString("Loading sphere-flake:levels=4 – transillum"));
+      if (by_key) {
+        window->findChild<QAction*>("clear_selection")->trigger();
+      } else {
+        window->findChild<QPushButton*>("cancel_loading")->click();
+      }
+      QVERIFY(wait_for([&] { return !bar->isVisible(); }));
+      QCOMPARE(window->windowTitle(), title);
+      QCOMPARE(window->snapshot() != nullptr, has_scene);
+    }
   }
 
   void panels_can_be_closed_and_reopened() {

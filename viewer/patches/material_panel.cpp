@@ -44,7 +44,7 @@ QLabel* make_note(const char* name) {
 }  // namespace
 
 MaterialPanel::MaterialPanel(Relighting& relighting, const Selection& selection,
-                             const ColorChoice& colors, QWidget* parent)
+                             ColorChoice& colors, QWidget* parent)
     : QWidget(parent), relighting_(relighting), selection_(selection), colors_(colors) {
   obstacle_ = make_note("material_words");
   auto* layout = new QVBoxLayout(this);
@@ -87,12 +87,6 @@ QWidget* MaterialPanel::make_sliders() {
   reflectance_ = new ChannelSliders("rho", tr("Reflectance ρ"), 3);
   exitance_ = new ChannelSliders("exitance", tr("Emitted exitance E, W/m²"), 2);
   account_ = make_note("material_account");
-  exposure_ = new QLabel(tr("Auto exposure hides this: turn off Auto."));
-  exposure_->setToolTip(
-      tr("Automatic exposure adjusts the picture to each change of E. Auto is above the scene."));
-  exposure_->setObjectName("material_exposure");
-  exposure_->setWordWrap(true);
-
   sliders_ = new QWidget;
   sliders_->setToolTip(
       tr("Change the material; B is recomputed from the form factors, without a "
@@ -103,13 +97,13 @@ QWidget* MaterialPanel::make_sliders() {
   column->addWidget(account_);
   column->addWidget(reflectance_);
   column->addWidget(exitance_);
-  column->addWidget(exposure_);
   return sliders_;
 }
 
 void MaterialPanel::connect_edits() {
   MaterialEdits& edits = relighting_.edits();
   for (ChannelSliders* sliders : {reflectance_, exitance_}) {
+    connect(sliders, &ChannelSliders::drag_began, this, &MaterialPanel::hold_exposure);
     connect(sliders, &ChannelSliders::drag_began, &edits, &MaterialEdits::begin_drag);
   }
   connect(reflectance_, &ChannelSliders::moved, this,
@@ -117,6 +111,7 @@ void MaterialPanel::connect_edits() {
   connect(exitance_, &ChannelSliders::moved, this,
           [this, &edits](const Rgb& value) { edits.set_exitance(target(), value); });
   connect(restore_, &QPushButton::clicked, &edits, &MaterialEdits::restore);
+  connect(restore_, &QPushButton::clicked, this, &MaterialPanel::release_exposure);
   connect(kind_, qOverload<int>(&QComboBox::activated), this,
           [this] { fill_names(selection_.patch()); });
   connect(name_, qOverload<int>(&QComboBox::currentIndexChanged), this,
@@ -138,6 +133,7 @@ std::string MaterialPanel::target() const { return name_->currentData().toString
 
 void MaterialPanel::show_scene(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
+  release_exposure();
   fill_kinds();
   fill_names(no_patch);
 }
@@ -203,12 +199,20 @@ void MaterialPanel::show_state() {
   obstacle_->setHidden(reason.isEmpty());
   account_->setText(relighting_.method_note());
   account_->setHidden(account_->text().isEmpty());
-  exposure_->setVisible(exposure_hides_change());
 }
 
-bool MaterialPanel::exposure_hides_change() const {
-  return relighting_.edits().changes_exitance() && colors_.exposure_is_automatic() &&
-         colors_.scale().mode == ColorMode::true_color;
+void MaterialPanel::hold_exposure() {
+  // Without light, the exposure is to follow the first.
+  if (colors_.exposure_is_automatic() && relighting_.edits().has_light()) {
+    colors_.set_automatic_exposure(false);
+    holds_exposure_ = true;
+  }
+}
+
+void MaterialPanel::release_exposure() {
+  if (std::exchange(holds_exposure_, false)) {
+    colors_.set_automatic_exposure(true);
+  }
 }
 
 void MaterialPanel::show_values() {

@@ -24,7 +24,7 @@ class MaterialPanel : public QWidget {
   Q_OBJECT
 
  public:
-  MaterialPanel(Relighting& relighting, const Selection& selection, const ColorChoice& colors,
+  MaterialPanel(Relighting& relighting, const Selection& selection, ColorChoice& colors,
                 QWidget* parent = nullptr);
 
   void show_scene(std::shared_ptr<const Scene> scene);
@@ -42,24 +42,25 @@ class MaterialPanel : public QWidget {
   void fill_names(PatchId patch);
   void show_values();
   QString extent_text() const;
-  /// Whether automatic exposure compensates a change of E, so that the picture stays the same.
-  bool exposure_hides_change() const;
+  /// Ends automatic exposure, which would compensate a change, so that the picture stays the same.
+  void hold_exposure();
+  void release_exposure();
   TargetKind kind() const;
   /// Empty if nothing is chosen.
   std::string target() const;
 
   Relighting& relighting_;
   const Selection& selection_;
-  const ColorChoice& colors_;
+  ColorChoice& colors_;
   std::shared_ptr<const Scene> scene_;
   QComboBox *kind_, *name_;
   QLabel* extent_;    ///< how many patches the target has, and whether they differ
   QLabel* obstacle_;  ///< why materials cannot be changed now
   QLabel* account_;   ///< what B is computed from
-  QLabel* exposure_;  ///< shown while exposure_hides_change()
   QWidget* sliders_;
   ChannelSliders *reflectance_, *exitance_;
   QPushButton* restore_;
+  bool holds_exposure_ = false;  ///< which was automatic before
 };
 
 }  // namespace transillum::viewer

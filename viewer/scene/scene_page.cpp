@@ -20,6 +20,8 @@ namespace transillum::viewer {
 
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
+  loading_bar_ = new Banner;
+  loading_bar_->setObjectName("loading_bar");
   banner_ = new Banner;
   light_bar_ = new Banner;
   light_bar_->setObjectName("light_bar");
@@ -54,6 +56,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  layout->addWidget(loading_bar_);
   layout->addWidget(banner_);
   layout->addWidget(pages_, 1);
 }
@@ -89,6 +92,8 @@ void ScenePage::make_scenes_action() {
           [this](bool chosen) { pages_->setCurrentIndex(chosen ? 0 : 1); });
   connect(welcome_, &WelcomePage::back_clicked, this, &ScenePage::show_scene);
 }
+
+void ScenePage::set_loading(const QString& name) { welcome_->set_loading(name); }
 
 void ScenePage::show_scene() {
   scenes_->setEnabled(true);

@@ -27,6 +27,10 @@ class ScenePage : public QWidget {
             QWidget* parent = nullptr);
 
   Banner* banner() const { return banner_; }
+  /// Above banner(): the scene that is being loaded.
+  Banner* loading_bar() const { return loading_bar_; }
+  /// Names the scene that is being loaded where scenes are chosen; empty: none.
+  void set_loading(const QString& name);
   /// Below banner(): what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
@@ -51,7 +55,7 @@ class ScenePage : public QWidget {
 
   CameraBookmarks bookmarks_;
   CameraMenu* camera_;
-  Banner *banner_, *light_bar_, *orientation_bar_;
+  Banner *loading_bar_, *banner_, *light_bar_, *orientation_bar_;
   QStackedWidget* pages_;
   WelcomePage* welcome_;
   QAction* scenes_;

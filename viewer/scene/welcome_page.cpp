@@ -128,11 +128,21 @@ void WelcomePage::changeEvent(QEvent* event) {
   }
 }
 
-void WelcomePage::measure() {
+void WelcomePage::set_loading(const QString& name) {
+  loading_ = name;
+  show_title();
+}
+
+void WelcomePage::show_title() {
+  const QString title = loading_.isEmpty() ? tr("Choose a scene") : tr("Loading %1…").arg(loading_);
   // As HTML: a font set on the label would be lost when the style sheet changes.
   title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
                       .arg(theme::scaled(24))
-                      .arg(tr("Choose a scene")));
+                      .arg(title.toHtmlEscaped()));
+}
+
+void WelcomePage::measure() {
+  show_title();
   for (Card* card : cards_) {
     card->measure(min_lines);
   }

@@ -20,6 +20,8 @@ class WelcomePage : public QScrollArea {
 
   /// Shows the button that goes back to the open scene.
   void show_back_button();
+  /// Names the scene that is being loaded in the title; empty: none.
+  void set_loading(const QString& name);
 
  signals:
   void back_clicked();
@@ -35,8 +37,10 @@ class WelcomePage : public QScrollArea {
   class Card;
   /// Sizes title and cards by the font.
   void measure();
+  void show_title();
   void place_cards();
 
+  QString loading_;
   QLabel* title_;
   QPushButton* back_;
   QGridLayout* grid_;

@@ -9,6 +9,7 @@
 #include <QDoubleValidator>
 #include <QFormLayout>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
@@ -223,9 +224,19 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   two_sided_->setObjectName("two_sided");
   two_sided_->setToolTip(tip("two-sided"));
   form.addRow(tr("Patch area, m²"), max_patch_area_);
+  forecast_ = new QLabel;
+  forecast_->setObjectName("patch_forecast");
+  forecast_->setForegroundRole(QPalette::PlaceholderText);
+  forecast_->setWordWrap(true);
+  forecast_->setToolTip(
+      tr("Patches that this area makes, and about how much memory a solve takes"));
+  forecast_->hide();
+  form.addRow(QString(), forecast_);
   form.addRow(QString(), two_sided_);
-  connect(max_patch_area_, &QLineEdit::textChanged, this, &SettingsPanel::show_state);
-  connect(two_sided_, &QCheckBox::toggled, this, &SettingsPanel::show_state);
+  for (const auto& show : {&SettingsPanel::show_state, &SettingsPanel::want_forecast}) {
+    connect(max_patch_area_, &QLineEdit::textChanged, this, show);
+    connect(two_sided_, &QCheckBox::toggled, this, show);
+  }
 }
 
 AccuracyGoal SettingsPanel::goal() const {
@@ -298,6 +309,9 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
 void SettingsPanel::set_in_effect(const SolveOptions& solve, const SceneOptions& scene) {
   solve_in_effect_ = solve;
   scene_in_effect_ = scene;
+  if (same(scene_options(), scene)) {
+    forecast_->hide();
+  }
   show_state();
 }
 
@@ -325,6 +339,20 @@ void SettingsPanel::set_scene_fixed(bool fixed) {
   const QString why = tr("Given by the result file");
   max_patch_area_->setToolTip(fixed ? why : tip("max-patch-area"));
   two_sided_->setToolTip(fixed ? why : tip("two-sided"));
+}
+
+void SettingsPanel::want_forecast() {
+  forecast_->hide();
+  if (enabled_ && !same(scene_options(), scene_in_effect_)) {
+    emit forecast_wanted(scene_options());
+  }
+}
+
+void SettingsPanel::show_forecast(const SceneOptions& options, const QString& text) {
+  if (same(options, scene_options())) {
+    forecast_->setText(text);
+    forecast_->setVisible(!text.isEmpty() && !same(options, scene_in_effect_));
+  }
 }
 
 void SettingsPanel::show_state() {

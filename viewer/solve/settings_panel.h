@@ -9,6 +9,7 @@
 class QCheckBox;
 class QComboBox;
 class QFormLayout;
+class QLabel;
 class QLineEdit;
 class QPushButton;
 class QSpinBox;
@@ -33,9 +34,14 @@ class SettingsPanel : public QWidget {
   void set_restart_enabled(bool enabled);
   /// Whether the patches are those of a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
+  /// Shows what scene_options() would make of the scene, unless they have changed since.
+  /// @param text empty: nothing
+  void show_forecast(const SceneOptions& options, const QString& text);
 
  signals:
   void restart_clicked();
+  /// The options differ from those of the open scene, and show_forecast() is to be called.
+  void forecast_wanted(const transillum::SceneOptions& options);
 
  private:
   void add_direction_rows(QFormLayout& form);
@@ -47,6 +53,7 @@ class SettingsPanel : public QWidget {
   void connect_solve_rows();
   void add_scene_rows(QFormLayout& form);
   void show_state();
+  void want_forecast();
   void show_row(QWidget* field, bool shown);
 
   SolveOptions base_;  ///< carries options without a control, such as threads and memory
@@ -72,6 +79,7 @@ class SettingsPanel : public QWidget {
   QSpinBox* iterations_;
   QCheckBox* two_sided_;
   QLineEdit* max_patch_area_;
+  QLabel* forecast_;
   QPushButton* restart_ = nullptr;
 };
 

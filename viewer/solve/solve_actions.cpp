@@ -58,12 +58,13 @@ void SolveActions::add_to(QToolBar& bar) const {
 void SolveActions::show_state(RunState state, bool at_start) {
   const bool paused = state == RunState::paused;
   const bool running = state == RunState::running;
+  const bool loading = state == RunState::loading;
+  stop_->setText(loading ? tr("Stop loading") : tr("Start over"));
   run_->setEnabled(paused);
   pause_->setEnabled(running);
   one_direction_->setEnabled(paused || running);
   one_iteration_->setEnabled(paused || running);
-  stop_->setEnabled(state == RunState::loading || running || state == RunState::finished ||
-                    (paused && !at_start));
+  stop_->setEnabled(loading || running || state == RunState::finished || (paused && !at_start));
 }
 
 }  // namespace transillum::viewer

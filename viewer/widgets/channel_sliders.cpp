@@ -6,7 +6,9 @@
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QEvent>
 #include <QGridLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -58,25 +60,43 @@ ChannelSliders::ChannelSliders(const char* name, const QString& title, int decim
     grid->addWidget(label, row, 0);
     grid->addWidget(sliders_[c], row, 1);
     grid->addWidget(boxes_[c], row, 2);
-    connect(sliders_[c], &QSlider::sliderPressed, this, [this] {
-      at_drag_start_ = value_;
-      emit drag_began();
-    });
     connect(sliders_[c], &QSlider::valueChanged, this, [this, c](int step) {
-      if (!sliders_[c]->isSliderDown()) {
-        at_drag_start_ = value_;
-        emit drag_began();
-      }
+      begin_change();
       set_channel(c, most_ * step / slider_steps);
     });
     connect(boxes_[c], qOverload<double>(&QDoubleSpinBox::valueChanged), this,
             [this, c](double value) {
-              at_drag_start_ = value_;
-              emit drag_began();
+              begin_change();
               set_channel(c, value);
             });
+    sliders_[c]->installEventFilter(this);
+    boxes_[c]->installEventFilter(this);
   }
   grid->setColumnStretch(1, 1);
+}
+
+void ChannelSliders::begin_change() {
+  if (!held_ || !changed_) {
+    at_drag_start_ = value_;
+    emit drag_began();
+  }
+  changed_ = true;
+}
+
+bool ChannelSliders::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  const bool is_key = type == QEvent::KeyPress || type == QEvent::KeyRelease;
+  if (is_key && static_cast<QKeyEvent*>(event)->isAutoRepeat()) {
+    return false;
+  }
+  if (type == QEvent::MouseButtonPress || type == QEvent::KeyPress) {
+    held_ = true;
+    changed_ = false;
+  } else if (type == QEvent::MouseButtonRelease || type == QEvent::KeyRelease ||
+             type == QEvent::FocusOut) {
+    held_ = false;
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void ChannelSliders::set_channel(std::size_t channel, double value) {

@@ -140,6 +140,9 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
   applier_.leave_lesson();
   RunOptions options = parts_.settings.options();
   options.input = input;
+  if (parts_.scene.loaded() && spec.toStdString() != parts_.scene.spec()) {
+    options.scene = {};  // those of the open scene
+  }
   parts_.scene.open(spec.toStdString(), options, goal);
 }
 

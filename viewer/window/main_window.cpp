@@ -51,6 +51,7 @@
 #include "window/inspection_panels.h"
 #include "window/key_list.h"
 #include "window/light_offer.h"
+#include "window/loading_notice.h"
 #include "window/notifier.h"
 #include "window/orientation_offer.h"
 #include "window/setting_list.h"
@@ -61,6 +62,10 @@
 namespace transillum::viewer {
 
 namespace {
+
+constexpr QSize usual_size(1600, 1000);
+// Title bar and borders are known only once the window is on the screen.
+constexpr QSize room_for_frame(16, 48);
 
 QString dropped_file(const QMimeData& data) {
   const QList<QUrl> urls = data.urls();
@@ -147,6 +152,7 @@ void MainWindow::make_whole_window_actions() {
   session_ = new WindowSession(parts, *applier_);
   files_ = new FileActions(parts, *applier_, *session_);
   exports_ = new ExportActions(parts);
+  new LoadingNotice(parts);
   new LightOffer(parts, inspection_->materials(), *applier_);
   new OrientationOffer(parts, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
@@ -220,9 +226,8 @@ void MainWindow::connect_scene() {
   connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
   connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
     settings_->set_scene_fixed(loaded->stored != nullptr);
-    if (state_.scene.has_own_patches()) {
-      settings_->set_options(settings_->solve_options(), state_.scene.options());
-    }
+    // How faces become patches belongs to the scene.
+    settings_->set_options(settings_->solve_options(), state_.scene.options());
     state_.selection.select(no_patch);
     state_.focus_feed.clear();
     inspection_->show_scene(*loaded);
@@ -333,16 +338,19 @@ void MainWindow::make_view_menu() {
   view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
-  view->addAction(
-      tr("Stop searching, or clear the selection"), this,
+  QAction* stop = view->addAction(
+      tr("Stop loading or searching, or clear the selection"), this,
       [this] {
-        if (state_.focus.seeking()) {
+        if (state_.runner.state() == RunState::loading) {
+          state_.runner.stop();
+        } else if (state_.focus.seeking()) {
           state_.focus.stop();
         } else {
           state_.selection.select(no_patch);
         }
       },
       QKeySequence(Qt::Key_Escape));
+  stop->setObjectName("clear_selection");
 }
 
 void MainWindow::make_tool_bar() {
@@ -368,32 +376,26 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
 }
 
 void MainWindow::restore_layout() {
-  QSize size(1600, 1000);
-  // A screenshot has the same size on every screen.
-  if (remember_) {
-    size = size.boundedTo(screen()->availableSize());
-  }
-  resize(size);
   docks_.arrange(Layout::inspect);
   if (!remember_) {
+    resize(usual_size);  // a screenshot has the same size on every screen
     return;
   }
+  resize(usual_size.boundedTo(screen()->availableSize() - room_for_frame));
   QSettings settings;
   state_.breakpoints.load(settings);
   appearance_.load(settings);
   files_->load(settings);
-  const QByteArray saved = settings.value("window/state").toByteArray();
   const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
   if (geometry) {
     restoreGeometry(*geometry);
   }
   // The saved state may not fit after an update of Qt or of the docks.
-  const int layout = settings.value("window/layout", -1).toInt();
-  if (docks_.restore(layout, saved)) {
+  if (docks_.load(settings)) {
     return;
   }
   docks_.arrange(Layout::inspect);
-  if (!saved.isEmpty()) {
+  if (settings.contains("window/state")) {
     // Later: opening the first scene dismisses messages.
     QTimer::singleShot(0, notifier_, [this] {
       notifier_->show_warnings(
@@ -405,8 +407,7 @@ void MainWindow::restore_layout() {
 void MainWindow::save_layout() {
   QSettings settings;
   settings.setValue("window/geometry", with_checksum(saveGeometry()));
-  settings.setValue("window/state", docks_.state());
-  settings.setValue("window/layout", static_cast<int>(docks_.current()));
+  docks_.save(settings);
   state_.breakpoints.save(settings);
   appearance_.save(settings);
   files_->save(settings);

@@ -52,7 +52,6 @@ void OpenScene::take_scene(std::shared_ptr<const LoadedScene> loaded) {
   spec_ = requested_spec_;
   options_ = loaded_->scene->options();
   input_ = requested_input_;
-  own_patches_ = loaded_->stored || input_.patches > 0;
   input_.patches = 0;
   relighting_.show_scene(loaded_->scene);
   emit scene_loaded(loaded_);

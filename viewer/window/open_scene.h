@@ -27,15 +27,14 @@ class OpenScene : public QObject {
   /// @param spec a file, or a built-in with its parameters
   void open(const std::string& spec, const RunOptions& options, Goal goal = {Goal::Kind::finished});
 
+  /// The scene that open() was called with last.
+  const std::string& requested_spec() const { return requested_spec_; }
   /// Empty before the first scene is loaded.
   const std::string& spec() const { return spec_; }
   /// How the faces became patches; a result file has options of its own.
   const SceneOptions& options() const { return options_; }
   /// How the file was read.
   const SceneInput& input() const { return input_; }
-  /// Whether options().max_patch_area is not what open() was called with: it belongs to a result
-  /// file, or was chosen for a number of patches.
-  bool has_own_patches() const { return own_patches_; }
   std::shared_ptr<const LoadedScene> loaded() const { return loaded_; }
   /// The snapshot shown; null until the first one of a scene arrives.
   std::shared_ptr<const SolverSnapshot> snapshot() const { return shown_; }
@@ -72,7 +71,6 @@ class OpenScene : public QObject {
   std::string requested_spec_, spec_;
   SceneInput requested_input_, input_;
   SceneOptions options_;
-  bool own_patches_ = false;
   bool opening_ = false;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> newest_;  ///< as the solver posted it

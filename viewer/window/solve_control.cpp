@@ -2,16 +2,35 @@
 #include "window/solve_control.h"
 
 #include <QMainWindow>
+#include <QMessageBox>
+#include <QPushButton>
 #include <algorithm>
+#include <utility>
 
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/settings_panel.h"
 #include "solve/solve_actions.h"
+#include "support/number_text.h"
+#include "transillum/patch_count.h"
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
 
 namespace transillum::viewer {
+
+namespace {
+
+QString forecast_text(std::int64_t patches) {
+  constexpr std::int64_t countless = std::int64_t{1} << 40;
+  if (patches > countless) {
+    return SolveControl::tr("more than 10¹² patches");
+  }
+  const double gigabytes = 1e-9 * static_cast<double>(expected_memory(patches));
+  return SolveControl::tr("%1 patches, about %2 GB of memory")
+      .arg(count_text(patches), QString::number(gigabytes, 'f', gigabytes < 10 ? 1 : 0));
+}
+
+}  // namespace
 
 SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
                            ViewStateApplier& applier)
@@ -26,6 +45,19 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
   connect(&parts_.scene, &OpenScene::snapshot_ready, this,
           [this] { actions_.show_state(parts_.runner.state(), parts_.scene.at_start()); });
   connect(&parts_.settings, &SettingsPanel::restart_clicked, this, &SolveControl::solve_again);
+  connect(&parts_.settings, &SettingsPanel::forecast_wanted, this,
+          [this](const SceneOptions& options) {
+            if (parts_.scene.loaded() && parts_.scene.loaded()->description) {
+              forecast_.request(parts_.scene.loaded(), options);
+            }
+          });
+  connect(&forecast_, &PatchForecast::counted, this, &SolveControl::show_forecast);
+  connect(&forecast_, &PatchForecast::failed, this, [this] {
+    // Reading the scene will fail likewise, and say why.
+    if (std::exchange(awaits_forecast_, false)) {
+      open_again();
+    }
+  });
   connect(&parts_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
 }
 
@@ -47,9 +79,40 @@ void SolveControl::solve_again() {
   options.input = parts_.scene.input();
   if (parts_.scene.is_open(parts_.scene.spec(), options)) {
     parts_.runner.restart(options.solve, {Goal::Kind::finished});
+  } else if (parts_.scene.loaded()->description) {
+    awaits_forecast_ = true;
+    forecast_.request(parts_.scene.loaded(), options.scene);
   } else {
-    applier_.open_again(options);
+    open_again();
   }
+}
+
+void SolveControl::open_again() {
+  RunOptions options = parts_.settings.options();
+  options.input = parts_.scene.input();
+  applier_.open_again(options);
+}
+
+void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
+  parts_.settings.show_forecast(options, forecast_text(patches));
+  if (std::exchange(awaits_forecast_, false) && may_refine(patches)) {
+    open_again();
+  }
+}
+
+bool SolveControl::may_refine(std::int64_t patches) {
+  constexpr std::int64_t many_patches = 200'000;
+  if (patches <= many_patches || patches <= parts_.scene.loaded()->scene->patch_count()) {
+    return true;
+  }
+  QMessageBox box(QMessageBox::Question, tr("Very many patches"),
+                  tr("The scene would have %1. Divide it so finely?").arg(forecast_text(patches)),
+                  QMessageBox::Cancel, &parts_.window);
+  box.setObjectName("many_patches");
+  const QPushButton* divide = box.addButton(tr("Divide"), QMessageBox::AcceptRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == divide;
 }
 
 void SolveControl::solve_with_replicas() {

@@ -3,6 +3,7 @@
 
 #include <QObject>
 
+#include "model/patch_forecast.h"
 #include "model/snapshot.h"
 #include "window/window_parts.h"
 
@@ -12,7 +13,8 @@ class SolveActions;
 class ViewStateApplier;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
-/// solving again with changed settings.
+/// solving again with changed settings. Says how many patches other settings would make, and asks
+/// before it makes very many.
 class SolveControl : public QObject {
   Q_OBJECT
 
@@ -24,11 +26,17 @@ class SolveControl : public QObject {
   /// Solves with the settings of the panel; reads the scene again where its options differ.
   void solve_again();
   void solve_with_replicas();
+  void show_forecast(const SceneOptions& options, std::int64_t patches);
+  /// Asks about a scene of very many patches. Whether to make it.
+  bool may_refine(std::int64_t patches);
+  void open_again();
   void show_state(RunState state);
 
   WindowParts parts_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
+  bool awaits_forecast_ = false;  ///< to open the scene again
+  PatchForecast forecast_;
 };
 
 }  // namespace transillum::viewer

@@ -1,0 +1,30 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+
+#include "window/window_parts.h"
+
+namespace transillum::viewer {
+
+/// The bar above the scene while another one is loaded: what is done, how far, and a button that
+/// cancels. The title of the window names the scene that is loaded.
+class LoadingNotice : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What `parts` refers to must outlive this object.
+  explicit LoadingNotice(const WindowParts& parts);
+
+ private:
+  void show_state(RunState state);
+  void show();
+
+  WindowParts parts_;
+  QString phase_, title_before_, loading_title_;
+  double share_ = -1;  ///< as by SolveRunner::load_progressed()
+  QTimer delay_;       ///< a scene that loads at once needs no bar
+};
+
+}  // namespace transillum::viewer
