@@ -162,7 +162,9 @@ class BreakpointsTest : public QObject {
   void breakpoints_are_saved_in_settings() {
     const QTemporaryDir folder;
     Breakpoints before, after;
+    before.set_scene("cornell-box");
     before.add({Kind::pair, 12, 7});
+    before.set_scene("boards");
     before.add({Kind::small_fragment, 0, 0, 1.25e-9, false});
     before.add({Kind::large_map, 0, 0, 1000});
     {
@@ -170,12 +172,19 @@ class BreakpointsTest : public QObject {
       before.save(settings);
     }
     QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
+    after.set_scene("boards");
     after.load(settings);
     QVERIFY(after.list() == before.list());
+    QCOMPARE(after.list().size(), std::size_t{2});
+    after.set_scene("cornell-box");
+    QCOMPARE(after.list().size(), std::size_t{1});
+    after.set_scene("furnace");
+    QVERIFY(after.list().empty());
+    after.set_scene("boards");
     // A kind written by a later version is ignored.
     settings.setValue("breakpoints/2/kind", "unknown-kind");
     after.load(settings);
-    QCOMPARE(after.list().size(), std::size_t{2});
+    QCOMPARE(after.list().size(), std::size_t{1});
   }
 
   void events_of_a_step_are_its_cuts() {

@@ -124,7 +124,7 @@ class CompareTest : public QObject {
     QVERIFY(shown.ready);
     CompareView* view = shown.view;
     view->findChild<QComboBox*>("other_engine")->setCurrentText(QStringLiteral("Hemicube"));
-    QVERIFY(wait_for([&] { return shown.text("compare_words").contains("select a patch"); }));
+    QVERIFY(wait_for([&] { return shown.text("compare_words").contains("select a patch to"); }));
     shown.window->selection.select(14);
     QVERIFY(wait_for([&] { return shown.text("compare_words").contains("patch 14 sees"); }));
     QVERIFY(wait_for([&] { return view->up_to_date(); }));

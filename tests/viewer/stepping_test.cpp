@@ -335,6 +335,26 @@ class SteppingTest : public QObject {
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) < 1e-4);
   }
 
+  void breakpoints_belong_to_their_scene() {
+    const SolvedWindow s("boards");
+    TestWindow& window = *s.window;
+    window.breakpoints.add({Breakpoint::Kind::patch, 3});
+    const auto open = [&](const QString& scene) {
+      window.files().open_scene(scene);
+      return wait_for([&] { return window.windowTitle().startsWith(scene) && window.settled(); });
+    };
+    QVERIFY(open("furnace"));
+    QVERIFY(window.breakpoints.list().empty());
+    QVERIFY(open("boards"));
+    QCOMPARE(window.breakpoints.list().size(), std::size_t{1});
+    window.files().open_lesson("5");
+    QVERIFY(window.breakpoints.list().empty());
+    QVERIFY(wait_for([&] { return window.settled(); }));
+    QVERIFY(window.breakpoints.list().empty());
+    QVERIFY(open("boards"));
+    QCOMPARE(window.breakpoints.list().size(), std::size_t{1});
+  }
+
   void breakpoints_stop_a_run() {
     const Stepping s("cornell-box");
     QVERIFY(s.ready);

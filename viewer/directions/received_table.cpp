@@ -24,6 +24,7 @@ void ReceivedTable::show_lights(const std::vector<ReceivedLight>& lights, double
     irradiance_ += light.irradiance;
   }
   patch_area_ = patch_area;
+  set_formats(front_lights);
   sort_lights(front_lights);
   if (front_lights == lights_) {
     return;
@@ -44,6 +45,20 @@ void ReceivedTable::show_lights(const std::vector<ReceivedLight>& lights, double
     endInsertRows();
   }
   emit dataChanged(index(0, 0), index(after - 1, column_count - 1));
+}
+
+void ReceivedTable::set_formats(const std::vector<ReceivedLight>& lights) {
+  double area = 0, irradiance = 0;
+  for (const ReceivedLight& light : lights) {
+    area = std::max(area, light.area);
+    irradiance = std::max(irradiance, luminance(light.irradiance));
+  }
+  const ColumnFormat area_before = std::exchange(area_format_, ColumnFormat(area));
+  const ColumnFormat irradiance_before =
+      std::exchange(irradiance_format_, ColumnFormat(irradiance));
+  if (!(area_before == area_format_ && irradiance_before == irradiance_format_)) {
+    emit headerDataChanged(Qt::Horizontal, 0, column_count - 1);
+  }
 }
 
 void ReceivedTable::set_current_pass(int pass) {
@@ -89,8 +104,9 @@ QString ReceivedTable::text(const ReceivedLight& light, int column) const {
       return light.opposite ? tr("%1, −ω").arg(count_text(light.pass + 1))
                             : count_text(light.pass + 1);
     case of_area:
+      return area_format_.text(value(light, column));
     case of_irradiance:
-      return number_text(value(light, column));
+      return irradiance_format_.text(value(light, column));
     case of_visible_share:
       return percent(value(light, column));
     case of_share: {
@@ -133,13 +149,13 @@ QVariant ReceivedTable::headerData(int section, Qt::Orientation orientation, int
     case of_direction:
       return pick(tr("Direction"), tr("Number of the pass; −ω: its opposite direction"));
     case of_area:
-      return pick(tr("Seen, m²"),
+      return pick(area_format_.header(tr("Seen, m²")),
                   tr("Area of front sides that the patch sees, projected onto the plane"));
     case of_visible_share:
       return pick(tr("Seen"), tr("The same as a share of the patch's projected area; the rest "
                                  "is back sides or empty"));
     case of_irradiance:
-      return pick(tr("ΔH, W/m²"),
+      return pick(irradiance_format_.header(tr("ΔH, W/m²")),
                   tr("Contribution to the irradiance H of the patch (luminance), before "
                      "normalization"));
     case of_share:

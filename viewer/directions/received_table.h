@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "directions/received_light.h"
+#include "support/column_format.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -44,11 +45,13 @@ class ReceivedTable : public QAbstractTableModel {
  private:
   double value(const ReceivedLight& light, int column) const;
   QString text(const ReceivedLight& light, int column) const;
+  void set_formats(const std::vector<ReceivedLight>& lights);
   void sort_lights(std::vector<ReceivedLight>& lights) const;
 
   std::vector<ReceivedLight> lights_;
   double patch_area_ = 1;
   Rgb irradiance_;
+  ColumnFormat area_format_, irradiance_format_;
   int current_pass_ = -1;
   int sorted_by_ = of_irradiance;
   Qt::SortOrder sort_order_ = Qt::DescendingOrder;

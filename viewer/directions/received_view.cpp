@@ -43,7 +43,7 @@ ReceivedView::ReceivedView(Focus& focus, Selection& selection, PerDirectionVisib
   view_->horizontalHeader()->setStretchLastSection(true);
   view_->horizontalHeader()->setSortIndicator(ReceivedTable::of_irradiance, Qt::DescendingOrder);
   view_->setSortingEnabled(true);
-  set_up_figure_table(*view_, {"8888, −ω", "0.08888", "100 %", "0.008888", "88.8 %", ""});
+  set_up_figure_table(*view_, {"8 888, −ω", "0.008888", "100 %", "0.008888", "88.8 %", ""});
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);

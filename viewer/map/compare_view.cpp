@@ -262,6 +262,15 @@ void CompareView::send_request() {
   if (request == sent_) {
     return;
   }
+  if (request.compares_rows() && request.eye == no_patch) {
+    sent_ = {};
+    comparer_.clear();
+    show_comparison(nullptr);
+    text_->setText(tr(
+        "A hemicube and pairs of patches have no directions: select the patch whose form factors "
+        "are to be compared."));
+    return;
+  }
   sent_ = request;
   comparing_ = true;
   text_->setText(tr("Comparing…"));

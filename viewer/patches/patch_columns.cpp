@@ -118,7 +118,8 @@ PatchRows rows_of_partners(const SolverSnapshot& snapshot, PatchId i) {
   PatchRows rows;
   double total = 0;
   for (PatchId j = 0; j < scene.patch_count(); ++j) {
-    if (!(at(from, j) > 0 || at(to, j) > 0)) {
+    constexpr double rounding = 1e-13;  // of exchanges along an edge that both share
+    if (!(at(from, j) > rounding || at(to, j) > rounding)) {
       continue;
     }
     rows.patches.push_back(j);

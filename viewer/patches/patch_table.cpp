@@ -46,16 +46,33 @@ void PatchTable::set_contents(std::vector<PatchId> patches, std::vector<PatchCol
                  [](const auto& a, const auto& b) { return a.title == b.title; });
   if (same_columns && patches == patches_) {
     // No reset, so that the view keeps its scroll position and selection.
-    columns_ = std::move(columns);
+    const std::vector<PatchColumn> before = std::exchange(columns_, std::move(columns));
+    set_formats();
+    if (!std::equal(before.begin(), before.end(), columns_.begin(),
+                    [](const auto& a, const auto& b) { return a.format == b.format; })) {
+      emit headerDataChanged(Qt::Horizontal, 0, columnCount() - 1);
+    }
     arrange();
     return;
   }
   beginResetModel();
   patches_ = std::move(patches);
   columns_ = std::move(columns);
+  set_formats();
   shown_.clear();
   endResetModel();
   arrange();
+}
+
+void PatchTable::set_formats() {
+  for (PatchColumn& column : columns_) {
+    double largest = 0;
+    for (int entry = 0; entry < size(); ++entry) {
+      const double value = std::abs(key_of(column, entry));
+      largest = std::isfinite(value) ? std::max(largest, value) : largest;
+    }
+    column.format = ColumnFormat(largest);
+  }
 }
 
 void PatchTable::set_search(const QString& text) {
@@ -178,10 +195,12 @@ QVariant PatchTable::data(const QModelIndex& index, int role) const {
       if (column.kind == PatchColumn::Kind::integer) {
         return QString::number(static_cast<qint64>(key_of(column, entry)));
       }
-      return number_text(key_of(column, entry));
+      return column.format.text(key_of(column, entry));
     case Qt::ToolTipRole:
       return column.kind == PatchColumn::Kind::channels
                  ? QVariant(tr("Red, green, blue: %1").arg(rgb_text(at(column.values, entry))))
+             : column.kind == PatchColumn::Kind::number
+                 ? QVariant(number_text(key_of(column, entry)))
                  : QVariant();
     case Qt::TextAlignmentRole:
       return QVariant(column.kind == PatchColumn::Kind::text ? Qt::AlignLeft | Qt::AlignVCenter
@@ -197,7 +216,7 @@ QVariant PatchTable::headerData(int section, Qt::Orientation orientation, int ro
   }
   const PatchColumn& column = at(columns_, section);
   if (role == Qt::DisplayRole) {
-    return column.title;
+    return column.format.header(column.title);
   }
   if (role == Qt::ToolTipRole) {
     return column.tip;

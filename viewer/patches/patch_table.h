@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/column_format.h"
 #include "transillum/scene.h"
 
 namespace transillum::viewer {
@@ -25,6 +26,7 @@ struct PatchColumn {
   Kind kind = Kind::number;
   std::vector<Rgb> values;  ///< one per patch; only red is used, except for channels
   QStringList texts = {};
+  ColumnFormat format = {};  ///< of numbers and channels; set by PatchTable
 };
 
 /// A table of patches. Sorting and searching permute row indices only, so that tens of thousands of
@@ -57,6 +59,7 @@ class PatchTable : public QAbstractTableModel {
   void sort(int column, Qt::SortOrder order) override;
 
  private:
+  void set_formats();
   bool matches(int entry) const;
   void arrange();
 

@@ -58,10 +58,11 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   scene_->hide();
   phase_ = new QLabel(tr("No scene"));
   phase_->setObjectName("phase");
-  phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  phase_->setSizePolicy(QSizePolicy::MinimumExpanding, QSizePolicy::Preferred);
   bar_ = new QProgressBar;
   bar_->setObjectName("progress");
-  bar_->setFixedWidth(260);
+  bar_->setMinimumWidth(90);
+  bar_->setMaximumWidth(260);
   bar_->setFixedHeight(16);
   bar_->setVisible(false);
   rate_ = new QLabel;
@@ -77,7 +78,7 @@ ProgressLine::ProgressLine(QWidget* parent) : QWidget(parent) {
   layout->setSpacing(16);
   layout->addWidget(scene_);
   layout->addWidget(phase_, 1);
-  layout->addWidget(bar_);
+  layout->addWidget(bar_, 1);
   layout->addWidget(rate_);
   layout->addWidget(time_);
 }
@@ -89,7 +90,12 @@ void ProgressLine::show_scene(const LoadedScene& loaded) {
   bold.setBold(true);
   scene_->setFont(bold);
   const QString name = name_of(loaded);
-  scene_->setText(tr("%1, %2 patches").arg(name, count_text(loaded.scene->patch_count())));
+  constexpr int longest_name = 30;
+  const QString short_name =
+      name.size() > longest_name
+          ? name.left(longest_name / 2) + QStringLiteral("…") + name.right(longest_name / 2 - 1)
+          : name;
+  scene_->setText(tr("%1, %2 patches").arg(short_name, count_text(loaded.scene->patch_count())));
   scene_->setToolTip(
       tr("%1: %2 fragments; scene read in %3 s, BSP tree built in %4 s")
           .arg(QString::fromStdString(loaded.scene->name()),

@@ -133,8 +133,11 @@ void SettingsPanel::add_engine_rows(QFormLayout& form) {
       tr("Order of painting\nBSP tree: splits polygons that overlap cyclically, so an order always "
          "exists\nNewell's tests: split nothing, and fail on cyclic overlap"));
   form.addRow(tr("Engine"), engine_);
-  form.addRow(tr("Resolution"), resolution_);
-  form.addRow(tr("Painter's order"), order_);
+  resolution_label_ = new QLabel(tr("Resolution"), this);
+  order_label_ = new QLabel(tr("Painter's order"), this);
+  for (QWidget* widget : {static_cast<QWidget*>(resolution_), static_cast<QWidget*>(order_)}) {
+    widget->setParent(this);
+  }
 }
 
 void SettingsPanel::add_estimator_rows(QFormLayout& form) {
@@ -223,7 +226,10 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   two_sided_ = new QCheckBox(tr("Two-sided faces"));
   two_sided_->setObjectName("two_sided");
   two_sided_->setToolTip(tip("two-sided"));
-  form.addRow(tr("Patch area, m²"), max_patch_area_);
+  auto* area_column = new QVBoxLayout;
+  area_column->setSpacing(2);
+  area_column->addWidget(max_patch_area_);
+  form.addRow(tr("Patch area, m²"), area_column);
   forecast_ = new QLabel;
   forecast_->setObjectName("patch_forecast");
   forecast_->setForegroundRole(QPalette::PlaceholderText);
@@ -231,7 +237,7 @@ void SettingsPanel::add_scene_rows(QFormLayout& form) {
   forecast_->setToolTip(
       tr("Patches that this area makes, and about how much memory a solve takes"));
   forecast_->hide();
-  form.addRow(QString(), forecast_);
+  area_column->addWidget(forecast_);
   form.addRow(QString(), two_sided_);
   for (const auto& show : {&SettingsPanel::show_state, &SettingsPanel::want_forecast}) {
     connect(max_patch_area_, &QLineEdit::textChanged, this, show);
@@ -369,8 +375,8 @@ void SettingsPanel::show_state() {
   replicas_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("replicas"));
   const Engine engine = engine_of(*engine_);
   engine_->setToolTip(engine_sentence(engine));
-  show_row(resolution_, takes_resolution(engine));
-  show_row(order_, engine == Engine::painter);
+  show_row(order_label_, order_, engine == Engine::painter);
+  show_row(resolution_label_, resolution_, takes_resolution(engine));
   const bool rays = engine == Engine::rays;
   resolution_->setSpecialValueText(
       rays ? tr("%1 rays per patch").arg(solve_in_effect_.engine_options.lines_per_patch)
@@ -388,9 +394,20 @@ void SettingsPanel::show_state() {
   restart_->setFont(font);
 }
 
-void SettingsPanel::show_row(QWidget* field, bool shown) {
+// A hidden row would leave its spacing.
+void SettingsPanel::show_row(QLabel* label, QWidget* field, bool shown) {
+  const bool in_form = form_->indexOf(field) >= 0;
+  if (shown && !in_form) {
+    int row = 0;
+    form_->getWidgetPosition(engine_, &row, nullptr);
+    form_->insertRow(row + 1, label, field);
+  } else if (!shown && in_form) {
+    const QFormLayout::TakeRowResult row = form_->takeRow(field);
+    delete row.labelItem;
+    delete row.fieldItem;
+  }
+  label->setVisible(shown);
   field->setVisible(shown);
-  form_->labelForField(field)->setVisible(shown);
 }
 
 }  // namespace transillum::viewer

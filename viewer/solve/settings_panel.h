@@ -54,7 +54,8 @@ class SettingsPanel : public QWidget {
   void add_scene_rows(QFormLayout& form);
   void show_state();
   void want_forecast();
-  void show_row(QWidget* field, bool shown);
+  /// Shows or hides a row below that of the engine.
+  void show_row(QLabel* label, QWidget* field, bool shown);
 
   SolveOptions base_;  ///< carries options without a control, such as threads and memory
   SolveOptions solve_in_effect_;
@@ -69,6 +70,7 @@ class SettingsPanel : public QWidget {
   QComboBox* engine_;
   QSpinBox* resolution_;
   QComboBox* order_;
+  QLabel *resolution_label_, *order_label_;
   QComboBox* pass_serves_;  ///< SolveOptions::two_way
   QComboBox* normalize_;
   QComboBox* stop_at_;

@@ -159,35 +159,62 @@ std::vector<std::int32_t> Breakpoints::steps_in(const MapHistory& history) const
   return steps;
 }
 
+void Breakpoints::set_scene(const std::string& scene) {
+  if (scene == scene_) {
+    return;
+  }
+  other_lists_[scene_] = std::move(list_);
+  scene_ = scene;
+  set_list(std::move(other_lists_[scene_]));
+  other_lists_.erase(scene_);
+}
+
+void Breakpoints::set_list_of(const std::string& scene, std::vector<Breakpoint> list) {
+  if (scene == scene_) {
+    set_list(std::move(list));
+  } else {
+    other_lists_[scene] = std::move(list);
+  }
+}
+
 void Breakpoints::save(QSettings& settings) const {
+  auto lists = other_lists_;
+  lists[scene_] = list_;
+  lists.erase(std::string());
   settings.remove("breakpoints");
-  settings.beginWriteArray("breakpoints", static_cast<int>(list_.size()));
-  for (std::size_t k = 0; k < list_.size(); ++k) {
-    const Breakpoint& b = list_[k];
-    settings.setArrayIndex(static_cast<int>(k));
-    settings.setValue("kind", name_of(b.kind));
-    settings.setValue("patch", b.patch);
-    settings.setValue("other", b.other);
-    settings.setValue("value", b.value);
-    settings.setValue("enabled", b.enabled);
+  settings.beginWriteArray("breakpoints");
+  int index = 0;
+  for (const auto& [scene, list] : lists) {
+    for (const Breakpoint& b : list) {
+      settings.setArrayIndex(index++);
+      settings.setValue("scene", QString::fromStdString(scene));
+      settings.setValue("kind", name_of(b.kind));
+      settings.setValue("patch", b.patch);
+      settings.setValue("other", b.other);
+      settings.setValue("value", b.value);
+      settings.setValue("enabled", b.enabled);
+    }
   }
   settings.endArray();
 }
 
 void Breakpoints::load(QSettings& settings) {
-  list_.clear();
+  other_lists_.clear();
   const int count = settings.beginReadArray("breakpoints");
   for (int k = 0; k < count; ++k) {
     settings.setArrayIndex(k);
     const auto kind = breakpoint_kind(settings.value("kind").toString().toStdString());
-    if (!kind) {
+    const std::string scene = settings.value("scene").toString().toStdString();
+    if (!kind || scene.empty()) {
       continue;
     }
-    list_.push_back({*kind, settings.value("patch").toInt(), settings.value("other").toInt(),
-                     settings.value("value").toDouble(), settings.value("enabled", true).toBool()});
+    other_lists_[scene].push_back(
+        {*kind, settings.value("patch").toInt(), settings.value("other").toInt(),
+         settings.value("value").toDouble(), settings.value("enabled", true).toBool()});
   }
   settings.endArray();
-  emit changed();
+  set_list(std::move(other_lists_[scene_]));
+  other_lists_.erase(scene_);
 }
 
 }  // namespace transillum::viewer

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,8 @@ QString text_of(const Breakpoint& breakpoint);
 const char* name_of(Breakpoint::Kind kind);
 std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);
 
-/// The list of breakpoints; saved in the settings between runs of the program.
+/// The list of breakpoints of the open scene: patches of another scene have the same numbers. Those
+/// of all scenes are saved in the settings between runs of the program.
 class Breakpoints : public QObject {
   Q_OBJECT
 
@@ -49,6 +51,11 @@ class Breakpoints : public QObject {
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
   const std::vector<Breakpoint>& list() const { return list_; }
   void set_list(std::vector<Breakpoint> list);
+  /// Replaces the list by that of another scene.
+  /// @param scene as opened: a file or a built-in; empty: a list that is not saved
+  void set_scene(const std::string& scene);
+  /// Sets the list of a scene, which may be opened later.
+  void set_list_of(const std::string& scene, std::vector<Breakpoint> list);
   void add(const Breakpoint& breakpoint);
   void remove(std::size_t k);
   void set_enabled(std::size_t k, bool enabled);
@@ -69,7 +76,9 @@ class Breakpoints : public QObject {
  private:
   void change(const QString& what, std::vector<Breakpoint> list);
 
+  std::string scene_;
   std::vector<Breakpoint> list_;
+  std::map<std::string, std::vector<Breakpoint>> other_lists_;  ///< of scenes that are not open
   QUndoStack* undo_ = nullptr;
 };
 

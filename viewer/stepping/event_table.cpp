@@ -4,6 +4,7 @@
 #include "stepping/event_table.h"
 
 #include <QFont>
+#include <algorithm>
 #include <utility>
 
 #include "support/number_text.h"
@@ -17,6 +18,13 @@ void EventTable::set_events(std::vector<StepEvent> events) {
   }
   beginResetModel();
   events_ = std::move(events);
+  double area = 0, pair_area = 0;
+  for (const StepEvent& event : events_) {
+    area = std::max(area, event.area);
+    pair_area = std::max(pair_area, event.pair_area);
+  }
+  area_format_ = ColumnFormat(area);
+  pair_format_ = ColumnFormat(pair_area);
   endResetModel();
 }
 
@@ -57,11 +65,12 @@ QString EventTable::text(const StepEvent& event, int column) const {
     case of_above:
       return event.above == no_patch ? QString() : QString::number(event.above);
     case of_area:
-      return event.kind == StepEvent::Kind::edge_on ? QString() : number_text(event.area);
+      return event.kind == StepEvent::Kind::edge_on ? QString() : area_format_.text(event.area);
     case of_parts:
       return event.above == no_patch ? QString() : QString::number(event.parts);
     default:
-      return event.kind == StepEvent::Kind::exchange ? number_text(event.pair_area) : QString();
+      return event.kind == StepEvent::Kind::exchange ? pair_format_.text(event.pair_area)
+                                                     : QString();
   }
 }
 
@@ -81,6 +90,12 @@ QVariant EventTable::data(const QModelIndex& index, int role) const {
       font.setBold(event.step == current_step_);
       return font;
     }
+    case Qt::ToolTipRole:
+      return index.column() == of_area && event.kind != StepEvent::Kind::edge_on
+                 ? QVariant(number_text(event.area))
+             : index.column() == of_pair && event.kind == StepEvent::Kind::exchange
+                 ? QVariant(number_text(event.pair_area))
+                 : QVariant();
     default:
       return {};
   }
@@ -113,11 +128,11 @@ QVariant EventTable::headerData(int section, Qt::Orientation orientation, int ro
     case of_above:
       return tr("Patch");
     case of_area:
-      return tr("Area, m²");
+      return area_format_.header(tr("Area, m²"));
     case of_parts:
       return tr("Pieces left");
     default:
-      return tr("Pair, m²");
+      return pair_format_.header(tr("Pair, m²"));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "state/step_events.h"
+#include "support/column_format.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
@@ -34,6 +35,7 @@ class EventTable : public QAbstractTableModel {
 
   std::vector<StepEvent> events_;
   std::int32_t current_step_ = -1;
+  ColumnFormat area_format_, pair_format_;
 };
 
 }  // namespace transillum::viewer

@@ -54,8 +54,7 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   QHeaderView* header = tab.view->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
-  set_up_figure_table(*tab.view,
-                      {"88888", "88888", "", "88888", "8.888 × 10⁻⁸", "8", "8.888 × 10⁻⁸"});
+  set_up_figure_table(*tab.view, {"88888", "88888", "", "88888", "0.008888", "8", "0.008888"});
 
   auto* page = new QWidget;
   auto* layout = new QVBoxLayout(page);

@@ -20,10 +20,25 @@ namespace {
 
 // Widths of the text left and right of a lane.
 double name_width() { return 78 * theme::scale(); }
-double value_width() { return 128 * theme::scale(); }
 double lane_height() { return 18 * theme::scale(); }  // height of the upper lanes
 
 }  // namespace
+
+double TimelineLanes::value_width() const {
+  constexpr double least = 128, margin = 16;
+  double width = least * theme::scale();
+  for (const Lane lane : {Lane::iterations, Lane::directions, Lane::steps}) {
+    const QString widest = count_text(count_of(lane));
+    width = std::max(width,
+                     margin + fontMetrics().horizontalAdvance(tr("%1 of %2").arg(widest, widest)));
+  }
+  return width;
+}
+
+// While the newest direction is followed, the one that is shown, as in the map.
+const RunPosition& TimelineLanes::position_shown() const {
+  return focus_.following() && focus_.map() ? focus_.position() : focus_.target();
+}
 
 TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection) {
@@ -77,7 +92,7 @@ int TimelineLanes::count_of(Lane lane) const {
     case Lane::iterations:
       return focus_.iterations();
     case Lane::directions:
-      return focus_.passes_of(focus_.target().iteration);
+      return focus_.passes_of(position_shown().iteration);
     default:
       return focus_.map() ? focus_.map()->history.step_count() + 1 : 0;
   }
@@ -86,9 +101,9 @@ int TimelineLanes::count_of(Lane lane) const {
 int TimelineLanes::index_at(Lane lane) const {
   switch (lane) {
     case Lane::iterations:
-      return focus_.target().iteration;
+      return position_shown().iteration;
     case Lane::directions:
-      return focus_.target().direction;
+      return position_shown().direction;
     default:
       return focus_.position().step + 1;
   }

@@ -54,6 +54,8 @@ class TimelineLanes : public QWidget {
   void draw_lane(QPainter& painter, Lane lane, const QString& name, int at, int count,
                  const QString& value) const;
   void draw_columns(QPainter& painter) const;
+  double value_width() const;
+  const RunPosition& position_shown() const;
   int count_of(Lane lane) const;
   int index_at(Lane lane) const;
 

@@ -19,6 +19,10 @@ class SizeByFont : public QObject {
   SizeByFont(QTableView& table, QStringList widest)
       : QObject(&table), table_(table), widest_(std::move(widest)) {
     table_.installEventFilter(this);
+    if (const QAbstractItemModel* model = table_.model()) {
+      connect(model, &QAbstractItemModel::headerDataChanged, this, &SizeByFont::measure);
+      connect(model, &QAbstractItemModel::modelReset, this, &SizeByFont::measure);
+    }
     measure();
   }
 
@@ -35,17 +39,16 @@ class SizeByFont : public QObject {
     QFont bold = table_.font();
     bold.setBold(true);  // the current row is bold
     const QFontMetrics text(bold), header_text(table_.horizontalHeader()->font());
-    table_.horizontalHeader()->setDefaultSectionSize(
-        text.horizontalAdvance(QStringLiteral("0.008888")) + column_margin);
-    for (int column = 0; column < widest_.size(); ++column) {
-      if (widest_[column].isEmpty()) {
+    const QAbstractItemModel* model = table_.model();
+    // The sort indicator is beside the name.
+    const int arrow = table_.isSortingEnabled() ? 12 : 0;
+    for (int column = 0; model && column < model->columnCount(); ++column) {
+      if (column < widest_.size() && widest_[column].isEmpty()) {
         continue;
       }
-      const QAbstractItemModel* model = table_.model();
-      const QString header = model ? model->headerData(column, Qt::Horizontal).toString() : "";
-      // The sort indicator is beside the name.
-      const int arrow = table_.isSortingEnabled() ? 12 : 0;
-      table_.setColumnWidth(column, std::max(text.horizontalAdvance(widest_[column]),
+      const QString widest = widest_.value(column, QStringLiteral("0.008888"));
+      const QString header = model->headerData(column, Qt::Horizontal).toString();
+      table_.setColumnWidth(column, std::max(text.horizontalAdvance(widest),
                                              header_text.horizontalAdvance(header) + arrow) +
                                         column_margin);
     }

@@ -12,6 +12,7 @@
 #include <QPalette>
 #include <QProxyStyle>
 #include <QScreen>
+#include <QStyleOption>
 #include <QSvgRenderer>
 #include <QWidget>
 #include <algorithm>
@@ -40,7 +41,60 @@ double projector_scale() {
   return std::clamp(of_full_hd * share, least, most);
 }
 
-/// Scales icons and indicators with the font.
+Appearance current;
+std::atomic<double> line_scale = 1;
+QColor disabled_ink;
+
+QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
+  const auto mix = [share_of_b](int x, int y) {
+    return static_cast<int>(std::lround((1 - share_of_b) * x + share_of_b * y));
+  };
+  return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
+}
+
+/// A box that is checked is filled: Fusion's marks can hardly be seen in dark panels.
+void draw_check_box(QPainter& painter, const QRect& rect, QStyle::State state) {
+  const bool enabled = state & QStyle::State_Enabled;
+  const QColor edge = enabled ? ink_dim : disabled_ink;
+  const QColor fill = enabled ? accent : disabled_ink;
+  const double size = std::min(rect.width(), rect.height());
+  QRectF box(0, 0, size - 1, size - 1);
+  box.moveCenter(QRectF(rect).center());
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  const bool marked = state & (QStyle::State_On | QStyle::State_NoChange);
+  painter.setPen(QPen(marked ? fill : edge, std::max(1.0, size / 13)));
+  painter.setBrush(marked ? fill : paper);
+  painter.drawRoundedRect(box, size / 6, size / 6);
+  if (marked) {
+    painter.setPen(QPen(paper, size / 7, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    const auto at = [&](double x, double y) {
+      return QPointF(box.left() + x * box.width(), box.top() + y * box.height());
+    };
+    if (state & QStyle::State_On) {
+      painter.drawPolyline(QPolygonF({at(0.24, 0.52), at(0.43, 0.71), at(0.78, 0.3)}));
+    } else {
+      painter.drawLine(at(0.27, 0.5), at(0.73, 0.5));
+    }
+  }
+  painter.restore();
+}
+
+/// A button that is on or pressed.
+void draw_pressed_button(QPainter& painter, const QStyleOption& option) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor button = option.palette.color(QPalette::Button);
+  const bool enabled = option.state & QStyle::State_Enabled;
+  const QColor color = enabled ? accent : disabled_ink;
+  painter.setPen(color);
+  painter.setBrush(mixed(button, color, current.dark ? 0.4 : 0.22));
+  painter.drawRoundedRect(QRectF(option.rect).adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
+  painter.restore();
+}
+
+/// Scales icons and indicators with the font; marks what is on so that it is seen in every
+/// appearance.
 class ScaledStyle : public QProxyStyle {
  public:
   ScaledStyle() : QProxyStyle(QStringLiteral("Fusion")) {}
@@ -61,11 +115,19 @@ class ScaledStyle : public QProxyStyle {
         return QProxyStyle::pixelMetric(metric, option, widget);
     }
   }
-};
 
-Appearance current;
-std::atomic<double> line_scale = 1;
-QColor disabled_ink;
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    const bool pressed = option->state & (State_On | State_Sunken);
+    if (element == PE_IndicatorCheckBox || element == PE_IndicatorItemViewItemCheck) {
+      draw_check_box(*painter, option->rect, option->state);
+    } else if (pressed && (element == PE_PanelButtonCommand || element == PE_PanelButtonTool)) {
+      draw_pressed_button(*painter, *option);
+    } else {
+      QProxyStyle::drawPrimitive(element, option, painter, widget);
+    }
+  }
+};
 
 // The files of icons/, in the order of enum Icon.
 constexpr const char* icon_files[] = {"open",

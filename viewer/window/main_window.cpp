@@ -228,6 +228,7 @@ void MainWindow::connect_scene() {
     settings_->set_scene_fixed(loaded->stored != nullptr);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
+    show_breakpoints_of_scene();
     state_.selection.select(no_patch);
     state_.focus_feed.clear();
     inspection_->show_scene(*loaded);
@@ -278,6 +279,15 @@ void MainWindow::connect_scene() {
   send_to(progress_);
   send_to(timeline_);
   send_to(&state_.focus_feed);
+}
+
+void MainWindow::show_breakpoints_of_scene() {
+  if (applier_->in_lesson()) {
+    state_.breakpoints.set_scene({});
+    state_.breakpoints.set_list({});
+  } else {
+    state_.breakpoints.set_scene(state_.scene.spec());
+  }
 }
 
 void MainWindow::connect_failures() {

@@ -63,6 +63,7 @@ class MainWindow : public QMainWindow {
   void make_docks();
   void connect_views();
   void connect_scene();
+  void show_breakpoints_of_scene();
   void connect_failures();
   void make_menus();
   void make_file_menu();

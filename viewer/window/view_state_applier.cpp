@@ -58,6 +58,8 @@ void ViewStateApplier::show(const ViewState& state) {
 
 void ViewStateApplier::show_page(const ViewState& page) {
   if (!before_lesson_) {
+    parts_.breakpoints.set_scene({});
+    parts_.breakpoints.set_list({});
     before_lesson_ = appearance();
     before_lesson_->options = parts_.settings.options();
   }

@@ -27,6 +27,8 @@ class ViewStateApplier : public QObject {
   /// Call before opening a scene for the user: restores the options of before the lesson now, and
   /// colors, overlays and camera once the scene is loaded.
   void leave_lesson();
+  /// Whether a page has been shown, and leave_lesson() not called since.
+  bool in_lesson() const { return before_lesson_ && !leaving_; }
   /// Reads the file of the open scene again, and shows the same state of it.
   void reload();
   /// Reads the open scene again with other options and solves it. Camera, colors and changed

@@ -30,7 +30,8 @@ void WindowSession::restore(const Session& session) {
           {tr("docks: damaged, or of another version; the panels are in their usual places")});
     }
   }
-  parts_.breakpoints.set_list(session.breakpoints);
+  const std::string& scene = session.state.scene;
+  parts_.breakpoints.set_list_of(scene.empty() ? parts_.scene.spec() : scene, session.breakpoints);
   parts_.page.bookmarks().set(session.saved_views);
   parts_.relighting.edits().undo_stack().clear();
   parts_.notes.setPlainText(QString::fromStdString(session.notes));
