@@ -8,12 +8,15 @@
 #include <QFile>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTemporaryDir>
 
+#include "colors/pointer_label.h"
+#include "model/form_factor_views.h"
 #include "patches/patch_table.h"
 #include "patches/patch_table_panel.h"
 #include "scene/scene_page.h"
@@ -69,6 +72,113 @@ class InspectTest : public QObject {
     QVERIFY(wait_for([&] { return shown.window->colors.missing().isEmpty(); }));
     QVERIFY(!shown.part<QWidget>("color_note")->isVisible());
     QVERIFY(wait_for([&] { return shown.picture() != before; }));
+  }
+
+  void the_pointer_tells_patch_value_and_form_factor_data() {
+    QTest::addColumn<bool>("over_map");
+    QTest::newRow("scene") << false;
+    QTest::newRow("map") << true;
+  }
+
+  void the_pointer_tells_patch_value_and_form_factor() {
+    QFETCH(const bool, over_map);
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    MapCanvas& map = *shown.map_view->canvas();
+    QVERIFY(wait_for([&] { return map.up_to_date(); }));
+    QWidget& canvas = over_map ? map : *shown.scene_view->canvas();
+    const auto patch_at = [&](const QPoint& position) {
+      return over_map ? map.patch_at(position) : shown.scene_view->patch_at(position);
+    };
+    QPoint place = canvas.rect().center();
+    while (place.x() > 0 && patch_at(place) == no_patch) {
+      place.rx() -= 3;
+    }
+    const PatchId patch = patch_at(place);
+    QVERIFY(patch != no_patch);
+    const auto* label = canvas.findChild<PointerLabel*>();
+    const auto lines = [label] { return label->text().split('\n'); };
+    QVERIFY(!label->isVisible());
+    QTest::mouseMove(&canvas, place + QPoint(1, 0));
+    QTest::mouseMove(&canvas, place);
+    QTRY_VERIFY(label->isVisible());
+    const auto snapshot = shown.window->snapshot();
+    QCOMPARE(lines().size(), 2);
+    QCOMPARE(lines()[0], QString("Patch %1").arg(patch));
+    QCOMPARE(lines()[1],
+             QString("B  %1 W/m²").arg(rgb_text(snapshot->radiosity[std::size_t(patch)])));
+
+    // The form factor to the selected patch comes as soon as it is known.
+    const PatchId selected = patch == 0 ? 1 : 0;
+    QVERIFY(!snapshot->form_factors);
+    shown.window->selection.select(selected);
+    QVERIFY(shown.has_form_factors());
+    const double expected =
+        form_factors_to(*shown.window->snapshot()->form_factors, selected)[std::size_t(patch)];
+    QTRY_COMPARE(lines().back(),
+                 QString("F %1→%2  %3").arg(patch).arg(selected).arg(number_text(expected)));
+    save_picture(*shown.window, QStringLiteral("pointer-over-%1").arg(QTest::currentDataTag()));
+    shown.window->colors.set_quantity(Quantity::fragments);
+    QCOMPARE(lines()[1],
+             QString("fragments  %1")
+                 .arg(number_text(shown.window->colors.values()[std::size_t(patch)].r)));
+    QTest::mousePress(&canvas, Qt::LeftButton, {}, place);
+    QVERIFY(!label->isVisible());
+    QTest::mouseRelease(&canvas, Qt::LeftButton, {}, place);
+  }
+
+  void the_inspector_shows_the_irradiance() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.window->selection.select(4);
+    QCOMPARE(shown.text("patch_irradiance"), rgb_text(shown.window->snapshot()->irradiance[4]));
+  }
+
+  void tips_name_sections_that_hold_their_equations() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    QFile document(TRANSILLUM_SOURCE "/libtransillum/ALGORITHM.md");
+    QVERIFY(document.open(QIODevice::ReadOnly | QIODevice::Text));
+    const QString algorithm = QString::fromUtf8(document.readAll());
+    const auto section_text = [&algorithm](const QString& number) {
+      const QRegularExpression heading(
+          "^##+ " + QRegularExpression::escape(number) + "\\.? .*?^##",
+          QRegularExpression::MultilineOption | QRegularExpression::DotMatchesEverythingOption);
+      return heading.match(algorithm).captured();
+    };
+    // "eq. 20 and 21" and "eq. 8, 9" name two.
+    const auto equations_in = [](const QString& text) {
+      QSet<QString> numbers;
+      static const QRegularExpression list("eq\\. (\\d+(?:(?:, | and )\\d+)*)"), digits("\\d+");
+      for (auto lists = list.globalMatch(text); lists.hasNext();) {
+        for (auto each = digits.globalMatch(lists.next().captured(1)); each.hasNext();) {
+          numbers << each.next().captured();
+        }
+      }
+      return numbers;
+    };
+    QSet<QString> explained;
+    static const QRegularExpression reference("ALGORITHM\\.md, section ([\\d.]+)$");
+    for (const QWidget* widget : shown.window->findChildren<QWidget*>()) {
+      const auto match = reference.match(widget->toolTip());
+      if (!match.hasMatch()) {
+        QVERIFY2(equations_in(widget->toolTip()).isEmpty(), qPrintable(widget->toolTip()));
+        continue;
+      }
+      const QString section = section_text(match.captured(1));
+      QVERIFY2(!section.isEmpty(), qPrintable(widget->toolTip()));
+      for (const QString& equation : equations_in(widget->toolTip())) {
+        QVERIFY2(equations_in(section).contains(equation), qPrintable(widget->toolTip()));
+        explained << equation;
+      }
+    }
+    QVERIFY(explained.contains(QSet<QString>{"17", "21", "22", "25", "37", "43"}));
+    for (const char* symbol : {"patch_exitance", "patch_reflectance", "patch_radiosity",
+                               "patch_irradiance", "patch_form_factor_sum", "color_bar"}) {
+      QVERIFY2(
+          reference.match(shown.part<QWidget>(symbol)->toolTip().section('\n', 0, 1)).hasMatch(),
+          symbol);
+    }
   }
 
   void tables_and_views_share_the_selection() {

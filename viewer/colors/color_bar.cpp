@@ -57,8 +57,11 @@ QString tick_text(double value, bool logarithmic) {
 
 ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent), colors_(colors) {
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
-  setToolTip(tr("Left: area per value, square-root scale"));
+  setObjectName("color_bar");
   const auto show = [this] {
+    setToolTip(QString::fromUtf8(traits_of(colors_.quantity()).symbol) + QStringLiteral(": ") +
+               tip_of(colors_.quantity()) + QLatin1Char('\n') +
+               tr("Left of the bar: area per value, square-root scale"));
     setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
     update();
   };

@@ -11,6 +11,7 @@
 #include "model/form_factor_views.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
+#include "widgets/symbol_tip.h"
 
 namespace transillum::viewer {
 
@@ -71,6 +72,7 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "W/m²",
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Power per area leaving each patch, current estimate"),
+     .section = "2",
      .is_light = true,
      .has_channels = true},
     {.quantity = Quantity::exitance,
@@ -78,6 +80,7 @@ constexpr QuantityTraits all_traits[] = {
      .symbol = "E",
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP("Quantity", "Power per area emitted by each patch itself"),
+     .section = "2",
      .is_light = true,
      .has_channels = true},
     {.quantity = Quantity::reflectance,
@@ -85,6 +88,7 @@ constexpr QuantityTraits all_traits[] = {
      .symbol = "ρ",
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Fraction of the received light that each patch reflects"),
+     .section = "2",
      .is_light = true,
      .has_channels = true},
     {.quantity = Quantity::irradiance,
@@ -93,6 +97,7 @@ constexpr QuantityTraits all_traits[] = {
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP(
          "Quantity", "Power per area received by each patch in the last finished iteration"),
+     .section = "2",
      .is_light = true,
      .has_channels = true},
     {.quantity = Quantity::form_factor_from,
@@ -102,6 +107,7 @@ constexpr QuantityTraits all_traits[] = {
          QT_TRANSLATE_NOOP("Quantity",
                            "F_ij from the selected patch i to each patch j: fraction of the light "
                            "leaving i that reaches j"),
+     .section = "2",
      .of_selection = true},
     {.quantity = Quantity::form_factor_to,
      .name = QT_TRANSLATE_NOOP("Quantity", "Form factors to selection"),
@@ -110,28 +116,33 @@ constexpr QuantityTraits all_traits[] = {
          QT_TRANSLATE_NOOP("Quantity",
                            "F_ji from each patch j to the selected patch i: fraction of the light "
                            "leaving j that reaches i"),
+     .section = "2",
      .of_selection = true},
     {.quantity = Quantity::form_factor_sum,
      .name = QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"),
      .symbol = "Σ F",
      .meaning =
-         QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene")},
+         QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
+     .section = "6.1"},
     {.quantity = Quantity::fragments,
      .name = QT_TRANSLATE_NOOP("Quantity", "Number of fragments"),
      .symbol = "fragments",
-     .meaning = QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree")},
+     .meaning = QT_TRANSLATE_NOOP("Quantity", "Number of fragments of each patch in the BSP tree"),
+     .section = "4"},
     {.quantity = Quantity::error,
      .name = QT_TRANSLATE_NOOP("Quantity", "Error estimate of B"),
      .symbol = "± B",
      .unit = "W/m²",
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Standard error of B, from the spread of the replicas"),
+     .section = "6.3",
      .has_channels = true},
     {.quantity = Quantity::last_change,
      .name = QT_TRANSLATE_NOOP("Quantity", "Change in the last iteration"),
      .symbol = "|Δ B|",
      .unit = "W/m²",
      .meaning = QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"),
+     .section = "6",
      .has_channels = true},
     {.quantity = Quantity::difference,
      .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
@@ -150,6 +161,11 @@ const std::vector<QuantityTraits>& quantity_traits() {
 }
 
 const QuantityTraits& traits_of(Quantity quantity) { return at(quantity_traits(), quantity); }
+
+QString tip_of(Quantity quantity) {
+  const QuantityTraits& traits = traits_of(quantity);
+  return symbol_tip(tr(traits.meaning), traits.section);
+}
 
 std::vector<Rgb> last_change(const SolverSnapshot& snapshot) {
   const SolveProgress& progress = snapshot.progress;

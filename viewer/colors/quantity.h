@@ -30,6 +30,7 @@ struct QuantityTraits {
   const char* symbol;         ///< above the color bar
   const char* unit = "";      ///< empty for a number
   const char* meaning;        ///< one sentence
+  const char* section = "";   ///< of ALGORITHM.md; empty: none
   bool is_light = false;      ///< RGB can be shown in true color
   bool has_channels = false;  ///< RGB differ; else all three are equal
   bool is_signed = false;     ///< values can be negative
@@ -38,6 +39,8 @@ struct QuantityTraits {
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
 const QuantityTraits& traits_of(Quantity quantity);
+/// Meaning and section, for tool tips.
+QString tip_of(Quantity quantity);
 
 /// A quantity of all patches of a snapshot.
 struct PatchValues {

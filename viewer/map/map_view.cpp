@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "colors/pointer_label.h"
 #include "map/engine_menu.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
@@ -55,6 +56,11 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   canvas_ = new MapCanvas(selection);
   canvas_->setObjectName("map_canvas");
+
+  const auto* pointer = new PointerLabel(
+      colors, *canvas_, [this](const QPoint& position) { return canvas_->patch_at(position); });
+  connect(pointer, &PointerLabel::form_factors_requested, &colors,
+          &ColorChoice::form_factors_requested);
 
   auto* text = new QVBoxLayout;
   text->setContentsMargins(10, 6, 10, 6);

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <iterator>
 
 #include "transillum/at.h"
 
@@ -14,6 +15,14 @@ QString tr(const char* text) { return QCoreApplication::translate("FormFactors",
 
 }  // namespace
 
+double form_factor(const FormFactors& form_factors, PatchId i, PatchId j) {
+  const auto source = form_factors.source.begin();
+  const auto end = source + static_cast<std::ptrdiff_t>(at(form_factors.row_begin, i + 1));
+  const auto found =
+      std::lower_bound(source + static_cast<std::ptrdiff_t>(at(form_factors.row_begin, i)), end, j);
+  return found != end && *found == j ? at(form_factors.value, found - source) : 0.0;
+}
+
 std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i) {
   std::vector<double> row(form_factors.row_begin.size() - 1);
   for (std::size_t k = at(form_factors.row_begin, i); k < at(form_factors.row_begin, i + 1); ++k) {
@@ -24,14 +33,8 @@ std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i
 
 std::vector<double> form_factors_to(const FormFactors& form_factors, PatchId i) {
   std::vector<double> column(form_factors.row_begin.size() - 1);
-  for (std::size_t j = 0; j < column.size(); ++j) {
-    const auto row = form_factors.source.begin();
-    const auto end = row + static_cast<std::ptrdiff_t>(form_factors.row_begin[j + 1]);
-    const auto found =
-        std::lower_bound(row + static_cast<std::ptrdiff_t>(form_factors.row_begin[j]), end, i);
-    if (found != end && *found == i) {
-      column[j] = at(form_factors.value, found - row);
-    }
+  for (PatchId j = 0; j < std::ssize(column); ++j) {
+    at(column, j) = form_factor(form_factors, j, i);
   }
   return column;
 }

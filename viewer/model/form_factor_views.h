@@ -8,6 +8,8 @@
 
 namespace transillum::viewer {
 
+/// F_ij of patches i and j; 0 where neither sees the other.
+double form_factor(const FormFactors& form_factors, PatchId i, PatchId j);
 /// F_ij of patch i for all j, one per patch.
 std::vector<double> form_factors_from(const FormFactors& form_factors, PatchId i);
 /// F_ji for all j and patch i, one per patch.

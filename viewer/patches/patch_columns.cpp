@@ -84,9 +84,8 @@ PatchRows rows_of_all(const SolverSnapshot& snapshot) {
     }
     const QuantityTraits& traits = traits_of(quantity);
     const QString unit = QString::fromUtf8(traits.unit);
-    add(QString::fromUtf8(traits.symbol) + (unit.isEmpty() ? unit : ", " + unit),
-        QCoreApplication::translate("Quantity", traits.meaning), csv_name,
-        traits.has_channels ? Kind::channels : Kind::number,
+    add(QString::fromUtf8(traits.symbol) + (unit.isEmpty() ? unit : ", " + unit), tip_of(quantity),
+        csv_name, traits.has_channels ? Kind::channels : Kind::number,
         [&](PatchId i) { return at(shown.values, i); });
   };
   rows.columns.push_back(patch_column(rows.patches));

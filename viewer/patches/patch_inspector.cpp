@@ -25,16 +25,11 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   area_ = values_->add_row(tr("Area"), tr("m²"));
   center_ = values_->add_row(tr("Center"), tr("m"));
   normal_ = values_->add_row(tr("Normal"), {});
-  exitance_ = values_->add_row(tr("E"), tr("W/m²"));
-  reflectance_ = values_->add_row(tr("ρ"), {});
-  radiosity_ = values_->add_row(tr("B"), tr("W/m²"));
-  radiosity_->setObjectName("patch_radiosity");
-  form_factor_sum_ = values_->add_row(tr("Σ F"), {});
-  exitance_->setToolTip(tr("Emitted exitance: red, green, blue"));
-  reflectance_->setToolTip(tr("Diffuse reflectance: red, green, blue"));
-  radiosity_->setToolTip(tr("Current estimate of the radiosity: red, green, blue"));
-  form_factor_sum_->setToolTip(
-      tr("Current sum of the form factors F_ij over j; near 1 in a closed scene"));
+  exitance_ = add_quantity(Quantity::exitance, "patch_exitance");
+  reflectance_ = add_quantity(Quantity::reflectance, "patch_reflectance");
+  radiosity_ = add_quantity(Quantity::radiosity, "patch_radiosity");
+  irradiance_ = add_quantity(Quantity::irradiance, "patch_irradiance");
+  form_factor_sum_ = add_quantity(Quantity::form_factor_sum, "patch_form_factor_sum");
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
   swatch_->setToolTip(tr("Color of the patch in the scene view"));
@@ -48,6 +43,18 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   connect(&selection_, &Selection::changed, this, &PatchInspector::show_patch);
   connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
   show_patch();
+}
+
+QLabel* PatchInspector::add_quantity(Quantity quantity, const char* name) {
+  const QuantityTraits& traits = traits_of(quantity);
+  QString tip = tip_of(quantity);
+  if (traits.is_light) {
+    tip += QLatin1Char('\n') + tr("Red, green, blue");
+  }
+  QLabel* value =
+      values_->add_row(QString::fromUtf8(traits.symbol), QString::fromUtf8(traits.unit), tip);
+  value->setObjectName(QString::fromLatin1(name));
+  return value;
 }
 
 void PatchInspector::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -77,6 +84,9 @@ void PatchInspector::show_patch() {
   exitance_->setText(rgb_text(material_of(*snapshot_, patch).exitance));
   reflectance_->setText(rgb_text(material_of(*snapshot_, patch).reflectance));
   radiosity_->setText(rgb_text(at(snapshot_->radiosity, patch)));
+  const PatchValues irradiance = values_of(Quantity::irradiance, *snapshot_, no_patch, nullptr);
+  irradiance_->setText(irradiance.values.empty() ? QStringLiteral("–")
+                                                 : rgb_text(at(irradiance.values, patch)));
   form_factor_sum_->setText(QString::number(at(snapshot_->form_factor_sums, patch), 'f', 6));
   const Color8 c = at(colors_.patch_colors(), patch);
   swatch_->setStyleSheet(

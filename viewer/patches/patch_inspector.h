@@ -24,6 +24,8 @@ class PatchInspector : public QWidget {
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  private:
+  /// Adds a row whose symbol, unit and tip are those of the quantity.
+  QLabel* add_quantity(Quantity quantity, const char* name);
   void show_patch();
 
   Selection& selection_;
@@ -32,7 +34,7 @@ class PatchInspector : public QWidget {
   QLabel* hint_;
   ValueGrid* values_;
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
-      *radiosity_, *form_factor_sum_, *swatch_;
+      *radiosity_, *irradiance_, *form_factor_sum_, *swatch_;
 };
 
 }  // namespace transillum::viewer

@@ -129,7 +129,7 @@ void ColorControls::fill_quantities() {
       quantity_->insertSeparator(quantity_->count());
     }
     quantity_->addItem(tr_quantity(traits.name), static_cast<int>(traits.quantity));
-    quantity_->setItemData(quantity_->count() - 1, tr_quantity(traits.meaning), Qt::ToolTipRole);
+    quantity_->setItemData(quantity_->count() - 1, tip_of(traits.quantity), Qt::ToolTipRole);
   }
 }
 
@@ -246,7 +246,7 @@ void ColorControls::show_choice() {
                                   QSignalBlocker(mode_)};
   const QuantityTraits& traits = traits_of(colors_.quantity());
   quantity_->setCurrentIndex(quantity_->findData(static_cast<int>(traits.quantity)));
-  quantity_->setToolTip(tr_quantity(traits.meaning));
+  quantity_->setToolTip(tip_of(traits.quantity));
   mode_->setCurrentIndex(static_cast<int>(scale.mode));
   mode_->setVisible(traits.has_channels);
   set_item_enabled(*mode_, 0, traits.is_light);

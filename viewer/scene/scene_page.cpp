@@ -9,6 +9,7 @@
 #include "colors/color_bar.h"
 #include "colors/color_note.h"
 #include "colors/kept_run_label.h"
+#include "colors/pointer_label.h"
 #include "scene/color_controls.h"
 #include "scene/scene_view.h"
 #include "scene/show_menu.h"
@@ -45,6 +46,11 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
   new KeptRunLabel(colors, scene_view_->canvas());
+  const auto* pointer =
+      new PointerLabel(colors, *scene_view_->canvas(),
+                       [this](const QPoint& position) { return scene_view_->patch_at(position); });
+  connect(pointer, &PointerLabel::form_factors_requested, &colors,
+          &ColorChoice::form_factors_requested);
   camera_ = new CameraMenu(*scene_view_, bookmarks_);
   color_controls_->add_tool(camera_);
 

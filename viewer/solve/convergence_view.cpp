@@ -11,6 +11,7 @@
 #include "support/number_text.h"
 #include "transillum/bounds.h"
 #include "widgets/log_chart.h"
+#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -84,9 +85,19 @@ ConvergenceView::ConvergenceView(Focus& focus, QWidget* parent) : QWidget(parent
   layout->addWidget(direction_chart_);
 
   iteration_chart_->setObjectName("iteration_chart");
-  iteration_chart_->setToolTip(tr("Click to go to an iteration"));
+  iteration_chart_->setToolTip(symbol_tip(
+      tr("change: largest change of B in an iteration, relative to the largest B\n"
+         "eq. 25: its bound, by the contraction of eq. 22 with eq. 21, from the first change on\n"
+         "error of B: its estimate from the replicas, between its limits\n"
+         "Click to go to an iteration"),
+      "6"));
   direction_chart_->setObjectName("direction_chart");
-  direction_chart_->setToolTip(tr("Click to go to a direction"));
+  direction_chart_->setToolTip(symbol_tip(
+      tr("change of B: by which each direction changes the running estimate, relative\n"
+         "ε/π: by how much a sum of form factors can be off with the directions so far (eq. 17)\n"
+         "eq. 21: bound of ε for evenly spread directions, divided by π\n"
+         "Click to go to a direction"),
+      "7.1"));
   connect(iteration_chart_, &LogChart::clicked, this, [this](int x) {
     focus_.go_to({x - 1, focus_.target().direction, focus_.position().step});
   });

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 
 #include "support/number_text.h"
+#include "widgets/symbol_tip.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
@@ -32,16 +33,18 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
                     tr("Difference between power received and power sent, relative to the latter"));
   contraction_ =
       grid->add_row(tr("Contraction"), {},
-                    tr("Factor by which the newest iteration reduced the change of B, and its\n"
-                       "bound by eq. 22 with eq. 21"));
+                    symbol_tip(tr("Factor by which the newest iteration reduced the change of B, "
+                                  "and its\nbound by eq. 22 with eq. 21"),
+                               "6"));
   error_ = grid->add_row(tr("Error of B"), {},
                          tr("RMS over patches, from the spread of the replicas, and what it does\n"
                             "not exceed in 95 % of all runs; set an accuracy or the number of\n"
                             "replicas in Solve settings"));
   bound_ =
       grid->add_row(tr("Directions for 1 %:\nguaranteed"), {},
-                    tr("M by the paper's bounds, in a nearly homogeneous environment (eq. 37)\n"
-                       "and in any environment (eq. 43)"));
+                    symbol_tip(tr("M by the paper's bounds, in a nearly homogeneous environment "
+                                  "(eq. 37)\nand in any environment (eq. 43)"),
+                               "7.2"));
   bound_->setObjectName("summary_bound");
   estimate_ =
       grid->add_row(tr("Directions for 1 %:\nestimated"), {},

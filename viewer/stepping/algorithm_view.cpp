@@ -14,6 +14,7 @@
 #include "support/number_text.h"
 #include "widgets/elided.h"
 #include "widgets/scrolling.h"
+#include "widgets/symbol_tip.h"
 #include "widgets/theme.h"
 #include "widgets/value_grid.h"
 
@@ -100,18 +101,26 @@ QWidget* AlgorithmView::make_local_values() {
          "d: number of the direction"));
   i_ = values_->add_row(tr("i"), {}, tr("The patch whose fragment this step processes"));
   i_->setObjectName("value_i");
-  map_ = values_->add_row(tr("V"), {}, tr("Number of polygons of V before and after the step"));
+  map_ = values_->add_row(
+      tr("V"), {},
+      symbol_tip(tr("The visibility map: number of its polygons before and after the step"),
+                 "5.1"));
   lists_ = values_->add_row(tr("I, O"), {},
                             tr("Number of polygons in the inside list and in the outside list"));
-  j_ = values_->add_row(tr("j, A(j)"), tr("m²"),
-                        tr("The selected patch if i receives from it, or else the patch with the "
-                           "largest A(j), the area of j that i sees"));
+  j_ = values_->add_row(
+      tr("j, A(j)"), tr("m²"),
+      symbol_tip(tr("The selected patch if i receives from it, or else the patch with "
+                    "the largest A(j), the area of j that i sees"),
+                 "5.1"));
   j_->setObjectName("value_j");
-  weight_ = values_->add_row(tr("J_d, M"), {},
-                             tr("Weight and number of directions; a two-way pass counts as two"));
+  weight_ = values_->add_row(
+      tr("J_d, M"), {},
+      symbol_tip(tr("Weight and number of directions; a two-way pass counts as two"), "6"));
   radiosity_ = values_->add_row(tr("B_j(n)"), tr("W/m²"), tr("Radiosity of j: red, green, blue"));
   gathered_ = values_->add_row(
-      tr("Σ"), tr("W/m²"), tr("Amount that the step adds to B_i(n+1), before row normalization"));
+      tr("Σ"), tr("W/m²"),
+      symbol_tip(tr("Amount that the step adds to B_i(n+1), by eq. 11, before row normalization"),
+                 "2"));
   gathered_->setObjectName("value_gathered");
   for (QLabel* value : {i_, radiosity_, gathered_}) {
     value->setWordWrap(true);
@@ -129,9 +138,11 @@ QWidget* AlgorithmView::make_region_values() {
   region_values_->layout()->setContentsMargins(12, 10, 12, 4);
   region_ = region_values_->add_row(
       tr("R"), tr("m"), tr("The point clicked (u, v); the map highlights the region around it"));
-  region_area_ = region_values_->add_row(
-      tr("A(R)"), tr("m²"),
-      tr("Area of the region around the point, bounded by all polygon edges, visible or hidden"));
+  region_area_ =
+      region_values_->add_row(tr("A(R)"), tr("m²"),
+                              symbol_tip(tr("Area of the region around the point, bounded by all "
+                                            "polygon edges, visible or hidden"),
+                                         "5.3"));
   region_area_->setObjectName("value_region_area");
   region_list_ = region_values_->add_row(
       tr("L"), {}, tr("The patches that cover R, the nearest to the source first"));

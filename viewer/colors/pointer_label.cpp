@@ -1,0 +1,134 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The plate beside the pointer, over the scene and over the map. Values come from ColorChoice and
+// its snapshot, so they are those of the colors shown.
+#include "colors/pointer_label.h"
+
+#include <QMouseEvent>
+#include <QStringList>
+#include <algorithm>
+#include <utility>
+
+#include "model/form_factor_views.h"
+#include "support/has_index.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+// From the pointer's tip to the plate, logical pixels: past the arrow.
+constexpr QPoint offset{14, 18};
+
+QString value_text(const ColorChoice& colors, PatchId patch) {
+  const QuantityTraits& traits = traits_of(colors.quantity());
+  const Rgb& value = at(colors.values(), patch);
+  const bool channels = colors.scale().mode == ColorMode::true_color;
+  const QString number = channels ? rgb_text(value) : number_text(colors.scale().value(value));
+  return QStringLiteral("%1  %2 %3")
+      .arg(QString::fromUtf8(traits.symbol), number, QString::fromUtf8(traits.unit))
+      .trimmed();
+}
+
+QString form_factor_text(const SolverSnapshot& snapshot, PatchId from, PatchId to) {
+  return QStringLiteral("F %1→%2  %3")
+      .arg(from)
+      .arg(to)
+      .arg(snapshot.form_factors ? number_text(form_factor(*snapshot.form_factors, from, to))
+                                 : why_no_form_factors(snapshot));
+}
+
+// The patch to which a form factor is shown; no_patch without.
+PatchId target_of(const ColorChoice& colors, PatchId patch) {
+  const PatchId selected = colors.selection().patch();
+  return selected == patch || selected >= colors.snapshot()->loaded->scene->patch_count()
+             ? no_patch
+             : selected;
+}
+
+}  // namespace
+
+QString pointer_text(const ColorChoice& colors, PatchId patch) {
+  const auto snapshot = colors.snapshot();
+  if (!snapshot || patch < 0 || patch >= snapshot->loaded->scene->patch_count()) {
+    return {};
+  }
+  QStringList lines{PointerLabel::tr("Patch %1").arg(patch)};
+  if (has_index(colors.values(), patch)) {
+    lines << value_text(colors, patch);
+  }
+  if (const PatchId target = target_of(colors, patch); target != no_patch) {
+    lines << form_factor_text(*snapshot, patch, target);
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
+PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
+                           std::function<PatchId(const QPoint&)> patch_at)
+    : QLabel(&canvas), colors_(colors), canvas_(canvas), patch_at_(std::move(patch_at)) {
+  setObjectName("pointer_label");
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setTextFormat(Qt::PlainText);
+  QPalette surroundings = palette();
+  surroundings.setColor(QPalette::Window, theme::scene_background.lighter(140));
+  surroundings.setColor(QPalette::WindowText, theme::on_dark);
+  setPalette(surroundings);
+  setAutoFillBackground(true);
+  setMargin(5);
+  hide();
+  canvas_.setMouseTracking(true);
+  canvas_.installEventFilter(this);
+  const auto update_text = [this] {
+    if (isVisible()) {
+      show_patch(patch_);
+    }
+  };
+  connect(&colors_, &ColorChoice::changed, this, update_text);
+  connect(&colors_, &ColorChoice::fitted, this, update_text);
+  connect(&colors_.selection(), &Selection::changed, this, update_text);
+}
+
+bool PointerLabel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseMove) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    pointer_ = mouse->pos();
+    show_patch(mouse->buttons() == Qt::NoButton ? patch_at_(pointer_) : no_patch);
+  } else if (event->type() == QEvent::Leave || event->type() == QEvent::Wheel ||
+             event->type() == QEvent::MouseButtonPress) {
+    hide();
+  }
+  return QLabel::eventFilter(watched, event);
+}
+
+void PointerLabel::show_patch(PatchId patch) {
+  patch_ = patch;
+  const QString text = pointer_text(colors_, patch);
+  setVisible(!text.isEmpty());
+  if (text.isEmpty()) {
+    return;
+  }
+  setText(text);
+  place();
+  const auto snapshot = colors_.snapshot();
+  if (!snapshot->form_factors && target_of(colors_, patch) != no_patch) {
+    emit form_factors_requested();
+  }
+}
+
+// To the right of the pointer and below, or on the other side where there is no room.
+void PointerLabel::place() {
+  adjustSize();
+  QPoint corner = pointer_ + offset;
+  if (corner.x() + width() > canvas_.width()) {
+    corner.setX(std::max(0, pointer_.x() - offset.x() / 2 - width()));
+  }
+  if (corner.y() + height() > canvas_.height()) {
+    corner.setY(std::max(0, pointer_.y() - offset.x() / 2 - height()));
+  }
+  move(corner);
+  raise();
+}
+
+}  // namespace transillum::viewer
