@@ -104,12 +104,41 @@ class ColorChoiceTest : public QObject {
     selection.select(2);
     QCOMPARE(changed.count(), 1);
     QVERIFY(colors.missing().isEmpty());
-    // The form factor of a patch to itself is 0, the least.
-    QCOMPARE(colors.patch_colors()[2], color_of(colors.scale().map, 0));
+    // The form factor of a patch to itself is 0.
+    QCOMPARE(colors.patch_colors()[2], zero_color);
     const auto before = colors.patch_colors();
     selection.select(0);
-    QCOMPARE(colors.patch_colors()[0], color_of(colors.scale().map, 0));
+    QCOMPARE(colors.patch_colors()[0], zero_color);
     QVERIFY(colors.patch_colors() != before);
+  }
+
+  void form_factors_are_logarithmic_unless_chosen_otherwise() {
+    Selection selection;
+    selection.select(2);
+    ColorChoice colors(selection);
+    colors.set_mode(ColorMode::luminance);
+    colors.fit(solved("cornell-box"));
+    QVERIFY(!colors.scale().logarithmic && !colors.scale().marks_zero);
+    colors.set_quantity(Quantity::form_factor_from);
+    QVERIFY(colors.scale().logarithmic);
+    const auto marked = [&colors] {
+      for (std::size_t i = 0; i < colors.values().size(); ++i) {
+        if ((colors.values()[i].r == 0) != (colors.patch_colors()[i] == zero_color)) {
+          return false;
+        }
+      }
+      return colors.scale().zeros;
+    };
+    QVERIFY(marked());
+    // A linear scale marks zeros too; the choice stays with the form factors.
+    colors.set_logarithmic(false);
+    QVERIFY(!colors.scale().logarithmic && marked());
+    colors.set_quantity(Quantity::radiosity);
+    colors.set_logarithmic(true);
+    colors.set_quantity(Quantity::form_factor_to);
+    QVERIFY(!colors.scale().logarithmic);
+    colors.set_quantity(Quantity::irradiance);
+    QVERIFY(colors.scale().logarithmic);
   }
 
   void a_range_is_fitted_fixed_or_widened() {

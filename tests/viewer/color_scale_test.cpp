@@ -39,6 +39,20 @@ class ColorScaleTest : public QObject {
     }
   }
 
+  void the_color_of_zero_is_in_no_map() {
+    for (const ColorMap map :
+         {ColorMap::viridis, ColorMap::cividis, ColorMap::inferno, ColorMap::diverging}) {
+      for (int k = 0; k <= 100; ++k) {
+        const Color8 color = color_of(map, k / 100.0);
+        int distance = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          distance += std::abs(color[c] - zero_color[c]);
+        }
+        QVERIFY2(distance > (map == ColorMap::diverging ? 20 : 90), qPrintable(QString::number(k)));
+      }
+    }
+  }
+
   void true_color_applies_exposure_then_gamma() {
     ColorScale scale;
     scale.exposure = -1;

@@ -7,6 +7,7 @@
 #include <QElapsedTimer>
 #include <QFile>
 #include <QLineEdit>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSignalSpy>
@@ -19,7 +20,10 @@
 #include "model/form_factor_views.h"
 #include "patches/patch_table.h"
 #include "patches/patch_table_panel.h"
+#include "scene/color_controls.h"
+#include "scene/feature_edges.h"
 #include "scene/scene_page.h"
+#include "solved_snapshot.h"
 #include "solved_window.h"
 #include "state/camera_views.h"
 #include "window/inspection_panels.h"
@@ -406,6 +410,103 @@ class InspectTest : public QObject {
       shown.trigger(name);
       QVERIFY2(wait_for([&] { return shown.picture() == before; }, 3000), name);
     }
+  }
+
+  void the_plane_does_not_tint_mapped_colors() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.window->colors.set_automatic_exposure(false);
+    // The number of pixels that the direction changes.
+    const auto changed = [&shown] {
+      QTest::qWait(300);  // until the scene is at rest, and antialiased
+      const QImage with = shown.picture();
+      shown.trigger("show_direction");
+      QTest::qWait(300);
+      const QImage without = shown.picture();
+      shown.trigger("show_direction");
+      int count = 0;
+      for (int y = 0; y < with.height(); ++y) {
+        for (int x = 0; x < with.width(); ++x) {
+          count += with.pixel(x, y) != without.pixel(x, y);
+        }
+      }
+      return count;
+    };
+    const int filled = changed();
+    shown.window->colors.set_mode(ColorMode::luminance);
+    const int outlined = changed();
+    QVERIFY2(outlined > 0 && 3 * outlined < filled,
+             qPrintable(QString("%1 of %2").arg(outlined).arg(filled)));
+  }
+
+  void a_turntable_keeps_the_scene_upright() {
+    const Inspected shown("rooms");
+    QVERIFY(shown.ready);
+    QWidget* canvas = shown.scene_view->canvas();
+    const QPoint middle = canvas->rect().center();
+    const auto drag = [&](const QPoint& by) {
+      QTest::mousePress(canvas, Qt::LeftButton, {}, middle);
+      for (int k = 1; k <= 4; ++k) {
+        QMouseEvent move(QEvent::MouseMove, middle + k * by / 4,
+                         canvas->mapToGlobal(middle + k * by / 4), Qt::LeftButton, Qt::LeftButton,
+                         Qt::NoModifier);
+        QApplication::sendEvent(canvas, &move);
+      }
+      QTest::mouseRelease(canvas, Qt::LeftButton, {}, middle + by);
+      return shown.scene_view->view_point();
+    };
+    const auto tilt = [](const ViewPoint& view) {  // of the horizon in the picture
+      const Vec3 right = normalized(cross(view.target - view.eye, view.up));
+      return std::abs(right.z);
+    };
+    const Vec3 vertical = shown.scene_view->view_point().up;
+    QVERIFY(vertical == (Vec3{0, 0, 1}));
+    QVERIFY(tilt(drag({120, 60})) > 1e-3 || tilt(drag({80, -70})) > 1e-3);
+    shown.trigger("turntable");
+    const ViewPoint before = shown.scene_view->view_point();
+    QVERIFY(tilt(before) < 1e-12);
+    for (const QPoint& by : {QPoint(130, 20), QPoint(-40, 70), QPoint(10, -400), QPoint(0, 380)}) {
+      const ViewPoint after = drag(by);
+      QVERIFY(distance_of(after, before) > 0.01);
+      QVERIFY(tilt(after) < 1e-12);
+      QVERIFY(dot(after.up, vertical) > 0.99);
+      QVERIFY(after.target == before.target);
+      QVERIFY(std::abs(norm(after.eye - after.target) - norm(before.eye - before.target)) < 1e-9);
+      const double height = dot(normalized(after.eye - after.target), vertical);
+      QVERIFY(std::abs(height) < 0.99985);  // 89 degrees
+    }
+  }
+
+  void feature_edges_are_the_edges_of_the_shape() {
+    const auto snapshot = solved_snapshot("furnace", 8);  // a box inside a box
+    const Scene& scene = *snapshot->loaded->scene;
+    const std::vector<FeatureEdge> edges = feature_edges(*snapshot->loaded);
+    QCOMPARE(edges.size(), std::size_t{24});
+    for (const FeatureEdge& edge : edges) {
+      const Vec3 normals[] = {scene.patch(edge.first).normal, scene.patch(edge.second).normal};
+      QVERIFY(std::abs(dot(normals[0], normals[1])) < 1e-9);
+    }
+  }
+
+  void edges_show_the_shape_under_flat_quantities() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("show_direction");
+    shown.window->parts().page.color_controls()->set_outlines(false);
+    QVERIFY(shown.scene_view->feature_edges().edges().empty());  // light
+    shown.window->colors.set_quantity(Quantity::reflectance);
+    const auto& colors = shown.window->colors.patch_colors();
+    const auto& edges = shown.scene_view->feature_edges().edges();
+    QVERIFY(!edges.empty());
+    for (const FeatureEdge& edge : edges) {
+      QVERIFY(edge.second == no_patch ||
+              colors[std::size_t(edge.first)] == colors[std::size_t(edge.second)]);
+    }
+    const auto flat = edges.size();
+    shown.window->colors.set_quantity(Quantity::form_factor_sum);
+    QVERIFY(!edges.empty() && edges.size() != flat);
+    shown.window->parts().page.color_controls()->set_outlines(true);
+    QVERIFY(edges.empty());  // the outlines include them
   }
 
   void standard_views_show_the_whole_scene_from_their_side() {

@@ -78,7 +78,7 @@ class LessonFormatTest : public QObject {
     QVERIFY(s.range_rule == RangeRule::fixed && s.gamma == 2.5 && s.exposure == -1.5);
     QVERIFY(s.overlays == (std::vector{Overlay::cuts, Overlay::smooth}));
     QVERIFY(s.algorithm == MapKind::global);
-    QVERIFY(s.logarithmic && s.labels && !s.direction_shown && s.outlines == true);
+    QVERIFY(s.logarithmic == true && s.labels && !s.direction_shown && s.outlines == true);
     QVERIFY(s.layout == Layout::debug);
     QCOMPARE(s.panels, std::vector<std::string>{"map"});
     // Written and read again it is the same.

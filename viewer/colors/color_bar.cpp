@@ -19,6 +19,7 @@ constexpr int margin = 12;
 constexpr int histogram_width = 34;
 constexpr int bar_width = 18;
 constexpr int arrow_height = 12;
+constexpr int zero_gap = 6;  // above the color of 0
 
 // The second line of the title: the patch whose form factors are shown, or the shown channel.
 QString subtitle_of(const ColorChoice& colors) {
@@ -75,14 +76,27 @@ void ColorBar::paintEvent(QPaintEvent*) {
   painter.fillRect(rect(), theme::scene_background);
   paint_title(painter);
   const int top = margin + 2 * fontMetrics().height() + 10 + arrow_height;
+  const bool zero = colors_.scale().marks_zero && colors_.scale().zeros;
+  const int zero_height = zero ? fontMetrics().height() + zero_gap : 0;
   const QRectF bar(margin + histogram_width, top, bar_width,
-                   height() - top - margin - arrow_height);
+                   height() - top - margin - arrow_height - zero_height);
   if (bar.height() < 20) {
     return;
   }
   paint_bar(painter, bar);
   paint_histogram(painter, QRectF(margin, bar.top(), histogram_width - 4, bar.height()));
   paint_ticks(painter, bar);
+  if (zero) {
+    paint_zero(painter, QRectF(bar.left(), bar.bottom() + arrow_height + zero_gap, bar.width(),
+                               fontMetrics().height()));
+  }
+}
+
+void ColorBar::paint_zero(QPainter& painter, const QRectF& box) const {
+  painter.fillRect(box, QColor(zero_color[0], zero_color[1], zero_color[2]));
+  painter.setPen(theme::on_dark);
+  painter.drawText(box.translated(box.width() + 9, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   QStringLiteral("0"));
 }
 
 void ColorBar::paint_title(QPainter& painter) const {

@@ -27,6 +27,7 @@ class ColorBar : public QWidget {
   void paint_title(QPainter& painter) const;
   void paint_bar(QPainter& painter, const QRectF& bar) const;
   void paint_histogram(QPainter& painter, const QRectF& box) const;
+  void paint_zero(QPainter& painter, const QRectF& box) const;
   void paint_ticks(QPainter& painter, const QRectF& bar) const;
 
   const ColorChoice& colors_;

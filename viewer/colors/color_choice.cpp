@@ -71,11 +71,15 @@ void ColorChoice::set_map(ColorMap map) {
   change();
 }
 
+bool& ColorChoice::logarithmic_choice() {
+  return traits_of(quantity_).spans_decades ? decades_logarithmic_ : logarithmic_;
+}
+
 void ColorChoice::set_logarithmic(bool logarithmic) {
-  if (logarithmic == scale_.logarithmic) {
+  if (logarithmic == logarithmic_choice()) {
     return;
   }
-  scale_.logarithmic = logarithmic;
+  logarithmic_choice() = logarithmic;
   if (range_rule_ != RangeRule::fixed) {
     reset_range();
   }
@@ -177,9 +181,8 @@ void ColorChoice::refit() {
                 : !traits.is_light && mode_ == ColorMode::true_color ? ColorMode::luminance
                                                                      : mode_;
   scale_.map = traits.is_signed ? ColorMap::diverging : map_;
-  if (traits.is_signed) {
-    scale_.logarithmic = false;
-  }
+  scale_.logarithmic = logarithmic_choice() && !traits.is_signed;
+  scale_.marks_zero = scale_.logarithmic || traits.spans_decades;
   if (!snapshot_) {
     return;
   }

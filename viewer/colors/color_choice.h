@@ -45,6 +45,7 @@ class ColorChoice : public QObject {
   void set_quantity(Quantity quantity);
   void set_mode(ColorMode mode);
   void set_map(ColorMap map);
+  /// Of the quantities that span decades like the one shown, or of the others.
   void set_logarithmic(bool logarithmic);
   void set_range_rule(RangeRule rule);
   /// Sets a range with RangeRule::widening.
@@ -85,6 +86,7 @@ class ColorChoice : public QObject {
   void kept_run_changed();
 
  private:
+  bool& logarithmic_choice();
   void refit();
   void fit_range();
   void color();
@@ -96,6 +98,8 @@ class ColorChoice : public QObject {
   ColorMode mode_ = ColorMode::true_color;
   ColorScale scale_;
   ColorMap map_ = ColorMap::viridis;
+  bool logarithmic_ = false;         ///< the user's choice for most quantities
+  bool decades_logarithmic_ = true;  ///< that for quantities that span decades
   RangeRule range_rule_ = RangeRule::automatic;
   bool range_is_known_ = false;  ///< the range was fitted since reset_range()
   bool automatic_ = true;

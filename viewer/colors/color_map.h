@@ -16,6 +16,8 @@ using Color8 = std::array<std::uint8_t, 3>;
 enum class ColorMap { viridis, cividis, inferno, diverging };
 /// Display names of the maps except `diverging`, in the order of the enumeration.
 const std::vector<std::string>& color_map_names();
+/// For values of 0 where they are marked; in no color map.
+inline constexpr Color8 zero_color{0xbf, 0xc9, 0xd6};
 /// @param t  clamped to [0,1]; 0 if not finite
 Color8 color_of(ColorMap map, double t);
 

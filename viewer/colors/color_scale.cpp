@@ -96,8 +96,10 @@ void ColorScale::color(std::span<const Rgb> radiosity, std::vector<Color8>& colo
     std::transform(radiosity.begin(), radiosity.end(), colors.begin(),
                    [&](const Rgb& b) { return expose(b, factor, table); });
   } else {
-    std::transform(radiosity.begin(), radiosity.end(), colors.begin(),
-                   [&](const Rgb& b) { return color_of(map, position(value(b))); });
+    std::transform(radiosity.begin(), radiosity.end(), colors.begin(), [&](const Rgb& b) {
+      const double v = value(b);
+      return marks_zero && v == 0 ? zero_color : color_of(map, position(v));
+    });
   }
 }
 
@@ -201,11 +203,12 @@ void ColorScale::repair_range() {
 }
 
 void ColorScale::find_out_of_range(std::span<const Rgb> values) {
-  above = below = false;
+  above = below = zeros = false;
   for (const Rgb& rgb : values) {
     const double v = value(rgb);
     above = above || v > high;
     below = below || (v < low && v != 0);
+    zeros = zeros || v == 0;
   }
 }
 

@@ -25,6 +25,8 @@ class ColorScale {
   bool logarithmic = false;
   double exposure = 0;       ///< EV: B is white if 2^exposure B reaches 1
   double gamma = 2.2;        ///< true color: shown = (2^exposure B)^(1/gamma)
+  bool marks_zero = false;   ///< 0 is shown in zero_color
+  bool zeros = false;        ///< some values are 0
   bool above = false;        ///< some values are above `high`
   bool below = false;        ///< some values are below `low`, and not 0
   double low = 0, high = 1;  ///< ends of the color map; low < high; 0 < low if logarithmic
@@ -50,7 +52,7 @@ class ColorScale {
   void fit_range(std::span<const Rgb> values, bool balanced = false);
   /// Changes the range as little as needed for low < high, and 0 < low if logarithmic.
   void repair_range();
-  /// Sets `above` and `below`.
+  /// Sets `above`, `below` and `zeros`.
   void find_out_of_range(std::span<const Rgb> values);
   /// Sets the exposure so that the 95th percentile (by area) of the patches that do not emit is
   /// nearly white. If all patches emit, all are counted.

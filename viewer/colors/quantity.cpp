@@ -108,7 +108,8 @@ constexpr QuantityTraits all_traits[] = {
                            "F_ij from the selected patch i to each patch j: fraction of the light "
                            "leaving i that reaches j"),
      .section = "2",
-     .of_selection = true},
+     .of_selection = true,
+     .spans_decades = true},
     {.quantity = Quantity::form_factor_to,
      .name = QT_TRANSLATE_NOOP("Quantity", "Form factors to selection"),
      .symbol = "F j→i",
@@ -117,7 +118,8 @@ constexpr QuantityTraits all_traits[] = {
                            "F_ji from each patch j to the selected patch i: fraction of the light "
                            "leaving j that reaches i"),
      .section = "2",
-     .of_selection = true},
+     .of_selection = true,
+     .spans_decades = true},
     {.quantity = Quantity::form_factor_sum,
      .name = QT_TRANSLATE_NOOP("Quantity", "Sum of form factors"),
      .symbol = "Σ F",

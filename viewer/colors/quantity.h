@@ -35,6 +35,9 @@ struct QuantityTraits {
   bool has_channels = false;  ///< RGB differ; else all three are equal
   bool is_signed = false;     ///< values can be negative
   bool of_selection = false;  ///< depends on the selected patch
+  /// Spans many powers of ten, and 0 means something else than a small value: shown on a
+  /// logarithmic scale unless the user chooses otherwise, 0 in zero_color.
+  bool spans_decades = false;
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();

@@ -161,7 +161,9 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   read(object, "quantity", quantities, state.quantity);
   read(object, "show", color_modes, state.color_mode);
   read(object, "map", color_maps, state.color_map);
-  object.read("logarithmic", state.logarithmic);
+  if (object.find("logarithmic")) {
+    object.read("logarithmic", state.logarithmic.emplace());
+  }
   if (const json* range = object.find("range")) {
     const bool two_numbers = range->is_array() && range->size() == 2 && (*range)[0].is_number() &&
                              (*range)[1].is_number();
@@ -304,7 +306,6 @@ json to_json(const ViewState& state) {
                   {{"quantity", name_in_file(quantities, state.quantity)},
                    {"show", name_in_file(color_modes, state.color_mode)},
                    {"map", name_in_file(color_maps, state.color_map)},
-                   {"logarithmic", state.logarithmic},
                    {"range-rule", name_in_file(range_rules, state.range_rule)},
                    {"gamma", state.gamma}}},
                  {"overlays", json::array()},
@@ -313,6 +314,9 @@ json to_json(const ViewState& state) {
                  {"labels", state.labels}};
   if (state.range) {
     result["colors"]["range"] = json::array({state.range->first, state.range->second});
+  }
+  if (state.logarithmic) {
+    result["colors"]["logarithmic"] = *state.logarithmic;
   }
   if (state.exposure) {
     result["colors"]["exposure"] = *state.exposure;

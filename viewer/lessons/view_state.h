@@ -52,7 +52,7 @@ struct ViewState {
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;
   ColorMap color_map = ColorMap::viridis;
-  bool logarithmic = false;
+  std::optional<bool> logarithmic;  ///< none: as suits the quantity
   RangeRule range_rule = RangeRule::automatic;
   std::optional<std::pair<double, double>> range;  ///< ends of the color map; none: automatic
   std::optional<double> exposure;                  ///< of true color, EV; none: automatic

@@ -43,6 +43,16 @@ CameraMenu::CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidge
   add_side("view_top", tr("From above"), Side::top);
   add_side("view_bottom", tr("From below"), Side::bottom);
   menu->addSeparator();
+  turntable_ = menu->addAction(tr("Turntable"));
+  turntable_->setObjectName("turntable");
+  turntable_->setCheckable(true);
+  turntable_->setShortcut(Qt::Key_U);
+  turntable_->setToolTip(
+      tr("A drag turns the scene about its vertical, which stays upright; "
+         "otherwise about any axis, as a ball"));
+  menu->setToolTipsVisible(true);
+  connect(turntable_, &QAction::toggled, &scene_view_, &SceneView::set_turntable);
+  menu->addSeparator();
   add("keep_view", tr("Save this view"), QKeySequence(QStringLiteral("Ctrl+B")),
       [this] { bookmarks_.add(scene_view_.view_point()); });
   saved_ = menu->addMenu(tr("Saved views"));

@@ -5,6 +5,7 @@
 
 #include "state/camera_views.h"
 
+class QAction;
 class QMenu;
 
 namespace transillum::viewer {
@@ -18,12 +19,16 @@ class CameraMenu : public QToolButton {
  public:
   CameraMenu(SceneView& scene_view, CameraBookmarks& bookmarks, QWidget* parent = nullptr);
 
+  /// Checked: a drag rotates as a turntable.
+  QAction* turntable() const { return turntable_; }
+
  private:
   void fill_bookmarks();
   void ask_for_name(std::size_t k);
 
   SceneView& scene_view_;
   CameraBookmarks& bookmarks_;
+  QAction* turntable_;
   QMenu* saved_;
 };
 

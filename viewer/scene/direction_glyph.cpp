@@ -117,9 +117,11 @@ void DirectionGlyph::show_at(const Vec3& omega, bool two_way, const Vec3& middle
   const double length = 0.26 * radius;
   forward_->SetUserMatrix(arrow_matrix(middle, -omega, length));
   backward_->SetUserMatrix(arrow_matrix(middle, omega, length));
-  for (vtkActor* actor : {fill_.Get(), border_.Get(), forward_.Get()}) {
+  for (vtkActor* actor : {border_.Get(), forward_.Get()}) {
     actor->VisibilityOn();
   }
+  fill_->SetVisibility(filled_);
+  shown_ = true;
   backward_->SetVisibility(two_way);
 }
 
@@ -127,6 +129,12 @@ void DirectionGlyph::hide() {
   for (vtkActor* actor : {fill_.Get(), border_.Get(), forward_.Get(), backward_.Get()}) {
     actor->VisibilityOff();
   }
+  shown_ = false;
+}
+
+void DirectionGlyph::set_filled(bool filled) {
+  filled_ = filled;
+  fill_->SetVisibility(filled_ && shown_);
 }
 
 void DirectionGlyph::set_line_width(double pixels) {

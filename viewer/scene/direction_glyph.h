@@ -26,9 +26,12 @@ class DirectionGlyph {
   /// The same with the plane through `middle`.
   void show_at(const Vec3& omega, bool two_way, const Vec3& middle, double radius);
   void hide();
+  /// Whether the plane is filled, translucent; otherwise it is a frame, which tints no color.
+  void set_filled(bool filled);
   void set_line_width(double pixels);
 
  private:
+  bool filled_ = true, shown_ = false;
   vtkSmartPointer<vtkActor> fill_, border_, forward_, backward_;
   vtkSmartPointer<vtkPolyData> quad_, frame_;
 };

@@ -37,6 +37,7 @@ class ScenePage : public QWidget {
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
   QMenu* camera_menu() const { return camera_->menu(); }
+  QAction* turntable_action() const { return camera_->turntable(); }
   CameraBookmarks& bookmarks() { return bookmarks_; }
   /// Shows the open scene in place of the scenes to choose from.
   void show_scene();

@@ -23,10 +23,10 @@
 #include <QMouseEvent>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <array>
-#include <utility>
-
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
 
 #include "widgets/theme.h"
 
@@ -42,6 +42,21 @@ class CameraStyle : public vtkInteractorStyleTrackballCamera {
  public:
   static CameraStyle* New() { VTK_STANDARD_NEW_BODY(CameraStyle); }
   void OnChar() override {}
+  void Rotate() override {
+    if (!turn) {
+      vtkInteractorStyleTrackballCamera::Rotate();
+      return;
+    }
+    // As VTK's trackball: a drag across the whole picture turns by 200 degrees.
+    const int* now = Interactor->GetEventPosition();
+    const int* before = Interactor->GetLastEventPosition();
+    const int* size = Interactor->GetSize();
+    turn(-200.0 * (now[0] - before[0]) / std::max(size[0], 1),
+         -200.0 * (now[1] - before[1]) / std::max(size[1], 1));
+  }
+
+  /// Turns by azimuth and elevation, degrees; empty: trackball.
+  std::function<void(double, double)> turn;
 };
 
 vtkSmartPointer<vtkActor> line_actor(vtkRenderer& renderer, const QColor& color) {
@@ -82,8 +97,9 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   make_surface();
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
-  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::move_outline_toward_camera);
+  renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
+  feature_edges_ = std::make_unique<FeatureEdges>(*renderer_);
   turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
   // Drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
@@ -130,6 +146,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   surface_->VisibilityOn();
   glyph_->hide();
   turn_preview_->hide();
+  feature_edges_->show_scene(loaded_);
   show_selection();
   reset_view();
   overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
@@ -153,6 +170,9 @@ void SceneView::set_direction_shown(bool shown) {
 
 void SceneView::set_outlines_shown(bool shown) {
   surface_->GetProperty()->SetEdgeVisibility(shown);
+  if (snapshot_) {
+    show_edges();
+  }
   render();
 }
 
@@ -260,6 +280,24 @@ void SceneView::set_view_point(const ViewPoint& view) {
   }
 }
 
+Vec3 SceneView::vertical() const { return initial_view(*loaded_->scene, 1).up; }
+
+void SceneView::turn(double azimuth, double elevation) {
+  if (loaded_) {
+    set_camera(turned(view_point(), vertical(), azimuth, elevation));
+  }
+}
+
+void SceneView::set_turntable(bool turntable) {
+  turntable_ = turntable;
+  auto* style = static_cast<CameraStyle*>(canvas_->interactor()->GetInteractorStyle());
+  style->turn = nullptr;
+  if (turntable) {
+    style->turn = [this](double azimuth, double elevation) { turn(azimuth, elevation); };
+    turn(0, 0);
+  }
+}
+
 void SceneView::set_camera(const ViewPoint& view) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->SetPosition(view.eye.x, view.eye.y, view.eye.z);
@@ -282,6 +320,21 @@ void SceneView::recolor() {
     smooth_mesh_->color(patch_colors_);
   } else {
     mesh_->color(patch_colors_);
+  }
+  show_edges();
+}
+
+// Light in true color shows the shape by itself; other quantities may be the same on all sides.
+void SceneView::show_edges() {
+  const bool mapped = colors_.scale().mode != ColorMode::true_color;
+  const bool of_material =
+      colors_.quantity() == Quantity::exitance || colors_.quantity() == Quantity::reflectance;
+  glyph_->set_filled(!mapped);
+  const bool drawn_already = surface_->GetProperty()->GetEdgeVisibility() != 0;
+  if ((mapped || of_material) && !drawn_already && !smooth_shading_) {
+    feature_edges_->show(patch_colors_);
+  } else {
+    feature_edges_->hide();
   }
 }
 
@@ -347,7 +400,8 @@ void SceneView::show_selection() {
 }
 
 // Scaled about the camera, the outline stays in place in the picture but is in front of its halo.
-void SceneView::move_outline_toward_camera() {
+void SceneView::follow_camera() {
+  feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
   outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   outline_->SetScale(1 - 5e-4);
 }
@@ -359,6 +413,7 @@ void SceneView::render() {
   glyph_->set_line_width(1.5 * scale);
   step_glyph_->set_line_width(2.5 * scale);
   overlays_->set_line_width(1.2 * scale);
+  feature_edges_->set_line_width(1.2 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
   renderer_->SetUseFXAA(antialiased_ && !pressed_ && !rest_timer_->isActive());
   renderer_->ResetCameraClippingRange();

@@ -19,6 +19,7 @@
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
 #include "scene/direction_glyph.h"
+#include "scene/feature_edges.h"
 #include "scene/scene_mesh.h"
 #include "scene/scene_overlays.h"
 #include "scene/smooth_mesh.h"
@@ -68,6 +69,12 @@ class SceneView : public QWidget {
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
   void set_view_point(const ViewPoint& view);
+  /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
+  /// stays upright.
+  void set_turntable(bool turntable);
+  bool turntable() const { return turntable_; }
+  /// The edges drawn where the colors do not show the shape.
+  const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
   /// The picture shown, with `scale` times as many pixels per side.
   QImage picture(int scale) const;
@@ -88,7 +95,11 @@ class SceneView : public QWidget {
   bool stepping() const;
   void show_step();
   void show_selection();
-  void move_outline_toward_camera();
+  void show_edges();
+  Vec3 vertical() const;
+  /// Turns by a drag, degrees.
+  void turn(double azimuth, double elevation);
+  void follow_camera();
   void render();
 
   const Focus& focus_;
@@ -99,6 +110,7 @@ class SceneView : public QWidget {
   std::unique_ptr<SceneMesh> mesh_;
   std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when first shown
   bool smooth_shading_ = false;
+  bool turntable_ = false;
   std::vector<Color8> patch_colors_;
   Vec3 focus_point_;              ///< center of the part of interest, meters
   double radius_ = 1;             ///< its radius, meters
@@ -115,6 +127,7 @@ class SceneView : public QWidget {
   vtkNew<vtkRenderer> renderer_;
   vtkSmartPointer<vtkActor> surface_;
   vtkSmartPointer<vtkActor> halo_, outline_;
+  std::unique_ptr<FeatureEdges> feature_edges_;
   std::unique_ptr<DirectionGlyph> glyph_;
   std::unique_ptr<StepGlyph> step_glyph_;
   std::unique_ptr<SceneOverlays> overlays_;

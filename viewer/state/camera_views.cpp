@@ -70,6 +70,24 @@ ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from) {
   return view;
 }
 
+ViewPoint turned(const ViewPoint& from, const Vec3& vertical, double azimuth, double elevation) {
+  constexpr double degree = std::numbers::pi / 180;
+  const Vec3 arm = from.eye - from.target;
+  const Vec3 back = normalized(arm);
+  const double height = std::clamp(dot(back, vertical), -1.0, 1.0);
+  Vec3 level = back - height * vertical;
+  if (norm(level) < 1e-6) {  // straight down or up: away from the top of the picture, or toward it
+    level = (height > 0 ? -1.0 : 1.0) * (from.up - dot(from.up, vertical) * vertical);
+  }
+  level = norm(level) < 1e-6 ? perpendicular_to(vertical) : normalized(level);
+  level = std::cos(azimuth * degree) * level + std::sin(azimuth * degree) * cross(vertical, level);
+  const double tilt = std::clamp(std::asin(height) + elevation * degree, -89 * degree, 89 * degree);
+  ViewPoint view = from;
+  view.eye = from.target + norm(arm) * (std::cos(tilt) * level + std::sin(tilt) * vertical);
+  view.up = vertical;
+  return view;
+}
+
 void CameraBookmarks::change(const QString& what, std::vector<Bookmark> bookmarks) {
   change_list(undo_, what, bookmarks_, std::move(bookmarks),
               [this](const std::vector<Bookmark>& other) { set(other); });

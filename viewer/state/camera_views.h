@@ -23,6 +23,12 @@ ViewPoint fitting_view(const Scene& scene, const ViewPoint& from, double aspect)
 /// if needed.
 ViewPoint patch_view(const Scene& scene, PatchId patch, const ViewPoint& from);
 
+/// The view after the eye has moved around the target: about `vertical` by `azimuth`, and up by
+/// `elevation`, to at most 89 degrees against the horizontal. Upright: `up` is `vertical`.
+/// @param vertical  unit vector
+/// @param azimuth, elevation  degrees
+ViewPoint turned(const ViewPoint& from, const Vec3& vertical, double azimuth, double elevation);
+
 /// The user's list of camera positions.
 class CameraBookmarks : public QObject {
   Q_OBJECT

@@ -395,6 +395,7 @@ void MainWindow::restore_layout() {
   QSettings settings;
   state_.breakpoints.load(settings);
   appearance_.load(settings);
+  page_->turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
   files_->load(settings);
   const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
   if (geometry) {
@@ -420,6 +421,7 @@ void MainWindow::save_layout() {
   docks_.save(settings);
   state_.breakpoints.save(settings);
   appearance_.save(settings);
+  settings.setValue("scene/turntable", page_->turntable_action()->isChecked());
   files_->save(settings);
 }
 

@@ -96,7 +96,7 @@ void ViewStateApplier::apply_appearance(const ViewState& state) {
   colors.set_range_rule(RangeRule::automatic);
   colors.set_mode(state.color_mode);
   colors.set_map(state.color_map);
-  colors.set_logarithmic(state.logarithmic);
+  colors.set_logarithmic(state.logarithmic.value_or(traits_of(state.quantity).spans_decades));
   if (state.range_rule == RangeRule::fixed) {
     colors.set_range(state.range->first, state.range->second);
   }
