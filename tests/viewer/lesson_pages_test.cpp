@@ -73,9 +73,16 @@ QString text_of(const QString& path) {
   return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
 }
 
+// All that a page says, also in its question.
+QString text_of(const Lesson::Page& page) {
+  const std::string asked =
+      page.question ? "\n" + page.question->ask + "\n" + page.question->then : "";
+  return QString::fromStdString(page.text + asked);
+}
+
 // The text of a page. Lessons and pages count from 1.
 QString page_text(int lesson, int page) {
-  return QString::fromStdString(at(at(built_in_lessons(), lesson - 1).pages, page - 1).text);
+  return text_of(at(at(built_in_lessons(), lesson - 1).pages, page - 1));
 }
 
 QString english(double number) {
@@ -159,6 +166,7 @@ void add_tree_lesson(std::vector<Statement>& all) {
                  QString("Board 1 hides part of board 2, so it must come before board 2; 2 before "
                          "3, … %1 before 1. So 1 would have to come before itself")
                      .arg(count)});
+  all.push_back({5, 1, "Board 1 is the one at the right, rising to the back"});
 }
 
 void add_sampling_lesson(std::vector<Statement>& all) {
@@ -304,6 +312,8 @@ const std::vector<ColorWord>& color_words() {
       {3, 2, "**outside** (blue)", theme::outside},
       {3, 2, "the orange parts", theme::inside},
       {3, 3, "the orange areas", theme::inside},
+      {3, 3, "all orange areas", theme::inside},
+      {3, 6, "its outline is yellow", theme::processed},
       {4, 3, "The yellow outline", theme::processed},
       {4, 4, "**inside** (orange)", theme::inside},
       {4, 4, "**outside** (blue)", theme::outside},
@@ -495,7 +505,7 @@ class LessonPagesTest : public QObject {
     QVERIFY(names_in(all).size() > 60);
     for (const Lesson& lesson : built_in_lessons()) {
       for (const Lesson::Page& page : lesson.pages) {
-        all += '\n' + QString::fromStdString(page.text);
+        all += '\n' + text_of(page);
       }
     }
     for (const QString& name : names_in(all)) {

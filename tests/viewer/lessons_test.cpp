@@ -156,7 +156,9 @@ class LessonsTest : public QObject {
   }
 
   void turning_past_the_last_page_opens_the_next_lesson() {
-    LessonPanel panel(built_in_lessons());
+    Selection selection;
+    Focus focus;
+    LessonPanel panel(built_in_lessons(), selection, focus);
     panel.show();
     const auto at = [&panel] { return std::pair(panel.lesson(), panel.page()); };
     const auto* next = panel.findChild<QAction*>("lesson_next");

@@ -106,19 +106,27 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       }
       apply_changes(state, *show);
     }
+    const json* question = page_object.find("question");
     page_object.done();
     state_bytes += sizeof(Lesson::Page) + bytes_of(state);
+    state_bytes += question ? sizeof(Question) + bytes_of(state) : 0;
     if (state_bytes > most_state_bytes) {
       page_object.fail("too much: the pages up to here set more than 16 MiB together");
     }
     page.state = view_state_from_json(state, where, folder);
+    if (question) {
+      page.question =
+          question_from_json(*question, page_object.where("question"), state, page.state, folder);
+    }
   }
   return lesson;
 }
 
 Lesson read_lesson(const std::string& path) {
-  return lesson_from_text(read_json_file(path), path,
-                          QFileInfo(QString::fromStdString(path)).path().toStdString());
+  Lesson lesson = lesson_from_text(read_json_file(path), path,
+                                   QFileInfo(QString::fromStdString(path)).path().toStdString());
+  lesson.file = path;
+  return lesson;
 }
 
 void check_panels(const Lesson& lesson, const std::string& name,
@@ -147,6 +155,8 @@ const std::vector<Lesson>& built_in_lessons() {
       QFile file(folder.filePath(name));
       file.open(QIODevice::ReadOnly);
       all.push_back(lesson_from_text(file.readAll().toStdString(), name.toStdString()));
+      all.back().file = name.toStdString();
+      all.back().built_in = true;
     }
     return all;
   }();

@@ -1,9 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lessons/question.h"
 #include "lessons/view_state.h"
 
 namespace transillum::viewer {
@@ -14,8 +16,11 @@ struct Lesson {
     std::string title;
     std::string text;  ///< Markdown
     ViewState state;   ///< complete: includes what earlier pages set
+    std::optional<Question> question;
   };
   std::string title;
+  std::string file;  ///< that it was read from; of a built-in lesson its name, without folder
+  bool built_in = false;
   std::vector<Page> pages;  ///< at least one
 };
 

@@ -20,6 +20,9 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "lessons/question_box.h"
+#include "lessons/tally.h"
+#include "support/failure_text.h"
 #include "transillum/at.h"
 #include "widgets/elided.h"
 #include "widgets/theme.h"
@@ -70,8 +73,9 @@ void spread_paragraphs(QTextDocument& document) {
 
 }  // namespace
 
-LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
-    : QWidget(parent), lessons_(std::move(lessons)) {
+LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focus& focus,
+                         QWidget* parent)
+    : QWidget(parent), lessons_(std::move(lessons)), question_(new QuestionBox(selection, focus)) {
   make_page();
   make_actions();
   auto* layout = new QVBoxLayout(this);
@@ -80,7 +84,12 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, QWidget* parent)
   layout->addWidget(list_);
   layout->addWidget(title_);
   layout->addWidget(text_, 1);
+  layout->addWidget(question_);
   layout->addLayout(make_buttons());
+  connect(question_, &QuestionBox::revealed, this, &LessonPanel::page_shown);
+  connect(question_, &QuestionBox::then_shown, this, &LessonPanel::show_state);
+  connect(question_, &QuestionBox::sketched, this, &LessonPanel::sketched);
+  connect(question_, &QuestionBox::failed, this, &LessonPanel::failed);
   fill_list();
   show_state();
 }
@@ -153,6 +162,10 @@ void LessonPanel::add_to(QMenu& menu) {
   for (QAction* action : {open_, previous_, next_, again_}) {
     menu.addAction(action);
   }
+  menu.addSeparator();
+  for (QAction* action : question_->actions()) {
+    menu.addAction(action);
+  }
 }
 
 void LessonPanel::add(Lesson lesson) {
@@ -171,8 +184,33 @@ void LessonPanel::fill_list() {
 void LessonPanel::show_page(int lesson, int page) {
   lesson_ = lesson;
   page_ = page;
+  show_question();
   show_state();
   emit page_shown(at(at(lessons_, lesson).pages, page).state);
+  // Last: the new page dismisses older messages.
+  if (!tally_failure_.isEmpty()) {
+    emit failed(std::exchange(tally_failure_, QString()));
+  }
+}
+
+void LessonPanel::show_question() {
+  const Lesson& lesson = at(lessons_, lesson_);
+  const auto page = std::make_shared<const Lesson::Page>(at(lesson.pages, page_));
+  question_->show_page(page, page_, page->question ? tally_of(lesson) : nullptr);
+}
+
+// Two lessons from the same file share one.
+std::shared_ptr<Tally> LessonPanel::tally_of(const Lesson& lesson) {
+  std::shared_ptr<Tally>& tally = tallies_[lesson.file];
+  if (!tally) {
+    try {
+      tally = std::make_shared<Tally>(tally_file(lesson, tally_folder_));
+    } catch (const std::exception& error) {
+      tally = std::make_shared<Tally>();
+      tally_failure_ = tr("%1. Answers are counted, but not kept").arg(failure_text(error));
+    }
+  }
+  return tally;
 }
 
 void LessonPanel::turn(int pages) {
@@ -222,13 +260,16 @@ void LessonPanel::show_state() {
     const Lesson& lesson = at(lessons_, lesson_);
     const Lesson::Page& page = at(lesson.pages, page_);
     title_->setText(QString::fromStdString(page.title.empty() ? lesson.title : page.title));
-    text_->setMarkdown(QString::fromStdString(page.text));
+    const std::string then = question_->solved() ? page.question->then : std::string();
+    text_->setMarkdown(
+        QString::fromStdString(then.empty() ? page.text : page.text + "\n\n" + then));
     page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
   const int size = QFontInfo(qApp->font()).pixelSize();
   QFont large = font();
   large.setPixelSize(static_cast<int>(text_scale * size));
   text_->setFont(large);
+  question_->set_text_font(large);
   spread_paragraphs(*text_->document());
   large.setPixelSize(static_cast<int>(title_scale * size));
   large.setBold(true);

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "lessons/lesson.h"
+#include "state/map_sketch.h"
 
 class QAction;
 class QComboBox;
@@ -12,15 +16,22 @@ class QLabel;
 class QLayout;
 class QMenu;
 class QTextBrowser;
+class QUndoStack;
 
 namespace transillum::viewer {
+
+class Focus;
+class QuestionBox;
+class Selection;
+class Tally;
 
 /// The list of lessons, and one page of the current lesson with buttons to the previous and next.
 class LessonPanel : public QWidget {
   Q_OBJECT
 
  public:
-  explicit LessonPanel(std::vector<Lesson> lessons, QWidget* parent = nullptr);
+  LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focus& focus,
+              QWidget* parent = nullptr);
 
   void add_to(QMenu& menu);
   /// Inserts a lesson, read from a file, at the top of the list.
@@ -31,6 +42,10 @@ class LessonPanel : public QWidget {
   int lesson() const { return lesson_; }
   int page() const { return page_; }
   void show_page(int lesson, int page);
+  QuestionBox& question() { return *question_; }
+  /// Where the tallies of lessons are kept that cannot be kept beside their file; empty: tallies
+  /// are not kept at all. To be called before the first page is shown.
+  void set_tally_folder(const QString& folder) { tally_folder_ = folder; }
   /// To be called after the application's font has changed.
   void refresh() { show_state(); }
 
@@ -38,6 +53,8 @@ class LessonPanel : public QWidget {
   /// The window is to show `state`, that of the new page.
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
+  void sketched(const transillum::viewer::MapSketch& sketch);
+  void failed(const QString& message);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -51,12 +68,18 @@ class LessonPanel : public QWidget {
   void turn(int pages);
   int pages_of(int lesson) const;
   void show_state();
+  void show_question();
+  std::shared_ptr<Tally> tally_of(const Lesson& lesson);
 
   std::vector<Lesson> lessons_;
+  QString tally_folder_;
+  QString tally_failure_;                                  ///< to be reported
+  std::map<std::string, std::shared_ptr<Tally>> tallies_;  ///< by the lesson's file
   int lesson_ = -1, page_ = 0;
   QComboBox* list_;
   QLabel *title_, *page_number_;
   QTextBrowser* text_;
+  QuestionBox* question_;
   QAction *previous_, *next_, *again_, *open_;
 };
 

@@ -84,6 +84,11 @@ void MapCanvas::mark_region(const std::optional<MapRegion>& region) {
   update();
 }
 
+void MapCanvas::show_sketch(const MapSketch& sketch) {
+  sketch_ = sketch;
+  update();
+}
+
 void MapCanvas::fit() {
   set_view({});
   emit view_changed();
@@ -230,6 +235,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   }
   draw_selection(painter, now);
   draw_region(painter, now);
+  draw_sketch(painter, now);
   draw_probe(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
@@ -265,24 +271,50 @@ void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) con
   }
 }
 
-// The parts share edges: without antialiasing there are no seams between them.
-void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
-  if (!region_) {
-    return;
+namespace {
+
+QPolygonF in_pixels(const std::vector<Vec2>& corners, const MapTransform& shown) {
+  QPolygonF polygon;
+  for (const Vec2& p : corners) {
+    polygon.append(shown.to_pixels(p));
   }
+  return polygon;
+}
+
+// The parts share edges: without antialiasing there are no seams between them.
+void fill_parts(QPainter& painter, const std::vector<std::vector<Vec2>>& parts,
+                const MapTransform& shown, int alpha) {
   QColor color = theme::region;
-  color.setAlpha(230);
+  color.setAlpha(alpha);
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);
   painter.setBrush(color);
-  for (const std::vector<Vec2>& part : region_->parts) {
-    QPolygonF polygon;
-    for (const Vec2& p : part) {
-      polygon.append(shown.to_pixels(p));
-    }
-    painter.drawPolygon(polygon);
+  for (const std::vector<Vec2>& part : parts) {
+    painter.drawPolygon(in_pixels(part, shown));
   }
   painter.setRenderHint(QPainter::Antialiasing);
+}
+
+}  // namespace
+
+void MapCanvas::draw_region(QPainter& painter, const MapTransform& shown) const {
+  if (region_) {
+    fill_parts(painter, region_->parts, shown, 230);
+  }
+}
+
+void MapCanvas::draw_sketch(QPainter& painter, const MapTransform& shown) const {
+  fill_parts(painter, sketch_.right, shown, 170);
+  const QPolygonF outline = in_pixels(sketch_.outline, shown);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen :
+       {QPen(Qt::black, 4 * theme::scale()), QPen(theme::on_dark, 2 * theme::scale())}) {
+    painter.setPen(pen);
+    painter.drawPolygon(outline);
+    for (const QPointF& corner : outline) {
+      painter.drawEllipse(corner, 3 * theme::scale(), 3 * theme::scale());
+    }
+  }
 }
 
 void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {

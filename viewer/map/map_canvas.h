@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "map/map_painter.h"
+#include "state/map_sketch.h"
 #include "state/selection.h"
 #include "support/request_worker.h"
 #include "transillum/map_region.h"
@@ -43,6 +44,8 @@ class MapCanvas : public QWidget {
   void clear();
   /// Highlights a region of the map shown; nullopt removes the highlight.
   void mark_region(const std::optional<MapRegion>& region);
+  /// Draws a polygon, and the region that it was to match, over the map until the next call.
+  void show_sketch(const MapSketch& sketch);
   /// Shows the whole map.
   void fit();
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
@@ -94,6 +97,7 @@ class MapCanvas : public QWidget {
   void draw_failure(QPainter& painter, const QString& failure) const;
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
+  void draw_sketch(QPainter& painter, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
@@ -102,6 +106,7 @@ class MapCanvas : public QWidget {
   Selection& selection_;
   Content content_;
   std::optional<MapRegion> region_;
+  MapSketch sketch_;
   double zoom_ = 1;  // relative to the scale that fits
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;

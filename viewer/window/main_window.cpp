@@ -12,6 +12,7 @@
 #include <QPlainTextEdit>
 #include <QScreen>
 #include <QSettings>
+#include <QStandardPaths>
 #include <QStatusBar>
 #include <QTimer>
 #include <QToolBar>
@@ -20,6 +21,7 @@
 #include "directions/direction_view.h"
 #include "directions/received_view.h"
 #include "lessons/lesson_panel.h"
+#include "lessons/question_box.h"
 #include "map/compare_view.h"
 #include "map/map_canvas.h"
 #include "map/map_view.h"
@@ -128,7 +130,15 @@ void MainWindow::make_views() {
   compare_view_ = new CompareView(state_.focus, state_.selection, state_.colors);
   algorithm_ = new AlgorithmView(state_.focus, state_.selection);
   breakpoint_panel_ = new BreakpointPanel(state_.focus, state_.selection, state_.breakpoints);
-  lesson_panel_ = new LessonPanel(built_in_lessons());
+  lesson_panel_ = new LessonPanel(built_in_lessons(), state_.selection, state_.focus);
+  if (remember_) {
+    lesson_panel_->set_tally_folder(
+        QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+        QStringLiteral("/tallies"));
+  }
+  lesson_panel_->question().set_scene_source([this](const ViewState& page) {
+    return state_.scene.is_open(page.scene, page.options) ? state_.scene.loaded() : nullptr;
+  });
   notes_ = new QPlainTextEdit;
   notes_->setObjectName("notes");
   notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
@@ -164,6 +174,7 @@ void MainWindow::make_whole_window_actions() {
   QUndoStack& undo_stack = state_.relighting.edits().undo_stack();
   state_.breakpoints.set_undo_stack(&undo_stack);
   page_->bookmarks().set_undo_stack(&undo_stack);
+  lesson_panel_->question().set_undo_stack(&undo_stack);
 }
 
 void MainWindow::make_docks() {
@@ -206,6 +217,7 @@ void MainWindow::make_docks() {
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
+  connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
           &TimelineLanes::count_columns);
   connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
@@ -293,6 +305,7 @@ void MainWindow::show_breakpoints_of_scene() {
 void MainWindow::connect_failures() {
   connect(&state_.runner, &SolveRunner::failed, notifier_, &Notifier::show_failure);
   connect(inspection_, &InspectionPanels::failed, notifier_, &Notifier::show_failure);
+  connect(lesson_panel_, &LessonPanel::failed, notifier_, &Notifier::show_failure);
   connect(&state_.focus_feed, &FocusFeed::failed, notifier_, &Notifier::show_failure);
   connect(&state_.visibility, &PerDirectionVisibility::failed, notifier_, &Notifier::show_failure);
 }

@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+struct ViewState;
+
+/// What a figure is; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
+/// transillumination plane of Figure::direction unless stated otherwise.
+enum class FigureKind {
+  constant,         ///< Figure::number
+  patches,          ///< number of patches
+  fragments,        ///< number of fragments of the BSP tree
+  directions,       ///< number of directions used: M or 2M
+  iterations,       ///< number of iterations of the solve
+  contraction,      ///< factor between the changes of its last two iterations
+  steps,            ///< number of steps of the direction
+  polygons,         ///< largest number of polygons of V along the direction
+  area,             ///< of patch i itself
+  exitance,         ///< of patch i, luminance, W/m²
+  reflectance,      ///< of patch i, luminance
+  radiosity,        ///< of patch i, luminance, W/m²
+  irradiance,       ///< of patch i, luminance, W/m²
+  projected_area,   ///< of patch i
+  visible_area,     ///< A(i, j, omega), summed over others; those above i, front or back
+  seen,             ///< number of patches j with a visible area, for patch i
+  above,            ///< number of patches directly above one of Figure::others
+  form_factor,      ///< F_ij, summed over others
+  form_factor_sum,  ///< of patch i
+  rms_error,        ///< of B against Figure::reference passes, over RMS of B
+  estimated_error,  ///< ErrorEstimate::rms
+  largest_error,    ///< ErrorEstimate::rms_limit
+  ratio             ///< of the two figures of Figure::parts
+};
+
+/// A number that the program computes for a page of a lesson, as its file names it.
+struct Figure {
+  FigureKind kind = FigureKind::constant;
+  double number = 0;            ///< of a constant
+  PatchId patch = no_patch;     ///< i; no_patch: each patch in turn
+  std::vector<PatchId> others;  ///< j; empty: each patch in turn, or all together
+  bool all = false;             ///< j: all patches together
+  std::string material;         ///< of `above`: count only patches of this material; empty: all
+  int iteration = 0;            ///< of the direction, from 0
+  int direction = 0;            ///< from 0
+  int reference = 0;            ///< passes of the reference of rms_error
+  bool no_sources = false;      ///< rms_error over patches that do not emit
+  SolveOptions solve;           ///< the run: that of the page, with the figure's own changes
+  std::vector<Figure> parts;    ///< of a ratio
+};
+
+/// Reads a number, or an object with the key `figure`.
+/// @param page_options  the JSON of the page's `options`
+/// @param page  the page's state
+/// @throws InputError that begins with `where`
+Figure figure_from_json(const nlohmann::json& value, const std::string& where,
+                        const nlohmann::json& page_options, const ViewState& page);
+/// Whether it has one value for each patch, not one for the scene: the patch that it is about is
+/// left out.
+bool is_per_patch(const Figure& figure);
+/// Whether it is computed at all: anything but a constant.
+bool is_computed(const Figure& figure);
+/// The names of all figures in files.
+std::vector<std::string> figure_names();
+
+}  // namespace transillum::viewer

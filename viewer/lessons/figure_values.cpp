@@ -1,0 +1,276 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Figures of lessons, from solves and recorded maps of the page's scene. The map of a direction
+// holds, for each step, the polygons directly above its fragment: the inside list.
+#include "lessons/figure_values.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "colors/color_scale.h"
+#include "model/form_factor_views.h"
+#include "transillum/study.h"
+
+namespace transillum::viewer {
+
+/// A solve; finished and with form factors only where a figure needs them.
+struct FigureValues::Run {
+  SolveOptions options;
+  RadiositySolver solver;
+  FormFactors form_factors = {};
+};
+
+namespace {
+
+bool holds(const std::vector<PatchId>& list, PatchId patch) {
+  return std::find(list.begin(), list.end(), patch) != list.end();
+}
+
+}  // namespace
+
+FigureValues::FigureValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation)
+    : loaded_(std::move(loaded)), cancellation_(std::move(cancellation)) {}
+
+FigureValues::~FigureValues() = default;
+
+void FigureValues::check_patch(PatchId patch) const {
+  const PatchId patches = loaded_->scene->patch_count();
+  if (patch < 0 || patch >= patches) {
+    throw InputError("there is no patch " + std::to_string(patch) + "; the scene has 0 to " +
+                     std::to_string(patches - 1));
+  }
+}
+
+FigureValues::Run& FigureValues::run_of(const SolveOptions& options) {
+  const auto known = std::find_if(runs_.begin(), runs_.end(),
+                                  [&](const auto& run) { return run->options == options; });
+  if (known != runs_.end()) {
+    return **known;
+  }
+  auto run = std::make_unique<Run>(
+      Run{options, RadiositySolver(loaded_->scene, options, loaded_->tree, cancellation_)});
+  run->solver.keep_form_factors();
+  return *runs_.emplace_back(std::move(run));
+}
+
+const RadiositySolver& FigureValues::solved(const SolveOptions& options) {
+  Run& run = run_of(options);
+  if (!run.solver.progress().finished) {
+    run.solver.advance(RadiositySolver::Until::finished);
+  }
+  return run.solver;
+}
+
+const MapHistory& FigureValues::history_of(const Figure& figure) {
+  const RadiositySolver& solver = run_of(figure.solve).solver;
+  const int passes = solver.progress().passes;
+  if (figure.direction >= passes) {
+    throw InputError("there is no direction " + std::to_string(figure.direction + 1) +
+                     "; the run has 1 to " + std::to_string(passes));
+  }
+  const Vec3 omega = solver.direction(figure.iteration, figure.direction);
+  for (const auto& [known, history] : histories_) {
+    if (known.x == omega.x && known.y == omega.y && known.z == omega.z) {
+      return history;
+    }
+  }
+  return histories_
+      .emplace_back(
+          omega,
+          MapHistory(
+              record_local_map(*loaded_->scene, *loaded_->tree, omega, cancellation_).record))
+      .second;
+}
+
+double FigureValues::error_of(const Figure& figure) {
+  auto& reference = references_[figure.reference];
+  if (reference.empty()) {
+    SolveOptions options = reference_options(figure.reference);
+    options.first_shot = first_shot_where_it_pays;
+    reference = solve_reference(loaded_->scene, loaded_->tree, options, {}, cancellation_);
+  }
+  const std::vector<Rgb>& radiosity = solved(figure.solve).radiosity();
+  if (!figure.no_sources) {
+    return radiosity_error(radiosity, reference).rms;
+  }
+  std::vector<Rgb> b, truth;
+  for (PatchId i = 0; i < loaded_->scene->patch_count(); ++i) {
+    if (luminance(loaded_->scene->exitance(i)) == 0) {
+      b.push_back(at(radiosity, i));
+      truth.push_back(at(reference, i));
+    }
+  }
+  return radiosity_error(b, truth).rms;
+}
+
+double FigureValues::of_run(const Figure& figure) {
+  const RadiositySolver& solver = solved(figure.solve);
+  switch (figure.kind) {
+    case FigureKind::directions:
+      return solver.statistics().directions;
+    case FigureKind::iterations:
+      return solver.statistics().iterations;
+    case FigureKind::contraction:
+      return solver.statistics().iteration_records.back().contraction;
+    default:
+      break;
+  }
+  const ErrorEstimate estimate = solver.error_estimate();
+  if (estimate.replicas == 0) {
+    throw InputError("an error estimate needs replicas, and the run has none");
+  }
+  return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
+}
+
+/// The rows of the map that the figure is about: fragments of patch i, or what is directly above
+/// them, or above the patches of `others`.
+std::vector<std::int32_t> FigureValues::rows_of(const Figure& figure) {
+  const MapHistory& history = history_of(figure);
+  const bool counts = figure.kind == FigureKind::above;
+  std::vector<std::int32_t> rows;
+  for (std::int32_t k = 0; k < history.step_count(); ++k) {
+    const MapHistory::Step& step = history.step(k);
+    if (counts ? !holds(figure.others, step.patch) : step.patch != figure.patch) {
+      continue;
+    }
+    if (figure.kind == FigureKind::projected_area && step.row != MapRecord::no_row) {
+      rows.push_back(step.row);
+    }
+    if (figure.kind == FigureKind::projected_area) {
+      continue;
+    }
+    for (const std::int32_t r : history.inside_at(k)) {
+      const PatchId patch = history.row(r).patch;
+      const std::string& material = figure.material;
+      const auto& scene = *loaded_->scene;
+      const bool taken = counts ? !holds(figure.others, patch) &&
+                                      (material.empty() || scene.material(patch).name == material)
+                                : figure.others.empty() || holds(figure.others, patch);
+      if (taken) {
+        rows.push_back(r);
+      }
+    }
+  }
+  return rows;
+}
+
+double FigureValues::of_direction(const Figure& figure) {
+  const MapHistory& history = history_of(figure);
+  if (figure.kind == FigureKind::steps) {
+    return history.step_count();
+  }
+  if (figure.kind == FigureKind::polygons) {
+    std::int32_t most = 0;
+    for (std::int32_t k = 0; k < history.step_count(); ++k) {
+      most = std::max(most, history.step(k).map_size);
+    }
+    return most;
+  }
+  double area = 0;
+  std::set<PatchId> patches;
+  for (const std::int32_t r : rows_of(figure)) {
+    area += history.record().area(history.row(r));
+    patches.insert(history.row(r).patch);
+  }
+  const bool counts = figure.kind == FigureKind::seen || figure.kind == FigureKind::above;
+  return counts ? static_cast<double>(patches.size()) : area;
+}
+
+double FigureValues::form_factor(const Figure& figure) {
+  const RadiositySolver& solver = solved(figure.solve);
+  if (figure.kind == FigureKind::form_factor_sum) {
+    return at(solver.form_factor_sums(), figure.patch);
+  }
+  FormFactors& factors = run_of(figure.solve).form_factors;
+  if (factors.row_begin.empty()) {
+    factors = solver.form_factors();
+  }
+  const std::vector<double> row = form_factors_from(factors, figure.patch);
+  if (figure.all) {
+    return std::accumulate(row.begin(), row.end(), 0.0);
+  }
+  return std::accumulate(figure.others.begin(), figure.others.end(), 0.0,
+                         [&](double sum, PatchId j) { return sum + at(row, j); });
+}
+
+double FigureValues::of_patch(const Figure& figure) {
+  const Scene& scene = *loaded_->scene;
+  switch (figure.kind) {
+    case FigureKind::area:
+      return scene.patch(figure.patch).area;
+    case FigureKind::exitance:
+      return luminance(scene.material(figure.patch).exitance);
+    case FigureKind::reflectance:
+      return luminance(scene.material(figure.patch).reflectance);
+    case FigureKind::radiosity:
+      return luminance(at(solved(figure.solve).radiosity(), figure.patch));
+    case FigureKind::irradiance:
+      return luminance(at(solved(figure.solve).irradiance(), figure.patch));
+    default:
+      return form_factor(figure);
+  }
+}
+
+double FigureValues::value(const Figure& figure) {
+  for (const PatchId patch : figure.others) {
+    check_patch(patch);
+  }
+  if (figure.patch != no_patch) {
+    check_patch(figure.patch);
+  }
+  switch (figure.kind) {
+    case FigureKind::constant:
+      return figure.number;
+    case FigureKind::patches:
+      return loaded_->scene->patch_count();
+    case FigureKind::fragments:
+      return static_cast<double>(loaded_->tree->fragments().size());
+    case FigureKind::ratio:
+      return value(figure.parts.front()) / value(figure.parts.back());
+    case FigureKind::rms_error:
+      return error_of(figure);
+    case FigureKind::directions:
+    case FigureKind::iterations:
+    case FigureKind::contraction:
+    case FigureKind::estimated_error:
+    case FigureKind::largest_error:
+      return of_run(figure);
+    case FigureKind::steps:
+    case FigureKind::polygons:
+    case FigureKind::projected_area:
+    case FigureKind::visible_area:
+    case FigureKind::seen:
+    case FigureKind::above:
+      return of_direction(figure);
+    default:
+      return of_patch(figure);
+  }
+}
+
+std::vector<double> FigureValues::of_patches(const Figure& figure) {
+  std::vector<double> values;
+  Figure one = figure;
+  for (PatchId k = 0; k < loaded_->scene->patch_count(); ++k) {
+    if (figure.patch != no_patch || figure.kind == FigureKind::above) {
+      one.others = {k};
+    } else {
+      one.patch = k;
+    }
+    values.push_back(value(one));
+  }
+  return values;
+}
+
+std::vector<std::vector<Vec2>> FigureValues::region(const Figure& figure) {
+  check_patch(figure.patch);
+  const MapHistory& history = history_of(figure);
+  std::vector<std::vector<Vec2>> parts;
+  for (const std::int32_t r : rows_of(figure)) {
+    const auto outline = history.record().outline(history.row(r));
+    parts.emplace_back(outline.begin(), outline.end());
+  }
+  return parts;
+}
+
+}  // namespace transillum::viewer

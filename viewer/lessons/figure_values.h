@@ -1,0 +1,55 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "lessons/figure.h"
+#include "model/snapshot.h"
+#include "transillum/cancellation.h"
+#include "transillum/map_history.h"
+
+namespace transillum::viewer {
+
+/// Computes figures of one scene; runs and maps that several figures need are computed once.
+///
+/// Threads: one at a time. It solves the scene again, so that it needs nothing from the window and
+/// its figures are those of the page, whatever the window shows now.
+class FigureValues {
+ public:
+  /// @param cancellation  checked in solves and maps
+  FigureValues(std::shared_ptr<const LoadedScene> loaded, Cancellation cancellation);
+  ~FigureValues();
+
+  /// @throws InputError where the figure names a patch or direction that does not exist, or needs
+  /// replicas that the run does not have; Canceled; what a solve throws
+  double value(const Figure& figure);
+  /// The value for each patch in turn, of a figure that is_per_patch(). @throws as value()
+  std::vector<double> of_patches(const Figure& figure);
+  /// Where the area of a projected_area or visible_area is on the plane: convex polygons that do
+  /// not overlap. @throws as value()
+  std::vector<std::vector<Vec2>> region(const Figure& figure);
+
+ private:
+  struct Run;
+  Run& run_of(const SolveOptions& options);
+  const RadiositySolver& solved(const SolveOptions& options);
+  const MapHistory& history_of(const Figure& figure);
+  double error_of(const Figure& figure);
+  double of_run(const Figure& figure);
+  double of_direction(const Figure& figure);
+  double of_patch(const Figure& figure);
+  double form_factor(const Figure& figure);
+  std::vector<std::int32_t> rows_of(const Figure& figure);
+  void check_patch(PatchId patch) const;
+
+  std::shared_ptr<const LoadedScene> loaded_;
+  Cancellation cancellation_;
+  std::vector<std::unique_ptr<Run>> runs_;
+  std::vector<std::pair<Vec3, MapHistory>> histories_;
+  std::map<int, std::vector<Rgb>> references_;  ///< B, by the number of passes
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lessons/figure.h"
+#include "lessons/view_state.h"
+#include "transillum/visibility_map.h"
+
+namespace transillum::viewer {
+
+class FigureValues;
+
+/// A question on a page of a lesson. What is right is computed from figures of the page's scene and
+/// run, never stated by the file.
+struct Question {
+  enum class Kind {
+    choice,  ///< choose one of `choices`
+    patch,   ///< select a patch
+    number,  ///< enter a number
+    area     ///< draw a polygon on the visibility map
+  };
+  enum class Rule {
+    largest,   ///< the choice, or patch, with the largest value
+    smallest,  ///< … with the smallest
+    nearest,   ///< the choice whose value is nearest to `figure`
+    equals,    ///< choices whose value is `figure`
+    value      ///< `figure` itself
+  };
+  struct Choice {
+    std::string text;             ///< empty: the value
+    std::optional<Figure> value;  ///< none: right if no other choice is
+  };
+
+  Kind kind = Kind::choice;
+  std::string ask;  ///< Markdown
+  std::vector<Choice> choices;
+  Rule rule = Rule::value;
+  Figure figure;
+  /// Of a number: relative difference up to which it is right; of an area: least overlap, the
+  /// common part over the union.
+  double within = 0;
+  bool percent = false;             ///< values are shown, and entered, times 100, with " %"
+  std::string unit;                 ///< of the values
+  std::string then;                 ///< Markdown, shown after Reveal; may be empty
+  std::optional<ViewState> reveal;  ///< what Reveal shows; none: the page stays as it is
+};
+
+/// An answer by a user; what does not belong to the question's kind is ignored.
+struct GivenAnswer {
+  int choice = -1;
+  PatchId patch = no_patch;
+  std::optional<double> number = {};
+  std::vector<Vec2> outline = {};  ///< corners of a polygon on the plane, m
+
+  friend bool operator==(const GivenAnswer& a, const GivenAnswer& b);
+};
+
+/// What the program computed for a question.
+struct Solved {
+  std::vector<double> values;  ///< of choices (NaN: without a value) or of patches; else empty
+  std::vector<int> right;      ///< indices of the right choices, or right patches; ascending
+  double value = 0;            ///< of Question::figure, where it is one number
+  std::vector<std::vector<Vec2>> region;  ///< of an area
+};
+
+/// Reads the key `question` of a page.
+/// @param page_state,page  the complete state of the page, as JSON and as read
+/// @param folder  as for view_state_from_json()
+/// @throws InputError that begins with `where`
+Question question_from_json(const nlohmann::json& value, const std::string& where,
+                            const nlohmann::json& page_state, const ViewState& page,
+                            const std::string& folder);
+
+/// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
+bool is_given(const Question& question, const GivenAnswer& answer);
+/// Computes what is right. @throws as FigureValues
+Solved solve_question(const Question& question, FigureValues& figures);
+/// Whether a complete answer is right.
+bool is_right(const Question& question, const Solved& solved, const GivenAnswer& answer);
+/// The common part of a region and a polygon over their union, 0 to 1, sampled on a grid to about
+/// 1 %; the polygon may cross itself.
+double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<Vec2>& outline);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,527 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The question of a page, below its text: widgets for the prediction by the question's kind, and
+// after Reveal the result of solve_question(), which runs on a worker thread.
+#include "lessons/question_box.h"
+
+#include <QAction>
+#include <QButtonGroup>
+#include <QDoubleValidator>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QRadioButton>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "lessons/figure_values.h"
+#include "support/failure_text.h"
+#include "support/list_change.h"
+#include "support/number_text.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+QAction* make_action(QObject* parent, const char* name, const char* key, const QString& tip) {
+  auto* action = new QAction(parent);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setShortcut(QKeySequence(QString::fromLatin1(key)));
+  action->setToolTip(tip);
+  return action;
+}
+
+QLabel* wrapped_label(const char* name) {
+  auto* label = new QLabel;
+  label->setObjectName(QString::fromLatin1(name));
+  label->setWordWrap(true);
+  return label;
+}
+
+QString colored(const QString& text, const QColor& color) {
+  return QStringLiteral("<b style='color: %1'>%2</b>").arg(color.name(), text);
+}
+
+int total_of(const AnswerCounts& counts) {
+  return std::accumulate(counts.begin(), counts.end(), 0,
+                         [](int sum, const auto& item) { return sum + item.second; });
+}
+
+}  // namespace
+
+QuestionBox::QuestionBox(Selection& selection, Focus& focus, QWidget* parent)
+    : QFrame(parent),
+      selection_(selection),
+      focus_(focus),
+      worker_(
+          [this](const Job& job, const Cancellation& cancellation) { solve(job, cancellation); },
+          [this](const Job& job, const QString& message) {
+            QMetaObject::invokeMethod(
+                this,
+                [this, number = job.number, message] {
+                  if (number == job_) {
+                    solving_ = false;
+                    show_state();
+                    emit failed(message);
+                  }
+                },
+                Qt::QueuedConnection);
+          }) {
+  setObjectName("question");
+  setFrameShape(QFrame::StyledPanel);
+  make_actions();
+  make_widgets();
+  connect(&selection_, &Selection::changed, this, &QuestionBox::take_patch);
+  connect(&focus_, &Focus::probed, this, &QuestionBox::take_point);
+  hide();
+}
+
+void QuestionBox::make_actions() {
+  reveal_ = make_action(this, "question_reveal", "Ctrl+Return",
+                        tr("Show what the program computes, and whether the prediction is right "
+                           "(Ctrl+Return); again to hide it"));
+  count_ = make_action(this, "question_count", "Ctrl+Shift+Return",
+                       tr("Add this answer to the tally of the class, and take the next "
+                          "(Ctrl+Shift+Return)"));
+  count_->setText(tr("Count this answer"));
+  reset_ = make_action(this, "question_reset", "",
+                       tr("Set the tally of this question to zero; Ctrl+Z brings it back"));
+  reset_->setText(tr("Reset the tally"));
+  connect(reveal_, &QAction::triggered, this, [this] { solved_ ? ask_again() : reveal(); });
+  connect(count_, &QAction::triggered, this, &QuestionBox::count);
+  connect(reset_, &QAction::triggered, this, [this] { set_counts({}, tr("Reset the tally")); });
+}
+
+void QuestionBox::make_widgets() {
+  ask_ = wrapped_label("question_ask");
+  ask_->setTextFormat(Qt::MarkdownText);
+  result_ = wrapped_label("question_result");
+  result_->setTextFormat(Qt::RichText);
+  counts_ = wrapped_label("question_counts");
+  counts_->setForegroundRole(QPalette::PlaceholderText);
+  layout_ = new QVBoxLayout(this);
+  layout_->setContentsMargins(10, 8, 10, 8);
+  layout_->setSpacing(6);
+  layout_->addWidget(ask_);
+  layout_->addWidget(result_);
+  layout_->addWidget(counts_);
+  layout_->addWidget(make_buttons());
+}
+
+QWidget* QuestionBox::make_buttons() {
+  auto* buttons = new QWidget;
+  auto* row = new QHBoxLayout(buttons);
+  row->setContentsMargins(0, 0, 0, 0);
+  for (QAction* action : actions()) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    row->addWidget(button);
+  }
+  return buttons;
+}
+
+void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number,
+                            std::shared_ptr<Tally> tally) {
+  const bool asks = page && page->question;
+  page_ = asks ? std::move(page) : nullptr;
+  page_number_ = number;
+  tally_ = std::move(tally);
+  ++job_;
+  worker_.clear();
+  solving_ = false;
+  solved_.reset();
+  answer_ = {};
+  delete std::exchange(answers_, nullptr);
+  choices_ = nullptr;
+  number_ = nullptr;
+  given_ = nullptr;
+  drop_ = nullptr;
+  rows_.clear();
+  setVisible(asks);
+  if (asks) {
+    fill_answers();
+  }
+  show_state();
+  send_sketch();
+}
+
+void QuestionBox::set_text_font(const QFont& font) {
+  ask_->setFont(font);
+  result_->setFont(font);
+  if (answers_) {
+    answers_->setFont(font);
+  }
+}
+
+void QuestionBox::fill_answers() {
+  answers_ = new QWidget;
+  auto* grid = new QGridLayout(answers_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(2);
+  layout_->insertWidget(1, answers_);
+  const Question& question = *page_->question;
+  if (question.kind == Question::Kind::choice) {
+    choices_ = new QButtonGroup(answers_);
+    for (int k = 0; k < static_cast<int>(question.choices.size()); ++k) {
+      add_choice(k);
+    }
+    connect(choices_, &QButtonGroup::idClicked, this, [this](int k) { set_answer({.choice = k}); });
+  } else if (question.kind == Question::Kind::number) {
+    add_number();
+  } else {
+    given_ = wrapped_label("question_given");
+    grid->addWidget(given_, 0, 0);
+    grid->setColumnStretch(0, 1);
+  }
+  if (question.kind == Question::Kind::area) {
+    drop_ = new QToolButton;
+    drop_->setObjectName("question_drop");
+    drop_->setText(tr("Remove the last corner"));
+    drop_->setToolTip(tr("Remove the corner that was clicked last (Backspace)"));
+    drop_->setShortcut(Qt::Key_Backspace);
+    grid->addWidget(drop_, 0, 1);
+    connect(drop_, &QToolButton::clicked, this, &QuestionBox::drop_point);
+  }
+}
+
+void QuestionBox::add_choice(int k) {
+  auto* grid = static_cast<QGridLayout*>(answers_->layout());
+  auto* button = new QRadioButton(label_of(at(page_->question->choices, k)));
+  button->setObjectName(QStringLiteral("choice_%1").arg(k + 1));
+  button->setToolTip(tr("Predict this (arrow keys move between the answers)"));
+  choices_->addButton(button, k);
+  ChoiceRow row{new QLabel, new QLabel, new QProgressBar};
+  row.mark->setFixedWidth(theme::scaled(16));
+  row.bar->setTextVisible(false);
+  row.bar->setFixedSize(theme::scaled(70), theme::scaled(10));
+  row.value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  row.value->setForegroundRole(QPalette::PlaceholderText);
+  grid->addWidget(row.mark, k, 0);
+  grid->addWidget(button, k, 1);
+  grid->addWidget(row.value, k, 2);
+  grid->addWidget(row.bar, k, 3);
+  grid->setColumnStretch(1, 1);
+  rows_.push_back(row);
+}
+
+void QuestionBox::add_number() {
+  const Question& question = *page_->question;
+  auto* grid = static_cast<QGridLayout*>(answers_->layout());
+  number_ = new QLineEdit;
+  number_->setObjectName("question_number");
+  number_->setPlaceholderText(tr("Your guess"));
+  number_->setToolTip(tr("Enter a number; Return reveals the answer"));
+  auto* validator = new QDoubleValidator(number_);
+  validator->setLocale(QLocale::c());
+  number_->setValidator(validator);
+  grid->addWidget(number_, 0, 0);
+  grid->addWidget(new QLabel(QString::fromStdString(question.unit)), 0, 1);
+  connect(number_, &QLineEdit::textChanged, this, [this](const QString& text) {
+    bool valid = false;
+    const double value = text.toDouble(&valid) / (page_->question->percent ? 100 : 1);
+    set_answer({.number = valid && std::isfinite(value) ? std::optional(value) : std::nullopt});
+  });
+  connect(number_, &QLineEdit::returnPressed, reveal_, &QAction::trigger);
+}
+
+void QuestionBox::take_patch(PatchId patch) {
+  if (!page_ || solved_ || page_->question->kind != Question::Kind::patch) {
+    return;
+  }
+  // The patch that the page itself selects is no answer.
+  set_answer({.patch = patch == page_->state.selection ? no_patch : patch});
+}
+
+void QuestionBox::take_point() {
+  if (!page_ || solved_ || page_->question->kind != Question::Kind::area || !focus_.probe()) {
+    return;
+  }
+  GivenAnswer answer = answer_;
+  answer.outline.push_back(*focus_.probe());
+  set_answer(std::move(answer));
+}
+
+void QuestionBox::drop_point() {
+  if (solved_ || answer_.outline.empty()) {
+    return;
+  }
+  GivenAnswer answer = answer_;
+  answer.outline.pop_back();
+  set_answer(std::move(answer));
+}
+
+void QuestionBox::set_answer(GivenAnswer answer) {
+  answer_ = std::move(answer);
+  show_state();
+  send_sketch();
+}
+
+void QuestionBox::clear_answer() {
+  if (choices_ && choices_->checkedButton()) {
+    choices_->setExclusive(false);
+    choices_->checkedButton()->setChecked(false);
+    choices_->setExclusive(true);
+  }
+  if (number_) {
+    number_->clear();
+  }
+  if (page_ && page_->question->kind == Question::Kind::patch) {
+    selection_.select(page_->state.selection);
+  }
+  set_answer({});
+}
+
+void QuestionBox::reveal() {
+  if (!page_) {
+    return;
+  }
+  if (solving_) {
+    ++job_;
+    worker_.clear();
+    solving_ = false;
+    show_state();
+    return;
+  }
+  const auto loaded = scene_ ? scene_(page_->state) : nullptr;
+  if (!loaded) {
+    emit failed(tr("The scene of this page is not open. Show the page again (Ctrl+L)."));
+    return;
+  }
+  solving_ = true;
+  worker_.request({loaded, *page_->question, ++job_});
+  show_state();
+}
+
+void QuestionBox::solve(const Job& job, const Cancellation& cancellation) {
+  FigureValues figures(job.loaded, cancellation);
+  QMetaObject::invokeMethod(
+      this,
+      [this, number = job.number, solved = solve_question(job.question, figures)] {
+        if (number == job_) {
+          show_solved(solved);
+        }
+      },
+      Qt::QueuedConnection);
+}
+
+void QuestionBox::show_solved(const Solved& solved) {
+  solving_ = false;
+  solved_ = solved;
+  if (is_given(*page_->question, answer_)) {
+    count();
+  }
+  select_right();
+  show_state();
+  send_sketch();
+  emit then_shown();
+}
+
+// The window shows what the file wants to be seen after Reveal, with the right patch selected.
+void QuestionBox::select_right() {
+  const Question& question = *page_->question;
+  const bool of_patches = question.kind == Question::Kind::patch && !solved_->right.empty();
+  if (question.reveal) {
+    ViewState state = *question.reveal;
+    if (of_patches) {
+      state.selection = solved_->right.front();
+    }
+    emit revealed(state);
+  } else if (of_patches && !is_right(question, *solved_, answer_)) {
+    selection_.select(solved_->right.front());
+  }
+}
+
+void QuestionBox::ask_again() {
+  solved_.reset();
+  clear_answer();
+  if (page_->question->reveal) {
+    emit revealed(page_->state);
+  }
+  emit then_shown();
+}
+
+void QuestionBox::count() {
+  if (!page_ || !tally_ || !is_given(*page_->question, answer_)) {
+    return;
+  }
+  AnswerCounts counts = tally_->of(page_number_, *page_->question);
+  ++counts[label_of_answer()];
+  set_counts(counts, tr("Count an answer"));
+  if (!solved_) {
+    clear_answer();
+  }
+}
+
+void QuestionBox::set_counts(const AnswerCounts& counts, const QString& what) {
+  const auto set = [this, tally = tally_, page = page_,
+                    number = page_number_](const AnswerCounts& now) {
+    try {
+      tally->set(number, *page->question, now);
+    } catch (const std::exception& error) {
+      emit failed(failure_text(error));
+    }
+    show_state();
+  };
+  change_list<AnswerCounts>(undo_, what, tally_->of(page_number_, *page_->question), counts, set);
+}
+
+std::string QuestionBox::label_of_answer() const {
+  const Question& question = *page_->question;
+  switch (question.kind) {
+    case Question::Kind::choice:
+      return label_of(at(question.choices, answer_.choice)).toStdString();
+    case Question::Kind::patch:
+      return tr("patch %1").arg(answer_.patch).toStdString();
+    case Question::Kind::number:
+      return value_text(*answer_.number).toStdString();
+    case Question::Kind::area:
+      break;
+  }
+  const bool right = solved_ && is_right(question, *solved_, answer_);
+  return (right ? tr("right") : tr("not right")).toStdString();
+}
+
+QString QuestionBox::label_of(const Question::Choice& choice) const {
+  return choice.text.empty() && choice.value && !is_computed(*choice.value)
+             ? value_text(choice.value->number)
+             : QString::fromStdString(choice.text);
+}
+
+QString QuestionBox::value_text(double value) const {
+  const Question& question = *page_->question;
+  const QString unit = QString::fromStdString(question.unit);
+  const QString number = number_text(question.percent ? 100 * value : value);
+  return unit.isEmpty() ? number : number + QStringLiteral(" ") + unit;
+}
+
+QString QuestionBox::verdict_text() const {
+  const Question& question = *page_->question;
+  if (!is_given(question, answer_)) {
+    return {};
+  }
+  return is_right(question, *solved_, answer_) ? colored(tr("✓ Right."), theme::good)
+                                               : colored(tr("✗ Not this time."), theme::warm);
+}
+
+QString QuestionBox::result_text() const {
+  const Question& question = *page_->question;
+  const QString verdict = verdict_text() + ' ';
+  switch (question.kind) {
+    case Question::Kind::choice:
+      return question.rule == Question::Rule::nearest
+                 ? verdict + tr("The program computes %1.").arg(value_text(solved_->value))
+                 : verdict;
+    case Question::Kind::number:
+      return verdict + tr("The program computes %1.").arg(value_text(solved_->value));
+    case Question::Kind::patch:
+      return solved_->right.empty()
+                 ? verdict
+                 : verdict + tr("The program: patch %1, with %2.")
+                                 .arg(solved_->right.front())
+                                 .arg(value_text(at(solved_->values, solved_->right.front())));
+    case Question::Kind::area:
+      break;
+  }
+  const QString area = tr("The program’s region has %1.").arg(value_text(solved_->value));
+  if (!is_given(question, answer_)) {
+    return verdict + area;
+  }
+  const int percent =
+      static_cast<int>(std::lround(100 * overlap(solved_->region, answer_.outline)));
+  return verdict + area + ' ' + tr("Yours overlaps it by %1 %.").arg(percent);
+}
+
+QString QuestionBox::tally_text(const AnswerCounts& counts) const {
+  const int total = total_of(counts);
+  if (total == 0) {
+    return {};
+  }
+  if (!solved_ || page_->question->kind == Question::Kind::choice) {
+    return total == 1 ? tr("1 answer counted") : tr("%1 answers counted").arg(total);
+  }
+  std::vector<std::pair<int, QString>> sorted;
+  for (const auto& [answer, count] : counts) {
+    sorted.emplace_back(-count, QString::fromStdString(answer));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  QStringList parts;
+  for (const auto& [count, answer] : sorted) {
+    parts << tr("%1: %2").arg(answer).arg(-count);
+  }
+  return tr("The class: %1").arg(parts.join(QStringLiteral(" · ")));
+}
+
+void QuestionBox::show_state() {
+  const bool asks = page_ != nullptr;
+  const bool given = asks && is_given(*page_->question, answer_);
+  const AnswerCounts counts =
+      asks && tally_ ? tally_->of(page_number_, *page_->question) : AnswerCounts();
+  reveal_->setText(solving_ ? tr("Stop") : solved_ ? tr("Ask again") : tr("Reveal the answer"));
+  reveal_->setEnabled(asks);
+  count_->setEnabled(given && !solved_ && page_->question->kind != Question::Kind::area);
+  reset_->setEnabled(total_of(counts) > 0);
+  if (!asks) {
+    return;
+  }
+  ask_->setText(QString::fromStdString(page_->question->ask));
+  QString result;
+  if (solving_) {
+    result = tr("The program computes the answer…");
+  } else if (solved_) {
+    result = result_text().trimmed();
+  }
+  result_->setText(result);
+  result_->setVisible(!result.isEmpty());
+  const QString tally = tally_text(counts);
+  counts_->setText(tally);
+  counts_->setVisible(!tally.isEmpty());
+  if (number_) {
+    number_->setReadOnly(solved_.has_value());
+  }
+  if (given_ && page_->question->kind == Question::Kind::patch) {
+    given_->setText(given ? tr("Your answer: patch %1").arg(answer_.patch)
+                          : tr("Click a patch in the scene or the map"));
+  } else if (given_) {
+    given_->setText(
+        tr("Click its corners in the map, in order: %1 so far").arg(answer_.outline.size()));
+    drop_->setEnabled(!solved_ && !answer_.outline.empty());
+  }
+  show_choices(counts);
+}
+
+void QuestionBox::show_choices(const AnswerCounts& counts) {
+  const int most = std::max(1, total_of(counts));
+  for (int k = 0; k < static_cast<int>(rows_.size()); ++k) {
+    const ChoiceRow& row = at(rows_, k);
+    const Question::Choice& choice = at(page_->question->choices, k);
+    const auto count = counts.find(label_of(choice).toStdString());
+    row.bar->setRange(0, most);
+    row.bar->setValue(count == counts.end() ? 0 : count->second);
+    row.bar->setToolTip(tr("%1 of %2 answers").arg(row.bar->value()).arg(total_of(counts)));
+    row.bar->setVisible(solved_ && total_of(counts) > 0);
+    choices_->button(k)->setEnabled(!solved_);
+    const bool right =
+        solved_ && std::binary_search(solved_->right.begin(), solved_->right.end(), k);
+    row.mark->setText(right ? colored(QStringLiteral("✓"), theme::good) : QString());
+    const bool computed = solved_ && choice.value && is_computed(*choice.value);
+    row.value->setText(computed ? value_text(at(solved_->values, k)) : QString());
+  }
+}
+
+void QuestionBox::send_sketch() {
+  MapSketch sketch{answer_.outline, {}};
+  if (solved_) {
+    sketch.right = solved_->region;
+  }
+  emit sketched(sketch);
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,130 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QFrame>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lessons/question.h"
+#include "lessons/tally.h"
+#include "model/snapshot.h"
+#include "state/focus.h"
+#include "state/map_sketch.h"
+#include "state/selection.h"
+#include "support/request_worker.h"
+
+class QAction;
+class QButtonGroup;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QToolButton;
+class QUndoStack;
+class QVBoxLayout;
+
+namespace transillum::viewer {
+
+/// The question of a lesson's page: takes a prediction, and on Reveal shows what the program
+/// computes, and the tally of the class.
+class QuestionBox : public QFrame {
+  Q_OBJECT
+
+ public:
+  /// The open scene if it is that of the page; else null.
+  using SceneSource = std::function<std::shared_ptr<const LoadedScene>(const ViewState& page)>;
+
+  QuestionBox(Selection& selection, Focus& focus, QWidget* parent = nullptr);
+
+  void set_scene_source(SceneSource source) { scene_ = std::move(source); }
+  /// Counting and resetting can be undone there; null: no undo.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
+  /// Shows the question of a page; hides the box if it has none. The prediction, and what is
+  /// revealed, are dropped.
+  /// @param tally of the lesson; must outlive its use here
+  void show_page(std::shared_ptr<const Lesson::Page> page, int number,
+                 std::shared_ptr<Tally> tally);
+
+  /// The font of the question and its answers; buttons keep theirs.
+  void set_text_font(const QFont& font);
+
+  /// Reveal, count and reset, for a menu.
+  std::vector<QAction*> actions() const { return {reveal_, count_, reset_}; }
+  const GivenAnswer& answer() const { return answer_; }
+  /// What Reveal has computed; null before.
+  const Solved* solved() const { return solved_ ? &*solved_ : nullptr; }
+
+ signals:
+  /// The answer is shown; the window is to show `state`.
+  void revealed(const transillum::viewer::ViewState& state);
+  void then_shown();  ///< solved() has changed: Question::then is to be shown or hidden
+  void sketched(const transillum::viewer::MapSketch& sketch);
+  void failed(const QString& message);
+
+ private:
+  struct Job {
+    std::shared_ptr<const LoadedScene> loaded;
+    Question question;
+    int number = 0;
+  };
+
+  void make_actions();
+  void make_widgets();
+  QWidget* make_buttons();
+  void fill_answers();
+  void add_choice(int k);
+  void add_number();
+  void take_patch(PatchId patch);
+  void take_point();
+  void drop_point();
+  void set_answer(GivenAnswer answer);
+  void clear_answer();
+  void reveal();
+  void ask_again();
+  void solve(const Job& job, const Cancellation& cancellation);
+  void show_solved(const Solved& solved);
+  void select_right();
+  void count();
+  void set_counts(const AnswerCounts& counts, const QString& what);
+  std::string label_of_answer() const;
+  QString label_of(const Question::Choice& choice) const;
+  QString value_text(double value) const;
+  QString verdict_text() const;
+  QString result_text() const;
+  QString tally_text(const AnswerCounts& counts) const;
+  void show_state();
+  void show_choices(const AnswerCounts& counts);
+  void send_sketch();
+
+  Selection& selection_;
+  Focus& focus_;
+  SceneSource scene_;
+  QUndoStack* undo_ = nullptr;
+  std::shared_ptr<const Lesson::Page> page_;
+  int page_number_ = 0;
+  std::shared_ptr<Tally> tally_;
+  GivenAnswer answer_;
+  std::optional<Solved> solved_;
+  int job_ = 0;  ///< number of the newest
+  bool solving_ = false;
+
+  QVBoxLayout* layout_;
+  QLabel *ask_, *result_, *counts_;
+  QWidget* answers_ = nullptr;
+  QButtonGroup* choices_ = nullptr;
+  /// What is shown beside a choice after Reveal.
+  struct ChoiceRow {
+    QLabel *mark, *value;
+    QProgressBar* bar;
+  };
+  std::vector<ChoiceRow> rows_;
+  QLineEdit* number_ = nullptr;
+  QLabel* given_ = nullptr;  ///< the answer as text, of a patch or an area
+  QToolButton* drop_ = nullptr;
+  QAction *reveal_, *count_, *reset_;
+  RequestWorker<Job> worker_;
+};
+
+}  // namespace transillum::viewer

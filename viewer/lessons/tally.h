@@ -1,0 +1,45 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QString>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "lessons/lesson.h"
+
+namespace transillum::viewer {
+
+/// How often each answer to a question was given.
+using AnswerCounts = std::map<std::string, int>;
+
+/// The answers of a class to the questions of one lesson, kept in a file.
+class Tally {
+ public:
+  /// In memory only.
+  Tally() = default;
+  /// Kept in a file, which is made by the first answer.
+  /// @throws InputError where it cannot be read; then use the default constructor
+  explicit Tally(const QString& file);
+
+  /// Empty if the question has not been answered, or was another one when it was.
+  /// @param page from 0
+  AnswerCounts of(int page, const Question& question) const;
+  /// @throws std::runtime_error where the file cannot be written
+  void set(int page, const Question& question, AnswerCounts counts);
+
+  /// Empty: in memory only.
+  const QString& file() const { return file_; }
+
+ private:
+  void write() const;
+
+  QString file_;
+  std::map<std::pair<int, std::string>, AnswerCounts> counts_;  ///< by page and Question::ask
+};
+
+/// Where the tally of a lesson is kept: beside a lesson file if its folder is writable, else in
+/// `folder`. @returns empty if `folder` is
+QString tally_file(const Lesson& lesson, const QString& folder);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,16 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vector>
+
+#include "transillum/visibility_map.h"
+
+namespace transillum::viewer {
+
+/// What is drawn over the visibility map to answer a question. Points are in meters on the plane.
+struct MapSketch {
+  std::vector<Vec2> outline;             ///< corners by the user, in the order clicked
+  std::vector<std::vector<Vec2>> right;  ///< the program's region: convex polygons; empty: hidden
+};
+
+}  // namespace transillum::viewer
