@@ -88,7 +88,7 @@ class AppearanceTest : public QObject {
     TestWindow& window = *solved.window;
     auto* map = window.findChild<QDockWidget*>("map_dock");
     auto* settings = window.findChild<QDockWidget*>("settings_dock");
-    window.findChild<FullScreen*>()->show_only(map);
+    window.findChild<FullScreen*>()->show_only({map});
     QVERIFY(wait_for([&] { return map->width() > 0.95 * window.width(); }, 5000));
     QVERIFY(window.isFullScreen() && !settings->isVisible() && !solved.scene_view->isVisible());
     // Shortcuts work although the menu bar is hidden.
@@ -96,7 +96,7 @@ class AppearanceTest : public QObject {
     QVERIFY(
         wait_for([&] { return settings->isVisible() && solved.scene_view->isVisible(); }, 5000));
     QVERIFY(!window.isFullScreen() && window.menuBar()->isVisible());
-    window.findChild<FullScreen*>()->show_only(window.centralWidget());
+    window.findChild<FullScreen*>()->show_only({window.centralWidget()});
     QVERIFY(wait_for([&] { return solved.scene_view->width() > 0.8 * window.width(); }, 5000));
     QVERIFY(!map->isVisible());
     window.findChild<FullScreen*>()->show_all();

@@ -4,19 +4,26 @@
 #include <QAction>
 #include <QDir>
 #include <QDockWidget>
+#include <QMessageBox>
 #include <QPlainTextEdit>
+#include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
+#include <QTimer>
 
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
 #include "scene/show_menu.h"
 #include "solved_window.h"
 #include "stepping/algorithm_view.h"
+#include "widgets/banner.h"
 #include "window/export_actions.h"
 #include "window/file_actions.h"
 #include "window/inspection_panels.h"
+#include "window/recovery.h"
 #include "window/view_state_applier.h"
+#include "window/window_session.h"
+#include "window/work_guard.h"
 
 using namespace transillum;
 using namespace transillum::viewer;
@@ -291,6 +298,96 @@ class SessionFileTest : public QObject {
     QCOMPARE(session.notes, std::string("to be kept"));
     QVERIFY(QSettings().contains("window/state"));
     QVERIFY(QFile::remove(path));
+  }
+
+  void goes_on_where_a_killed_program_was_data() {
+    QTest::addColumn<int>("passes");
+    QTest::newRow("finished") << 0;
+    QTest::newRow("paused") << 21;
+  }
+  void goes_on_where_a_killed_program_was() {
+    QFETCH(int, passes);
+    const QTemporaryDir folder;
+    const QString kept = folder.filePath("killed.json");
+    std::vector<Rgb> radiosity;
+    {
+      const auto window = make_window(16);
+      WindowSession session(window->parts(), window->applier());
+      Recovery recovery(window->parts(), session, folder.path());
+      recovery.keep();
+      QVERIFY(QDir(folder.path()).entryList({"*.json"}).isEmpty());
+      window->open("cornell-box",
+                   passes > 0 ? Goal{Goal::Kind::passes, passes} : Goal{Goal::Kind::finished});
+      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+      window->selection.select(5);
+      recovery.keep();
+      const QStringList files = QDir(folder.path()).entryList({"*.json"});
+      QCOMPARE(files.size(), 1);
+      // A program that is killed leaves its file, and no lock that is held.
+      QVERIFY(QFile::copy(folder.filePath(files[0]), kept));
+      radiosity = window->snapshot()->radiosity;
+    }
+    QCOMPARE(QDir(folder.path()).entryList({"*.json"}), QStringList("killed.json"));
+
+    const auto window = make_window(8);
+    WindowSession session(window->parts(), window->applier());
+    Recovery recovery(window->parts(), session, folder.path());
+    auto* bar = window->findChild<Banner*>("recovery_bar");
+    QVERIFY(bar->isHidden());
+    recovery.offer();
+    QVERIFY(!bar->isHidden());
+    window->findChild<QPushButton*>("restore_session")->click();
+    QVERIFY(bar->isHidden());
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    QVERIFY(window->snapshot()->radiosity == radiosity);
+    QCOMPARE(window->selection.patch(), 5);
+    QVERIFY(!QFile::exists(kept));
+  }
+
+  void the_session_of_a_running_program_is_not_offered() {
+    const QTemporaryDir folder;
+    const auto window = make_window(8), other = make_window(8);
+    WindowSession session(window->parts(), window->applier());
+    Recovery recovery(window->parts(), session, folder.path());
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    recovery.keep();
+    WindowSession other_session(other->parts(), other->applier());
+    Recovery other_recovery(other->parts(), other_session, folder.path());
+    other_recovery.offer();
+    QVERIFY(other->findChild<Banner*>("recovery_bar")->isHidden());
+    QCOMPARE(QDir(folder.path()).entryList({"*.json"}).size(), 1);
+  }
+
+  void asks_before_long_work_is_lost() {
+    const auto window = make_window(8);
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    window->work_guard().set_long_seconds(0);
+    QString answer = "Cancel";
+    int asked = 0;
+    QTimer answers;
+    connect(&answers, &QTimer::timeout, window.get(), [&] {
+      if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget())) {
+        ++asked;
+        for (QAbstractButton* button : box->buttons()) {
+          if (button->text().remove('&') == answer) {
+            button->click();
+            return;
+          }
+        }
+      }
+    });
+    answers.start(20);
+    window->findChild<QAction*>("stop")->trigger();
+    QCOMPARE(asked, 1);
+    QVERIFY(window->snapshot()->progress.iteration > 0);
+    answer = "Start over";
+    window->findChild<QAction*>("stop")->trigger();
+    QVERIFY(wait_for([&] { return window->snapshot()->progress.iteration == 0; }));
+    // Nothing is lost now.
+    window->findChild<QAction*>("stop")->trigger();
+    QCOMPARE(asked, 2);
   }
 
   void a_session_and_its_scene_move_together() {

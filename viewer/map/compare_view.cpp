@@ -267,8 +267,8 @@ void CompareView::send_request() {
     comparer_.clear();
     show_comparison(nullptr);
     text_->setText(tr(
-        "A hemicube and pairs of patches have no directions: select the patch whose form factors "
-        "are to be compared."));
+        "A hemicube and pairs of patches have no directions: select a patch to compare its form "
+        "factors."));
     return;
   }
   sent_ = request;

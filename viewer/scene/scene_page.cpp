@@ -21,6 +21,8 @@ namespace transillum::viewer {
 
 ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colors, QWidget* parent)
     : QWidget(parent) {
+  recovery_bar_ = new Banner;
+  recovery_bar_->setObjectName("recovery_bar");
   loading_bar_ = new Banner;
   loading_bar_->setObjectName("loading_bar");
   banner_ = new Banner;
@@ -62,6 +64,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  layout->addWidget(recovery_bar_);
   layout->addWidget(loading_bar_);
   layout->addWidget(banner_);
   layout->addWidget(pages_, 1);

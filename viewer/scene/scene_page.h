@@ -27,6 +27,8 @@ class ScenePage : public QWidget {
             QWidget* parent = nullptr);
 
   Banner* banner() const { return banner_; }
+  /// Above all others: a session that can be gone on with.
+  Banner* recovery_bar() const { return recovery_bar_; }
   /// Above banner(): the scene that is being loaded.
   Banner* loading_bar() const { return loading_bar_; }
   /// Names the scene that is being loaded where scenes are chosen; empty: none.
@@ -56,7 +58,7 @@ class ScenePage : public QWidget {
 
   CameraBookmarks bookmarks_;
   CameraMenu* camera_;
-  Banner *loading_bar_, *banner_, *light_bar_, *orientation_bar_;
+  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_;
   QStackedWidget* pages_;
   WelcomePage* welcome_;
   QAction* scenes_;

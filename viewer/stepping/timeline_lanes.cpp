@@ -62,6 +62,17 @@ void TimelineLanes::set_marks(Marks marks) {
   count_columns();
 }
 
+void TimelineLanes::set_thin(bool thin) {
+  thin_ = thin;
+  updateGeometry();
+  count_columns();
+}
+
+QSize TimelineLanes::minimumSizeHint() const {
+  constexpr int thin_height = 26, usual_height = 72;
+  return {300, thin_ ? theme::scaled(thin_height) : usual_height};
+}
+
 void TimelineLanes::set_progress(int iteration, int directions) {
   done_iteration_ = iteration;
   done_directions_ = directions;
@@ -70,6 +81,10 @@ void TimelineLanes::set_progress(int iteration, int directions) {
 
 QRectF TimelineLanes::rect_of(Lane lane) const {
   const double width_left = std::max(width() - name_width() - value_width(), 20.0);
+  if (thin_) {
+    const double top = lane == Lane::steps ? 3 : 0;
+    return {name_width(), top, width_left, lane == Lane::steps ? height() - 6.0 : 0.0};
+  }
   const double top = lane == Lane::iterations   ? 3
                      : lane == Lane::directions ? 3 + lane_height()
                                                 : 7 + 2 * lane_height();
@@ -144,10 +159,12 @@ void TimelineLanes::paintEvent(QPaintEvent*) {
   const auto value = [&](Lane lane, int at) {
     return any ? tr("%1 of %2").arg(count_text(at), count_text(count_of(lane))) : QString();
   };
-  draw_lane(painter, Lane::iterations, tr("Iteration"), index_at(Lane::iterations),
-            count_of(Lane::iterations), value(Lane::iterations, index_at(Lane::iterations) + 1));
-  draw_lane(painter, Lane::directions, tr("Direction"), index_at(Lane::directions),
-            count_of(Lane::directions), value(Lane::directions, index_at(Lane::directions) + 1));
+  if (!thin_) {
+    draw_lane(painter, Lane::iterations, tr("Iteration"), index_at(Lane::iterations),
+              count_of(Lane::iterations), value(Lane::iterations, index_at(Lane::iterations) + 1));
+    draw_lane(painter, Lane::directions, tr("Direction"), index_at(Lane::directions),
+              count_of(Lane::directions), value(Lane::directions, index_at(Lane::directions) + 1));
+  }
   const int steps = std::max(count_of(Lane::steps) - 1, 0);
   draw_lane(painter, Lane::steps, tr("Step"), index_at(Lane::steps), count_of(Lane::steps),
             focus_.map() ? tr("%1 of %2").arg(count_text(index_at(Lane::steps)), count_text(steps))
@@ -244,7 +261,7 @@ void TimelineLanes::mousePressEvent(QMouseEvent* event) {
   const double y = event->localPos().y();
   scrubbed_ = Lane::steps;
   for (const Lane lane : {Lane::directions, Lane::iterations}) {
-    if (y < rect_of(lane).bottom() + 2) {
+    if (!thin_ && y < rect_of(lane).bottom() + 2) {
       scrubbed_ = lane;
     }
   }
@@ -273,7 +290,7 @@ void TimelineLanes::mouseReleaseEvent(QMouseEvent*) { scrubbing_ = false; }
 
 void TimelineLanes::scrub(double x) {
   const int k = index(rect_of(scrubbed_), x, count_of(scrubbed_));
-  RunPosition to = focus_.target();
+  RunPosition to = position_shown();
   to.step = focus_.position().step;
   switch (scrubbed_) {
     case Lane::iterations:

@@ -30,11 +30,13 @@ class TimelineLanes : public QWidget {
   void set_marks(Marks marks);
   /// Recomputes the columns; to be called when the result of the marks function has changed.
   void count_columns();
+  /// Shows the lane of steps alone.
+  void set_thin(bool thin);
   /// Number of directions of the newest iteration that are done.
   void set_progress(int iteration, int directions);
 
   QSize sizeHint() const override { return {900, 84}; }
-  QSize minimumSizeHint() const override { return {300, 72}; }
+  QSize minimumSizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -65,6 +67,7 @@ class TimelineLanes : public QWidget {
   int done_iteration_ = 0, done_directions_ = 0;
   std::shared_ptr<const RecordedMap> counted_;  ///< the map that columns_ are of
   std::vector<Column> columns_;
+  bool thin_ = false;
   bool scrubbing_ = false;
   Lane scrubbed_ = Lane::steps;
   double press_x_ = 0;

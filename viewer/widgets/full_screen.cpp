@@ -32,16 +32,17 @@ QWidget* FullScreen::view_of(QWidget* widget) const {
 void FullScreen::toggle() {
   if (active_) {
     show_all();
+    emit left();
     return;
   }
   QWidget* view = view_of(QApplication::widgetAt(QCursor::pos()));
   if (!view) {
     view = view_of(QApplication::focusWidget());
   }
-  show_only(view ? view : window_.centralWidget());
+  show_only({view ? view : window_.centralWidget()});
 }
 
-void FullScreen::show_only(QWidget* view) {
+void FullScreen::show_only(const QList<QWidget*>& views) {
   if (active_) {
     show_all();
   }
@@ -56,7 +57,7 @@ void FullScreen::show_only(QWidget* view) {
     }
   }
   hidden_ = {window_.menuBar(), window_.statusBar()};
-  if (view != window_.centralWidget()) {
+  if (!views.contains(window_.centralWidget())) {
     hidden_ << window_.centralWidget();
   }
   for (QWidget* widget : hidden_) {
@@ -64,7 +65,7 @@ void FullScreen::show_only(QWidget* view) {
   }
   for (QWidget* child : window_.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     const bool part = child->inherits("QDockWidget") || child->inherits("QToolBar");
-    if (part && child != view) {
+    if (part && !views.contains(child)) {
       child->hide();
     }
   }

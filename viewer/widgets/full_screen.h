@@ -11,9 +11,9 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// Shows one view on the whole screen and back: the view under the pointer, else the one with the
-/// keyboard focus. The other parts of the window are hidden; no view is reparented, because OpenGL
-/// views do not survive that on all systems.
+/// Shows some views on the whole screen and back; its action shows the view under the pointer, else
+/// the one with the keyboard focus. The other parts of the window are hidden; no view is
+/// reparented, because OpenGL views do not survive that on all systems.
 class FullScreen : public QObject {
   Q_OBJECT
 
@@ -21,10 +21,14 @@ class FullScreen : public QObject {
   explicit FullScreen(QMainWindow& window);
 
   QAction* action() const { return action_; }
-  /// @param view a dock of the window, or its central widget
-  void show_only(QWidget* view);
+  /// @param views docks of the window, or its central widget
+  void show_only(const QList<QWidget*>& views);
   void show_all();
   bool active() const { return active_; }
+
+ signals:
+  /// The user has ended it by the action.
+  void left();
 
  private:
   void toggle();

@@ -22,7 +22,9 @@ AppearanceActions::AppearanceActions(QObject* parent) : QObject(parent) {
     return action;
   };
   projector_ = add("projector", tr("Projector mode"),
-                   tr("Larger type, thicker lines and more contrast"), "P");
+                   tr("The page of the lesson, one view and a thin timeline on the whole screen, "
+                      "with larger type, thicker lines and more contrast"),
+                   "P");
   dark_ = add("dark", tr("Dark"), tr("Light type on dark panels"), "Ctrl+D");
 }
 
@@ -30,6 +32,10 @@ void AppearanceActions::add_to(QMenu& menu) const {
   menu.addAction(projector_);
   menu.addAction(dark_);
 }
+
+bool AppearanceActions::projects() const { return projector_->isChecked(); }
+
+void AppearanceActions::set_projects(bool projects) { projector_->setChecked(projects); }
 
 void AppearanceActions::apply() {
   theme::apply(*qApp, {dark_->isChecked(), projector_->isChecked()});

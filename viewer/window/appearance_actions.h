@@ -17,6 +17,9 @@ class AppearanceActions : public QObject {
   explicit AppearanceActions(QObject* parent = nullptr);
 
   void add_to(QMenu& menu) const;
+  /// Whether projector mode is on.
+  bool projects() const;
+  void set_projects(bool projects);
   void save(QSettings& settings) const;
   void load(const QSettings& settings);
 

@@ -83,6 +83,9 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
 }
 
 void DockLayouts::choose(Layout layout) {
+  if (held_) {
+    return;
+  }
   if (layout == current_) {
     reset();
     return;
@@ -94,7 +97,11 @@ void DockLayouts::choose(Layout layout) {
   }
 }
 
-void DockLayouts::reset() { arrange(current_); }
+void DockLayouts::reset() {
+  if (!held_) {
+    arrange(current_);
+  }
+}
 
 void DockLayouts::arrange(Layout layout) {
   current_ = layout;
@@ -242,8 +249,10 @@ bool DockLayouts::bring_to_front(const std::string& panel) {
     if (panel_name(*dock.widget) != panel) {
       continue;
     }
-    dock.widget->show();
-    dock.widget->raise();
+    if (!held_) {
+      dock.widget->show();
+      dock.widget->raise();
+    }
     return true;
   }
   return false;

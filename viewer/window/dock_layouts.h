@@ -52,6 +52,8 @@ class DockLayouts : public QObject {
   /// Arranges the saved layout. Saved places that are damaged or do not fit this version are left
   /// out. @returns false where those of the layout in use are
   bool load(const QSettings& settings);
+  /// While held, layouts and panels stay as they are, whoever asks for others.
+  void hold(bool held) { held_ = held; }
   /// The layout in use.
   Layout current() const { return current_; }
   /// Shows a panel, in front of the others in its place.
@@ -77,6 +79,7 @@ class DockLayouts : public QObject {
   std::vector<Dock> docks_;
   std::array<QByteArray, layout_count> kept_;  ///< states of the layouts that are not in use
   Layout current_ = Layout::inspect;
+  bool held_ = false;
 };
 
 }  // namespace transillum::viewer

@@ -56,6 +56,7 @@
 #include "window/loading_notice.h"
 #include "window/notifier.h"
 #include "window/orientation_offer.h"
+#include "window/recovery.h"
 #include "window/setting_list.h"
 #include "window/solve_control.h"
 #include "window/view_state_applier.h"
@@ -89,6 +90,9 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
   make_docks();
   make_menus();
   restore_layout();
+  if (recovery_) {
+    recovery_->offer();
+  }
 }
 
 MainWindow::~MainWindow() = default;
@@ -158,11 +162,14 @@ void MainWindow::make_whole_window_actions() {
   const WindowParts parts = this->parts();
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(parts);
-  new SolveControl(parts, *solve_actions_, *applier_);
+  new SolveControl(parts, *solve_actions_, *applier_, work_guard_);
   session_ = new WindowSession(parts, *applier_);
   files_ = new FileActions(parts, *applier_, *session_);
   exports_ = new ExportActions(parts);
   new LoadingNotice(parts);
+  if (remember_) {
+    recovery_ = new Recovery(parts, *session_, Recovery::usual_folder());
+  }
   new LightOffer(parts, inspection_->materials(), *applier_);
   new OrientationOffer(parts, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
@@ -226,9 +233,42 @@ void MainWindow::connect_views() {
     state_.scene.show_again();
     map_view_->update();
     lesson_panel_->refresh();
+    if (appearance_.projects() != projecting_) {
+      project(appearance_.projects());
+    }
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
+  connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
+  connect(lesson_panel_, &LessonPanel::page_shown, this, [this] {
+    if (projecting_ && findChild<QDockWidget*>(QStringLiteral("lesson_dock"))->isHidden()) {
+      project(true);
+    }
+  });
+}
+
+/// Shows the page of the lesson, if there is one, the scene and a thin timeline on the whole
+/// screen.
+void MainWindow::project(bool on) {
+  projecting_ = on;
+  timeline_->lanes()->set_thin(on);
+  docks_.hold(false);
+  full_screen_.show_all();
+  if (!on) {
+    return;
+  }
+  QDockWidget* timeline = findChild<QDockWidget*>(QStringLiteral("timeline_dock"));
+  QDockWidget* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
+  QList<QWidget*> views{centralWidget(), timeline};
+  if (lesson_panel_->lesson() >= 0) {
+    docks_.bring_to_front("lesson");
+    views << page;
+  }
+  full_screen_.show_only(views);
+  docks_.hold(true);
+  constexpr double page_share = 0.4;
+  resizeDocks({page}, {static_cast<int>(page_share * width())}, Qt::Horizontal);
+  resizeDocks({timeline}, {timeline->minimumSizeHint().height()}, Qt::Vertical);
 }
 
 /// Connects every view with the open scene: the one place where scenes and snapshots go out.
@@ -407,7 +447,6 @@ void MainWindow::restore_layout() {
   resize(usual_size.boundedTo(screen()->availableSize() - room_for_frame));
   QSettings settings;
   state_.breakpoints.load(settings);
-  appearance_.load(settings);
   page_->turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());
   files_->load(settings);
   const auto geometry = without_checksum(settings.value("window/geometry").toByteArray());
@@ -415,11 +454,12 @@ void MainWindow::restore_layout() {
     restoreGeometry(*geometry);
   }
   // The saved state may not fit after an update of Qt or of the docks.
-  if (docks_.load(settings)) {
-    return;
+  const bool fits = docks_.load(settings);
+  if (!fits) {
+    docks_.arrange(Layout::inspect);
   }
-  docks_.arrange(Layout::inspect);
-  if (settings.contains("window/state")) {
+  appearance_.load(settings);  // may show parts of the layout
+  if (!fits && settings.contains("window/state")) {
     // Later: opening the first scene dismisses messages.
     QTimer::singleShot(0, notifier_, [this] {
       notifier_->show_warnings(
@@ -439,6 +479,9 @@ void MainWindow::save_layout() {
 }
 
 bool MainWindow::may_close() {
+  if (!work_guard_.may_lose(this, tr("Quit"))) {
+    return false;
+  }
   if (!session_->has_unsaved_notes()) {
     return true;
   }
@@ -498,6 +541,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
+  docks_.hold(false);
   full_screen_.show_all();
   if (remember_) {
     save_layout();

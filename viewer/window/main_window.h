@@ -7,6 +7,7 @@
 #include "window/appearance_actions.h"
 #include "window/dock_layouts.h"
 #include "window/window_parts.h"
+#include "window/work_guard.h"
 
 class QDockWidget;
 class QMenu;
@@ -22,6 +23,7 @@ class InspectionPanels;
 class PatchInspector;
 class ProgressLine;
 class ReceivedView;
+class Recovery;
 class SolveActions;
 class SolveSummary;
 class StepActions;
@@ -44,6 +46,7 @@ class MainWindow : public QMainWindow {
   WindowParts parts();
   FileActions& files() { return *files_; }
   ViewStateApplier& applier() { return *applier_; }
+  WorkGuard& work_guard() { return work_guard_; }
   void show_failure(const QString& message);
   /// Whether the solver is idle and every view shows the newest state.
   bool settled() const;
@@ -65,6 +68,7 @@ class MainWindow : public QMainWindow {
   void connect_scene();
   void show_breakpoints_of_scene();
   void connect_failures();
+  void project(bool on);
   void make_menus();
   void make_file_menu();
   void make_view_menu();
@@ -72,15 +76,17 @@ class MainWindow : public QMainWindow {
   void fill_built_in_menu(QMenu& menu);
   void restore_layout();
   void save_layout();
-  /// Asks about unsaved notes. Whether the window may close.
+  /// Asks about long work and unsaved notes. Whether the window may close.
   bool may_close();
 
   SharedState& state_;
   const bool remember_;
+  bool projecting_ = false;
   bool asks_ = true;  ///< about unsaved notes, when the window closes
   DockLayouts docks_{*this};
   FullScreen full_screen_{*this};
   AppearanceActions appearance_{this};
+  WorkGuard work_guard_{state_.scene};
 
   ScenePage* page_;
   Notifier* notifier_;
@@ -109,6 +115,7 @@ class MainWindow : public QMainWindow {
   WindowSession* session_;
   FileActions* files_;
   ExportActions* exports_;
+  Recovery* recovery_ = nullptr;  ///< null: nothing is remembered
 };
 
 }  // namespace transillum::viewer

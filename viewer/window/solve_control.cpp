@@ -15,6 +15,7 @@
 #include "transillum/patch_count.h"
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
+#include "window/work_guard.h"
 
 namespace transillum::viewer {
 
@@ -33,14 +34,14 @@ QString forecast_text(std::int64_t patches) {
 }  // namespace
 
 SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
-                           ViewStateApplier& applier)
-    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier) {
+                           ViewStateApplier& applier, const WorkGuard& guard)
+    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier), guard_(guard) {
   SolveRunner& runner = parts_.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
   connect(&actions_, &SolveActions::one_direction, &runner, &SolveRunner::advance_one_direction);
   connect(&actions_, &SolveActions::one_iteration, &runner, &SolveRunner::advance_one_iteration);
-  connect(&actions_, &SolveActions::stop, &runner, &SolveRunner::stop);
+  connect(&actions_, &SolveActions::stop, this, &SolveControl::start_over);
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
   connect(&parts_.scene, &OpenScene::snapshot_ready, this,
           [this] { actions_.show_state(parts_.runner.state(), parts_.scene.at_start()); });
@@ -59,6 +60,13 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
     }
   });
   connect(&parts_.page, &ScenePage::replicas_requested, this, &SolveControl::solve_with_replicas);
+}
+
+void SolveControl::start_over() {
+  if (parts_.runner.state() == RunState::loading ||
+      guard_.may_lose(&parts_.window, tr("Start over"))) {
+    parts_.runner.stop();
+  }
 }
 
 void SolveControl::run() {

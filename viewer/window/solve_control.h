@@ -11,6 +11,7 @@ namespace transillum::viewer {
 
 class SolveActions;
 class ViewStateApplier;
+class WorkGuard;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
 /// solving again with changed settings. Says how many patches other settings would make, and asks
@@ -19,7 +20,9 @@ class SolveControl : public QObject {
   Q_OBJECT
 
  public:
-  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier);
+  /// The references must outlive this object.
+  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier,
+               const WorkGuard& guard);
 
  private:
   void run();
@@ -30,11 +33,13 @@ class SolveControl : public QObject {
   /// Asks about a scene of very many patches. Whether to make it.
   bool may_refine(std::int64_t patches);
   void open_again();
+  void start_over();
   void show_state(RunState state);
 
   WindowParts parts_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
+  const WorkGuard& guard_;
   bool awaits_forecast_ = false;  ///< to open the scene again
   PatchForecast forecast_;
 };

@@ -1,0 +1,137 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// One file of the session per running program, NAME.json, and a lock file, NAME.lock, which tells
+// other programs whether it still runs.
+#include "window/recovery.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QUuid>
+
+#include "lessons/session_file.h"
+#include "scene/scene_page.h"
+#include "support/failure_text.h"
+#include "transillum/files.h"
+#include "transillum/json_text.h"
+#include "widgets/banner.h"
+#include "window/notifier.h"
+#include "window/window_session.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int every_ms = 60'000, soon_ms = 1'000;
+
+QString made(const QString& folder) {
+  QDir().mkpath(folder);
+  return folder;
+}
+
+}  // namespace
+
+Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QString& folder)
+    : QObject(&parts.window),
+      parts_(parts),
+      session_(session),
+      folder_(made(folder)),
+      name_(QUuid::createUuid().toString(QUuid::WithoutBraces)),
+      lock_(folder_ + '/' + name_ + ".lock") {
+  lock_.setStaleLockTime(0);  // a program may run for days
+  lock_.tryLock();
+  every_.setInterval(every_ms);
+  soon_.setInterval(soon_ms);
+  soon_.setSingleShot(true);
+  connect(&every_, &QTimer::timeout, this, &Recovery::keep);
+  connect(&soon_, &QTimer::timeout, this, &Recovery::keep);
+  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
+  connect(&parts_.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
+  every_.start();
+  Banner* bar = parts_.page.recovery_bar();
+  QPushButton* restore = bar->add_button("restore_session", tr("Go on"));
+  restore->setToolTip(tr("Open the scene as it was, with its solve, position, views and notes"));
+  connect(restore, &QPushButton::clicked, this, &Recovery::restore);
+  QPushButton* discard = bar->add_button("discard_session", tr("Discard"));
+  discard->setToolTip(tr("Delete the kept session"));
+  connect(discard, &QPushButton::clicked, this, &Recovery::discard);
+}
+
+Recovery::~Recovery() { QFile::remove(session_file(name_)); }
+
+QString Recovery::usual_folder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) +
+         QStringLiteral("/kept-sessions");
+}
+
+QString Recovery::session_file(const QString& name) const {
+  return QStringLiteral("%1/%2.json").arg(folder_, name);
+}
+
+void Recovery::on_snapshot() {
+  const int iteration = parts_.scene.snapshot()->progress.iteration;
+  if (iteration != kept_iteration_ && !soon_.isActive()) {
+    kept_iteration_ = iteration;
+    soon_.start();
+  }
+}
+
+void Recovery::keep() {
+  if (!parts_.scene.loaded()) {
+    return;
+  }
+  try {
+    const std::string text = to_text(session_.current(), folder_.toStdString());
+    write_file_whole(session_file(name_).toStdString(), [&](std::ostream& out) { out << text; });
+  } catch (const std::exception&) {
+    // A full disk must not interrupt the user every minute.
+  }
+}
+
+void Recovery::offer() {
+  QFileInfo newest;
+  for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.json"}, QDir::Files, QDir::Time)) {
+    QLockFile lock(folder_ + '/' + found.completeBaseName() + ".lock");
+    lock.setStaleLockTime(0);
+    if (found.completeBaseName() == name_ || !lock.tryLock()) {
+      continue;  // its program runs
+    }
+    if (newest.filePath().isEmpty()) {
+      newest = found;
+    } else {
+      QFile::remove(found.filePath());
+    }
+  }
+  if (newest.filePath().isEmpty()) {
+    return;
+  }
+  offered_ = newest.filePath();
+  parts_.page.recovery_bar()->show_message(
+      Banner::Kind::offer,
+      tr("The program did not end as it should. Its session is kept, from %1.")
+          .arg(newest.lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"))));
+}
+
+void Recovery::restore() {
+  parts_.page.recovery_bar()->dismiss();
+  try {
+    const std::string name = offered_.toStdString();
+    session_.restore(session_from_text(read_json_file(name), name, folder_.toStdString()));
+  } catch (const std::exception& error) {
+    parts_.notifier.show_failure(failure_text(error));
+    return;
+  }
+  discard();
+}
+
+void Recovery::discard() {
+  parts_.page.recovery_bar()->dismiss();
+  QFile::remove(offered_);
+  offered_.clear();
+}
+
+}  // namespace transillum::viewer
