@@ -173,6 +173,21 @@ class LessonFormatTest : public QObject {
     row("algorithm", lesson(page(R"("algorithm": "local")")), "page 1, algorithm: ");
     row("layout", lesson(page(R"("layout": "debugging")")), "page 1, layout: ");
     row("panels", lesson(page(R"("panels": "map")")), "page 1, panels: ");
+    const auto control = [](const std::string& one) {
+      return lesson(R"({"text": "{a}", "controls": {"a": )" + one + "}}");
+    };
+    row("control", control("{}"), "page 1, controls, a: needs one of");
+    row("no such option", control(R"({"option": "mass", "values": [1, 2]})"),
+        "controls, a, values");
+    row("one value", control(R"({"option": "directions", "values": [1]})"), "controls, a, values");
+    row("option of the scene", control(R"({"option": "max-patch-area", "values": [1, 2]})"),
+        "controls, a, option: ");
+    row("labels", control(R"({"option": "directions", "values": [1, 2], "labels": ["a"]})"),
+        "controls, a, labels: ");
+    row("range", control(R"({"reflectance": "white", "to": 2})"), "controls, a, to: ");
+    row("focus of control", control(R"({"focus": "phase"})"), "controls, a, focus: ");
+    row("not in the text", lesson(R"({"text": "a", "controls": {"a": {"focus": "step"}}})"),
+        "controls, a: \"{a}\" must be in the text once");
   }
   void errors_name_file_page_and_key() {
     QFETCH(QString, text);
@@ -221,6 +236,12 @@ class LessonFormatTest : public QObject {
                                           QRegularExpression::DotMatchesEverythingOption);
     const auto example = block.match(description());
     QVERIFY(example.hasMatch());
+    int others = 0;
+    for (auto all = block.globalMatch(description()); all.hasNext(); ++others) {
+      const QString text = all.next().captured(1);
+      QVERIFY(!lesson_from_text(text.toStdString(), "example").pages.empty());
+    }
+    QVERIFY(others >= 3);
     const Lesson l = lesson_from_text(example.captured(1).toStdString(), "example");
     QCOMPARE(l.pages.size(), std::size_t{2});
     QCOMPARE(l.pages[1].state.selection, PatchId{16});

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QLabel>
+#include <QSlider>
 #include <QTemporaryDir>
 #include <QTextBrowser>
 
@@ -102,6 +103,61 @@ class LessonsTest : public QObject {
     QCOMPARE(window.selection.patch(), PatchId{4});
   }
 
+  // Widgets in the lines of the text, where their names were; they drive the window and follow it.
+  void controls_in_the_text_drive_the_window() {
+    Taught taught;
+    TestWindow& window = *taught.window;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("controls.json");
+    write(path, R"({"title": "T", "pages": [{"text": ["Above.", "",
+      "With {M} directions, {set}, of {rho} and {step}", "", "Below."],
+      "show": {"layout": "teach", "scene": "furnace", "options": {"directions": 16},
+               "camera": {"eye": [9, 8, 7], "target": [0, 0, 0], "up": [0, 0, 1], "angle": 20},
+               "focus": {"direction": 2, "step": 3}},
+      "controls": {"M": {"option": "directions", "values": [4, 16, 32]},
+                   "set": {"option": "sampling", "values": ["random", "fibonacci"]},
+                   "rho": {"reflectance": "glowing", "from": 0, "to": 0.8},
+                   "step": {"focus": "step"}}}]})");
+    window.files().try_open(path);
+    QVERIFY(taught.settles());
+    const auto part = [&](const char* control, const char* name) {
+      return window.findChild<QWidget*>(control)->findChild<QWidget*>(name);
+    };
+    auto* text = window.findChild<QTextBrowser*>("lesson_text");
+    QVERIFY(!text->toPlainText().contains('{'));
+    for (const char* control : {"control_M", "control_set", "control_rho", "control_step"}) {
+      auto* widget = window.findChild<QWidget*>(control);
+      QVERIFY(widget->isVisible() && text->viewport()->rect().contains(widget->geometry()));
+      QVERIFY(widget->y() > 10);  // below the first line
+    }
+    auto* directions = qobject_cast<QSlider*>(part("control_M", "slider"));
+    QCOMPARE(directions->value(), 1);
+    window.findChild<SceneView*>()->view_from_side(Side::top);
+    const ViewPoint turned = window.findChild<SceneView*>()->view_point();
+    QTest::keyClick(directions, Qt::Key_Right);
+    QVERIFY(wait_for([&] { return window.snapshot()->options.directions == 32; }));
+    QVERIFY(taught.settles());
+    QVERIFY(window.findChild<SceneView*>()->view_point() == turned);
+    QCOMPARE(taught.focus().position().step, 2);
+    auto* set = qobject_cast<QComboBox*>(part("control_set", "choice"));
+    set->setFocus();
+    QTest::keyClick(set, Qt::Key_Home);
+    QVERIFY(wait_for([&] { return window.snapshot()->options.sampling == Sampling::random; }));
+    QVERIFY(taught.settles());
+    auto* rho = qobject_cast<QSlider*>(part("control_rho", "slider"));
+    QCOMPARE(rho->value(), 63);  // 0.5 of 0.8
+    rho->setValue(0);
+    QVERIFY(wait_for([&] { return std::abs(window.snapshot()->radiosity[0].r - 1) < 1e-9; }));
+    taught.trigger("undo");
+    QTRY_COMPARE(rho->value(), 63);
+    auto* step = qobject_cast<QSlider*>(part("control_step", "slider"));
+    step->setValue(7);
+    QTRY_COMPARE(taught.focus().position().step, 6);
+    taught.trigger("step_on");
+    QTRY_COMPARE(step->value(), 8);
+    save_picture(window, "lesson-controls");
+  }
+
   void a_bad_lesson_is_reported_and_changes_nothing() {
     Taught taught;
     const std::size_t lessons = taught.panel->lessons().size();
@@ -158,7 +214,8 @@ class LessonsTest : public QObject {
   void turning_past_the_last_page_opens_the_next_lesson() {
     Selection selection;
     Focus focus;
-    LessonPanel panel(built_in_lessons(), selection, focus);
+    MaterialEdits edits;
+    LessonPanel panel(built_in_lessons(), selection, focus, edits);
     panel.show();
     const auto at = [&panel] { return std::pair(panel.lesson(), panel.page()); };
     const auto* next = panel.findChild<QAction*>("lesson_next");

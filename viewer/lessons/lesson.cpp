@@ -107,6 +107,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       apply_changes(state, *show);
     }
     const json* question = page_object.find("question");
+    const json* controls = page_object.find("controls");
     page_object.done();
     state_bytes += sizeof(Lesson::Page) + bytes_of(state);
     state_bytes += question ? sizeof(Question) + bytes_of(state) : 0;
@@ -114,6 +115,10 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       page_object.fail("too much: the pages up to here set more than 16 MiB together");
     }
     page.state = view_state_from_json(state, where, folder);
+    if (controls) {
+      page.controls = controls_from_json(*controls, page_object.where("controls"),
+                                         state.value("options", json()), page.text);
+    }
     if (question) {
       page.question =
           question_from_json(*question, page_object.where("question"), state, page.state, folder);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lessons/page_control.h"
 #include "lessons/question.h"
 #include "lessons/view_state.h"
 
@@ -17,6 +18,7 @@ struct Lesson {
     std::string text;  ///< Markdown
     ViewState state;   ///< complete: includes what earlier pages set
     std::optional<Question> question;
+    std::vector<PageControl> controls;  ///< in the text
   };
   std::string title;
   std::string file;  ///< that it was read from; of a built-in lesson its name, without folder

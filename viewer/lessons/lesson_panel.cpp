@@ -13,13 +13,14 @@
 #include <QLabel>
 #include <QMenu>
 #include <QTextBlock>
-#include <QTextBrowser>
 #include <QTextList>
 #include <QTextTable>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
 
+#include "lessons/control_widget.h"
+#include "lessons/page_text.h"
 #include "lessons/question_box.h"
 #include "lessons/tally.h"
 #include "support/failure_text.h"
@@ -74,8 +75,12 @@ void spread_paragraphs(QTextDocument& document) {
 }  // namespace
 
 LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focus& focus,
-                         QWidget* parent)
-    : QWidget(parent), lessons_(std::move(lessons)), question_(new QuestionBox(selection, focus)) {
+                         MaterialEdits& edits, QWidget* parent)
+    : QWidget(parent),
+      lessons_(std::move(lessons)),
+      focus_(focus),
+      edits_(edits),
+      question_(new QuestionBox(selection, focus)) {
   make_page();
   make_actions();
   auto* layout = new QVBoxLayout(this);
@@ -103,7 +108,7 @@ void LessonPanel::make_page() {
   title_ = new QLabel;
   title_->setObjectName("lesson_title");
   title_->setWordWrap(true);
-  text_ = new QTextBrowser;
+  text_ = new PageText;
   text_->setObjectName("lesson_text");
   text_->setOpenExternalLinks(true);
   text_->setFrameShape(QFrame::NoFrame);
@@ -240,6 +245,34 @@ bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
+QFont LessonPanel::text_font(double scale) const {
+  QFont large = font();
+  large.setPixelSize(static_cast<int>(scale * QFontInfo(qApp->font()).pixelSize()));
+  return large;
+}
+
+void LessonPanel::show_text(const Lesson::Page& page) {
+  std::vector<PageText::Inset> insets;
+  controls_.clear();
+  for (const PageControl& control : page.controls) {
+    auto* widget = new ControlWidget(control, focus_, edits_);
+    widget->set_text_font(text_font(text_scale));
+    widget->show_options(options_);
+    connect(widget, &ControlWidget::option_chosen, this, &LessonPanel::option_chosen);
+    controls_.push_back(widget);
+    insets.push_back({'{' + QString::fromStdString(control.name) + '}', widget});
+  }
+  const std::string then = question_->solved() ? "\n\n" + page.question->then : "";
+  text_->show_page(QString::fromStdString(page.text + then), insets);
+}
+
+void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
+  options_.solve = snapshot.options;
+  for (ControlWidget* control : controls_) {
+    control->show_options(options_);
+  }
+}
+
 void LessonPanel::show_state() {
   list_->setCurrentIndex(lesson_);
   const bool any = lesson_ >= 0;
@@ -252,28 +285,25 @@ void LessonPanel::show_state() {
   next_->setText(end ? tr("No more pages") : last ? tr("Next lesson") : tr("Next page"));
   if (!any) {
     title_->setText(tr("Choose a lesson"));
-    text_->setMarkdown(
-        tr("Each page sets up the window. Explore as you like; *Show this page "
-           "again* (Ctrl+L) restores the page's state."));
+    controls_.clear();
+    text_->show_page(tr("Each page sets up the window. Explore as you like; *Show this page "
+                        "again* (Ctrl+L) restores the page's state."),
+                     {});
     page_number_->clear();
   } else {
     const Lesson& lesson = at(lessons_, lesson_);
     const Lesson::Page& page = at(lesson.pages, page_);
     title_->setText(QString::fromStdString(page.title.empty() ? lesson.title : page.title));
-    const std::string then = question_->solved() ? page.question->then : std::string();
-    text_->setMarkdown(
-        QString::fromStdString(then.empty() ? page.text : page.text + "\n\n" + then));
+    show_text(page);
     page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
-  const int size = QFontInfo(qApp->font()).pixelSize();
-  QFont large = font();
-  large.setPixelSize(static_cast<int>(text_scale * size));
-  text_->setFont(large);
-  question_->set_text_font(large);
+  text_->setFont(text_font(text_scale));
+  question_->set_text_font(text_font(text_scale));
   spread_paragraphs(*text_->document());
-  large.setPixelSize(static_cast<int>(title_scale * size));
-  large.setBold(true);
-  title_->setFont(large);
+  text_->place_insets();
+  QFont bold = text_font(title_scale);
+  bold.setBold(true);
+  title_->setFont(bold);
 }
 
 }  // namespace transillum::viewer

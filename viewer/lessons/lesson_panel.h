@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lessons/lesson.h"
+#include "model/snapshot.h"
 #include "state/map_sketch.h"
 
 class QAction;
@@ -15,12 +16,14 @@ class QComboBox;
 class QLabel;
 class QLayout;
 class QMenu;
-class QTextBrowser;
 class QUndoStack;
 
 namespace transillum::viewer {
 
+class ControlWidget;
 class Focus;
+class MaterialEdits;
+class PageText;
 class QuestionBox;
 class Selection;
 class Tally;
@@ -30,7 +33,8 @@ class LessonPanel : public QWidget {
   Q_OBJECT
 
  public:
-  LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focus& focus,
+  /// The references must outlive the panel.
+  LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focus& focus, MaterialEdits& edits,
               QWidget* parent = nullptr);
 
   void add_to(QMenu& menu);
@@ -46,6 +50,8 @@ class LessonPanel : public QWidget {
   /// Where the tallies of lessons are kept that cannot be kept beside their file; empty: tallies
   /// are not kept at all. To be called before the first page is shown.
   void set_tally_folder(const QString& folder) { tally_folder_ = folder; }
+  /// Controls in the text show the options of the run.
+  void show_snapshot(const SolverSnapshot& snapshot);
   /// To be called after the application's font has changed.
   void refresh() { show_state(); }
 
@@ -53,6 +59,8 @@ class LessonPanel : public QWidget {
   /// The window is to show `state`, that of the new page.
   void page_shown(const transillum::viewer::ViewState& state);
   void open_clicked();
+  /// The window is to solve with another value of an option; PageControl::target and values.
+  void option_chosen(const std::string& name, const std::string& value);
   void sketched(const transillum::viewer::MapSketch& sketch);
   void failed(const QString& message);
 
@@ -69,6 +77,9 @@ class LessonPanel : public QWidget {
   int pages_of(int lesson) const;
   void show_state();
   void show_question();
+  void show_text(const Lesson::Page& page);
+  /// The window's font, `scale` times as large.
+  QFont text_font(double scale) const;
   std::shared_ptr<Tally> tally_of(const Lesson& lesson);
 
   std::vector<Lesson> lessons_;
@@ -78,7 +89,11 @@ class LessonPanel : public QWidget {
   int lesson_ = -1, page_ = 0;
   QComboBox* list_;
   QLabel *title_, *page_number_;
-  QTextBrowser* text_;
+  Focus& focus_;
+  MaterialEdits& edits_;
+  PageText* text_;
+  std::vector<ControlWidget*> controls_;  ///< in the text shown
+  RunOptions options_;                    ///< of the newest snapshot
   QuestionBox* question_;
   QAction *previous_, *next_, *again_, *open_;
 };

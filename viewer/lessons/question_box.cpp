@@ -156,8 +156,10 @@ void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number
 void QuestionBox::set_text_font(const QFont& font) {
   ask_->setFont(font);
   result_->setFont(font);
-  if (answers_) {
-    answers_->setFont(font);
+  // The style sheet keeps fonts from being inherited.
+  const auto widgets = answers_ ? answers_->findChildren<QWidget*>() : QList<QWidget*>();
+  for (QWidget* widget : widgets) {
+    widget->setFont(font);
   }
 }
 
@@ -430,7 +432,7 @@ QString QuestionBox::result_text() const {
     case Question::Kind::area:
       break;
   }
-  const QString area = tr("The program’s region has %1.").arg(value_text(solved_->value));
+  const QString area = tr("The program's region has %1.").arg(value_text(solved_->value));
   if (!is_given(question, answer_)) {
     return verdict + area;
   }

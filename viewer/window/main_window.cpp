@@ -134,7 +134,8 @@ void MainWindow::make_views() {
   compare_view_ = new CompareView(state_.focus, state_.selection, state_.colors);
   algorithm_ = new AlgorithmView(state_.focus, state_.selection);
   breakpoint_panel_ = new BreakpointPanel(state_.focus, state_.selection, state_.breakpoints);
-  lesson_panel_ = new LessonPanel(built_in_lessons(), state_.selection, state_.focus);
+  lesson_panel_ = new LessonPanel(built_in_lessons(), state_.selection, state_.focus,
+                                  state_.relighting.edits());
   if (remember_) {
     lesson_panel_->set_tally_folder(
         QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
@@ -173,6 +174,7 @@ void MainWindow::make_whole_window_actions() {
   new LightOffer(parts, inspection_->materials(), *applier_);
   new OrientationOffer(parts, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
+  connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
@@ -330,6 +332,7 @@ void MainWindow::connect_scene() {
   send_to(summary_);
   send_to(progress_);
   send_to(timeline_);
+  send_to(lesson_panel_);
   send_to(&state_.focus_feed);
 }
 

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <algorithm>
 
+#include "lessons/page_control.h"
 #include "map/map_view.h"
 #include "scene/color_controls.h"
 #include "scene/scene_page.h"
@@ -64,6 +65,17 @@ void ViewStateApplier::show_page(const ViewState& page) {
     before_lesson_->options = parts_.settings.options();
   }
   apply(page);
+}
+
+void ViewStateApplier::set_option(const std::string& name, const std::string& value) {
+  ViewState now = arrived() ? state() : requested_;
+  now.options = with_option(now.options, name, value);
+  now.solve = {Goal::Kind::finished};
+  if (now.focus && now.focus->direction >= now.options.solve.directions) {
+    now.focus.reset();
+  }
+  now.panels.clear();
+  show_page(now);
 }
 
 void ViewStateApplier::leave_lesson() {

@@ -24,6 +24,10 @@ class ViewStateApplier : public QObject {
   void show(const ViewState& state);
   /// The same for a page of a lesson: what the user had set before comes back with leave_lesson().
   void show_page(const ViewState& page);
+  /// Solves with another value of one option, for a control of a lesson's page; all else stays as
+  /// it is shown now.
+  /// @param name,value  as in PageControl
+  void set_option(const std::string& name, const std::string& value);
   /// Call before opening a scene for the user: restores the options of before the lesson now, and
   /// colors, overlays and camera once the scene is loaded.
   void leave_lesson();
