@@ -61,6 +61,31 @@ class AppearanceTest : public QObject {
     QCOMPARE(text->document()->defaultFont().pixelSize(), size);
   }
 
+  void projector_mode_shows_page_scene_and_timeline_alone() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    TestWindow& window = *solved.window;
+    const auto shown = [&](const char* dock) {
+      return window.findChild<QDockWidget*>(dock)->isVisible();
+    };
+    solved.trigger("projector");
+    QVERIFY(window.isFullScreen() && solved.scene_view->isVisible());
+    QVERIFY(shown("timeline_dock") && !shown("lesson_dock") && !shown("map_dock"));
+    QVERIFY(!window.menuBar()->isVisible());
+    auto* lessons = window.findChild<LessonPanel*>();
+    for (const int page : {0, 1}) {
+      lessons->show_page(1, page);
+      QVERIFY(wait_for([&] { return window.settled(); }));
+      QVERIFY(window.isFullScreen() && solved.scene_view->isVisible());
+      QVERIFY(shown("timeline_dock") && shown("lesson_dock") && !shown("map_dock"));
+    }
+    QVERIFY(window.findChild<QDockWidget*>("timeline_dock")->height() < 0.15 * window.height());
+    QTest::keyClick(&window, Qt::Key_F11);
+    QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
+    QVERIFY(shown("map_dock") && window.menuBar()->isVisible());
+    QVERIFY(theme::scale() == 1);
+  }
+
   void dark_mode_has_dark_panels() {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);

@@ -4,13 +4,16 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTableView>
 #include <QToolButton>
+#include <set>
 
 #include "map/hemicube_view.h"
 #include "map/pixel_view.h"
 #include "solved_window.h"
+#include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -333,6 +336,40 @@ class SteppingTest : public QObject {
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) > 0.002);
     s.window->findChild<QComboBox*>("map_kind")->setCurrentIndex(0);
     QVERIFY(share_of(canvas->grab().toImage(), theme::region) < 1e-4);
+  }
+
+  void plays_until_the_end_of_the_run() {
+    const SolvedWindow s("boards", {.directions = 8});
+    TestWindow& window = *s.window;
+    Focus& focus = window.focus;
+    focus.go_to({0, 5, 0});
+    QVERIFY(wait_for([&] { return window.settled(); }));
+    PlayControl& play = window.findChild<TimelineBar*>()->play();
+    QSignalSpy turned(&play, &PlayControl::turned);
+    window.findChild<QAction*>("play_turns")->setChecked(true);
+    const ViewPoint before = s.scene_view->view_point();
+    play.set_by(PlayControl::By::directions);
+    play.set_speed(50);
+    std::set<int> seen;
+    connect(&focus, &Focus::moved, &play, [&] { seen.insert(focus.position().direction); });
+    s.trigger("play");
+    QVERIFY(play.action()->isChecked());
+    QVERIFY(wait_for([&] { return !play.action()->isChecked(); }));
+    QCOMPARE(focus.target().direction, 7);
+    QCOMPARE(seen, (std::set<int>{6, 7}));
+    QCOMPARE(turned.count(), 2);
+    QVERIFY(norm(s.scene_view->view_point().eye - before.eye) > 0);
+
+    // Polygons go on into the next direction; a second click stops.
+    play.set_by(PlayControl::By::polygons);
+    focus.go_to({0, 2, 0});
+    QVERIFY(wait_for([&] { return window.settled(); }));
+    s.trigger("play");
+    QVERIFY(wait_for([&] { return focus.position().direction == 3; }));
+    s.trigger("play");
+    const RunPosition stopped = focus.target();
+    QTest::qWait(100);
+    QVERIFY(focus.target() == stopped);
   }
 
   void breakpoints_belong_to_their_scene() {

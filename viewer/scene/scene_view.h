@@ -73,6 +73,8 @@ class SceneView : public QWidget {
   /// stays upright.
   void set_turntable(bool turntable);
   bool turntable() const { return turntable_; }
+  /// Turns the camera about the vertical of the scene, and above or below it, degrees.
+  void turn(double azimuth, double elevation);
   /// The edges drawn where the colors do not show the shape.
   const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
@@ -97,8 +99,6 @@ class SceneView : public QWidget {
   void show_selection();
   void show_edges();
   Vec3 vertical() const;
-  /// Turns by a drag, degrees.
-  void turn(double azimuth, double elevation);
   void follow_camera();
   void render();
 

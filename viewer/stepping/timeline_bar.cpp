@@ -31,7 +31,7 @@ QToolButton* button_of(QAction* action) {
 
 TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
                          QWidget* parent)
-    : QWidget(parent), focus_(focus) {
+    : QWidget(parent), focus_(focus), play_(focus) {
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 4, 8, 0);
   row->setSpacing(2);
@@ -45,6 +45,11 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   stop_->setToolTip(tr("Stop the search (Esc)"));
   stop_->setObjectName("stop_seeking");
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
+  auto* play = button_of(play_.action());
+  play->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  play->setMenu(play_.menu());
+  play->setPopupMode(QToolButton::MenuButtonPopup);
+  row->addWidget(play);
   QToolButton* newest = button_of(actions.newest());
   newest->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   row->addSpacing(10);

@@ -47,6 +47,7 @@
 #include "widgets/banner.h"
 #include "widgets/scrolling.h"
 #include "widgets/theme.h"
+#include "window/command_actions.h"
 #include "window/export_actions.h"
 #include "window/file_actions.h"
 #include "window/help_dialogs.h"
@@ -241,6 +242,8 @@ void MainWindow::connect_views() {
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
+  connect(&timeline_->play(), &PlayControl::turned, page_->scene_view(),
+          [this](double degrees) { page_->scene_view()->turn(degrees, 0); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(lesson_panel_, &LessonPanel::page_shown, this, [this] {
     if (projecting_ && findChild<QDockWidget*>(QStringLiteral("lesson_dock"))->isHidden()) {
@@ -370,6 +373,8 @@ void MainWindow::make_menus() {
   QMenu* step = menuBar()->addMenu(tr("S&tep"));
   step_actions_->add_to(*step);
   step->addSeparator();
+  step->addAction(timeline_->play().action());
+  step->addSeparator();
   breakpoint_panel_->add_to(*step);
 
   lesson_panel_->add_to(*menuBar()->addMenu(tr("&Lesson")));
@@ -390,6 +395,7 @@ void MainWindow::make_file_menu() {
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
   exports_->add_to(*file->addMenu(tr("Export")));
+  (new CommandActions(parts()))->add_to(*file);
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
 }

@@ -1,0 +1,108 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Commands copied from the window: the program transillum, run with them, finds the same bits.
+#include "model/command_text.h"
+
+#include <QClipboard>
+#include <QFileInfo>
+#include <QProcess>
+#include <QTemporaryDir>
+
+#include "solved_window.h"
+#include "transillum/at.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+QString copied(const SolvedWindow& solved, const char* action) {
+  solved.trigger(action);
+  return QApplication::clipboard()->text();
+}
+
+/// Runs it with the program beside the viewer's. Empty: it failed.
+QByteArray output_of(const QString& command) {
+  QProcess process;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("PATH", QFileInfo(TRANSILLUM_VIEWER).path() + ':' + environment.value("PATH"));
+  process.setProcessEnvironment(environment);
+  process.start("/bin/sh", {"-c", command});
+  if (!process.waitForFinished(60000) || process.exitCode() != 0) {
+    qInfo() << command << process.readAllStandardError();
+    return {};
+  }
+  return process.readAllStandardOutput();
+}
+
+}  // namespace
+
+class CommandTextTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void defaults_are_left_out() {
+    QCOMPARE(QString::fromStdString(solve_command("cornell-box", {}, {})),
+             QString("transillum solve cornell-box"));
+    QCOMPARE(QString::fromStdString(map_command("a b's.obj", {}, {}, {0, 0.5, -1})),
+             QString("transillum map 'a b'\\''s.obj' --direction 0,0.5,-1"));
+  }
+
+  void a_copied_solve_has_the_same_bits_data() {
+    QTest::addColumn<int>("variant");
+    QTest::newRow("one-way Hammersley") << 0;
+    QTest::newRow("replicas, divided, two-sided") << 1;
+    QTest::newRow("seeded, growing") << 2;
+  }
+  void a_copied_solve_has_the_same_bits() {
+    QFETCH(int, variant);
+    RunOptions options{.solve = {.directions = 24}};
+    if (variant == 0) {
+      options.solve.two_way = false;
+      options.solve.sampling = Sampling::hammersley;
+      options.solve.rotation = 5;
+    } else if (variant == 1) {
+      options.solve.replicas = 3;
+      options.solve.normalize = Normalization::rows;
+      options.scene = {true, 0.1};
+    } else {
+      options.solve.sampling = Sampling::random;
+      options.solve.seed = 77;
+      options.solve.scheme = Scheme::growing;
+      options.solve.tolerance = 1e-4;
+      options.input.changes = {{"material:light", {}, Rgb{7, 6.5, 1.0 / 3}}};
+    }
+    const auto window = make_window(options.solve);
+    window->scene.open("cornell-box", options, {Goal::Kind::finished});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    window->findChild<QAction*>("copy_solve")->trigger();
+    const QString command = QApplication::clipboard()->text() + " --quiet --out -";
+    const QList<QByteArray> rows = output_of(command).split('\n');
+    const QList<QByteArray> header = rows[0].split(',');
+    const int column = header.indexOf("B_r");
+    QVERIFY2(column >= 0, rows[0].constData());
+    const std::vector<Rgb>& radiosity = window->snapshot()->radiosity;
+    QVERIFY(rows.size() > static_cast<int>(radiosity.size()));
+    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+      const QList<QByteArray> fields = rows[static_cast<int>(i) + 1].split(',');
+      QCOMPARE(fields[column].toDouble(), radiosity[i].r);
+      QCOMPARE(fields[column + 2].toDouble(), radiosity[i].b);
+    }
+  }
+
+  void a_copied_map_is_that_of_the_direction() {
+    const SolvedWindow solved("boards", {.directions = 8});
+    QVERIFY(solved.ready);
+    solved.window->focus.go_to({0, 3, 0});
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    const QTemporaryDir folder;
+    const QString file = folder.filePath("map.json");
+    QVERIFY(
+        !output_of(copied(solved, "copy_map") + " --out " + file + " && echo written").isEmpty());
+    QVERIFY(QFileInfo(file).size() > 100);
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(CommandTextTest)
+#include "command_text_test.moc"

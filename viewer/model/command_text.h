@@ -1,0 +1,24 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/run_options.h"
+#include "transillum/material_changes.h"
+#include "transillum/vec3.h"
+
+namespace transillum::viewer {
+
+/// The line for a shell that makes the same solve with the program `transillum`, to the same bits.
+/// Only options that differ from their defaults are in it.
+/// @param scene a file or a built-in
+/// @param changes of materials, beyond those of options.input
+std::string solve_command(const std::string& scene, const RunOptions& options,
+                          const std::vector<MaterialChange>& changes);
+/// The same for the visibility map of one direction.
+/// @param omega the direction, written with all digits
+std::string map_command(const std::string& scene, const RunOptions& options,
+                        const std::vector<MaterialChange>& changes, const Vec3& omega);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,60 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <memory>
+
+#include "state/focus.h"
+
+class QAction;
+class QActionGroup;
+class QMenu;
+
+namespace transillum::viewer {
+
+/// Plays a run as an animation: moves the focus on at a chosen speed until the end of the run, or
+/// until it is stopped. A direction that is still being recorded is waited for.
+class PlayControl : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What one picture of the animation goes on by.
+  enum class By { polygons, directions, iterations };
+
+  /// @param focus must outlive this object
+  explicit PlayControl(Focus& focus, QObject* parent = nullptr);
+  ~PlayControl() override;
+
+  /// Starts and stops it.
+  QAction* action() const { return action_; }
+  /// What to play, how fast, and whether the camera turns.
+  QMenu* menu() const { return menu_.get(); }
+  By by() const { return by_; }
+  void set_by(By by);
+  /// @param per_second pictures, above 0
+  void set_speed(double per_second);
+
+ signals:
+  /// The camera is to turn about the vertical.
+  void turned(double degrees);
+
+ private:
+  void make_menu();
+  QActionGroup* add_group(const QString& title);
+  void toggle(bool on);
+  void show_next();
+  /// False at the end of the run.
+  bool advance();
+
+  Focus& focus_;
+  By by_ = By::polygons;
+  double per_second_ = 5;
+  QTimer timer_;
+  QAction* action_;
+  QAction* turns_;
+  QActionGroup *by_group_, *speed_group_;
+  std::unique_ptr<QMenu> menu_;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,32 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+
+#include "window/window_parts.h"
+
+class QAction;
+class QMenu;
+
+namespace transillum::viewer {
+
+/// Copies the shown solve, or the shown map, as a line for a shell.
+class CommandActions : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What `parts` refers to must outlive this object.
+  explicit CommandActions(const WindowParts& parts);
+
+  void add_to(QMenu& menu) const;
+
+ private:
+  void copy_solve();
+  void copy_map();
+  RunOptions options() const;
+
+  WindowParts parts_;
+  QAction *solve_, *map_;
+};
+
+}  // namespace transillum::viewer
