@@ -3,6 +3,8 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QWheelEvent>
 #include <limits>
@@ -13,6 +15,7 @@
 #include "map/pixel_view.h"
 #include "solve/settings_panel.h"
 #include "solved_window.h"
+#include "state/breakpoints.h"
 #include "widgets/engine_text.h"
 
 using namespace transillum;
@@ -76,6 +79,25 @@ class CompareTest : public QObject {
     QCOMPARE(without_time(figures()[1]), without_time(figures()[0]));
     QCOMPARE(total(), 0.0);
     QVERIFY(shown.text("compare_words").contains(QStringLiteral("0 %")));
+  }
+
+  void the_worst_pair_is_one_click_away() {
+    const ComparedWindow shown;
+    QVERIFY(shown.ready);
+    QVERIFY(shown.text("compare_words").contains("Largest difference"));
+    auto* worst = shown.view->findChild<QPushButton*>("worst_pair");
+    QVERIFY(worst->isVisible());
+    worst->click();
+    QVERIFY(wait_for([&] { return shown.window->settled(); }));
+    const PatchId patch = shown.window->selection.patch();
+    static const QRegularExpression pair("patches (\\d+) and (\\d+)");
+    const auto named = pair.match(shown.text("compare_words"));
+    QCOMPARE(patch, named.captured(1).toInt());
+    const Focus& focus = shown.window->focus;
+    const MapHistory& history = focus.map()->history;
+    const Breakpoint meets{Breakpoint::Kind::pair, patch, named.captured(2).toInt()};
+    QVERIFY(holds(meets, history, focus.position().step) ||
+            history.step(focus.position().step).patch == patch);
   }
 
   void shows_both_side_by_side() {

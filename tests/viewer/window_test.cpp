@@ -16,6 +16,7 @@
 #include <QUrl>
 #include <set>
 
+#include "lessons/lesson_panel.h"
 #include "solved_window.h"
 #include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
@@ -26,7 +27,7 @@ using namespace transillum::viewer::test;
 
 namespace {
 
-struct Solved : SolvedWindow {
+struct SolvedScene : SolvedWindow {
   using SolvedWindow::SolvedWindow;
 
   std::set<PatchId> patches_in_map() const {
@@ -90,7 +91,7 @@ class WindowTest : public QObject {
   }
 
   void pictures_are_neither_blank_nor_uniform() {
-    const Solved solved("cornell-box");
+    const SolvedScene solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage scene = picture_of(solved.scene_view->canvas());
     QVERIFY2(color_count(scene) > 12, qPrintable(QString::number(color_count(scene))));
@@ -104,7 +105,7 @@ class WindowTest : public QObject {
   }
 
   void a_color_map_shows_its_color_bar() {
-    const Solved solved("cornell-box");
+    const SolvedScene solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage before = picture_of(solved.scene_view->canvas());
     solved.window->findChild<QComboBox*>("color_mode")->setCurrentIndex(1);
@@ -115,7 +116,7 @@ class WindowTest : public QObject {
   }
 
   void typing_after_choosing_from_a_list_does_not_change_it() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     QApplication::setActiveWindow(solved.window.get());
     auto* quantity = solved.window->findChild<QComboBox*>("quantity");
@@ -132,7 +133,7 @@ class WindowTest : public QObject {
   }
 
   void an_empty_color_bar_takes_no_space() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     solved.window->selection.select(no_patch);
     const int whole = solved.scene_view->width();
@@ -144,7 +145,7 @@ class WindowTest : public QObject {
   }
 
   void exporting_a_picture_does_not_change_the_screen() {
-    const Solved solved("cornell-box");
+    const SolvedScene solved("cornell-box");
     QVERIFY(solved.ready);
     const QImage before = picture_of(solved.scene_view->canvas());
     const QImage large = solved.scene_view->picture(2);
@@ -154,7 +155,7 @@ class WindowTest : public QObject {
   }
 
   void an_outline_has_the_same_color_from_all_sides() {
-    const Solved solved("rooms");
+    const SolvedScene solved("rooms");
     QVERIFY(solved.ready);
     const PatchId lamp = 176;  // in a ceiling
     const Patch& patch = solved.window->snapshot()->loaded->scene->patch(lamp);
@@ -173,7 +174,7 @@ class WindowTest : public QObject {
   }
 
   void a_click_in_the_scene_selects_the_patch_in_all_views() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     const QPoint place = solved.place_of(solved.patches_in_map());
     QVERIFY(place.x() >= 0);
@@ -192,7 +193,7 @@ class WindowTest : public QObject {
   }
 
   void a_drag_rotates_the_scene_and_selects_nothing() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     QWidget* canvas = solved.scene_view->canvas();
     const QPoint from = canvas->rect().center();
@@ -207,7 +208,7 @@ class WindowTest : public QObject {
   }
 
   void a_click_hits_front_sides_only() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     // The box is closed: behind its culled near walls there is a patch everywhere.
     const QPoint middle = solved.scene_view->canvas()->rect().center();
@@ -216,7 +217,7 @@ class WindowTest : public QObject {
   }
 
   void a_click_in_the_map_selects_the_patch() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     MapCanvas* canvas = solved.map_view->canvas();
     const QPoint middle(canvas->width() / 2, canvas->height() / 2 - 12);
@@ -228,7 +229,7 @@ class WindowTest : public QObject {
   }
 
   void actions_control_the_solve() {
-    const Solved solved("cornell-box");
+    const SolvedScene solved("cornell-box");
     QVERIFY(solved.ready);
     // Solve again with many directions.
     solved.window->runner.restart(
@@ -255,7 +256,7 @@ class WindowTest : public QObject {
   }
 
   void a_bad_file_is_reported_and_the_old_scene_stays() {
-    const Solved solved("furnace");
+    const SolvedScene solved("furnace");
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
     QFile file(folder.filePath("broken.obj"));

@@ -1,16 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Questions of lesson pages: reading them, and computing what is right.
+// Reading the questions of lesson pages.
 #include "lessons/question.h"
 
-#include <QPolygonF>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "lessons/figure_values.h"
 #include "support/json_object.h"
 
 namespace transillum::viewer {
@@ -21,7 +19,6 @@ namespace {
 
 constexpr std::size_t most_choices = 12;
 constexpr double default_share = 0.1, default_overlap = 0.5;
-constexpr double same = 1e-9;  // relative: values of equal patches differ by rounding
 
 struct KindName {
   const char* name;
@@ -141,46 +138,7 @@ void read_answer(Question& question, const Place& place) {
   check_computed(question, place.object);
 }
 
-double value_or_nan(const std::optional<Figure>& figure, FigureValues& figures) {
-  return figure ? figures.value(*figure) : std::numeric_limits<double>::quiet_NaN();
-}
-
-// The indices of values that are as large (small, near) as any. NaN is never right.
-std::vector<int> best_of(const std::vector<double>& values, Question::Rule rule, double target) {
-  const auto badness = [&](double value) {
-    switch (rule) {
-      case Question::Rule::largest:
-        return -value;
-      case Question::Rule::smallest:
-        return value;
-      default:
-        return std::abs(value - target);
-    }
-  };
-  double best = std::numeric_limits<double>::infinity(), scale = std::abs(target);
-  for (const double value : values) {
-    if (std::isfinite(value)) {
-      best = std::min(best, badness(value));
-      scale = std::max(scale, std::abs(value));
-    }
-  }
-  const double limit = rule == Question::Rule::equals ? 0 : best;
-  std::vector<int> right;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (std::isfinite(values[k]) && badness(values[k]) <= limit + same * scale) {
-      right.push_back(static_cast<int>(k));
-    }
-  }
-  return right;
-}
-
 }  // namespace
-
-bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
-  return a.choice == b.choice && a.patch == b.patch && a.number == b.number &&
-         std::equal(a.outline.begin(), a.outline.end(), b.outline.begin(), b.outline.end(),
-                    [](const Vec2& p, const Vec2& q) { return p.x == q.x && p.y == q.y; });
-}
 
 Question question_from_json(const json& value, const std::string& where, const json& page_state,
                             const ViewState& page, const std::string& folder) {
@@ -218,97 +176,6 @@ Question question_from_json(const json& value, const std::string& where, const j
   }
   object.done();
   return question;
-}
-
-bool is_given(const Question& question, const GivenAnswer& answer) {
-  switch (question.kind) {
-    case Question::Kind::choice:
-      return answer.choice >= 0;
-    case Question::Kind::patch:
-      return answer.patch != no_patch;
-    case Question::Kind::number:
-      return answer.number.has_value();
-    case Question::Kind::area:
-      break;
-  }
-  return answer.outline.size() >= 3;
-}
-
-Solved solve_question(const Question& question, FigureValues& figures) {
-  Solved solved;
-  if (question.kind == Question::Kind::patch) {
-    solved.values = figures.of_patches(question.figure);
-    solved.right = best_of(solved.values, question.rule, 0);
-    return solved;
-  }
-  solved.value = figures.value(question.figure);
-  if (question.kind == Question::Kind::area) {
-    solved.region = figures.region(question.figure);
-  }
-  if (question.kind != Question::Kind::choice) {
-    return solved;
-  }
-  for (const Question::Choice& choice : question.choices) {
-    solved.values.push_back(value_or_nan(choice.value, figures));
-  }
-  solved.right = best_of(solved.values, question.rule, solved.value);
-  if (solved.right.empty()) {
-    const auto last = std::find_if(question.choices.begin(), question.choices.end(),
-                                   [](const auto& choice) { return !choice.value; });
-    if (last != question.choices.end()) {
-      solved.right.push_back(static_cast<int>(last - question.choices.begin()));
-    }
-  }
-  return solved;
-}
-
-bool is_right(const Question& question, const Solved& solved, const GivenAnswer& answer) {
-  const auto listed = [&](int index) {
-    return std::binary_search(solved.right.begin(), solved.right.end(), index);
-  };
-  switch (question.kind) {
-    case Question::Kind::choice:
-      return listed(answer.choice);
-    case Question::Kind::patch:
-      return listed(answer.patch);
-    case Question::Kind::number:
-      return std::abs(*answer.number - solved.value) <=
-             question.within * std::abs(solved.value) * (1 + same);
-    case Question::Kind::area:
-      break;
-  }
-  return overlap(solved.region, answer.outline) >= question.within;
-}
-
-double overlap(const std::vector<std::vector<Vec2>>& region, const std::vector<Vec2>& outline) {
-  const auto polygon_of = [](const std::vector<Vec2>& corners) {
-    QPolygonF polygon;
-    for (const Vec2& p : corners) {
-      polygon << QPointF(p.x, p.y);
-    }
-    return polygon;
-  };
-  std::vector<QPolygonF> parts;
-  const QPolygonF drawn = polygon_of(outline);
-  QRectF box = drawn.boundingRect();
-  for (const auto& part : region) {
-    box |= parts.emplace_back(polygon_of(part)).boundingRect();
-  }
-  constexpr int samples = 256;  // per side
-  int both = 0, any = 0;
-  for (int row = 0; row < samples; ++row) {
-    for (int column = 0; column < samples; ++column) {
-      const QPointF p(box.left() + (column + 0.5) / samples * box.width(),
-                      box.top() + (row + 0.5) / samples * box.height());
-      const bool in_drawn = drawn.containsPoint(p, Qt::OddEvenFill);
-      const bool in_region = std::any_of(parts.begin(), parts.end(), [&](const QPolygonF& part) {
-        return part.containsPoint(p, Qt::OddEvenFill);
-      });
-      both += in_drawn && in_region ? 1 : 0;
-      any += in_drawn || in_region ? 1 : 0;
-    }
-  }
-  return any == 0 ? 0 : static_cast<double>(both) / any;
 }
 
 }  // namespace transillum::viewer

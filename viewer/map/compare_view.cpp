@@ -8,6 +8,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QSpinBox>
 #include <QStackedWidget>
 #include <QTimer>
@@ -17,6 +18,7 @@
 #include "map/difference_picture.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
+#include "state/breakpoints.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/pixel_map.h"
@@ -97,7 +99,16 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   difference_ = new DifferencePicture(selection_);
   difference_->canvas()->set_height_hint(map_height);
   link({first_.map, other_.map, difference_->canvas()});
-  grid->addWidget(text_, 1, 0);
+  worst_ = new QPushButton(tr("Worst pair"));
+  worst_->setObjectName("worst_pair");
+  worst_->setToolTip(
+      tr("Select the patch of the largest difference and go to the step where it meets the other"));
+  connect(worst_, &QPushButton::clicked, this, &CompareView::go_to_worst);
+  auto* words = new QVBoxLayout;
+  words->addWidget(text_, 1);
+  words->addWidget(worst_, 0, Qt::AlignLeft);
+  words->setContentsMargins(0, 0, 0, 6);
+  grid->addLayout(words, 1, 0);
   grid->addWidget(difference_, 1, 1);
   for (const int part : {0, 1}) {
     grid->setRowStretch(part, 1);
@@ -266,9 +277,9 @@ void CompareView::send_request() {
     sent_ = {};
     comparer_.clear();
     show_comparison(nullptr);
-    text_->setText(tr(
-        "A hemicube and pairs of patches have no directions: select a patch to compare its form "
-        "factors."));
+    text_->setText(
+        tr("A hemicube and pairs of patches have no directions: select a patch to compare its form "
+           "factors."));
     return;
   }
   sent_ = request;
@@ -306,9 +317,34 @@ void CompareView::show_maps() {
   }
 }
 
+void CompareView::go_to_worst() {
+  const auto map = focus_.map();
+  if (!map || !comparison_) {
+    return;
+  }
+  const Transfer& worst = comparison_->transfers.largest;
+  const MapHistory& history = map->history;
+  const auto steps = history.steps_of(worst.receiver);
+  if (steps.empty()) {
+    return;
+  }
+  std::int32_t step = steps.front();  // where only pixels see the pair
+  const Breakpoint pair{Breakpoint::Kind::pair, worst.receiver, worst.source};
+  for (std::int32_t k = 0; k < history.step_count(); ++k) {
+    if (holds(pair, history, k)) {
+      step = k;
+      break;
+    }
+  }
+  selection_.select(worst.receiver);
+  focus_.go_to_step(step);
+}
+
 void CompareView::show_comparison(std::shared_ptr<const EngineComparison> comparison) {
   comparison_ = std::move(comparison);
   comparing_ = false;
+  worst_->setVisible(comparison_ && comparison_->eye == no_patch &&
+                     comparison_->transfers.largest.receiver != no_patch);
   difference_->show(focus_.map(), comparison_);
   for (const Choice* choice : {&first_, &other_}) {
     choice->figures->clear();

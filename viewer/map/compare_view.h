@@ -12,6 +12,7 @@
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QPushButton;
 class QStackedWidget;
 class QSpinBox;
 class QTimer;
@@ -61,6 +62,7 @@ class CompareView : public QWidget {
   EngineComparer::Request current_request() const;
   void send_request();
   void show_maps();
+  void go_to_worst();
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
 
   Focus& focus_;
@@ -73,6 +75,7 @@ class CompareView : public QWidget {
   std::shared_ptr<const EngineComparison> comparison_;
   Choice first_, other_;
   QLabel* text_;
+  QPushButton* worst_;
   DifferencePicture* difference_;
   QTimer* request_timer_;
 };
