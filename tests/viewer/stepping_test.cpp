@@ -13,7 +13,7 @@
 #include "map/hemicube_view.h"
 #include "map/pixel_view.h"
 #include "solved_window.h"
-#include "stepping/timeline_bar.h"
+#include "stepping/play_control.h"
 #include "stepping/timeline_lanes.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -344,7 +344,7 @@ class SteppingTest : public QObject {
     Focus& focus = window.focus;
     focus.go_to({0, 5, 0});
     QVERIFY(wait_for([&] { return window.settled(); }));
-    PlayControl& play = window.findChild<TimelineBar*>()->play();
+    PlayControl& play = *window.findChild<PlayControl*>();
     QSignalSpy turned(&play, &PlayControl::turned);
     window.findChild<QAction*>("play_turns")->setChecked(true);
     const ViewPoint before = s.scene_view->view_point();

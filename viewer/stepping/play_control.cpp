@@ -57,7 +57,8 @@ void PlayControl::make_menu() {
   connect(speed_group_, &QActionGroup::triggered, this,
           [this](const QAction* choice) { set_speed(choice->data().toDouble()); });
   menu_->addSeparator();
-  turns_ = menu_->addAction(tr("Turn the camera"));
+  turns_ = new QAction(tr("Turn the camera"), this);
+  menu_->addAction(turns_);
   turns_->setObjectName("play_turns");
   turns_->setCheckable(true);
   turns_->setToolTip(tr("About the vertical, meanwhile"));

@@ -9,6 +9,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "stepping/play_control.h"
 #include "stepping/step_actions.h"
 #include "stepping/timeline_lanes.h"
 #include "support/number_text.h"
@@ -31,7 +32,7 @@ QToolButton* button_of(QAction* action) {
 
 TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
                          QWidget* parent)
-    : QWidget(parent), focus_(focus), play_(focus) {
+    : QWidget(parent), focus_(focus), play_(new PlayControl(focus, this)) {
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 4, 8, 0);
   row->setSpacing(2);
@@ -45,9 +46,9 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   stop_->setToolTip(tr("Stop the search (Esc)"));
   stop_->setObjectName("stop_seeking");
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
-  auto* play = button_of(play_.action());
+  auto* play = button_of(play_->action());
   play->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  play->setMenu(play_.menu());
+  play->setMenu(play_->menu());
   play->setPopupMode(QToolButton::MenuButtonPopup);
   row->addWidget(play);
   QToolButton* newest = button_of(actions.newest());

@@ -7,13 +7,13 @@
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/selection.h"
-#include "stepping/play_control.h"
 
 class QToolButton;
 
 namespace transillum::viewer {
 
 class ClauseLabel;
+class PlayControl;
 class StepActions;
 class TimelineLanes;
 
@@ -27,13 +27,13 @@ class TimelineBar : public QWidget {
 
   void show_snapshot(const SolverSnapshot& snapshot);
   TimelineLanes* lanes() const { return lanes_; }
-  PlayControl& play() { return play_; }
+  PlayControl* play() const { return play_; }
 
  private:
   void show_position();
 
   Focus& focus_;
-  PlayControl play_;
+  PlayControl* play_;
   ClauseLabel* text_;
   QToolButton* stop_;
   TimelineLanes* lanes_;

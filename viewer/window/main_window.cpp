@@ -37,6 +37,7 @@
 #include "solve/study_dialog.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
+#include "stepping/play_control.h"
 #include "stepping/step_actions.h"
 #include "stepping/step_panel.h"
 #include "stepping/timeline_bar.h"
@@ -242,7 +243,7 @@ void MainWindow::connect_views() {
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
-  connect(&timeline_->play(), &PlayControl::turned, page_->scene_view(),
+  connect(timeline_->play(), &PlayControl::turned, page_->scene_view(),
           [this](double degrees) { page_->scene_view()->turn(degrees, 0); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(lesson_panel_, &LessonPanel::page_shown, this, [this] {
@@ -272,8 +273,11 @@ void MainWindow::project(bool on) {
   full_screen_.show_only(views);
   docks_.hold(true);
   constexpr double page_share = 0.4;
-  resizeDocks({page}, {static_cast<int>(page_share * width())}, Qt::Horizontal);
-  resizeDocks({timeline}, {timeline->minimumSizeHint().height()}, Qt::Vertical);
+  // Once the window has its new size.
+  QTimer::singleShot(0, this, [this, page, timeline] {
+    resizeDocks({page}, {static_cast<int>(page_share * width())}, Qt::Horizontal);
+    resizeDocks({timeline}, {timeline->minimumSizeHint().height()}, Qt::Vertical);
+  });
 }
 
 /// Connects every view with the open scene: the one place where scenes and snapshots go out.
@@ -373,7 +377,7 @@ void MainWindow::make_menus() {
   QMenu* step = menuBar()->addMenu(tr("S&tep"));
   step_actions_->add_to(*step);
   step->addSeparator();
-  step->addAction(timeline_->play().action());
+  step->addAction(timeline_->play()->action());
   step->addSeparator();
   breakpoint_panel_->add_to(*step);
 
