@@ -32,8 +32,10 @@ namespace transillum {}
 // Solving: options, progress, solution, settings for user interfaces.
 #include "transillum/accuracy_goal.h"
 #include "transillum/accuracy_plan.h"
+#include "transillum/adjoint.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/light_paths.h"
 #include "transillum/radiosity.h"
 #include "transillum/relight.h"
 #include "transillum/settings.h"
