@@ -41,7 +41,12 @@ class ColorChoiceTest : public QObject {
     for (const QuantityTraits& traits : quantity_traits()) {
       QCOMPARE(&traits_of(traits.quantity), &traits);
       for (const PatchId selected : {no_patch, PatchId{3}}) {
-        const PatchValues shown = values_of(traits.quantity, *snapshot, selected, nullptr);
+        const PatchResponse response{
+            snapshot->loaded, 3,
+            solve_adjoint(*snapshot->loaded->scene, *snapshot->form_factors, 3,
+                          snapshot->loaded->scene->materials())};
+        const PatchValues shown =
+            values_of(traits.quantity, *snapshot, selected, nullptr, &response);
         QVERIFY2(shown.values.empty() != shown.missing.isEmpty(), traits.name);
         if (!shown.values.empty()) {
           QCOMPARE(shown.values.size(), std::size_t(snapshot->loaded->scene->patch_count()));

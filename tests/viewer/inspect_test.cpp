@@ -6,20 +6,26 @@
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QSpinBox>
 #include <QTabWidget>
 #include <QTableView>
+#include <QTableWidget>
 #include <QTemporaryDir>
 
 #include "colors/pointer_label.h"
 #include "model/form_factor_views.h"
 #include "patches/patch_table.h"
 #include "patches/patch_table_panel.h"
+#include "patches/path_panel.h"
 #include "scene/color_controls.h"
 #include "scene/feature_edges.h"
 #include "scene/scene_page.h"
@@ -183,6 +189,131 @@ class InspectTest : public QObject {
           reference.match(shown.part<QWidget>(symbol)->toolTip().section('\n', 0, 1)).hasMatch(),
           symbol);
     }
+  }
+
+  void colors_tell_what_lights_a_patch_and_what_would() {
+    const Inspected shown("cornell-box", {.directions = 32, .tolerance = 1e-10});
+    QVERIFY(shown.ready);
+    auto* quantity = shown.part<QComboBox>("quantity");
+    quantity->setCurrentIndex(quantity->findText("What would light the selection"));
+    QCOMPARE(shown.text("color_note"), QString("Click a patch to see what lights it."));
+    ColorChoice& colors = shown.window->colors;
+    shown.window->selection.select(9);
+    shown.window->selection.select(4);  // the newest is solved
+    QTRY_VERIFY(!colors.values().empty() && !colors.busy());
+    const std::vector<Rgb> per_watt = colors.values();
+    const auto before = shown.window->snapshot();
+    const Scene& scene = *before->loaded->scene;
+    QVERIFY(per_watt ==
+            solve_adjoint(scene, *before->form_factors, 4, scene.materials(), {.tolerance = 1e-10})
+                .per_watt);
+
+    quantity->setCurrentIndex(quantity->findText("What lights the selection"));
+    QVERIFY(!colors.busy());  // by the same solve
+    Rgb sum;
+    for (const Rgb& part : colors.values()) {
+      sum += part;
+    }
+    const auto relit = [&scene, &before](const std::vector<Material>& materials,
+                                         const std::vector<std::int32_t>& of_patch) {
+      return relight(scene, *before->form_factors, materials,
+                     {.tolerance = 1e-12, .patch_materials = of_patch})
+          .radiosity[4];
+    };
+    const Rgb b = relit(scene.materials(), {});
+    QVERIFY(max_abs(sum - b) < 1e-8 * max_abs(b));
+
+    // A watt on patch 9, given by the sliders' edits, has the effect foretold.
+    MaterialEdits& edits = shown.window->relighting.edits();
+    const double watt = 1 / scene.patch(9).area;
+    edits.set_exitance(MaterialEdits::target_of(scene, TargetKind::face, 9), {watt, watt, watt});
+    QTRY_VERIFY(shown.window->snapshot()->materials != nullptr);
+    const PatchMaterials& edited = *shown.window->snapshot()->materials;
+    const Rgb effect = relit(edited.materials, edited.of_patch) - b;
+    QVERIFY(max_abs(per_watt[9]) > 1e-3);
+    QVERIFY(max_abs(effect - per_watt[9]) < 1e-8 * max_abs(per_watt[9]));
+    // The part of patch 9 follows the edit.
+    QTRY_VERIFY(!colors.busy() && max_abs(colors.values()[9] - effect) < 1e-8 * max_abs(effect));
+    save_picture(*shown.window, "what-lights");
+    shown.window->selection.select(no_patch);
+    QVERIFY(colors.values().empty());
+  }
+
+  void light_paths_are_listed_drawn_and_written() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("show_direction");
+    shown.raise("paths_dock");
+    auto* panel = shown.part<PathPanel>("path_panel");
+    auto* table = shown.part<QTableWidget>("path_table");
+    QCOMPARE(table->rowCount(), 0);
+    QVERIFY(shown.text("path_caption").contains("Select a patch"));
+    shown.window->selection.select(4);
+    QTRY_COMPARE(table->rowCount(), 20);
+    const auto snapshot = shown.window->snapshot();
+    const Scene& scene = *snapshot->loaded->scene;
+    const LightPaths expected =
+        find_light_paths(scene, *snapshot->form_factors, 4, scene.materials(), {.count = 20});
+    double listed = 0;
+    for (int row = 0; row < 20; ++row) {
+      const LightPath& path = expected.paths[std::size_t(row)];
+      QVERIFY(panel->paths()->paths[std::size_t(row)].patches == path.patches);
+      QCOMPARE(table->item(row, 2)->text().toInt(), int(path.patches.size()) - 1);
+      QVERIFY(table->item(row, 3)->text().endsWith("→ 4"));
+      listed += table->item(row, 0)->text().toDouble();
+    }
+    const double rest = 100 * luminance(expected.cut_off) / luminance(expected.radiosity);
+    QVERIFY(std::abs(listed + rest - 100) < 0.05);  // digits shown
+    QVERIFY(shown.text("path_caption").contains(QString::number(rest, 'f', 1) + " %"));
+
+    // A row emphasizes its path; the paths are drawn while the panel is shown.
+    const auto rest_picture = [&shown] {
+      QTest::qWait(300);
+      return shown.picture();
+    };
+    const QImage drawn = rest_picture();
+    table->setFocus();
+    QTest::keyClick(table, Qt::Key_Down);
+    QTest::keyClick(table, Qt::Key_Down);
+    const QImage emphasized = rest_picture();
+    QVERIFY(emphasized != drawn);
+    save_picture(*shown.window, "light-paths");
+    shown.part<QSpinBox>("path_count")->setValue(3);
+    QTRY_COMPARE(table->rowCount(), 3);
+    const QImage few = rest_picture();
+    QVERIFY(few != drawn);
+
+    const QTemporaryDir folder;
+    panel->write(folder.filePath("paths.csv"));
+    QFile file(folder.filePath("paths.csv"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QList<QByteArray> lines = file.readAll().trimmed().split('\n');
+    QCOMPARE(lines.size(), 5);
+    double shares = 0;
+    for (int line = 1; line < 5; ++line) {
+      shares += lines[line].split(',')[1].toDouble();
+    }
+    // B is solved to 1e-9 of the largest, which a lamp has.
+    double largest = 0;
+    for (const Rgb& b : snapshot->radiosity) {
+      largest = std::max(largest, luminance(b));
+    }
+    QVERIFY(std::abs(shares - 1) < 1e-8 * largest / luminance(expected.radiosity));
+    panel->write(folder.filePath("paths.json"));
+    QFile json(folder.filePath("paths.json"));
+    QVERIFY(json.open(QIODevice::ReadOnly));
+    const QJsonObject root = QJsonDocument::fromJson(json.readAll()).object();
+    QCOMPARE(root["receiver"].toInt(), 4);
+    QCOMPARE(root["paths"].toArray().size(), 3);
+    QCOMPARE(root["paths"].toArray()[0].toObject()["patches"].toArray().last().toInt(), 4);
+    QVERIFY_EXCEPTION_THROWN(panel->write(folder.filePath("no/such/folder.csv")),
+                             std::runtime_error);
+
+    shown.part<QDockWidget>("paths_dock")->hide();
+    QVERIFY(rest_picture() != few);
+    shown.window->selection.select(9);
+    QVERIFY(!panel->busy());  // nothing is searched for a hidden panel
+    QCOMPARE(table->rowCount(), 0);
   }
 
   void tables_and_views_share_the_selection() {

@@ -40,6 +40,11 @@ ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
       change();
     }
   });
+  connect(&response_solver_, &ResponseSolver::changed, this, [this] {
+    if (traits_of(quantity_).by_response) {
+      change();
+    }
+  });
 }
 
 void ColorChoice::set_quantity(Quantity quantity) {
@@ -194,12 +199,26 @@ void ColorChoice::refit() {
     color();
     return;
   }
-  values_ = values_of(quantity_, show_kept ? *kept_run_ : *snapshot_, selection_.patch(),
-                      kept_run_.get());
+  const SolverSnapshot& shown = show_kept ? *kept_run_ : *snapshot_;
+  values_ = traits.by_response ? values_by_response(shown)
+                               : values_of(quantity_, shown, selection_.patch(), kept_run_.get());
   if (!show_kept) {
     fit_range();
   }
   color();
+}
+
+PatchValues ColorChoice::values_by_response(const SolverSnapshot& snapshot) {
+  const PatchId patch = selection_.patch();
+  if (const auto request = light_request(snapshot, patch)) {
+    response_solver_.request(*request);
+  }
+  PatchValues result =
+      values_of(quantity_, snapshot, patch, nullptr, response_solver_.response().get());
+  if (!response_solver_.error().isEmpty() && !response_solver_.busy()) {
+    result.missing = response_solver_.error();
+  }
+  return result;
 }
 
 void ColorChoice::fit_range() {

@@ -78,6 +78,8 @@ class ColorChoice : public QObject {
   /// says.
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
+  /// Whether values() waits for a solve.
+  bool busy() const { return response_solver_.busy(); }
 
  signals:
   void changed();  ///< all pictures must be recolored
@@ -87,6 +89,7 @@ class ColorChoice : public QObject {
 
  private:
   bool& logarithmic_choice();
+  PatchValues values_by_response(const SolverSnapshot& snapshot);
   void refit();
   void fit_range();
   void color();
@@ -108,6 +111,7 @@ class ColorChoice : public QObject {
   bool lit_ = true;  ///< something emits
   PatchValues values_;
   std::vector<Color8> patch_colors_;
+  ResponseSolver response_solver_;
 };
 
 }  // namespace transillum::viewer

@@ -51,6 +51,28 @@ PatchValues form_factors_of(const SolverSnapshot& snapshot, PatchId selected, bo
           {}};
 }
 
+PatchValues by_response(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
+                        const PatchResponse* response) {
+  const Scene& scene = *snapshot.loaded->scene;
+  if (selected < 0 || selected >= scene.patch_count()) {
+    return {{}, tr("Click a patch to see what lights it.")};
+  }
+  if (!snapshot.form_factors) {
+    return {{}, why_no_form_factors(snapshot)};
+  }
+  if (!response || response->loaded != snapshot.loaded || response->receiver != selected) {
+    return {{}, tr("Finding what lights the patch…")};
+  }
+  PatchValues result{response->adjoint.per_watt, {}};
+  if (quantity == Quantity::origin) {
+    for (PatchId j = 0; j < scene.patch_count(); ++j) {
+      Rgb& value = at(result.values, j);
+      value = scene.patch(j).area * (value * material_of(snapshot, j).exitance);
+    }
+  }
+  return result;
+}
+
 PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* other) {
   if (!other) {
     return {{}, tr("Keep a run as A first (menu Compare).")};
@@ -126,6 +148,32 @@ constexpr QuantityTraits all_traits[] = {
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
      .section = "6.1"},
+    {.quantity = Quantity::origin,
+     .name = QT_TRANSLATE_NOOP("Quantity", "What lights the selection"),
+     .symbol = "B_i from j",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "Part of the radiosity of the selected patch i that each patch j emits, by all light "
+         "paths; the parts sum to B_i"),
+     .section = "6.7",
+     .has_channels = true,
+     .of_selection = true,
+     .spans_decades = true,
+     .by_response = true},
+    {.quantity = Quantity::response,
+     .name = QT_TRANSLATE_NOOP("Quantity", "What would light the selection"),
+     .symbol = "ΔB_i per W",
+     .unit = "1/m²",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "By how much the radiosity of the selected patch i rises per watt emitted on each patch "
+         "j, by all light paths"),
+     .section = "6.7",
+     .has_channels = true,
+     .of_selection = true,
+     .spans_decades = true,
+     .by_response = true},
     {.quantity = Quantity::fragments,
      .name = QT_TRANSLATE_NOOP("Quantity", "Number of fragments"),
      .symbol = "fragments",
@@ -199,7 +247,7 @@ std::vector<int> fragment_counts(const LoadedScene& loaded) {
 }
 
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
-                      const SolverSnapshot* other) {
+                      const SolverSnapshot* other, const PatchResponse* response) {
   switch (quantity) {
     case Quantity::exitance:
       return {of_materials(snapshot, &Material::exitance), {}};
@@ -215,6 +263,9 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       return form_factors_of(snapshot, selected, quantity == Quantity::form_factor_from);
     case Quantity::form_factor_sum:
       return {grays(snapshot.form_factor_sums), {}};
+    case Quantity::origin:
+    case Quantity::response:
+      return by_response(quantity, snapshot, selected, response);
     case Quantity::fragments: {
       const std::vector<int> counts = fragment_counts(*snapshot.loaded);
       return {grays({counts.begin(), counts.end()}), {}};

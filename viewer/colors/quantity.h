@@ -4,6 +4,7 @@
 #include <QString>
 #include <vector>
 
+#include "model/response_solver.h"
 #include "model/snapshot.h"
 
 namespace transillum::viewer {
@@ -17,6 +18,8 @@ enum class Quantity {
   form_factor_from,
   form_factor_to,
   form_factor_sum,
+  origin,
+  response,
   fragments,
   error,
   last_change,
@@ -38,6 +41,7 @@ struct QuantityTraits {
   /// Spans many powers of ten, and 0 means something else than a small value: shown on a
   /// logarithmic scale unless the user chooses otherwise, 0 in zero_color.
   bool spans_decades = false;
+  bool by_response = false;  ///< computed from a PatchResponse
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();
@@ -53,8 +57,9 @@ struct PatchValues {
 
 /// @param selected  patch of the form factors; may be no_patch
 /// @param other  snapshot to subtract for Quantity::difference; may be null
+/// @param response  of the selected patch, for quantities by it; null: being solved
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
-                      const SolverSnapshot* other);
+                      const SolverSnapshot* other, const PatchResponse* response = nullptr);
 
 /// |B - B(n)| with the B(n) before the newest iteration, W/m², one per patch; empty if B(n) was not
 /// stored.

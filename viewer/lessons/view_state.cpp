@@ -39,6 +39,8 @@ constexpr Name<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"form-factor-from", Quantity::form_factor_from},
                                          {"form-factor-to", Quantity::form_factor_to},
                                          {"form-factor-sum", Quantity::form_factor_sum},
+                                         {"origin", Quantity::origin},
+                                         {"response", Quantity::response},
                                          {"fragments", Quantity::fragments},
                                          {"error", Quantity::error},
                                          {"last-change", Quantity::last_change}};

@@ -101,6 +101,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
   feature_edges_ = std::make_unique<FeatureEdges>(*renderer_);
   turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
+  path_glyph_ = std::make_unique<PathGlyph>(*renderer_);
   // Drawn in this order: the translucent ones last.
   glyph_ = std::make_unique<DirectionGlyph>(*renderer_);
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
@@ -147,6 +148,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   glyph_->hide();
   turn_preview_->hide();
   feature_edges_->show_scene(loaded_);
+  path_glyph_->hide();
   show_selection();
   reset_view();
   overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
@@ -231,6 +233,18 @@ void SceneView::preview_turn(const OrientationPlan& plan) {
 
 void SceneView::hide_turn() {
   turn_preview_->hide();
+  render();
+}
+
+void SceneView::show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized) {
+  if (!loaded_ || (!paths && !path_glyph_->shown())) {
+    return;
+  }
+  if (paths) {
+    path_glyph_->show(*loaded_->scene, *paths, emphasized);
+  } else {
+    path_glyph_->hide();
+  }
   render();
 }
 
@@ -414,6 +428,7 @@ void SceneView::render() {
   step_glyph_->set_line_width(2.5 * scale);
   overlays_->set_line_width(1.2 * scale);
   feature_edges_->set_line_width(1.2 * scale);
+  path_glyph_->set_line_width(1.5 * scale);
   surface_->GetProperty()->SetLineWidth(scale);
   renderer_->SetUseFXAA(antialiased_ && !pressed_ && !rest_timer_->isActive());
   renderer_->ResetCameraClippingRange();

@@ -20,6 +20,7 @@
 #include "model/snapshot.h"
 #include "scene/direction_glyph.h"
 #include "scene/feature_edges.h"
+#include "scene/path_glyph.h"
 #include "scene/scene_mesh.h"
 #include "scene/scene_overlays.h"
 #include "scene/smooth_mesh.h"
@@ -62,6 +63,10 @@ class SceneView : public QWidget {
   /// Draws the faces that `plan` would change over the scene, until hide_turn() or another scene.
   void preview_turn(const OrientationPlan& plan);
   void hide_turn();
+  /// Draws light paths of the scene over it, until others or another scene are shown.
+  /// @param paths  null: none
+  /// @param emphasized  index of a path; -1: none
+  void show_paths(const std::shared_ptr<const LightPaths>& paths, int emphasized);
   bool previews_turn() const { return turn_preview_->shown(); }
   void fit_all();
   void fit_selected();
@@ -132,6 +137,7 @@ class SceneView : public QWidget {
   std::unique_ptr<StepGlyph> step_glyph_;
   std::unique_ptr<SceneOverlays> overlays_;
   std::unique_ptr<TurnPreview> turn_preview_;
+  std::unique_ptr<PathGlyph> path_glyph_;
 };
 
 }  // namespace transillum::viewer

@@ -11,6 +11,7 @@
 #include "patches/compare_actions.h"
 #include "patches/material_panel.h"
 #include "patches/patch_table_panel.h"
+#include "patches/path_panel.h"
 #include "widgets/scrolling.h"
 #include "window/dock_layouts.h"
 
@@ -22,6 +23,8 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
   materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
+  paths_ = new PathPanel(selection);
+  paths_->setObjectName("path_panel");
   compare_ = new CompareActions(colors, window, this);
   connect(&colors, &ColorChoice::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
@@ -29,6 +32,9 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
           &SolveRunner::include_form_factors);
   connect(tables_, &PatchTablePanel::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
+  connect(paths_, &PathPanel::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(paths_, &PathPanel::paths_shown, this, &InspectionPanels::paths_shown);
+  connect(paths_, &PathPanel::failed, this, &InspectionPanels::failed);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
   connect(&relighting_, &Relighting::failed, this, &InspectionPanels::failed);
 }
@@ -48,6 +54,9 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
                           {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
+  const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,
+                                       {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
+  connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
 }
 
 void InspectionPanels::add_to(QMenuBar& bar) {
@@ -77,11 +86,15 @@ void InspectionPanels::add_to(QMenuBar& bar) {
 void InspectionPanels::show_scene(const LoadedScene& loaded) {
   materials_->show_scene(loaded.scene);
   tables_->clear();
+  paths_->clear();
 }
 
 void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   materials_->show_state();
+  paths_->show_snapshot(snapshot);
   tables_->show_snapshot(std::move(snapshot));
 }
+
+bool InspectionPanels::busy() const { return paths_->busy(); }
 
 }  // namespace transillum::viewer

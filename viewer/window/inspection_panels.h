@@ -8,6 +8,7 @@
 #include "model/relighting.h"
 #include "model/snapshot.h"
 #include "state/selection.h"
+#include "transillum/light_paths.h"
 
 class QDockWidget;
 class QMenuBar;
@@ -18,6 +19,7 @@ class CompareActions;
 class DockLayouts;
 class MaterialPanel;
 class PatchTablePanel;
+class PathPanel;
 class SolveRunner;
 
 /// The panels that inspect a scene: tables of patches, materials to change, a kept run to compare
@@ -34,6 +36,8 @@ class InspectionPanels : public QObject {
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 
+  /// Whether a panel still waits for what it shows.
+  bool busy() const;
   MaterialPanel& materials() const { return *materials_; }
 
   void show_scene(const LoadedScene& loaded);
@@ -41,11 +45,14 @@ class InspectionPanels : public QObject {
 
  signals:
   void failed(const QString& message);
+  /// As PathPanel::paths_shown().
+  void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
 
  private:
   Relighting& relighting_;
   MaterialPanel* materials_;
   PatchTablePanel* tables_;
+  PathPanel* paths_;
   CompareActions* compare_;
   QDockWidget* table_dock_ = nullptr;
 };

@@ -227,6 +227,7 @@ void MainWindow::make_docks() {
 
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
+  connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
@@ -513,6 +514,7 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
+         !state_.colors.busy() && !inspection_->busy() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 

@@ -1,0 +1,284 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Light paths". It follows the selection and the newest snapshot, searches on its own
+// thread while it is visible, and tells the window which paths to draw in the scene.
+#include "patches/path_panel.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStringList>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+#include "colors/color_scale.h"
+#include "model/form_factor_views.h"
+#include "support/number_text.h"
+#include "transillum/files.h"
+#include "widgets/figure_table.h"
+#include "widgets/save_dialog.h"
+#include "widgets/symbol_tip.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+double share_of(const LightPaths& paths, const Rgb& light) {
+  const double all = luminance(paths.radiosity);
+  return all > 0 ? luminance(light) / all : 0;
+}
+
+QString path_text(const LightPath& path) {
+  QStringList patches;
+  for (const PatchId patch : path.patches) {
+    patches << QString::number(patch);
+  }
+  return patches.join(QStringLiteral(" → "));
+}
+
+nlohmann::json json_of(const Rgb& light) { return {light.r, light.g, light.b}; }
+
+}  // namespace
+
+PathPanel::PathPanel(Selection& selection, QWidget* parent)
+    : QWidget(parent),
+      selection_(selection),
+      finder_(*this, &PathPanel::find,
+              [this](const Request& request, std::shared_ptr<const LightPaths> paths,
+                     const QString& error) {
+                receiver_ = request.light.receiver;
+                paths_ = std::move(paths);
+                error_ = error;
+                show_paths();
+              }) {
+  caption_ = new QLabel;
+  caption_->setObjectName("path_caption");
+  caption_->setWordWrap(true);
+  caption_->setContentsMargins(10, 4, 10, 4);
+  caption_->setForegroundRole(QPalette::PlaceholderText);
+  make_table();
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(make_controls());
+  layout->addWidget(caption_);
+  layout->addWidget(table_, 1);
+  connect(&selection_, &Selection::changed, this, &PathPanel::search);
+  show_paths();
+}
+
+QLayout* PathPanel::make_controls() {
+  count_ = new QSpinBox;
+  count_->setObjectName("path_count");
+  count_->setRange(1, 1000);
+  count_->setValue(20);
+  count_->setToolTip(tr("How many of the strongest paths to list and draw"));
+  auto* label = new QLabel(tr("Strongest"));
+  label->setBuddy(count_);
+  export_ = new QPushButton(tr("Export…"));
+  export_->setObjectName("export_paths");
+  export_->setToolTip(tr("Write the paths as CSV or JSON"));
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(10, 8, 10, 6);
+  row->setSpacing(6);
+  row->addWidget(label);
+  row->addWidget(count_);
+  row->addStretch(1);
+  row->addWidget(export_);
+  connect(count_, qOverload<int>(&QSpinBox::valueChanged), this, &PathPanel::search);
+  connect(export_, &QPushButton::clicked, this, &PathPanel::choose_file);
+  return row;
+}
+
+void PathPanel::make_table() {
+  table_ = new QTableWidget(0, 4);
+  table_->setObjectName("path_table");
+  table_->setHorizontalHeaderLabels({tr("Share, %"), tr("B, W/m²"), tr("Bounces"), tr("Path")});
+  const QString tips[] = {
+      tr("Part of the radiosity of the selected patch, by luminance"),
+      tr("Luminance of what the path adds to the radiosity B of the selected patch"),
+      tr("Reflections on the way, that of the selected patch included"),
+      tr("Patches from the source to the selected patch; click a row to emphasize it in the "
+         "scene")};
+  for (int column = 0; column < 4; ++column) {
+    table_->horizontalHeaderItem(column)->setToolTip(symbol_tip(tips[column], "6.7"));
+  }
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->horizontalHeader()->setStretchLastSection(true);
+  set_up_figure_table(*table_, {QStringLiteral("88.888"), {}, QStringLiteral("888"), {}});
+  connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+    const QList<QTableWidgetItem*> items = table_->selectedItems();
+    emit paths_shown(watched_ ? paths_ : nullptr, items.isEmpty() ? -1 : items.front()->row());
+  });
+}
+
+void PathPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  search();
+}
+
+void PathPanel::clear() {
+  snapshot_ = nullptr;
+  requested_ = {};
+  finder_.clear();
+  search();
+}
+
+void PathPanel::set_watched(bool watched) {
+  if (watched == watched_) {
+    return;
+  }
+  watched_ = watched;
+  search();
+  show_paths();
+}
+
+void PathPanel::search() {
+  if (receiver_ != selection_.patch() || !snapshot_) {
+    paths_ = nullptr;
+    error_.clear();
+    receiver_ = no_patch;
+    show_paths();
+  }
+  if (!watched_ || !snapshot_ || selection_.patch() == no_patch) {
+    return;
+  }
+  auto light = light_request(*snapshot_, selection_.patch());
+  if (!light) {
+    emit form_factors_requested();
+    show_caption();
+    return;
+  }
+  Request request{*std::move(light), count_->value(), {}};
+  if (!(request == requested_) || (!paths_ && error_.isEmpty() && !finder_.busy())) {
+    requested_ = request;
+    request.start = snapshot_->radiosity;
+    finder_.request(std::move(request));
+  }
+  show_caption();
+}
+
+LightPaths PathPanel::find(const Request& request, const Cancellation& cancellation) {
+  const LightRequest& light = request.light;
+  LightPathOptions options;
+  options.count = request.count;
+  options.start = request.start;
+  options.patch_materials = light.patch_materials();
+  return find_light_paths(light.scene(), *light.form_factors, light.receiver, light.material_list(),
+                          options, cancellation);
+}
+
+void PathPanel::show_paths() {
+  const int rows = paths_ ? static_cast<int>(paths_->paths.size()) : 0;
+  table_->clearSelection();
+  table_->setRowCount(rows);
+  for (int row = 0; row < rows; ++row) {
+    const LightPath& path = at(paths_->paths, row);
+    const QString texts[] = {number_text(100 * share_of(*paths_, path.contribution)),
+                             number_text(luminance(path.contribution)),
+                             QString::number(path.patches.size() - 1),
+                             path.patches.size() > 1 ? path_text(path) : tr("emits it itself")};
+    for (int column = 0; column < 4; ++column) {
+      auto* item = new QTableWidgetItem(texts[column]);
+      const auto side = column < 3 ? Qt::AlignRight : Qt::AlignLeft;
+      item->setTextAlignment(static_cast<int>(side | Qt::AlignVCenter));
+      table_->setItem(row, column, item);
+    }
+  }
+  export_->setEnabled(rows > 0);
+  show_caption();
+  emit paths_shown(watched_ ? paths_ : nullptr, -1);
+}
+
+void PathPanel::show_caption() {
+  const PatchId patch = selection_.patch();
+  if (!snapshot_ || patch == no_patch) {
+    caption_->setText(tr("Select a patch to list the paths by which light reaches it."));
+  } else if (!error_.isEmpty()) {
+    caption_->setText(error_);
+  } else if (!snapshot_->form_factors) {
+    caption_->setText(why_no_form_factors(*snapshot_));
+  } else if (!paths_) {
+    caption_->setText(tr("Searching…"));
+  } else if (paths_->paths.empty()) {
+    caption_->setText(tr("No light reaches patch %1.").arg(patch));
+  } else {
+    const double rest = 100 * share_of(*paths_, paths_->cut_off);
+    caption_->setText(tr("%1 paths carry %2 % of B of patch %3, all others together %4 %.")
+                          .arg(paths_->paths.size())
+                          .arg(100 - rest, 0, 'f', 1)
+                          .arg(patch)
+                          .arg(rest, 0, 'f', 1));
+    if (!paths_->complete) {
+      caption_->setText(caption_->text() + QLatin1Char(' ') +
+                        tr("The search ran out of memory: stronger ones may be missing."));
+    }
+  }
+}
+
+void write_paths_csv(const LightPaths& paths, std::ostream& out) {
+  out << "rank,share,B_r,B_g,B_b,patches\n";
+  const auto write_line = [&](const std::string& rank, const Rgb& light,
+                              const std::string& patches) {
+    const auto number = [](double value) { return QString::number(value, 'g', 17).toStdString(); };
+    out << rank << ',' << number(share_of(paths, light)) << ',' << number(light.r) << ','
+        << number(light.g) << ',' << number(light.b) << ',' << patches << '\n';
+  };
+  int rank = 0;
+  for (const LightPath& path : paths.paths) {
+    std::string patches;
+    for (const PatchId patch : path.patches) {
+      patches += (patches.empty() ? "" : " ") + std::to_string(patch);
+    }
+    write_line(std::to_string(++rank), path.contribution, patches);
+  }
+  write_line("others", paths.cut_off, "");
+}
+
+void write_paths_json(const LightPaths& paths, PatchId receiver, std::ostream& out) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const LightPath& path : paths.paths) {
+    list.push_back({{"share", share_of(paths, path.contribution)},
+                    {"contribution", json_of(path.contribution)},
+                    {"patches", path.patches}});
+  }
+  const nlohmann::json file = {{"receiver", receiver},
+                               {"radiosity", json_of(paths.radiosity)},
+                               {"others", json_of(paths.cut_off)},
+                               {"complete", paths.complete},
+                               {"paths", std::move(list)}};
+  out << file.dump(1) << '\n';
+}
+
+void PathPanel::write(const QString& path) const {
+  write_file_whole(path.toStdString(), [&](std::ostream& out) {
+    if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
+      write_paths_json(*paths_, receiver_, out);
+    } else {
+      write_paths_csv(*paths_, out);
+    }
+  });
+}
+
+void PathPanel::choose_file() {
+  const QString path = ask_where_to_write(this, tr("Write the light paths"),
+                                          tr("CSV (*.csv);;JSON (*.json)"), "paths.csv");
+  if (path.isEmpty() || !paths_) {
+    return;
+  }
+  try {
+    write(path);
+  } catch (const std::exception& error) {
+    emit failed(QString::fromStdString(error.what()));
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+
+#include "transillum/light_paths.h"
+#include "transillum/scene.h"
+
+namespace transillum::viewer {
+
+/// Light paths as lines between the centers of their patches, in front of the whole scene: the
+/// stronger, the brighter. The shares of the strongest, and of the emphasized one, are written.
+class PathGlyph {
+ public:
+  explicit PathGlyph(vtkRenderer& renderer);
+
+  /// @param emphasized  index of a path; -1: none
+  void show(const Scene& scene, const LightPaths& paths, int emphasized);
+  void hide();
+  bool shown() const { return lines_actor_->GetVisibility() != 0; }
+  void set_line_width(double pixels);
+
+ private:
+  void label(std::size_t slot, const Scene& scene, const LightPaths& paths, std::size_t path);
+
+  vtkSmartPointer<vtkPolyData> lines_, emphasized_;
+  vtkSmartPointer<vtkActor> lines_actor_, emphasized_actor_;
+  std::array<vtkSmartPointer<vtkBillboardTextActor3D>, 4> labels_;  ///< the last: emphasized
+};
+
+}  // namespace transillum::viewer
