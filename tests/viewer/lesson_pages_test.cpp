@@ -12,6 +12,7 @@
 #include <QTest>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "colors/color_scale.h"
@@ -157,7 +158,7 @@ void add_tree_lesson(std::vector<Statement>& all) {
   all.push_back({5, 5,
                  QString("the %1 patches of the sphere-flake, the tree has only %2 more fragments")
                      .arg(english(patches), percent(fragments / patches - 1))});
-  all.push_back({6, 6, QString("(%1 patches;").arg(english(patches))});
+  all.push_back({6, 7, QString("(%1 patches;").arg(english(patches))});
   const auto boards =
       std::find_if(built_in_scenes().begin(), built_in_scenes().end(),
                    [](const BuiltInScene& scene) { return scene.name == "boards"; });
@@ -199,7 +200,7 @@ void add_sampling_lesson(std::vector<Statement>& all) {
   for (const int m : passes) {
     head += QString(" %1 |").arg(m);
   }
-  all.push_back({6, 6, head});
+  all.push_back({6, 7, head});
   const std::pair<const char*, const char*> series[] = {
       {"random", "random/one-way"},
       {"Hammersley", "hammersley/one-way"},
@@ -211,17 +212,17 @@ void add_sampling_lesson(std::vector<Statement>& all) {
     for (const int m : passes) {
       row += QString(" %1 |").arg(percent(after_passes(points[k], m).rms_error));
     }
-    all.push_back({6, 6, row.replace(" 0.2 %", " 0.20 %")});
+    all.push_back({6, 7, row.replace(" 0.2 %", " 0.20 %")});
   }
   const auto slope = [&](int k) {
     return QString("−%1").arg(-fitted_power_law(points[k])->slope, 0, 'f', 2);
   };
   all.push_back(
-      {6, 6, QString("%1 for random directions and %2 for the other two").arg(slope(0), slope(1))});
-  all.push_back({6, 6, QString("and %1 for the other two").arg(slope(2))});
+      {6, 7, QString("%1 for random directions and %2 for the other two").arg(slope(0), slope(1))});
+  all.push_back({6, 7, QString("and %1 for the other two").arg(slope(2))});
   const PaperTables& paper = paper_tables();
   const auto row = std::find(paper.rho.begin(), paper.rho.end(), 0.6) - paper.rho.begin();
-  all.push_back({6, 6,
+  all.push_back({6, 7,
                  QString("an error of %1 %, the paper's Table 2 requires %2 directions; Hammersley "
                          "needed %3, Fibonacci in both directions %4")
                      .arg(100 * PaperTables::accuracy)
@@ -263,6 +264,42 @@ void add_stars_lesson(std::vector<Statement>& all) {
   all.push_back({7, 5, QString("took %1 s").arg(seconds, 0, 'f', 2)});
 }
 
+// From x to x of a patch of the flatland.
+QString interval(const Scene& scene, PatchId i, const char* between) {
+  double low = 1e9, high = -1e9;
+  for (const PointId p : scene.outline(i)) {
+    low = std::min(low, scene.point(p).x);
+    high = std::max(high, scene.point(p).x);
+  }
+  return QString("%1%2%3").arg(low).arg(between).arg(high);
+}
+
+void add_flatland_lesson(std::vector<Statement>& all) {
+  const Shown room(8, 1);
+  const Scene& scene = *room.scene;
+  const auto from = [&](PatchId i, const char* between) { return interval(scene, i, between); };
+  const Bounds& box = scene.bounds();
+  all.push_back({8, 1, QString("the depth is %1 m").arg(box.high.y - box.low.y)});
+  all.push_back(
+      {8, 1,
+       QString("the room is %1 m long. The ceiling is dark from %2, a lamp from %3, and "
+               "dark again from %4. The lower board reaches from %5, the upper one from %6")
+           .arg(box.high.x - box.low.x)
+           .arg(from(3, " to "), from(4, " to "), from(5, " to "), from(10, " to "),
+                from(6, " to "))});
+  all.push_back({8, 4,
+                 QString("[%1] dark, [%2] lamp, [%3] dark")
+                     .arg(from(3, ", "), from(4, ", "), from(5, ", "))});
+}
+
+void add_trust_lesson(std::vector<Statement>& all) {
+  const Shown bars(9, 1), few(9, 3);
+  all.push_back({9, 1, "*B* ± 95 % bar"});  // ErrorEstimate::quantile
+  all.push_back({9, 2, "in 95 % of them it contains the truth"});
+  all.push_back({9, 1, QString("in %1 passes split into eight").arg(bars.samples.size())});
+  all.push_back({9, 3, QString("with %1 passes: eight for each").arg(few.samples.size())});
+}
+
 const std::vector<Statement>& statements() {
   static const std::vector<Statement> all = [] {
     std::vector<Statement> list;
@@ -270,6 +307,8 @@ const std::vector<Statement>& statements() {
     add_tree_lesson(list);
     add_sampling_lesson(list);
     add_stars_lesson(list);
+    add_flatland_lesson(list);
+    add_trust_lesson(list);
     return list;
   }();
   return all;
@@ -286,7 +325,7 @@ const QRegularExpression& without_numbers() {
       QRegularExpression::escape("16π ρ/(1 − ρ)") + '|' +
       QRegularExpression::escape("(log₂ *M* + 7) / (2*M*)") + '|' +
       QRegularExpression::escape("[0,*u*]×[0,*v*]") + '|' + QRegularExpression::escape("1/√*M*") +
-      "|above 0");
+      "|above 0|(?<=\\n)[0-9]\\. ");
   return pattern;
 }
 
@@ -633,6 +672,40 @@ class LessonPagesTest : public QObject {
     // The reflectance for which Table 2 of the paper is quoted.
     const double rho = measure(*load_scene("sphere-flake")).rho_max;
     QVERIFY(rho > 0.59 && rho < 0.61);
+  }
+
+  // The figures that a student finds on paper.
+  void flatland_by_hand() {
+    const Shown room(8, 4), slanted(8, 6);
+    const Vec3 up = room.omega();
+    QVERIFY(up.x == 0 && up.y == 0 && up.z == 1);
+    const MapHistory history = room.history();
+    const std::int32_t floor =
+        first_step(history, [](const MapHistory::Step& step) { return step.patch == 0; });
+    std::map<PatchId, double> seen;
+    for (const std::int32_t r : history.inside_at(floor)) {
+      seen[history.row(r).patch] += history.record().area(history.row(r));
+    }
+    const std::map<PatchId, double> paper{{3, 1}, {4, 1}, {5, 1}, {7, 1}, {11, 2}};
+    QCOMPARE(seen.size(), paper.size());
+    for (const auto& [patch, length] : paper) {
+      QVERIFY(std::abs(seen[patch] - length) < 1e-12);
+    }
+    // Page 6: before, the floor saw half of the lamp.
+    QCOMPARE(paper.at(4) / room.scene->patch(4).area, 0.5);
+    QVERIFY(slanted.contains("leans to the right") && slanted.omega().x > 0.1 &&
+            std::abs(slanted.omega().y) < 1e-12);
+    QVERIFY(room.solution().statistics.escaped < 1e-9);  // closed
+  }
+
+  void trust_in_error_bars() {
+    const Shown bars(9, 1), few(9, 3), why(9, 4);
+    QCOMPARE(bars.page.state.options.solve.replicas, 8);
+    QCOMPARE(few.samples.size() / std::size_t(few.page.state.options.solve.replicas),
+             std::size_t{8});
+    QVERIFY(why.contains("fewer than three"));
+    QCOMPARE(least_light_directions, 3.0);
+    QVERIFY(few.solution().statistics.light_directions < 3 * 8);
   }
 
   void stars_and_the_first_shot() {

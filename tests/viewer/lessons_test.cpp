@@ -293,7 +293,8 @@ class LessonsTest : public QObject {
     for (int k = 0; k < static_cast<int>(pages.size()); ++k) {
       // Few directions, to save time: what is checked here does not depend on their number.
       ViewState state = at(pages, k).state;
-      state.options.solve.directions = state.focus ? state.focus->direction + 1 : 4;
+      state.options.solve.directions =
+          std::max(state.focus ? state.focus->direction + 1 : 4, state.options.solve.replicas);
       state.options.solve.iterations = state.focus ? state.focus->iteration + 1 : 1;
       taught.window->findChild<ViewStateApplier*>()->show(state);
       QVERIFY2(taught.settles(), qPrintable(QString("page %1").arg(k + 1)));

@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QRadioButton>
 #include <QTemporaryDir>
 #include <QTextBrowser>
@@ -18,6 +19,7 @@
 #include "lessons/figure_values.h"
 #include "lessons/lesson_panel.h"
 #include "lessons/question_box.h"
+#include "scene/error_view.h"
 #include "solved_window.h"
 #include "transillum/at.h"
 
@@ -371,6 +373,46 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_counts").contains("1 answer"));
     QVERIFY(file.open(QIODevice::ReadOnly));
     QCOMPARE(file.readAll(), damaged);
+  }
+
+  // Random, Hammersley and the default, on one scale: the pictures get darker in this order.
+  void errors_are_shown_side_by_side() {
+    Class room;
+    const auto& pages = built_in_lessons()[5].pages;
+    const auto page = std::find_if(pages.begin(), pages.end(),
+                                   [](const auto& one) { return !one.errors.runs.empty(); });
+    QVERIFY(page != pages.end());
+    room.open_built_in(6, int(page - pages.begin()) + 1);
+    auto* view = room.window->findChild<ErrorView*>();
+    QTRY_VERIFY_WITH_TIMEOUT(view->result(), 60000);
+    const ErrorView::Result& result = *view->result();
+    QCOMPARE(result.rms.size(), std::size_t{3});
+    QVERIFY(result.rms[0] > 4 * result.rms[1] && result.rms[1] > 2 * result.rms[2]);
+    const auto brightness = [&](std::size_t k) {
+      double sum = 0;
+      const QImage& image = result.pictures[k];
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          sum += image.pixelColor(x, y).value();
+        }
+      }
+      return sum;
+    };
+    QVERIFY(brightness(0) > 1.5 * brightness(1) && brightness(1) > 1.02 * brightness(2));
+    save_picture(*room.window, "lesson-errors");
+    // Another page: nothing is measured until the user asks; a click stops it.
+    room.open_built_in(1, 1);
+    QVERIFY(!view->result());
+    room.window->parts().docks.bring_to_front("error");
+    auto* button = view->findChild<QPushButton*>("measure_errors");
+    QTRY_VERIFY(button->isVisible());
+    button->click();
+    QTRY_VERIFY_WITH_TIMEOUT(view->result(), 60000);
+    QCOMPARE(view->result()->rms.size(), std::size_t{3});
+    button->click();
+    QCOMPARE(button->text(), QString("Stop"));
+    button->click();
+    QVERIFY(!view->result() && button->text() == "Measure the errors");
   }
 
   void mistakes_name_the_key_data() {

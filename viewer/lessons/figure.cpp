@@ -59,6 +59,8 @@ constexpr FigureName names[] = {
     {"rms-error", FigureKind::rms_error, has_run | has_reference},
     {"estimated-error", FigureKind::estimated_error, has_run},
     {"largest-error", FigureKind::largest_error, has_run},
+    {"light-directions", FigureKind::light_directions, has_run},
+    {"covered", FigureKind::covered, has_run | has_reference},
     {"ratio", FigureKind::ratio, has_parts}};
 
 unsigned keys_of(FigureKind kind) {
@@ -98,8 +100,19 @@ std::vector<PatchId> patches_from(JsonObject& object, const char* key) {
   return list->get<std::vector<PatchId>>();
 }
 
-// The run of the figure: the page's options, changed by the key "with".
-SolveOptions solve_from(JsonObject& object, const json& page_options, const ViewState& page) {
+void read_direction(Figure& figure, JsonObject& object, const ViewState& page) {
+  int direction = page.focus ? page.focus->direction + 1 : 0;
+  object.read("direction", direction, 1, largest_number);
+  if (direction == 0) {
+    object.fail_at("direction", "is missing, and the page has no focus");
+  }
+  figure.direction = direction - 1;
+  figure.iteration = page.focus ? page.focus->iteration : 0;
+}
+
+}  // namespace
+
+SolveOptions run_from_json(JsonObject& object, const json& page_options, const ViewState& page) {
   const json* with = object.find("with");
   if (!with) {
     return page.options.solve;
@@ -117,18 +130,6 @@ SolveOptions solve_from(JsonObject& object, const json& page_options, const View
   }
   return run.solve;
 }
-
-void read_direction(Figure& figure, JsonObject& object, const ViewState& page) {
-  int direction = page.focus ? page.focus->direction + 1 : 0;
-  object.read("direction", direction, 1, largest_number);
-  if (direction == 0) {
-    object.fail_at("direction", "is missing, and the page has no focus");
-  }
-  figure.direction = direction - 1;
-  figure.iteration = page.focus ? page.focus->iteration : 0;
-}
-
-}  // namespace
 
 Figure figure_from_json(const json& value, const std::string& where, const json& page_options,
                         const ViewState& page) {
@@ -155,7 +156,7 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
     object.read("material", figure.material);
   }
   if (name.keys & has_run) {
-    figure.solve = solve_from(object, page_options, page);
+    figure.solve = run_from_json(object, page_options, page);
   }
   if (name.keys & has_direction) {
     read_direction(figure, object, page);

@@ -10,34 +10,37 @@
 
 namespace transillum::viewer {
 
+class JsonObject;
 struct ViewState;
 
 /// What a figure is; `i` is Figure::patch, `j` one of Figure::others. Areas are in m², on the
 /// transillumination plane of Figure::direction unless stated otherwise.
 enum class FigureKind {
-  constant,         ///< Figure::number
-  patches,          ///< number of patches
-  fragments,        ///< number of fragments of the BSP tree
-  directions,       ///< number of directions used: M or 2M
-  iterations,       ///< number of iterations of the solve
-  contraction,      ///< factor between the changes of its last two iterations
-  steps,            ///< number of steps of the direction
-  polygons,         ///< largest number of polygons of V along the direction
-  area,             ///< of patch i itself
-  exitance,         ///< of patch i, luminance, W/m²
-  reflectance,      ///< of patch i, luminance
-  radiosity,        ///< of patch i, luminance, W/m²
-  irradiance,       ///< of patch i, luminance, W/m²
-  projected_area,   ///< of patch i
-  visible_area,     ///< A(i, j, omega), summed over others; those above i, front or back
-  seen,             ///< number of patches j with a visible area, for patch i
-  above,            ///< number of patches directly above one of Figure::others
-  form_factor,      ///< F_ij, summed over others
-  form_factor_sum,  ///< of patch i
-  rms_error,        ///< of B against Figure::reference passes, over RMS of B
-  estimated_error,  ///< ErrorEstimate::rms
-  largest_error,    ///< ErrorEstimate::rms_limit
-  ratio             ///< of the two figures of Figure::parts
+  constant,          ///< Figure::number
+  patches,           ///< number of patches
+  fragments,         ///< number of fragments of the BSP tree
+  directions,        ///< number of directions used: M or 2M
+  iterations,        ///< number of iterations of the solve
+  contraction,       ///< factor between the changes of its last two iterations
+  steps,             ///< number of steps of the direction
+  polygons,          ///< largest number of polygons of V along the direction
+  area,              ///< of patch i itself
+  exitance,          ///< of patch i, luminance, W/m²
+  reflectance,       ///< of patch i, luminance
+  radiosity,         ///< of patch i, luminance, W/m²
+  irradiance,        ///< of patch i, luminance, W/m²
+  projected_area,    ///< of patch i
+  visible_area,      ///< A(i, j, omega), summed over others; those above i, front or back
+  seen,              ///< number of patches j with a visible area, for patch i
+  above,             ///< number of patches directly above one of Figure::others
+  form_factor,       ///< F_ij, summed over others
+  form_factor_sum,   ///< of patch i
+  rms_error,         ///< of B against Figure::reference passes, over RMS of B
+  estimated_error,   ///< ErrorEstimate::rms
+  largest_error,     ///< ErrorEstimate::rms_limit
+  light_directions,  ///< SolveStatistics::light_directions per replica
+  covered,  ///< share of B of patches that do not emit whose 95 % interval has the reference
+  ratio     ///< of the two figures of Figure::parts
 };
 
 /// A number that the program computes for a page of a lesson, as its file names it.
@@ -62,6 +65,10 @@ struct Figure {
 /// @throws InputError that begins with `where`
 Figure figure_from_json(const nlohmann::json& value, const std::string& where,
                         const nlohmann::json& page_options, const ViewState& page);
+/// The options of the page's run, changed by the key `with` of an object.
+/// @throws InputError
+SolveOptions run_from_json(JsonObject& object, const nlohmann::json& page_options,
+                           const ViewState& page);
 /// Whether it has one value for each patch, not one for the scene: the patch that it is about is
 /// left out.
 bool is_per_patch(const Figure& figure);

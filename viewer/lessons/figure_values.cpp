@@ -5,6 +5,7 @@
 #include "lessons/figure_values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -25,6 +26,14 @@ namespace {
 
 bool holds(const std::vector<PatchId>& list, PatchId patch) {
   return std::find(list.begin(), list.end(), patch) != list.end();
+}
+
+ErrorEstimate estimate_of(const RadiositySolver& solver) {
+  ErrorEstimate estimate = solver.error_estimate();
+  if (estimate.replicas == 0) {
+    throw InputError("an error estimate needs replicas, and the run has none");
+  }
+  return estimate;
 }
 
 }  // namespace
@@ -83,13 +92,36 @@ const MapHistory& FigureValues::history_of(const Figure& figure) {
       .second;
 }
 
-double FigureValues::error_of(const Figure& figure) {
+const std::vector<Rgb>& FigureValues::reference_of(const Figure& figure) {
   auto& reference = references_[figure.reference];
   if (reference.empty()) {
     SolveOptions options = reference_options(figure.reference);
     options.first_shot = first_shot_where_it_pays;
     reference = solve_reference(loaded_->scene, loaded_->tree, options, {}, cancellation_);
   }
+  return reference;
+}
+
+double FigureValues::covered(const Figure& figure) {
+  const std::vector<Rgb>& reference = reference_of(figure);
+  const RadiositySolver& solver = solved(figure.solve);
+  const ErrorEstimate estimate = estimate_of(solver);
+  int inside = 0, all = 0;
+  for (PatchId i = 0; i < loaded_->scene->patch_count(); ++i) {
+    if (luminance(loaded_->scene->exitance(i)) > 0 || luminance(at(reference, i)) == 0) {
+      continue;
+    }
+    const Rgb error = at(solver.radiosity(), i) - at(reference, i);
+    const Rgb bar = estimate.quantile * at(estimate.standard_error, i);
+    inside += int(std::abs(error.r) <= bar.r) + int(std::abs(error.g) <= bar.g) +
+              int(std::abs(error.b) <= bar.b);
+    all += 3;
+  }
+  return static_cast<double>(inside) / all;
+}
+
+double FigureValues::error_of(const Figure& figure) {
+  const std::vector<Rgb>& reference = reference_of(figure);
   const std::vector<Rgb>& radiosity = solved(figure.solve).radiosity();
   if (!figure.no_sources) {
     return radiosity_error(radiosity, reference).rms;
@@ -113,13 +145,12 @@ double FigureValues::of_run(const Figure& figure) {
       return solver.statistics().iterations;
     case FigureKind::contraction:
       return solver.statistics().iteration_records.back().contraction;
+    case FigureKind::light_directions:
+      return solver.statistics().light_directions / figure.solve.replicas;
     default:
       break;
   }
-  const ErrorEstimate estimate = solver.error_estimate();
-  if (estimate.replicas == 0) {
-    throw InputError("an error estimate needs replicas, and the run has none");
-  }
+  const ErrorEstimate estimate = estimate_of(solver);
   return figure.kind == FigureKind::estimated_error ? estimate.rms : estimate.rms_limit;
 }
 
@@ -230,11 +261,14 @@ double FigureValues::value(const Figure& figure) {
       return value(figure.parts.front()) / value(figure.parts.back());
     case FigureKind::rms_error:
       return error_of(figure);
+    case FigureKind::covered:
+      return covered(figure);
     case FigureKind::directions:
     case FigureKind::iterations:
     case FigureKind::contraction:
     case FigureKind::estimated_error:
     case FigureKind::largest_error:
+    case FigureKind::light_directions:
       return of_run(figure);
     case FigureKind::steps:
     case FigureKind::polygons:

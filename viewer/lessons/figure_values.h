@@ -37,6 +37,8 @@ class FigureValues {
   Run& run_of(const SolveOptions& options);
   const RadiositySolver& solved(const SolveOptions& options);
   const MapHistory& history_of(const Figure& figure);
+  const std::vector<Rgb>& reference_of(const Figure& figure);
+  double covered(const Figure& figure);
   double error_of(const Figure& figure);
   double of_run(const Figure& figure);
   double of_direction(const Figure& figure);

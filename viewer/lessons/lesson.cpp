@@ -75,6 +75,24 @@ void apply_changes(json& state, const json& show) {
   state.merge_patch(show);
 }
 
+// [{"label": "random", "with": {"sampling": "random"}}, …]
+ErrorRuns errors_from_json(const json& value, const std::string& where, const json& page_options,
+                           const ViewState& page) {
+  constexpr std::size_t most_runs = 4;
+  if (!value.is_array() || value.empty() || value.size() > most_runs) {
+    throw InputError(where + ": must be a list of 1 to 4 runs");
+  }
+  ErrorRuns runs{{}, 8 * page.options.solve.directions};
+  for (const json& one : value) {
+    JsonObject object(one, where);
+    ErrorRuns::Run& run = runs.runs.emplace_back();
+    object.read("label", run.label);
+    run.solve = run_from_json(object, page_options, page);
+    object.done();
+  }
+  return runs;
+}
+
 }  // namespace
 
 Lesson lesson_from_text(const std::string& text, const std::string& name,
@@ -108,6 +126,7 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     }
     const json* question = page_object.find("question");
     const json* controls = page_object.find("controls");
+    const json* errors = page_object.find("errors");
     page_object.done();
     state_bytes += sizeof(Lesson::Page) + bytes_of(state);
     state_bytes += question ? sizeof(Question) + bytes_of(state) : 0;
@@ -115,6 +134,10 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
       page_object.fail("too much: the pages up to here set more than 16 MiB together");
     }
     page.state = view_state_from_json(state, where, folder);
+    if (errors) {
+      page.errors = errors_from_json(*errors, page_object.where("errors"),
+                                     state.value("options", json()), page.state);
+    }
     if (controls) {
       page.controls = controls_from_json(*controls, page_object.where("controls"),
                                          state.value("options", json()), page.text);

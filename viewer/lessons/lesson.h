@@ -8,6 +8,7 @@
 #include "lessons/page_control.h"
 #include "lessons/question.h"
 #include "lessons/view_state.h"
+#include "model/error_runs.h"
 
 namespace transillum::viewer {
 
@@ -19,6 +20,7 @@ struct Lesson {
     ViewState state;   ///< complete: includes what earlier pages set
     std::optional<Question> question;
     std::vector<PageControl> controls;  ///< in the text
+    ErrorRuns errors;                   ///< for the panel of errors; none: as before a lesson
   };
   std::string title;
   std::string file;  ///< that it was read from; of a built-in lesson its name, without folder

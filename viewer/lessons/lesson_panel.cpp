@@ -192,6 +192,7 @@ void LessonPanel::show_page(int lesson, int page) {
   show_question();
   show_state();
   emit page_shown(at(at(lessons_, lesson).pages, page).state);
+  emit errors_wanted(at(at(lessons_, lesson).pages, page).errors);
   // Last: the new page dismisses older messages.
   if (!tally_failure_.isEmpty()) {
     emit failed(std::exchange(tally_failure_, QString()));

@@ -61,6 +61,8 @@ class LessonPanel : public QWidget {
   void open_clicked();
   /// The window is to solve with another value of an option; PageControl::target and values.
   void option_chosen(const std::string& name, const std::string& value);
+  /// The panel of errors is to show these runs.
+  void errors_wanted(const transillum::viewer::ErrorRuns& runs);
   void sketched(const transillum::viewer::MapSketch& sketch);
   void failed(const QString& message);
 

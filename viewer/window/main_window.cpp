@@ -27,6 +27,7 @@
 #include "map/map_view.h"
 #include "patches/patch_inspector.h"
 #include "scene/color_controls.h"
+#include "scene/error_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/convergence_view.h"
@@ -129,6 +130,7 @@ void MainWindow::make_views() {
   summary_ = new SolveSummary;
   inspector_ = new PatchInspector(state_.selection, state_.colors);
   map_view_ = new MapView(state_.focus, state_.selection, state_.colors);
+  error_view_ = new ErrorView([this] { return page_->scene_view()->view_point(); });
   convergence_view_ = new ConvergenceView(state_.focus);
   direction_view_ =
       new DirectionView(state_.focus, state_.selection, state_.colors, state_.visibility);
@@ -201,6 +203,7 @@ void MainWindow::make_docks() {
   inspection_->add_materials_to(docks_);
   map_dock_ = docks_.add(tr("Visibility map"), "map_dock", map_view_,
                          {{teach, right, 400}, {inspect, right, 450}, {debug, right, 480}});
+  docks_.add(tr("Error"), "error_dock", error_view_, {{teach, right, 400, true}});
   inspection_->add_tables_to(docks_);
   docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
              {{inspect, right, 450, true}});
@@ -229,6 +232,7 @@ void MainWindow::make_docks() {
 void MainWindow::connect_views() {
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
+  connect(lesson_panel_, &LessonPanel::errors_wanted, error_view_, &ErrorView::set_runs);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
           &TimelineLanes::count_columns);
@@ -341,6 +345,7 @@ void MainWindow::connect_scene() {
   send_to(progress_);
   send_to(timeline_);
   send_to(lesson_panel_);
+  send_to(error_view_);
   send_to(&state_.focus_feed);
 }
 
@@ -356,6 +361,7 @@ void MainWindow::show_breakpoints_of_scene() {
 void MainWindow::connect_failures() {
   connect(&state_.runner, &SolveRunner::failed, notifier_, &Notifier::show_failure);
   connect(inspection_, &InspectionPanels::failed, notifier_, &Notifier::show_failure);
+  connect(error_view_, &ErrorView::failed, notifier_, &Notifier::show_failure);
   connect(lesson_panel_, &LessonPanel::failed, notifier_, &Notifier::show_failure);
   connect(&state_.focus_feed, &FocusFeed::failed, notifier_, &Notifier::show_failure);
   connect(&state_.visibility, &PerDirectionVisibility::failed, notifier_, &Notifier::show_failure);

@@ -17,6 +17,7 @@ namespace transillum::viewer {
 class BreakpointPanel;
 class CompareView;
 class DirectionView;
+class ErrorView;
 class ExportActions;
 class FileActions;
 class InspectionPanels;
@@ -91,6 +92,7 @@ class MainWindow : public QMainWindow {
   ScenePage* page_;
   Notifier* notifier_;
   MapView* map_view_;
+  ErrorView* error_view_;
   ConvergenceView* convergence_view_;
   DirectionView* direction_view_;
   ReceivedView* received_view_;

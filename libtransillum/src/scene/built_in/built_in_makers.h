@@ -13,6 +13,7 @@ void make_sphere_flake(SceneMaker& maker, const ParameterValues& values,
                        const Cancellation& cancellation);
 void make_cornell_box(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_furnace(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
+void make_flatland(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_boards(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_rooms(SceneMaker& maker, const ParameterValues& values, const Cancellation&);
 void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancellation&);

@@ -47,6 +47,10 @@ const std::vector<BuiltIn>& registry() {
        {{"n", 24, 0, 2'000'000}, {"rooms", 3, 1, 1000}, {"seed", 1, 0, 1'000'000'000}},
        make_rooms},
       {"stars", "A room with n small, bright light sources.", {{"n", 12, 1, 1000}}, make_stars},
+      {"flatland",
+       "A section of a room, 1 m deep, with two boards: small enough to compute by hand.",
+       {},
+       make_flatland},
   };
   return all;
 }

@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// Built-in scenes furnace, boards and stars.
+// Built-in scenes furnace, boards, stars and flatland.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -74,6 +74,54 @@ void make_boards(SceneMaker& maker, const ParameterValues& values, const Cancell
   for (int k = 0; k < n; ++k) {
     maker.block(board(k, n, {0, 0, 1.25}), SceneMaker::Facing::outward, wood);
   }
+}
+
+void make_flatland(SceneMaker& maker, const ParameterValues&, const Cancellation&) {
+  const int white = maker.material("white", {0.7, 0.7, 0.7});
+  const int wood = maker.material("wood", {0.55, 0.4, 0.25});
+  const int light = maker.material("light", {0.5, 0.5, 0.5}, {10, 9, 8});
+  const int black = maker.material("black", {});
+  constexpr double length = 6, depth = 1, height = 4;
+  // A plate from x0 to x1 at height z; seen from above if `up`.
+  const auto plate = [&](double x0, double x1, double z, bool up, int material) {
+    std::vector<Vec3> outline{{x0, 0, z}, {x1, 0, z}, {x1, depth, z}, {x0, depth, z}};
+    if (!up) {
+      std::reverse(outline.begin(), outline.end());
+    }
+    maker.face(outline, material);
+  };
+  plate(0, length, 0, true, white);
+  maker.face(std::vector<Vec3>{{0, 0, 0}, {0, depth, 0}, {0, depth, height}, {0, 0, height}},
+             white);
+  maker.face(
+      std::vector<Vec3>{
+          {length, 0, 0}, {length, 0, height}, {length, depth, height}, {length, depth, 0}},
+      white);
+  plate(0, 3, height, false, white);
+  plate(3, 5, height, false, light);
+  plate(5, length, height, false, white);
+  constexpr double thickness = 0.2;
+  for (const Vec3& board : {Vec3{2, 4, 2.5}, Vec3{1, 3, 1}}) {  // from x to y, its bottom at z
+    const double bottom = board.z, top = board.z + thickness;
+    plate(board.x, board.y, top, true, wood);
+    plate(board.x, board.y, bottom, false, wood);
+    maker.face(std::vector<Vec3>{{board.x, 0, bottom},
+                                 {board.x, 0, top},
+                                 {board.x, depth, top},
+                                 {board.x, depth, bottom}},
+               wood);
+    maker.face(std::vector<Vec3>{{board.y, 0, bottom},
+                                 {board.y, depth, bottom},
+                                 {board.y, depth, top},
+                                 {board.y, 0, top}},
+               wood);
+  }
+  maker.face(std::vector<Vec3>{{0, 0, 0}, {0, 0, height}, {length, 0, height}, {length, 0, 0}},
+             black);
+  maker.face(
+      std::vector<Vec3>{
+          {0, depth, 0}, {length, depth, 0}, {length, depth, height}, {0, depth, height}},
+      black);
 }
 
 void make_stars(SceneMaker& maker, const ParameterValues& values, const Cancellation&) {

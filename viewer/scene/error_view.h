@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "model/error_runs.h"
+#include "model/snapshot.h"
+#include "state/initial_view.h"
+#include "support/request_worker.h"
+
+class QPainter;
+class QPushButton;
+
+namespace transillum::viewer {
+
+/// Pictures of the scene side by side, one for each set of directions, colored by the error of B
+/// against a reference, all on one scale.
+///
+/// It solves on its own thread: the runs of a lesson's page as soon as they are shown, others when
+/// the user asks.
+class ErrorView : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// What was measured.
+  struct Result {
+    std::vector<QImage> pictures;  ///< one per run
+    std::vector<double> rms;       ///< RMS of the error over the RMS of the reference, one per run
+    double most = 0;               ///< right end of the color scale, relative to that RMS
+  };
+
+  /// @param view  gives the camera that the pictures are taken from
+  explicit ErrorView(std::function<ViewPoint()> view, QWidget* parent = nullptr);
+
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  /// Measures these runs whenever the panel is visible and a scene is open; none: random,
+  /// Hammersley and default directions, when the user asks.
+  void set_runs(const ErrorRuns& runs);
+  /// Null until the newest runs have been measured.
+  const Result* result() const { return result_.get(); }
+
+  QSize sizeHint() const override { return {460, 300}; }
+
+ signals:
+  void failed(const QString& message);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  struct Job {
+    std::shared_ptr<const LoadedScene> loaded;
+    ErrorRuns runs;
+    ViewPoint view;
+    int number = 0;
+  };
+
+  ErrorRuns usual_runs() const;
+  void start(const ErrorRuns& runs);
+  void start_if_wanted();
+  void drop();
+  void measure(const Job& job, const Cancellation& cancellation);
+  void show_progress(int number, double share);
+  void paint_run(QPainter& painter, const QRectF& box, std::size_t run) const;
+  void paint_scale(QPainter& painter, const QRectF& box) const;
+  void place_button();
+
+  std::function<ViewPoint()> view_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  ErrorRuns wanted_;   ///< of a lesson's page
+  ErrorRuns running_;  ///< measured, or being measured
+  std::shared_ptr<const LoadedScene> running_scene_;
+  std::shared_ptr<const Result> result_;
+  bool busy_ = false;
+  double share_ = 0;  ///< of the passes done
+  int number_ = 0;    ///< of the newest job
+  QPushButton* button_;
+  RequestWorker<Job> worker_;
+};
+
+}  // namespace transillum::viewer
