@@ -9,6 +9,7 @@
 #include <QFontInfo>
 #include <QMenuBar>
 #include <QRegularExpression>
+#include <QScrollBar>
 #include <QSettings>
 #include <QTextBrowser>
 
@@ -86,6 +87,60 @@ class AppearanceTest : public QObject {
     QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
     QVERIFY(shown("map_dock") && window.menuBar()->isVisible());
     QVERIFY(theme::scale() == 1);
+  }
+
+  void no_page_has_to_be_scrolled_on_a_projector() {
+    const auto window = make_active_window();
+    auto* lessons = window->findChild<LessonPanel*>();
+    const auto* text = window->findChild<QTextBrowser*>("lesson_text");
+    lessons->show_page(0, 0);
+    window->findChild<QAction*>("projector")->trigger();
+    window->setWindowState(Qt::WindowNoState);
+    window->resize(1280, 720);
+    QVERIFY(wait_for([&] { return window->size() == QSize(1280, 720); }, 5000));
+    QStringList cut_off;
+    for (std::size_t lesson = 0; lesson < lessons->lessons().size(); ++lesson) {
+      for (std::size_t page = 0; page < lessons->lessons()[lesson].pages.size(); ++page) {
+        lessons->show_page(static_cast<int>(lesson), static_cast<int>(page));
+        const auto fits = [&] { return text->verticalScrollBar()->maximum() == 0; };
+        if (!wait_for(fits, 500)) {
+          cut_off << QString("%1.%2 by %3 px")
+                         .arg(lesson + 1)
+                         .arg(page + 1)
+                         .arg(text->verticalScrollBar()->maximum());
+        }
+      }
+    }
+    window->findChild<QAction*>("projector")->trigger();
+    QVERIFY2(cut_off.isEmpty(), qPrintable(cut_off.join(", ")));
+  }
+
+  void page_down_scrolls_before_it_turns_on_a_projector() {
+    const auto window = make_active_window();
+    Lesson lesson;
+    lesson.title = "Long";
+    for (const char* title : {"one", "two"}) {
+      lesson.pages.push_back({});
+      lesson.pages.back().title = title;
+      lesson.pages.back().text = std::string(8000, 'x') + "\n\n";
+      for (int line = 0; line < 200; ++line) {
+        lesson.pages.back().text += "line\n\n";
+      }
+    }
+    auto* lessons = window->findChild<LessonPanel*>();
+    lessons->add(lesson);
+    lessons->show_page(0, 0);
+    window->findChild<QAction*>("projector")->trigger();
+    const auto* text = window->findChild<QTextBrowser*>("lesson_text");
+    QVERIFY(wait_for([&] { return text->verticalScrollBar()->maximum() > 0; }, 5000));
+    int presses = 0;
+    while (lessons->page() == 0 && presses < 1000) {
+      window->findChild<QAction*>("lesson_next")->trigger();
+      ++presses;
+    }
+    window->findChild<QAction*>("projector")->trigger();
+    QCOMPARE(lessons->page(), 1);
+    QVERIFY(presses > 2);
   }
 
   void dark_mode_has_dark_panels() {

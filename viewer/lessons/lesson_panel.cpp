@@ -12,9 +12,11 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
+#include <QScrollBar>
 #include <QTextBlock>
 #include <QTextList>
 #include <QTextTable>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
@@ -113,6 +115,7 @@ void LessonPanel::make_page() {
   text_->setOpenExternalLinks(true);
   text_->setFrameShape(QFrame::NoFrame);
   text_->setFocusPolicy(Qt::ClickFocus);
+  text_->installEventFilter(this);
   page_number_ = new QLabel;
   page_number_->setObjectName("lesson_place");
   page_number_->setAlignment(Qt::AlignCenter);
@@ -141,7 +144,11 @@ void LessonPanel::make_actions() {
   previous_->setIcon(theme::icon(theme::Icon::step_back));
   next_->setIcon(theme::icon(theme::Icon::step_on));
   connect(previous_, &QAction::triggered, this, [this] { turn(-1); });
-  connect(next_, &QAction::triggered, this, [this] { turn(1); });
+  connect(next_, &QAction::triggered, this, [this] {
+    if (!scroll_on()) {
+      turn(1);
+    }
+  });
   connect(again_, &QAction::triggered, this, [this] { turn(0); });
   connect(open_, &QAction::triggered, this, &LessonPanel::open_clicked);
 }
@@ -237,6 +244,9 @@ int LessonPanel::pages_of(int lesson) const {
 }
 
 bool LessonPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == text_ && event->type() == QEvent::Resize && theme::appearance().projector) {
+    QTimer::singleShot(0, this, &LessonPanel::fit_text);
+  }
   if (watched == list_ && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
     if (key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
@@ -274,6 +284,36 @@ void LessonPanel::show_snapshot(const SolverSnapshot& snapshot) {
   }
 }
 
+void LessonPanel::set_text_scale(double scale) {
+  text_->setFont(text_font(scale));
+  spread_paragraphs(*text_->document());
+  text_->place_insets();
+}
+
+// On a projector nobody should have to scroll: smaller type where a page is long.
+void LessonPanel::fit_text() {
+  constexpr double smallest = 0.95, step = 0.05;
+  double scale = text_scale;
+  set_text_scale(scale);
+  while (theme::appearance().projector && is_cut_off() && scale > smallest) {
+    scale -= step;
+    set_text_scale(scale);
+  }
+}
+
+bool LessonPanel::is_cut_off() const {
+  return text_->document()->size().height() > text_->viewport()->height();
+}
+
+bool LessonPanel::scroll_on() {
+  QScrollBar* bar = text_->verticalScrollBar();
+  if (!theme::appearance().projector || bar->value() == bar->maximum()) {
+    return false;
+  }
+  bar->setValue(bar->value() + bar->pageStep());
+  return true;
+}
+
 void LessonPanel::show_state() {
   list_->setCurrentIndex(lesson_);
   const bool any = lesson_ >= 0;
@@ -298,10 +338,8 @@ void LessonPanel::show_state() {
     show_text(page);
     page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
-  text_->setFont(text_font(text_scale));
   question_->set_text_font(text_font(text_scale));
-  spread_paragraphs(*text_->document());
-  text_->place_insets();
+  fit_text();
   QFont bold = text_font(title_scale);
   bold.setBold(true);
   title_->setFont(bold);

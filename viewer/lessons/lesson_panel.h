@@ -82,6 +82,11 @@ class LessonPanel : public QWidget {
   void show_text(const Lesson::Page& page);
   /// The window's font, `scale` times as large.
   QFont text_font(double scale) const;
+  void set_text_scale(double scale);
+  void fit_text();
+  bool is_cut_off() const;
+  /// Scrolls the page on a projector. False at its end.
+  bool scroll_on();
   std::shared_ptr<Tally> tally_of(const Lesson& lesson);
 
   std::vector<Lesson> lessons_;
