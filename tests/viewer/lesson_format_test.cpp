@@ -185,6 +185,12 @@ class LessonFormatTest : public QObject {
     row("labels", control(R"({"option": "directions", "values": [1, 2], "labels": ["a"]})"),
         "controls, a, labels: ");
     row("range", control(R"({"reflectance": "white", "to": 2})"), "controls, a, to: ");
+    row("callout", R"({"title": "T", "pages": [{"text": "", "callouts": [{"text": "a"}]}]})",
+        "page 1, callouts: needs one of");
+    row("callout without text",
+        R"({"title": "T", "pages": [{"text": "", "callouts": [{"patch": 1}]}]})",
+        "page 1, callouts, text: ");
+    row("errors", R"({"title": "T", "pages": [{"text": "", "errors": []}]})", "page 1, errors: ");
     row("focus of control", control(R"({"focus": "phase"})"), "controls, a, focus: ");
     row("not in the text", lesson(R"({"text": "a", "controls": {"a": {"focus": "step"}}})"),
         "controls, a: \"{a}\" must be in the text once");

@@ -167,7 +167,6 @@ void add_tree_lesson(std::vector<Statement>& all) {
                  QString("Board 1 hides part of board 2, so it must come before board 2; 2 before "
                          "3, … %1 before 1. So 1 would have to come before itself")
                      .arg(count)});
-  all.push_back({5, 1, "Board 1 is the one at the right, rising to the back"});
 }
 
 void add_sampling_lesson(std::vector<Statement>& all) {

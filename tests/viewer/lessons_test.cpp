@@ -3,13 +3,17 @@
 // Lessons in the viewer's window: pages set it up, errors are reported, pages turn in any order.
 #include <QComboBox>
 #include <QDir>
+#include <QDockWidget>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QSlider>
 #include <QTemporaryDir>
 #include <QTextBrowser>
 
 #include "lessons/lesson_panel.h"
+#include "scene/callout_layer.h"
 #include "solved_window.h"
+#include "stepping/algorithm_view.h"
 #include "transillum/at.h"
 #include "window/view_state_applier.h"
 
@@ -156,6 +160,77 @@ class LessonsTest : public QObject {
     taught.trigger("step_on");
     QTRY_COMPARE(step->value(), 8);
     save_picture(window, "lesson-controls");
+  }
+
+  void a_page_enlarges_a_panel_and_names_things() {
+    Taught taught;
+    TestWindow& window = *taught.window;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("large.json");
+    write(path, R"({"title": "T", "pages": [
+      {"text": "Patch *i*, ω and *A*(i, j, ω) with *B*ᵢ.",
+       "show": {"layout": "teach", "scene": "cornell-box", "options": {"directions": 8},
+                "select": 16, "focus": {"direction": 5, "step": "exchange", "phase": "split"}},
+       "callouts": [{"text": "the top", "patch": 16}, {"text": "here", "point": [0.2, 0.3, 0.1]}]},
+      {"text": "Large.", "large": "map"}, {"text": "Usual."}]})");
+    window.files().try_open(path);
+    QVERIFY(taught.settles());
+    const auto* layer = window.findChild<CalloutLayer*>();
+    const auto names = [&] {
+      QStringList all;
+      for (const CalloutLayer::Placed& callout : layer->callouts()) {
+        all << callout.text;
+      }
+      return all;
+    };
+    QTRY_COMPARE(names(), (QStringList{"the top", "here"}));
+    // The callout of a patch is where the patch is drawn.
+    auto* view = window.findChild<SceneView*>();
+    QCOMPARE(view->patch_at(layer->callouts()[0].anchor.toPoint()), PatchId{16});
+    // It moves with the camera.
+    const QPointF before = layer->callouts()[0].anchor;
+    view->view_from_side(Side::top);
+    QTRY_VERIFY(layer->callouts()[0].anchor != before);
+    // An index is below the line, and a symbol under the pointer is named.
+    auto* text = window.findChild<QTextBrowser*>("lesson_text");
+    QTextCursor index = text->document()->find("Bi");
+    QVERIFY(!index.isNull());
+    QVERIFY(index.charFormat().verticalAlignment() == QTextCharFormat::AlignSubScript);
+    const auto point_at = [&](const char* word) {
+      QTextCursor cursor = text->document()->find(word);
+      cursor.setPosition(cursor.selectionStart());
+      const QPoint position = text->cursorRect(cursor).center() + QPoint(3, 0);
+      QMouseEvent move(QEvent::MouseMove, position, text->viewport()->mapToGlobal(position),
+                       Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+      QApplication::sendEvent(text->viewport(), &move);
+    };
+    const QImage map = taught.window->findChild<MapCanvas*>("map_canvas")->grab().toImage();
+    point_at("A(");
+    QCOMPARE(names().mid(2).contains("i"), true);
+    QTRY_VERIFY(window.findChild<MapCanvas*>("map_canvas")->grab().toImage() != map);
+    int marked = 0;
+    for (const QLabel* line : window.findChild<AlgorithmView*>()->findChildren<QLabel*>()) {
+      marked += line->styleSheet().contains(theme::region.name()) ? 1 : 0;
+    }
+    QVERIFY(marked > 0);
+    save_picture(window, "lesson-symbol");
+    point_at("Patch");
+    QTRY_COMPARE(names().size(), 2);
+
+    const auto* map_dock = window.findChild<QDockWidget*>("map_dock");
+    const int usual = map_dock->width();
+    taught.trigger("lesson_next");
+    QTRY_VERIFY(map_dock->width() > 1.4 * usual);
+    QVERIFY(names().isEmpty());
+    save_picture(window, "lesson-large");
+    taught.trigger("lesson_next");
+    QTRY_VERIFY(std::abs(map_dock->width() - usual) < 8);
+    // Not in a scene that the user opens.
+    taught.trigger("lesson_previous");
+    taught.trigger("lesson_previous");
+    QTRY_COMPARE(names().size(), 2);
+    window.files().open_scene("furnace");
+    QTRY_VERIFY(names().isEmpty());
   }
 
   void a_bad_lesson_is_reported_and_changes_nothing() {

@@ -75,6 +75,43 @@ void apply_changes(json& state, const json& show) {
   state.merge_patch(show);
 }
 
+// {"text": "lamp", "patch": 12}
+Callout callout_from(const json& value, const std::string& where) {
+  constexpr int largest_patch = 1 << 30;
+  Callout callout;
+  JsonObject object(value, where);
+  object.read("text", callout.text);
+  if (callout.text.empty()) {
+    object.fail_at("text", "is missing");
+  }
+  bool direction = false;
+  object.read("patch", callout.patch, 0, largest_patch);
+  object.read("point", callout.point);
+  object.read("direction", direction);
+  const int anchors =
+      (callout.patch != no_patch ? 1 : 0) + (object.find("point") ? 1 : 0) + (direction ? 1 : 0);
+  if (anchors != 1) {
+    object.fail("needs one of the keys \"patch\", \"point\" and \"direction\"");
+  }
+  callout.anchor = direction                   ? Callout::Anchor::direction
+                   : callout.patch != no_patch ? Callout::Anchor::patch
+                                               : Callout::Anchor::point;
+  object.done();
+  return callout;
+}
+
+std::vector<Callout> callouts_from_json(const json& value, const std::string& where) {
+  constexpr std::size_t most_callouts = 50;
+  if (!value.is_array() || value.size() > most_callouts) {
+    throw InputError(where + ": must be a list of at most 50 callouts");
+  }
+  std::vector<Callout> callouts;
+  for (const json& one : value) {
+    callouts.push_back(callout_from(one, where));
+  }
+  return callouts;
+}
+
 // [{"label": "random", "with": {"sampling": "random"}}, …]
 ErrorRuns errors_from_json(const json& value, const std::string& where, const json& page_options,
                            const ViewState& page) {
@@ -127,6 +164,10 @@ Lesson lesson_from_text(const std::string& text, const std::string& name,
     const json* question = page_object.find("question");
     const json* controls = page_object.find("controls");
     const json* errors = page_object.find("errors");
+    page_object.read("large", page.large);
+    if (const json* callouts = page_object.find("callouts")) {
+      page.callouts = callouts_from_json(*callouts, page_object.where("callouts"));
+    }
     page_object.done();
     state_bytes += sizeof(Lesson::Page) + bytes_of(state);
     state_bytes += question ? sizeof(Question) + bytes_of(state) : 0;
@@ -160,7 +201,11 @@ Lesson read_lesson(const std::string& path) {
 void check_panels(const Lesson& lesson, const std::string& name,
                   const std::vector<std::string>& panels) {
   for (std::size_t k = 0; k < lesson.pages.size(); ++k) {
-    for (const std::string& panel : lesson.pages[k].state.panels) {
+    std::vector<std::string> named = lesson.pages[k].state.panels;
+    if (!lesson.pages[k].large.empty() && lesson.pages[k].large != "scene") {
+      named.push_back(lesson.pages[k].large);
+    }
+    for (const std::string& panel : named) {
       if (std::find(panels.begin(), panels.end(), panel) != panels.end()) {
         continue;
       }

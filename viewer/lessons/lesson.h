@@ -9,6 +9,7 @@
 #include "lessons/question.h"
 #include "lessons/view_state.h"
 #include "model/error_runs.h"
+#include "state/callout.h"
 
 namespace transillum::viewer {
 
@@ -20,7 +21,9 @@ struct Lesson {
     ViewState state;   ///< complete: includes what earlier pages set
     std::optional<Question> question;
     std::vector<PageControl> controls;  ///< in the text
-    ErrorRuns errors;                   ///< for the panel of errors; none: as before a lesson
+    std::string large;                  ///< the panel, or `scene`, that gets most of the window
+    std::vector<Callout> callouts;
+    ErrorRuns errors;  ///< for the panel of errors; none: as before a lesson
   };
   std::string title;
   std::string file;  ///< that it was read from; of a built-in lesson its name, without folder

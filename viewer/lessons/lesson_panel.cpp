@@ -7,6 +7,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QComboBox>
+#include <QDesktopServices>
 #include <QFontInfo>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -18,12 +19,14 @@
 #include <QTextTable>
 #include <QTimer>
 #include <QToolButton>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "lessons/control_widget.h"
 #include "lessons/page_text.h"
 #include "lessons/question_box.h"
+#include "lessons/symbols.h"
 #include "lessons/tally.h"
 #include "support/failure_text.h"
 #include "transillum/at.h"
@@ -80,6 +83,7 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
                          MaterialEdits& edits, QWidget* parent)
     : QWidget(parent),
       lessons_(std::move(lessons)),
+      selection_(selection),
       focus_(focus),
       edits_(edits),
       question_(new QuestionBox(selection, focus)) {
@@ -112,7 +116,14 @@ void LessonPanel::make_page() {
   title_->setWordWrap(true);
   text_ = new PageText;
   text_->setObjectName("lesson_text");
-  text_->setOpenExternalLinks(true);
+  text_->setOpenLinks(false);
+  connect(text_, &QTextBrowser::anchorClicked, this, [](const QUrl& link) {
+    if (link.scheme().startsWith(QStringLiteral("http"))) {
+      QDesktopServices::openUrl(link);
+    }
+  });
+  connect(text_, qOverload<const QUrl&>(&QTextBrowser::highlighted), this,
+          [this](const QUrl& link) { point_at(link.toString()); });
   text_->setFrameShape(QFrame::NoFrame);
   text_->setFocusPolicy(Qt::ClickFocus);
   text_->installEventFilter(this);
@@ -199,11 +210,30 @@ void LessonPanel::show_page(int lesson, int page) {
   show_question();
   show_state();
   emit page_shown(at(at(lessons_, lesson).pages, page).state);
+  emit enlarged(at(at(lessons_, lesson).pages, page).large);
+  point_at({});
   emit errors_wanted(at(at(lessons_, lesson).pages, page).errors);
   // Last: the new page dismisses older messages.
   if (!tally_failure_.isEmpty()) {
     emit failed(std::exchange(tally_failure_, QString()));
   }
+}
+
+void LessonPanel::leave_scene() {
+  emit callouts_shown({});
+  emit errors_wanted({});
+}
+
+void LessonPanel::point_at(const QString& link) {
+  if (lesson_ < 0) {
+    return;
+  }
+  std::vector<Callout> callouts = at(at(lessons_, lesson_).pages, page_).callouts;
+  for (Callout& callout : callouts_of_symbol(link, focus_, selection_)) {
+    callouts.push_back(std::move(callout));
+  }
+  emit callouts_shown(callouts);
+  emit symbol_pointed(link.section(':', 1));
 }
 
 void LessonPanel::show_question() {
@@ -339,6 +369,7 @@ void LessonPanel::show_state() {
     page_number_->setText(tr("%1 of %2").arg(page_ + 1).arg(pages_of(lesson_)));
   }
   question_->set_text_font(text_font(text_scale));
+  typeset_symbols(*text_->document());
   fit_text();
   QFont bold = text_font(title_scale);
   bold.setBold(true);

@@ -52,6 +52,8 @@ class LessonPanel : public QWidget {
   void set_tally_folder(const QString& folder) { tally_folder_ = folder; }
   /// Controls in the text show the options of the run.
   void show_snapshot(const SolverSnapshot& snapshot);
+  /// To be called when another scene is opened: what the page names is not in it.
+  void leave_scene();
   /// To be called after the application's font has changed.
   void refresh() { show_state(); }
 
@@ -63,6 +65,12 @@ class LessonPanel : public QWidget {
   void option_chosen(const std::string& name, const std::string& value);
   /// The panel of errors is to show these runs.
   void errors_wanted(const transillum::viewer::ErrorRuns& runs);
+  /// What the page names, and what the symbol under the pointer stands for.
+  void callouts_shown(const std::vector<transillum::viewer::Callout>& callouts);
+  /// A symbol of a formula is pointed at, by its first letter; empty: none.
+  void symbol_pointed(const QString& symbol);
+  /// @param panel  is to get most of the window; empty: the usual sizes
+  void enlarged(const std::string& panel);
   void sketched(const transillum::viewer::MapSketch& sketch);
   void failed(const QString& message);
 
@@ -79,6 +87,7 @@ class LessonPanel : public QWidget {
   int pages_of(int lesson) const;
   void show_state();
   void show_question();
+  void point_at(const QString& link);
   void show_text(const Lesson::Page& page);
   /// The window's font, `scale` times as large.
   QFont text_font(double scale) const;
@@ -96,6 +105,7 @@ class LessonPanel : public QWidget {
   int lesson_ = -1, page_ = 0;
   QComboBox* list_;
   QLabel *title_, *page_number_;
+  Selection& selection_;
   Focus& focus_;
   MaterialEdits& edits_;
   PageText* text_;

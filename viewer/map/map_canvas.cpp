@@ -16,6 +16,7 @@
 #include "map/pixel_view.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/callout_painter.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -86,6 +87,11 @@ void MapCanvas::mark_region(const std::optional<MapRegion>& region) {
 
 void MapCanvas::show_sketch(const MapSketch& sketch) {
   sketch_ = sketch;
+  update();
+}
+
+void MapCanvas::show_callouts(const std::vector<Callout>& callouts) {
+  callouts_ = callouts;
   update();
 }
 
@@ -236,6 +242,7 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   draw_selection(painter, now);
   draw_region(painter, now);
   draw_sketch(painter, now);
+  draw_callouts(painter, now);
   draw_probe(painter, now);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
@@ -315,6 +322,71 @@ void MapCanvas::draw_sketch(QPainter& painter, const MapTransform& shown) const 
       painter.drawEllipse(corner, 3 * theme::scale(), 3 * theme::scale());
     }
   }
+}
+
+void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) const {
+  for (const Callout& callout : callouts_) {
+    mark_callout(painter, shown, callout);
+  }
+  for (const Callout& callout : callouts_) {
+    if (const auto place = place_of(callout, shown); place && rect().contains(place->toPoint())) {
+      draw_callout(painter, *place, QString::fromStdString(callout.text),
+                   rect().adjusted(2, 2, -2, -2));
+    }
+  }
+}
+
+// V as a whole has a frame, an inside list is filled.
+void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
+                             const Callout& callout) const {
+  if (callout.anchor == Callout::Anchor::map) {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(theme::region, 4 * theme::scale()));
+    painter.drawRect(rect().adjusted(2, 2, -3, -3));
+  }
+  if (callout.anchor != Callout::Anchor::inside || content_.step < 0) {
+    return;
+  }
+  const RecordedMap& map = *picture_->request.map;
+  std::vector<std::vector<Vec2>> parts;
+  for (const std::int32_t r : map.history.inside_at(content_.step)) {
+    const auto outline = map.record().outline(map.row(r));
+    parts.emplace_back(outline.begin(), outline.end());
+  }
+  fill_parts(painter, parts, shown, 170);
+}
+
+std::optional<QPointF> MapCanvas::place_of(const Callout& callout,
+                                           const MapTransform& shown) const {
+  const MapRecord& record = picture_->request.map->record();
+  switch (callout.anchor) {
+    case Callout::Anchor::point:
+      return shown.to_pixels(record.frame.project(callout.point));
+    case Callout::Anchor::direction:
+      return QPointF(width() / 2.0, 26 * theme::scale());
+    case Callout::Anchor::map:
+      return QPointF(8, height() / 2.0);
+    default:
+      break;
+  }
+  const bool inside = callout.anchor == Callout::Anchor::inside && content_.step >= 0;
+  const auto rows =
+      inside ? picture_->request.map->history.inside_at(content_.step) : picture_->rows;
+  double largest = 0;
+  std::optional<QPointF> place;
+  for (const std::int32_t r : rows) {
+    const MapRecord::Row& row = at(record.rows, r);
+    if ((inside || row.patch == callout.patch) && record.area(row) > largest) {
+      largest = record.area(row);
+      QPointF sum;
+      const auto corners = record.outline(row);
+      for (const Vec2& p : corners) {
+        sum += shown.to_pixels(p);
+      }
+      place = sum / static_cast<double>(corners.size());
+    }
+  }
+  return place;
 }
 
 void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "map/map_painter.h"
+#include "state/callout.h"
 #include "state/map_sketch.h"
 #include "state/selection.h"
 #include "support/request_worker.h"
@@ -46,6 +47,8 @@ class MapCanvas : public QWidget {
   void mark_region(const std::optional<MapRegion>& region);
   /// Draws a polygon, and the region that it was to match, over the map until the next call.
   void show_sketch(const MapSketch& sketch);
+  /// Names what the callouts point at, until the next call.
+  void show_callouts(const std::vector<Callout>& callouts);
   /// Shows the whole map.
   void fit();
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
@@ -98,6 +101,9 @@ class MapCanvas : public QWidget {
   void draw_selection(QPainter& painter, const MapTransform& shown) const;
   void draw_region(QPainter& painter, const MapTransform& shown) const;
   void draw_sketch(QPainter& painter, const MapTransform& shown) const;
+  void draw_callouts(QPainter& painter, const MapTransform& shown) const;
+  void mark_callout(QPainter& painter, const MapTransform& shown, const Callout& callout) const;
+  std::optional<QPointF> place_of(const Callout& callout, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
@@ -107,6 +113,7 @@ class MapCanvas : public QWidget {
   Content content_;
   std::optional<MapRegion> region_;
   MapSketch sketch_;
+  std::vector<Callout> callouts_;
   double zoom_ = 1;  // relative to the scale that fits
   QPointF pan_;      // pixels
   QPointF press_position_, last_position_;

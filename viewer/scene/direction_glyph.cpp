@@ -115,6 +115,7 @@ void DirectionGlyph::show_at(const Vec3& omega, bool two_way, const Vec3& middle
   frame_->Modified();
 
   const double length = 0.26 * radius;
+  tip_ = middle + length * omega;
   forward_->SetUserMatrix(arrow_matrix(middle, -omega, length));
   backward_->SetUserMatrix(arrow_matrix(middle, omega, length));
   for (vtkActor* actor : {border_.Get(), forward_.Get()}) {

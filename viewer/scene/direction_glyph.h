@@ -28,12 +28,16 @@ class DirectionGlyph {
   void hide();
   /// Whether the plane is filled, translucent; otherwise it is a frame, which tints no color.
   void set_filled(bool filled);
+  /// The end of the arrow along omega, m; valid while the glyph is shown.
+  const Vec3& tip() const { return tip_; }
+  bool shown() const { return shown_; }
   void set_line_width(double pixels);
 
  private:
   bool filled_ = true, shown_ = false;
   vtkSmartPointer<vtkActor> fill_, border_, forward_, backward_;
   vtkSmartPointer<vtkPolyData> quad_, frame_;
+  Vec3 tip_;
 };
 
 }  // namespace transillum::viewer

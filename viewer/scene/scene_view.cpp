@@ -28,6 +28,7 @@
 #include <functional>
 #include <utility>
 
+#include "scene/callout_layer.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -85,6 +86,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(canvas_);
+  callout_layer_ = new CalloutLayer(canvas_);
 
   window_->SetMultiSamples(0);
   canvas_->setRenderWindow(window_);
@@ -98,6 +100,7 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   halo_ = line_actor(*renderer_, Qt::black);
   outline_ = line_actor(*renderer_, theme::selection);
   renderer_->AddObserver(vtkCommand::StartEvent, this, &SceneView::follow_camera);
+  renderer_->AddObserver(vtkCommand::EndEvent, this, &SceneView::place_callouts);
   overlays_ = std::make_unique<SceneOverlays>(*renderer_);
   feature_edges_ = std::make_unique<FeatureEdges>(*renderer_);
   turn_preview_ = std::make_unique<TurnPreview>(*renderer_);
@@ -418,6 +421,47 @@ void SceneView::follow_camera() {
   feature_edges_->follow_camera(vec3(renderer_->GetActiveCamera()->GetPosition()));
   outline_->SetOrigin(renderer_->GetActiveCamera()->GetPosition());
   outline_->SetScale(1 - 5e-4);
+}
+
+void SceneView::show_callouts(const std::vector<Callout>& callouts) {
+  callouts_ = callouts;
+  place_callouts();
+}
+
+std::optional<Vec3> SceneView::anchor_of(const Callout& callout) const {
+  switch (callout.anchor) {
+    case Callout::Anchor::patch:
+      if (callout.patch < 0 || callout.patch >= loaded_->scene->patch_count()) {
+        return std::nullopt;
+      }
+      return loaded_->scene->patch(callout.patch).center;
+    case Callout::Anchor::point:
+      return callout.point;
+    case Callout::Anchor::direction:
+      return glyph_->shown() ? std::optional(glyph_->tip()) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+// After each rendering: the camera may have moved.
+void SceneView::place_callouts() {
+  std::vector<CalloutLayer::Placed> placed;
+  const double scale = canvas_->devicePixelRatioF();
+  for (const Callout& callout : callouts_) {
+    const auto anchor = loaded_ ? anchor_of(callout) : std::nullopt;
+    if (!anchor) {
+      continue;
+    }
+    renderer_->SetWorldPoint(anchor->x, anchor->y, anchor->z, 1);
+    renderer_->WorldToDisplay();
+    const double* p = renderer_->GetDisplayPoint();
+    const QPointF position(p[0] / scale, canvas_->height() - p[1] / scale);
+    if (QRectF(canvas_->rect()).contains(position)) {
+      placed.push_back({QString::fromStdString(callout.text), position});
+    }
+  }
+  callout_layer_->show_callouts(std::move(placed));
 }
 
 void SceneView::render() {

@@ -14,6 +14,7 @@
 #include <QPoint>
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "colors/color_choice.h"
@@ -26,6 +27,7 @@
 #include "scene/smooth_mesh.h"
 #include "scene/step_glyph.h"
 #include "scene/turn_preview.h"
+#include "state/callout.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
 #include "state/initial_view.h"
@@ -35,6 +37,8 @@ class QTimer;
 class QVTKOpenGLNativeWidget;
 
 namespace transillum::viewer {
+
+class CalloutLayer;
 
 /// The 3-D view of the scene, colored by a quantity of its patches. A click selects a patch, a drag
 /// turns the scene. While stepping, the patches of later steps are dimmed and the current fragment
@@ -71,6 +75,8 @@ class SceneView : public QWidget {
   void fit_all();
   void fit_selected();
   void view_from_side(Side side);
+  /// Names what the callouts point at, until the next call.
+  void show_callouts(const std::vector<Callout>& callouts);
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
   void set_view_point(const ViewPoint& view);
@@ -105,6 +111,8 @@ class SceneView : public QWidget {
   void show_edges();
   Vec3 vertical() const;
   void follow_camera();
+  void place_callouts();
+  std::optional<Vec3> anchor_of(const Callout& callout) const;
   void render();
 
   const Focus& focus_;
@@ -127,6 +135,8 @@ class SceneView : public QWidget {
   QPoint press_position_;
   bool pressed_ = false;
 
+  std::vector<Callout> callouts_;
+  CalloutLayer* callout_layer_;
   QVTKOpenGLNativeWidget* canvas_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;

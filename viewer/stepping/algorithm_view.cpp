@@ -6,6 +6,7 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QRegularExpression>
 #include <QStringList>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -35,6 +36,13 @@ QLabel* code_line(const QString& text, int indent) {
   label->setWordWrap(true);
   label->setContentsMargins(14 + 16 * indent, 1, 8, 1);
   return label;
+}
+
+// Whether a line of code names a symbol: A in "A(j)/A_i", i in "A_i", but not in "if".
+bool names(const QString& line, const QString& symbol) {
+  return !symbol.isEmpty() &&
+         line.contains(QRegularExpression(QStringLiteral("(?<![A-Za-z])%1(?![A-Za-z])")
+                                              .arg(QRegularExpression::escape(symbol))));
 }
 
 QString role_text(bool front_facing) {
@@ -191,6 +199,11 @@ void AlgorithmView::show_kind() {
   show_position();
 }
 
+void AlgorithmView::point_at(const QString& symbol) {
+  pointed_ = symbol;
+  show_position();
+}
+
 void AlgorithmView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   show_position();
@@ -203,7 +216,10 @@ void AlgorithmView::show_position() {
     const bool on = std::find(current.begin(), current.end(), line) != current.end();
     const QString style = on ? QStringLiteral("background: %1; color: %2; font-weight: bold;")
                                    .arg(theme::processed.name(), theme::on_yellow.name())
-                             : QString();
+                          : names(lines_[k]->text(), pointed_)
+                              ? QStringLiteral("background: %1; color: %2;")
+                                    .arg(theme::region.name(), theme::on_yellow.name())
+                              : QString();
     if (lines_[k]->styleSheet() != style) {
       lines_[k]->setStyleSheet(style);
     }

@@ -25,6 +25,8 @@ class AlgorithmView : public QWidget {
 
   /// Which map's pseudo-code is shown.
   MapKind kind() const;
+  /// Marks the lines with a symbol, given by its letter; empty: none.
+  void point_at(const QString& symbol);
   void set_kind(MapKind kind);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
@@ -45,6 +47,7 @@ class AlgorithmView : public QWidget {
   const Selection& selection_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::vector<QLabel*> lines_;  ///< as algorithm_code()
+  QString pointed_;             ///< a symbol
   QComboBox* kind_;
   std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the local or the global map
   ValueGrid *values_, *region_values_;

@@ -117,6 +117,7 @@ void DockLayouts::arrange(Layout layout) {
   }
   window_.resizeDocks(shown, heights, Qt::Vertical);
   follow_type();
+  enlarged_ = false;
   // Qt may leave an empty tab bar.
   QTimer::singleShot(0, this, [this] {
     for (QTabBar* bar : window_.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
@@ -149,6 +150,21 @@ void DockLayouts::place(const Dock& dock, Layout layout, QList<QDockWidget*>& sh
     shown << dock.widget;
     heights << place.height;
   }
+}
+
+void DockLayouts::arrange_sizes() {
+  QList<QDockWidget*> shown;
+  QList<int> heights;
+  for (const Dock& dock : docks_) {
+    for (const Place& place : dock.places) {
+      if (place.layout == current_ && !place.behind && !dock.widget->isHidden()) {
+        shown << dock.widget;
+        heights << place.height;
+      }
+    }
+  }
+  window_.resizeDocks(shown, heights, Qt::Vertical);
+  follow_type();
 }
 
 void DockLayouts::follow_type() {
@@ -256,6 +272,38 @@ bool DockLayouts::bring_to_front(const std::string& panel) {
     return true;
   }
   return false;
+}
+
+void DockLayouts::enlarge(const std::string& panel) {
+  if (held_) {
+    return;
+  }
+  if (enlarged_) {
+    arrange_sizes();
+    enlarged_ = false;
+  }
+  if (panel.empty()) {
+    return;
+  }
+  enlarged_ = true;
+  constexpr double wide = 0.5, high = 0.75, narrow = 0.16;
+  const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
+    return panel_name(*dock.widget) == panel;
+  });
+  if (found != docks_.end()) {
+    bring_to_front(panel);
+    window_.resizeDocks({found->widget}, {static_cast<int>(wide * window_.width())},
+                        Qt::Horizontal);
+    window_.resizeDocks({found->widget}, {static_cast<int>(high * window_.height())}, Qt::Vertical);
+    return;
+  }
+  for (const Dock& dock : docks_) {
+    if (window_.dockWidgetArea(dock.widget) == Qt::RightDockWidgetArea &&
+        !dock.widget->isHidden()) {
+      window_.resizeDocks({dock.widget}, {static_cast<int>(narrow * window_.width())},
+                          Qt::Horizontal);
+    }
+  }
 }
 
 std::vector<std::string> DockLayouts::panels() const {

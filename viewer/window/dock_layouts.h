@@ -60,6 +60,8 @@ class DockLayouts : public QObject {
   /// @param panel the name of its dock without "_dock"
   /// @returns false where there is none
   bool bring_to_front(const std::string& panel);
+  /// Gives a panel, or the `scene`, most of the window; empty: the usual sizes again.
+  void enlarge(const std::string& panel);
   /// The names that bring_to_front() accepts.
   std::vector<std::string> panels() const;
   /// Adds the actions that show and hide docks, and the layouts.
@@ -69,6 +71,9 @@ class DockLayouts : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// The usual sizes of the layout, without moving docks.
+  void arrange_sizes();
+
   struct Dock {
     QDockWidget* widget;
     std::vector<Place> places;
@@ -80,6 +85,7 @@ class DockLayouts : public QObject {
   std::array<QByteArray, layout_count> kept_;  ///< states of the layouts that are not in use
   Layout current_ = Layout::inspect;
   bool held_ = false;
+  bool enlarged_ = false;
 };
 
 }  // namespace transillum::viewer

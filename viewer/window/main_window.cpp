@@ -44,6 +44,7 @@
 #include "stepping/timeline_bar.h"
 #include "stepping/timeline_lanes.h"
 #include "support/checked_bytes.h"
+#include "transillum/at.h"
 #include "transillum/reference_cache.h"
 #include "tree/tree_view.h"
 #include "widgets/banner.h"
@@ -233,6 +234,12 @@ void MainWindow::connect_views() {
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   connect(lesson_panel_, &LessonPanel::errors_wanted, error_view_, &ErrorView::set_runs);
+  connect(lesson_panel_, &LessonPanel::callouts_shown, map_view_->canvas(),
+          &MapCanvas::show_callouts);
+  connect(lesson_panel_, &LessonPanel::callouts_shown, page_->scene_view(),
+          &SceneView::show_callouts);
+  connect(lesson_panel_, &LessonPanel::symbol_pointed, algorithm_, &AlgorithmView::point_at);
+  connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
           &TimelineLanes::count_columns);
@@ -252,34 +259,47 @@ void MainWindow::connect_views() {
           [this](double degrees) { page_->scene_view()->turn(degrees, 0); });
   connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
   connect(lesson_panel_, &LessonPanel::page_shown, this, [this] {
-    if (projecting_ && findChild<QDockWidget*>(QStringLiteral("lesson_dock"))->isHidden()) {
+    if (projecting_ && views_to_project() != projected_) {
       project(true);
     }
   });
 }
 
-/// Shows the page of the lesson, if there is one, the scene and a thin timeline on the whole
-/// screen.
+/// What projector mode shows: the page of the lesson, if there is one, the view that the page says
+/// is large, or the scene, and the timeline.
+QList<QWidget*> MainWindow::views_to_project() {
+  const auto dock = [this](const std::string& panel) -> QWidget* {
+    return findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
+  };
+  QList<QWidget*> views{dock("timeline")};
+  if (lesson_panel_->lesson() < 0) {
+    return views << centralWidget();
+  }
+  const auto& pages = at(lesson_panel_->lessons(), lesson_panel_->lesson()).pages;
+  QWidget* large = dock(at(pages, lesson_panel_->page()).large);
+  return views << dock("lesson") << (large ? large : centralWidget());
+}
+
 void MainWindow::project(bool on) {
   projecting_ = on;
   timeline_->lanes()->set_thin(on);
   docks_.hold(false);
   full_screen_.show_all();
+  projected_.clear();
   if (!on) {
     return;
   }
-  QDockWidget* timeline = findChild<QDockWidget*>(QStringLiteral("timeline_dock"));
-  QDockWidget* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
-  QList<QWidget*> views{centralWidget(), timeline};
-  if (lesson_panel_->lesson() >= 0) {
-    docks_.bring_to_front("lesson");
-    views << page;
+  projected_ = views_to_project();
+  full_screen_.show_only(projected_);
+  for (QWidget* view : projected_) {
+    view->show();
   }
-  full_screen_.show_only(views);
   docks_.hold(true);
-  constexpr double page_share = 0.4;
   // Once the window has its new size.
-  QTimer::singleShot(0, this, [this, page, timeline] {
+  QTimer::singleShot(0, this, [this] {
+    constexpr double page_share = 0.4;
+    auto* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
+    auto* timeline = findChild<QDockWidget*>(QStringLiteral("timeline_dock"));
     resizeDocks({page}, {static_cast<int>(page_share * width())}, Qt::Horizontal);
     resizeDocks({timeline}, {timeline->minimumSizeHint().height()}, Qt::Vertical);
   });
@@ -290,6 +310,7 @@ void MainWindow::connect_scene() {
   using Loaded = std::shared_ptr<const LoadedScene>;
   using Snapshot = std::shared_ptr<const SolverSnapshot>;
   connect(&state_.scene, &OpenScene::opening, notifier_, &Notifier::dismiss);
+  connect(&state_.scene, &OpenScene::opening, lesson_panel_, &LessonPanel::leave_scene);
   connect(&state_.scene, &OpenScene::scene_loaded, this, [this](const Loaded& loaded) {
     settings_->set_scene_fixed(loaded->stored != nullptr);
     // How faces become patches belongs to the scene.

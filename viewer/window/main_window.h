@@ -69,6 +69,7 @@ class MainWindow : public QMainWindow {
   void connect_scene();
   void show_breakpoints_of_scene();
   void connect_failures();
+  QList<QWidget*> views_to_project();
   void project(bool on);
   void make_menus();
   void make_file_menu();
@@ -83,6 +84,7 @@ class MainWindow : public QMainWindow {
   SharedState& state_;
   const bool remember_;
   bool projecting_ = false;
+  QList<QWidget*> projected_;
   bool asks_ = true;  ///< about unsaved notes, when the window closes
   DockLayouts docks_{*this};
   FullScreen full_screen_{*this};

@@ -1,0 +1,44 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "scene/callout_layer.h"
+
+#include <QEvent>
+#include <QPainter>
+#include <utility>
+
+#include "widgets/callout_painter.h"
+
+namespace transillum::viewer {
+
+CalloutLayer::CalloutLayer(QWidget* under) : QWidget(under) {
+  setObjectName("callout_layer");
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setAttribute(Qt::WA_NoSystemBackground);
+  under->installEventFilter(this);
+  hide();
+}
+
+void CalloutLayer::show_callouts(std::vector<Placed> callouts) {
+  if (callouts == callouts_) {
+    return;
+  }
+  callouts_ = std::move(callouts);
+  setGeometry(parentWidget()->rect());
+  setVisible(!callouts_.empty());
+  update();
+}
+
+bool CalloutLayer::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize) {
+    setGeometry(parentWidget()->rect());
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void CalloutLayer::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  for (const Placed& callout : callouts_) {
+    draw_callout(painter, callout.anchor, callout.text, rect().adjusted(2, 2, -2, -2));
+  }
+}
+
+}  // namespace transillum::viewer
