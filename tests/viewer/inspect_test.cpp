@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Inspecting a solved scene in the window: tables, materials, the kept run, overlays and views.
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -21,6 +22,7 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 
+#include "colors/color_bar.h"
 #include "colors/pointer_label.h"
 #include "model/form_factor_views.h"
 #include "patches/patch_table.h"
@@ -314,6 +316,175 @@ class InspectTest : public QObject {
     shown.window->selection.select(9);
     QVERIFY(!panel->busy());  // nothing is searched for a hidden panel
     QCOMPARE(table->rowCount(), 0);
+  }
+
+  void several_patches_are_selected_and_summed() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    Selection& selection = shown.window->selection;
+    const auto* sums = shown.part<QLabel>("selected_area");
+    QWidget* canvas = shown.scene_view->canvas();
+    const auto place_of = [&](const auto& wanted) {
+      for (int y = 5; y < canvas->height(); y += 7) {
+        for (int x = 5; x < canvas->width(); x += 7) {
+          const PatchId patch = shown.scene_view->patch_at({x, y});
+          if (patch != no_patch && wanted(patch)) {
+            return QPoint(x, y);
+          }
+        }
+      }
+      return QPoint();
+    };
+    const QPoint first = place_of([](PatchId) { return true; });
+    const PatchId a = shown.scene_view->patch_at(first);
+    const QPoint second = place_of([a](PatchId patch) { return patch != a; });
+    const PatchId b = shown.scene_view->patch_at(second);
+    QTest::mouseClick(canvas, Qt::LeftButton, {}, first);
+    QVERIFY(sums->isHidden() || !sums->isVisibleTo(shown.window.get()));
+    QTest::mouseClick(canvas, Qt::LeftButton, Qt::ControlModifier, second);
+    QCOMPARE(selection.patch(), b);
+    QVERIFY((selection.patches() == std::vector<PatchId>{std::min(a, b), std::max(a, b)}));
+    const auto snapshot = shown.window->snapshot();
+    const Scene& scene = *snapshot->loaded->scene;
+    QCOMPARE(sums->text(), number_text(scene.patch(a).area + scene.patch(b).area));
+    QCOMPARE(shown.text("selected_leaving"),
+             rgb_text(scene.patch(a).area * snapshot->radiosity[std::size_t(a)] +
+                      scene.patch(b).area * snapshot->radiosity[std::size_t(b)]));
+    QTest::mouseClick(canvas, Qt::LeftButton, Qt::ControlModifier, second);
+    QCOMPARE(selection.patch(), a);
+    QCOMPARE(selection.patches().size(), std::size_t{1});
+
+    shown.trigger("select_material");
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      QCOMPARE(selection.contains(i), scene.patch(i).material == scene.patch(a).material);
+    }
+    QCOMPARE(selection.patch(), a);
+    QCOMPARE(shown.text("selected_count"),
+             QString("%1 patches, i = %2").arg(selection.patches().size()).arg(a));
+    save_picture(*shown.window, "several-selected");
+    selection.select(a);
+    shown.trigger("select_face");
+    for (const PatchId i : selection.patches()) {
+      QCOMPARE(scene.patch(i).face, scene.patch(a).face);
+    }
+    QVERIFY(!shown.part<QAction>("select_group")->isEnabled());  // the box has none
+  }
+
+  void hidden_patches_are_not_drawn_or_picked() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("show_direction");
+    QWidget* canvas = shown.scene_view->canvas();
+    const auto at_rest = [&shown] {
+      QTest::qWait(300);
+      return shown.picture();
+    };
+    // The panel of the patch is as wide as its numbers, and the scene has what is left.
+    shown.window->selection.select(shown.scene_view->patch_at(canvas->rect().center()));
+    at_rest();
+    const QPoint middle = canvas->rect().center();
+    const PatchId front = shown.scene_view->patch_at(middle);
+    QVERIFY(front != no_patch);
+    shown.window->selection.select(front);
+    const QImage before = at_rest();
+    shown.trigger("hide_selection");
+    QVERIFY(shown.scene_view->patch_at(middle) != front);
+    const QImage hidden = at_rest();
+    QVERIFY(hidden != before);
+    shown.trigger("undo");
+    QCOMPARE(shown.scene_view->patch_at(middle), front);
+    QCOMPARE(at_rest(), before);
+    shown.trigger("isolate_selection");
+    for (int x = 3; x < canvas->width(); x += 40) {
+      const PatchId patch = shown.scene_view->patch_at({x, middle.y()});
+      QVERIFY(patch == front || patch == no_patch);
+    }
+    shown.trigger("show_smooth");  // the other mesh leaves them out too
+    const QImage isolated = at_rest();
+    shown.trigger("show_all");
+    QVERIFY(at_rest() != isolated);
+    shown.trigger("show_smooth");
+    QCOMPARE(at_rest(), before);
+    QVERIFY(!shown.part<QAction>("show_all")->isEnabled());
+  }
+
+  void a_plane_cuts_the_picture_open() {
+    const Inspected shown("rooms");
+    QVERIFY(shown.ready);
+    shown.trigger("show_direction");
+    const auto patches_seen = [&shown] {
+      QSet<PatchId> seen;
+      const QWidget* canvas = shown.scene_view->canvas();
+      for (int y = 5; y < canvas->height(); y += 9) {
+        for (int x = 5; x < canvas->width(); x += 9) {
+          seen << shown.scene_view->patch_at({x, y});
+        }
+      }
+      return seen;
+    };
+    const QSet<PatchId> whole = patches_seen();
+    const Scene& scene = *shown.window->snapshot()->loaded->scene;
+    const double middle = scene.bounds().center().x;
+    const auto reaches = [&](PatchId patch, double side) {
+      for (const PointId corner : scene.outline(patch)) {
+        if (side * (scene.point(corner).x - middle) >= -1e-9) {
+          return true;
+        }
+      }
+      return patch == no_patch;
+    };
+    shown.trigger("clip_next");  // x
+    QCOMPARE(shown.part<QComboBox>("clip_axis")->currentText(), QString("x"));
+    for (const double side : {1.0, -1.0}) {
+      shown.part<QCheckBox>("clip_other_side")->setChecked(side < 0);
+      const QSet<PatchId> cut = patches_seen();
+      QVERIFY(cut != whole);
+      for (const PatchId patch : cut) {
+        QVERIFY(patch == no_patch || reaches(patch, side));
+      }
+    }
+    save_picture(*shown.window, "clipped");
+    for (int k = 0; k < 3; ++k) {
+      shown.trigger("clip_next");
+    }
+    QVERIFY(patches_seen() == whole);
+  }
+
+  void a_range_of_the_color_bar_selects_patches() {
+    const Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    ColorChoice& colors = shown.window->colors;
+    colors.set_mode(ColorMode::luminance);
+    colors.set_logarithmic(true);
+    auto* bar = shown.part<ColorBar>("color_bar");
+    QTRY_VERIFY(bar->isVisible());
+    const int top = bar->height() / 3, bottom = 2 * bar->height() / 3;
+    QTest::mousePress(bar, Qt::LeftButton, {}, {20, bottom});
+    QTest::mouseMove(bar, {20, top});
+    QTest::mouseRelease(bar, Qt::LeftButton, {}, {20, top});
+    const Selection& selection = shown.window->selection;
+    QVERIFY(selection.patches().size() > 1);
+    // All that lie between two selected values are selected.
+    double low = HUGE_VAL, high = 0;
+    const auto value = [&](PatchId i) {
+      return colors.scale().value(colors.values()[std::size_t(i)]);
+    };
+    for (const PatchId i : selection.patches()) {
+      low = std::min(low, value(i));
+      high = std::max(high, value(i));
+    }
+    QVERIFY(colors.scale().position(low) > 0.1 && colors.scale().position(high) < 0.9);
+    bool others = false;
+    for (PatchId i = 0; i < PatchId(colors.values().size()); ++i) {
+      const bool between = value(i) >= low && value(i) <= high;
+      QCOMPARE(selection.contains(i), between);
+      others = others || !between;
+    }
+    QVERIFY(others);
+    // A click changes nothing.
+    const auto chosen = selection.patches();
+    QTest::mouseClick(bar, Qt::LeftButton, {}, {20, top});
+    QVERIFY(selection.patches() == chosen);
   }
 
   void tables_and_views_share_the_selection() {

@@ -3,9 +3,11 @@
 // Paints the color map as a bar with ticks, and beside it a histogram of area over values.
 #include "colors/color_bar.h"
 
+#include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/number_text.h"
 #include "transillum/at.h"
@@ -60,9 +62,11 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
   setObjectName("color_bar");
   const auto show = [this] {
-    setToolTip(QString::fromUtf8(traits_of(colors_.quantity()).symbol) + QStringLiteral(": ") +
-               tip_of(colors_.quantity()) + QLatin1Char('\n') +
-               tr("Left of the bar: area per value, square-root scale"));
+    setToolTip(
+        QString::fromUtf8(traits_of(colors_.quantity()).symbol) + QStringLiteral(": ") +
+        tip_of(colors_.quantity()) + QLatin1Char('\n') +
+        tr("Left of the bar: area per value, square-root scale. Drag over a range to select the\n"
+           "patches with such values"));
     setVisible(colors_.scale().mode != ColorMode::true_color && !colors_.values().empty());
     update();
   };
@@ -71,25 +75,73 @@ ColorBar::ColorBar(const ColorChoice& colors, QWidget* parent) : QWidget(parent)
   show();
 }
 
+bool ColorBar::shows_zero() const { return colors_.scale().marks_zero && colors_.scale().zeros; }
+
+QRectF ColorBar::bar_rect() const {
+  const int top = margin + 2 * fontMetrics().height() + 10 + arrow_height;
+  const int zero_height = shows_zero() ? fontMetrics().height() + zero_gap : 0;
+  return QRectF(margin + histogram_width, top, bar_width,
+                height() - top - margin - arrow_height - zero_height);
+}
+
 void ColorBar::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme::scene_background);
   paint_title(painter);
-  const int top = margin + 2 * fontMetrics().height() + 10 + arrow_height;
-  const bool zero = colors_.scale().marks_zero && colors_.scale().zeros;
-  const int zero_height = zero ? fontMetrics().height() + zero_gap : 0;
-  const QRectF bar(margin + histogram_width, top, bar_width,
-                   height() - top - margin - arrow_height - zero_height);
+  const QRectF bar = bar_rect();
   if (bar.height() < 20) {
     return;
+  }
+  if (drag_begin_) {
+    QColor band = theme::selection;
+    band.setAlphaF(0.4);
+    painter.fillRect(QRectF(QPointF(0, *drag_begin_), QPointF(width(), drag_end_)).normalized(),
+                     band);
   }
   paint_bar(painter, bar);
   paint_histogram(painter, QRectF(margin, bar.top(), histogram_width - 4, bar.height()));
   paint_ticks(painter, bar);
-  if (zero) {
+  if (shows_zero()) {
     paint_zero(painter, QRectF(bar.left(), bar.bottom() + arrow_height + zero_gap, bar.width(),
                                fontMetrics().height()));
   }
+}
+
+void ColorBar::mousePressEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) {
+    drag_begin_ = drag_end_ = event->pos().y();
+  }
+}
+
+void ColorBar::mouseMoveEvent(QMouseEvent* event) {
+  drag_end_ = event->pos().y();
+  update();
+}
+
+void ColorBar::mouseReleaseEvent(QMouseEvent* event) {
+  if (!drag_begin_) {
+    return;
+  }
+  drag_end_ = event->pos().y();
+  const auto [top, bottom] = std::minmax(*std::exchange(drag_begin_, std::nullopt), drag_end_);
+  update();
+  if (bottom - top < 2) {
+    return;  // a click
+  }
+  const QRectF bar = bar_rect();
+  const ColorScale& scale = colors_.scale();
+  const auto value_at = [&](double y) { return scale.value_at((bar.bottom() - y) / bar.height()); };
+  // Beyond the ends of the bar are the values that its pointed ends stand for.
+  const double low = bottom >= bar.bottom() + 2 ? -HUGE_VAL : value_at(bottom);
+  const double high = top <= bar.top() - 2 ? HUGE_VAL : value_at(top);
+  std::vector<PatchId> patches;
+  for (std::size_t i = 0; i < colors_.values().size(); ++i) {
+    const double value = scale.value(colors_.values()[i]);
+    if (value >= low && value <= high && !(scale.marks_zero && value == 0)) {
+      patches.push_back(static_cast<PatchId>(i));
+    }
+  }
+  emit patches_chosen(patches);
 }
 
 void ColorBar::paint_zero(QPainter& painter, const QRectF& box) const {

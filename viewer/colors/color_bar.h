@@ -3,6 +3,8 @@
 
 #include <QRectF>
 #include <QWidget>
+#include <optional>
+#include <vector>
 
 #include "colors/color_choice.h"
 
@@ -20,10 +22,19 @@ class ColorBar : public QWidget {
 
   QSize sizeHint() const override { return {128, 320}; }
 
+ signals:
+  /// The user has dragged over a range of values: the patches with such values, ascending.
+  void patches_chosen(const std::vector<transillum::PatchId>& patches);
+
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
+  QRectF bar_rect() const;
+  bool shows_zero() const;
   void paint_title(QPainter& painter) const;
   void paint_bar(QPainter& painter, const QRectF& bar) const;
   void paint_histogram(QPainter& painter, const QRectF& box) const;
@@ -31,6 +42,9 @@ class ColorBar : public QWidget {
   void paint_ticks(QPainter& painter, const QRectF& bar) const;
 
   const ColorChoice& colors_;
+  /// Ends of the range that the user drags over, pixels from the top.
+  std::optional<double> drag_begin_;
+  double drag_end_ = 0;
 };
 
 }  // namespace transillum::viewer

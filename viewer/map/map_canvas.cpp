@@ -53,7 +53,7 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setToolTip(tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));
-  connect(&selection_, &Selection::changed, this, qOverload<>(&QWidget::update));
+  connect(&selection_, &Selection::patches_changed, this, qOverload<>(&QWidget::update));
 }
 
 void MapCanvas::show_map(Content content) {
@@ -256,15 +256,14 @@ void MapCanvas::draw_failure(QPainter& painter, const QString& failure) const {
 }
 
 void MapCanvas::draw_selection(QPainter& painter, const MapTransform& shown) const {
-  const PatchId patch = selection_.patch();
-  if (patch == no_patch) {
+  if (selection_.patches().empty()) {
     return;
   }
   const MapRecord& record = picture_->request.map->record();
   std::vector<QPolygonF> fragments;
   for (const std::int32_t number : picture_->rows) {
     const MapRecord::Row& row = at(record.rows, number);
-    if (row.patch == patch) {
+    if (selection_.contains(row.patch)) {
       fragments.push_back(row_polygon(record, row, shown));
     }
   }
@@ -538,7 +537,11 @@ void MapCanvas::mouseReleaseEvent(QMouseEvent* event) {
   }
   unsetCursor();
   if (!dragging_) {
-    selection_.select(patch_at(event->pos()));
+    if (event->modifiers() & Qt::ControlModifier) {
+      selection_.toggle(patch_at(event->pos()));
+    } else {
+      selection_.select(patch_at(event->pos()));
+    }
     emit clicked(event->pos());
   }
   dragging_ = false;

@@ -7,6 +7,7 @@
 
 #include "support/number_text.h"
 #include "transillum/at.h"
+#include "widgets/symbol_tip.h"
 #include "widgets/value_grid.h"
 
 namespace transillum::viewer {
@@ -16,6 +17,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   hint_ = new QLabel(tr("Click a patch in the scene or in the map."));
   hint_->setForegroundRole(QPalette::PlaceholderText);
   hint_->setWordWrap(true);
+  make_sums();
   values_ = new ValueGrid;
   id_ = values_->add_row(tr("Patch"), {});
   id_->setObjectName("patch_id");
@@ -38,9 +40,10 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(12, 8, 12, 10);
   layout->addWidget(hint_);
+  layout->addWidget(sums_);
   layout->addWidget(values_);
   layout->addStretch(1);
-  connect(&selection_, &Selection::changed, this, &PatchInspector::show_patch);
+  connect(&selection_, &Selection::patches_changed, this, &PatchInspector::show_patch);
   connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
   show_patch();
 }
@@ -62,11 +65,61 @@ void PatchInspector::show_snapshot(std::shared_ptr<const SolverSnapshot> snapsho
   show_patch();
 }
 
+void PatchInspector::make_sums() {
+  sums_ = new ValueGrid;
+  count_ = sums_->add_row(tr("Selected"), {}, tr("Number of selected patches"));
+  count_->setObjectName("selected_count");
+  const auto add = [this](const char* name, const QString& text, const QString& unit,
+                          const QString& tip) {
+    QLabel* value = sums_->add_row(text, unit, tip);
+    value->setObjectName(QString::fromLatin1(name));
+    return value;
+  };
+  total_area_ = add("selected_area", tr("Σ A"), tr("m²"), tr("Sum of the areas"));
+  emitted_ = add("selected_emitted", tr("Σ A E"), tr("W"),
+                 symbol_tip(tr("Power that the selected patches emit: red, green, blue"), "2"));
+  leaving_ = add("selected_leaving", tr("Σ A B"), tr("W"),
+                 symbol_tip(tr("Power that leaves the selected patches: red, green, blue"), "2"));
+  received_ = add("selected_received", tr("Σ A H"), tr("W"),
+                  symbol_tip(tr("Power that the selected patches receive: red, green, blue"), "2"));
+  mean_ = add("selected_mean", tr("mean B"), tr("W/m²"),
+              symbol_tip(tr("Mean radiosity by area: red, green, blue"), "2"));
+}
+
+void PatchInspector::show_sums() {
+  const std::vector<PatchId>& patches = selection_.patches();
+  const bool several =
+      snapshot_ && patches.size() > 1 && patches.back() < snapshot_->loaded->scene->patch_count();
+  sums_->setVisible(several);
+  if (!several) {
+    return;
+  }
+  double area = 0;
+  Rgb emitted, leaving, received;
+  const PatchValues irradiance = values_of(Quantity::irradiance, *snapshot_, no_patch, nullptr);
+  for (const PatchId i : patches) {
+    const double a = snapshot_->loaded->scene->patch(i).area;
+    area += a;
+    emitted += a * material_of(*snapshot_, i).exitance;
+    leaving += a * at(snapshot_->radiosity, i);
+    received += a * (irradiance.values.empty() ? Rgb{} : at(irradiance.values, i));
+  }
+  count_->setText(tr("%1 patches, i = %2")
+                      .arg(count_text(static_cast<std::int64_t>(patches.size())))
+                      .arg(selection_.patch()));
+  total_area_->setText(number_text(area));
+  emitted_->setText(rgb_text(emitted));
+  leaving_->setText(rgb_text(leaving));
+  received_->setText(irradiance.values.empty() ? QStringLiteral("–") : rgb_text(received));
+  mean_->setText(rgb_text((1 / area) * leaving));
+}
+
 void PatchInspector::show_patch() {
+  show_sums();
   const PatchId patch = selection_.patch();
   const bool any = snapshot_ && patch >= 0 && patch < snapshot_->loaded->scene->patch_count();
   hint_->setVisible(!any);
-  values_->setVisible(any);
+  values_->setVisible(any && selection_.patches().size() == 1);
   if (!any) {
     return;
   }

@@ -26,13 +26,16 @@ class PatchInspector : public QWidget {
  private:
   /// Adds a row whose symbol, unit and tip are those of the quantity.
   QLabel* add_quantity(Quantity quantity, const char* name);
+  void make_sums();
   void show_patch();
+  void show_sums();
 
   Selection& selection_;
   const ColorChoice& colors_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
-  ValueGrid* values_;
+  ValueGrid *sums_, *values_;
+  QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< of several patches
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
       *radiosity_, *irradiance_, *form_factor_sum_, *swatch_;
 };

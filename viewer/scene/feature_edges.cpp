@@ -126,14 +126,23 @@ void FeatureEdges::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   hide();
 }
 
-void FeatureEdges::show(std::span<const Color8> colors) {
+void FeatureEdges::show(std::span<const Color8> colors, const std::vector<bool>& hidden) {
   if (!found_) {
     all_ = feature_edges(*loaded_);
     found_ = true;
   }
   flat_.clear();
   flat_colors_.clear();
-  for (const FeatureEdge& edge : all_) {
+  for (FeatureEdge edge : all_) {
+    if (edge.second != no_patch && at(hidden, edge.second)) {
+      edge.second = no_patch;
+    }
+    if (at(hidden, edge.first)) {
+      if (edge.second == no_patch) {
+        continue;
+      }
+      edge.first = std::exchange(edge.second, no_patch);
+    }
     const Color8& color = at(colors, edge.first);
     if (edge.second == no_patch || look_alike(color, at(colors, edge.second))) {
       flat_.push_back(edge);

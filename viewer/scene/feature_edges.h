@@ -33,7 +33,9 @@ class FeatureEdges {
 
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
   /// @param colors  one per patch
-  void show(std::span<const Color8> colors);
+  /// @param hidden  patches left out, one per patch
+  void show(std::span<const Color8> colors, const std::vector<bool>& hidden);
+  vtkActor* actor() const { return actor_; }
   void hide();
   bool shown() const { return actor_->GetVisibility() != 0; }
   /// The edges between patches of about the same color, whichever side is toward the camera.

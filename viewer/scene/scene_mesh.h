@@ -20,16 +20,21 @@ class SceneMesh {
   explicit SceneMesh(std::shared_ptr<const Scene> scene);
 
   vtkPolyData* surface() const { return surface_; }
+  /// Leaves patches out.
+  /// @param hidden  one per patch
+  void leave_out(const std::vector<bool>& hidden);
   /// One color per patch. Changes the cells' colors, never their shape.
   void color(std::span<const Color8> colors);
 
  private:
   std::shared_ptr<const Scene> scene_;
   vtkSmartPointer<vtkPolyData> surface_;
+  std::vector<PatchId> patches_;  ///< of each cell
   vtkSmartPointer<vtkUnsignedCharArray> colors_;
 };
 
-/// The outline of a patch, `lift` meters in front of it.
-vtkSmartPointer<vtkPolyData> patch_outline(const Scene& scene, PatchId patch, double lift);
+/// The outlines of patches, `lift` meters in front of them.
+vtkSmartPointer<vtkPolyData> patch_outlines(const Scene& scene, std::span<const PatchId> patches,
+                                            double lift);
 
 }  // namespace transillum::viewer

@@ -31,7 +31,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   orientation_bar_ = new Banner;
   orientation_bar_->setObjectName("orientation_bar");
   color_controls_ = new ColorControls(colors);
-  scene_view_ = new SceneView(focus, selection, colors);
+  scene_view_ = new SceneView(focus, selection, colors, hidden_);
   scene_view_->setObjectName("scene_view");
   welcome_ = new WelcomePage;
   connect(welcome_, &WelcomePage::open_clicked, this, &ScenePage::open_clicked);
@@ -46,6 +46,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   const ShowMenu* show = color_controls_->show_menu();
   connect(show, &ShowMenu::overlay_toggled, scene_view_, &SceneView::set_overlay_shown);
   connect(show, &ShowMenu::wireframe_toggled, scene_view_, &SceneView::set_wireframe);
+  connect(show->clip(), &ClipControls::changed, scene_view_,
+          [this, show] { scene_view_->set_clip(show->clip()->choice()); });
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
   new KeptRunLabel(colors, scene_view_->canvas());
   const auto* pointer =
@@ -58,7 +60,7 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
 
   pages_ = new QStackedWidget;
   pages_->addWidget(welcome_);
-  pages_->addWidget(make_scene(colors));
+  pages_->addWidget(make_scene(selection, colors));
   make_scenes_action();
 
   auto* layout = new QVBoxLayout(this);
@@ -70,14 +72,16 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   layout->addWidget(pages_, 1);
 }
 
-QWidget* ScenePage::make_scene(ColorChoice& colors) {
+QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   auto* note = new ColorNote(colors);
   connect(note, &ColorNote::replicas_requested, this, &ScenePage::replicas_requested);
   auto* scene = new QWidget;
   auto* view_and_bar = new QHBoxLayout;
   view_and_bar->setSpacing(0);
   view_and_bar->addWidget(scene_view_, 1);
-  view_and_bar->addWidget(new ColorBar(colors));
+  auto* bar = new ColorBar(colors);
+  connect(bar, &ColorBar::patches_chosen, &selection, &Selection::select_all);
+  view_and_bar->addWidget(bar);
   auto* scene_layout = new QVBoxLayout(scene);
   scene_layout->setContentsMargins(0, 0, 0, 0);
   scene_layout->setSpacing(0);

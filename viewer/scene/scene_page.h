@@ -6,6 +6,7 @@
 #include "colors/color_choice.h"
 #include "scene/camera_menu.h"
 #include "state/focus.h"
+#include "state/hidden_patches.h"
 #include "state/selection.h"
 
 class QAction;
@@ -40,6 +41,7 @@ class ScenePage : public QWidget {
   SceneView* scene_view() const { return scene_view_; }
   QMenu* camera_menu() const { return camera_->menu(); }
   QAction* turntable_action() const { return camera_->turntable(); }
+  HiddenPatches& hidden() { return hidden_; }
   CameraBookmarks& bookmarks() { return bookmarks_; }
   /// Shows the open scene in place of the scenes to choose from.
   void show_scene();
@@ -53,10 +55,11 @@ class ScenePage : public QWidget {
   void replicas_requested();
 
  private:
-  QWidget* make_scene(ColorChoice& colors);
+  QWidget* make_scene(Selection& selection, ColorChoice& colors);
   void make_scenes_action();
 
   CameraBookmarks bookmarks_;
+  HiddenPatches hidden_;
   CameraMenu* camera_;
   Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_;
   QStackedWidget* pages_;

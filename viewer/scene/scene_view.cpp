@@ -78,8 +78,8 @@ Vec3 vec3(const double p[3]) { return {p[0], p[1], p[2]}; }
 }  // namespace
 
 SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
-                     QWidget* parent)
-    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors) {
+                     const HiddenPatches& hidden, QWidget* parent)
+    : QWidget(parent), focus_(focus), selection_(selection), colors_(colors), hidden_(hidden) {
   canvas_ = new QVTKOpenGLNativeWidget(this);
   canvas_->setObjectName("scene_canvas");
   canvas_->setMinimumSize(200, 150);
@@ -110,10 +110,11 @@ SceneView::SceneView(const Focus& focus, Selection& selection, const ColorChoice
   step_glyph_ = std::make_unique<StepGlyph>(*renderer_);
 
   canvas_->installEventFilter(this);
-  connect(&selection_, &Selection::changed, this, [this] {
+  connect(&selection_, &Selection::patches_changed, this, [this] {
     show_selection();
     render();
   });
+  connect(&hidden_, &HiddenPatches::changed, this, &SceneView::leave_out_hidden);
   rest_timer_ = new QTimer(this);
   rest_timer_->setSingleShot(true);
   rest_timer_->setInterval(rest_ms);
@@ -145,7 +146,9 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   loaded_ = std::move(loaded);
   snapshot_ = nullptr;
   mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
+  mesh_->leave_out(hidden_.flags());
   smooth_mesh_ = nullptr;
+  set_clip(clip_);
   show_surface();
   surface_->VisibilityOn();
   glyph_->hide();
@@ -208,6 +211,7 @@ void SceneView::set_smooth_shading(bool smooth) {
 void SceneView::show_surface() {
   if (smooth_shading_ && !smooth_mesh_) {
     smooth_mesh_ = std::make_unique<SmoothMesh>(*loaded_->scene);
+    smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
   }
   auto* mapper = vtkPolyDataMapper::SafeDownCast(surface_->GetMapper());
   if (smooth_shading_) {
@@ -217,6 +221,46 @@ void SceneView::show_surface() {
     mapper->SetScalarModeToUseCellData();
     mapper->SetInputData(mesh_->surface());
   }
+}
+
+void SceneView::leave_out_hidden() {
+  // After a new scene was announced, the flags may be of that one already.
+  if (!loaded_ || std::ssize(hidden_.flags()) != loaded_->scene->patch_count()) {
+    return;
+  }
+  mesh_->leave_out(hidden_.flags());
+  if (smooth_mesh_) {
+    smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
+  }
+  recolor();
+  render();
+}
+
+void SceneView::set_clip(const std::optional<ClipChoice>& clip) {
+  clip_ = clip;
+  if (clip_ && loaded_) {
+    const Bounds bounds = loaded_->scene->bounds();
+    const Vec3 extent = bounds.high - bounds.low;
+    const Vec3& n = clip_->normal;
+    // From the end of the scene that lies against the normal.
+    const double width =
+        std::abs(n.x) * extent.x + std::abs(n.y) * extent.y + std::abs(n.z) * extent.z;
+    const Vec3 place = bounds.center() + (clip_->share - 0.5) * width * n;
+    clip_plane_->SetNormal(n.x, n.y, n.z);
+    clip_plane_->SetOrigin(place.x, place.y, place.z);
+  }
+  for (vtkActor* actor : {surface_.Get(), halo_.Get(), outline_.Get(), feature_edges_->actor()}) {
+    actor->GetMapper()->RemoveAllClippingPlanes();
+    if (clip_ && loaded_) {
+      actor->GetMapper()->AddClippingPlane(clip_plane_);
+    }
+  }
+  render();
+}
+
+bool SceneView::in_picture(const PickedPoint& point) const {
+  double p[3] = {point.point.x, point.point.y, point.point.z};
+  return !hidden_.hidden(point.patch) && (!clip_ || clip_plane_->EvaluateFunction(p) >= 0);
 }
 
 void SceneView::set_antialiased(bool antialiased) {
@@ -349,7 +393,7 @@ void SceneView::show_edges() {
   glyph_->set_filled(!mapped);
   const bool drawn_already = surface_->GetProperty()->GetEdgeVisibility() != 0;
   if ((mapped || of_material) && !drawn_already && !smooth_shading_) {
-    feature_edges_->show(patch_colors_);
+    feature_edges_->show(patch_colors_, hidden_.flags());
   } else {
     feature_edges_->hide();
   }
@@ -403,14 +447,15 @@ void SceneView::show_direction() {
 }
 
 void SceneView::show_selection() {
-  const PatchId patch = selection_.patch();
-  const bool any = loaded_ && patch >= 0 && patch < loaded_->scene->patch_count();
+  const std::vector<PatchId>& patches = selection_.patches();
+  const bool any = loaded_ && !patches.empty() && patches.front() >= 0 &&
+                   patches.back() < loaded_->scene->patch_count();
   halo_->SetVisibility(any);
   outline_->SetVisibility(any);
   if (!any) {
     return;
   }
-  const auto lines = patch_outline(*loaded_->scene, patch, 1.5e-3 * radius_);
+  const auto lines = patch_outlines(*loaded_->scene, patches, 1.5e-3 * radius_);
   for (const auto& actor : {halo_, outline_}) {
     vtkPolyDataMapper::SafeDownCast(actor->GetMapper())->SetInputData(lines);
   }
@@ -516,8 +561,14 @@ PatchId SceneView::patch_at(const QPoint& position) const {
     return Vec3{p[0] / p[3], p[1] / p[3], p[2] / p[3]};
   };
   // Back sides are culled in the picture.
-  const Vec3 begin = world(0);
-  const auto hit = loaded_->picker->first_lit_hit(begin, world(1) - begin);
+  Vec3 begin = world(0);
+  const Vec3 direction = normalized(world(1) - begin);
+  const double past = 2e-5 * loaded_->scene->bounds().diagonal();  // beyond what was hit
+  auto hit = loaded_->picker->first_lit_hit(begin, direction);
+  while (hit && !in_picture(*hit)) {
+    begin = hit->point + past * direction;
+    hit = loaded_->picker->first_lit_hit(begin, direction);
+  }
   return hit ? hit->patch : no_patch;
 }
 
@@ -530,10 +581,15 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       renderer_->UseFXAAOff();  // while the scene turns
     } else if (event->type() == QEvent::MouseButtonRelease && pressed_) {
       pressed_ = false;
-      const QPoint position = static_cast<QMouseEvent*>(event)->pos();
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const QPoint position = mouse->pos();
       const int moved = (position - press_position_).manhattanLength();
       if (moved < QApplication::startDragDistance()) {
-        selection_.select(patch_at(position));
+        if (mouse->modifiers() & Qt::ControlModifier) {
+          selection_.toggle(patch_at(position));
+        } else {
+          selection_.select(patch_at(position));
+        }
       }
       render();
     } else if (event->type() == QEvent::Resize && loaded_ && view_point() == initial_view_point_) {

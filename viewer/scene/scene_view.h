@@ -7,6 +7,7 @@
 #include <vtkActor.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
@@ -19,6 +20,7 @@
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
+#include "scene/clip_controls.h"
 #include "scene/direction_glyph.h"
 #include "scene/feature_edges.h"
 #include "scene/path_glyph.h"
@@ -30,6 +32,7 @@
 #include "state/callout.h"
 #include "state/camera_views.h"
 #include "state/focus.h"
+#include "state/hidden_patches.h"
 #include "state/initial_view.h"
 #include "state/selection.h"
 
@@ -48,7 +51,7 @@ class SceneView : public QWidget {
 
  public:
   SceneView(const Focus& focus, Selection& selection, const ColorChoice& colors,
-            QWidget* parent = nullptr);
+            const HiddenPatches& hidden, QWidget* parent = nullptr);
   ~SceneView() override;
 
   void show_scene(std::shared_ptr<const LoadedScene> loaded);
@@ -83,6 +86,8 @@ class SceneView : public QWidget {
   /// How a drag rotates: as a trackball, or as a turntable, about the vertical of the scene, which
   /// stays upright.
   void set_turntable(bool turntable);
+  /// Cuts the picture open along a plane; none: not.
+  void set_clip(const std::optional<ClipChoice>& clip);
   bool turntable() const { return turntable_; }
   /// Turns the camera about the vertical of the scene, and above or below it, degrees.
   void turn(double azimuth, double elevation);
@@ -108,6 +113,8 @@ class SceneView : public QWidget {
   bool stepping() const;
   void show_step();
   void show_selection();
+  void leave_out_hidden();
+  bool in_picture(const PickedPoint& point) const;
   void show_edges();
   Vec3 vertical() const;
   void follow_camera();
@@ -118,6 +125,7 @@ class SceneView : public QWidget {
   const Focus& focus_;
   Selection& selection_;
   const ColorChoice& colors_;
+  const HiddenPatches& hidden_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::unique_ptr<SceneMesh> mesh_;
@@ -140,6 +148,8 @@ class SceneView : public QWidget {
   QVTKOpenGLNativeWidget* canvas_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
+  std::optional<ClipChoice> clip_;
+  vtkNew<vtkPlane> clip_plane_;
   vtkSmartPointer<vtkActor> surface_;
   vtkSmartPointer<vtkActor> halo_, outline_;
   std::unique_ptr<FeatureEdges> feature_edges_;

@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QMenu>
+#include <QWidgetAction>
 
 #include "transillum/at.h"
 
@@ -49,6 +50,14 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
                       tr("Interpolate colors across patches; the solution is constant on each")),
           &QAction::toggled, this, &ShowMenu::smooth_toggled);
+  menu->addSeparator();
+  clip_ = new ClipControls;
+  auto* clip = new QWidgetAction(menu);
+  clip->setDefaultWidget(clip_);
+  menu->addAction(clip);
+  QAction* next =
+      menu->addAction(tr("Clip across the next axis"), clip_, &ClipControls::next_axis, Qt::Key_X);
+  next->setObjectName("clip_next");
   setMenu(menu);
 }
 

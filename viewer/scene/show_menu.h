@@ -4,6 +4,7 @@
 #include <QToolButton>
 #include <array>
 
+#include "scene/clip_controls.h"
 #include "scene/scene_overlays.h"
 #include "state/overlay.h"
 #include "transillum/at.h"
@@ -21,6 +22,7 @@ class ShowMenu : public QToolButton {
 
   QAction* outlines() const { return outlines_; }
   QAction* direction() const { return direction_; }
+  ClipControls* clip() const { return clip_; }
   QAction* overlay(Overlay overlay) const { return at(overlays_, overlay); }
 
  signals:
@@ -30,6 +32,7 @@ class ShowMenu : public QToolButton {
 
  private:
   QAction *outlines_, *direction_;
+  ClipControls* clip_;
   std::array<QAction*, std::size(all_overlays)> overlays_{};
 };
 

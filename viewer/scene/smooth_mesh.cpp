@@ -62,6 +62,23 @@ SmoothMesh::SmoothMesh(const Scene& scene) {
   surface_->GetPointData()->SetScalars(colors_);
 }
 
+void SmoothMesh::leave_out(const Scene& scene, const std::vector<bool>& hidden) {
+  vtkNew<vtkCellArray> polygons;
+  vtkIdType next = 0;  // corners are in the order of the pieces
+  for (const Piece& piece : scene.pieces()) {
+    const auto corners = static_cast<vtkIdType>(scene.corners(piece).size());
+    if (!at(hidden, piece.patch)) {
+      polygons->InsertNextCell(static_cast<int>(corners));
+      for (vtkIdType corner = next; corner < next + corners; ++corner) {
+        polygons->InsertCellPoint(corner);
+      }
+    }
+    next += corners;
+  }
+  surface_->SetPolys(polygons);
+  surface_->Modified();
+}
+
 void SmoothMesh::color(std::span<const Color8> colors) {
   for (std::size_t k = 0; k + 1 < begin_.size(); ++k) {
     std::array<unsigned, 3> sum{};

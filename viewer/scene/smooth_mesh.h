@@ -22,6 +22,9 @@ class SmoothMesh {
   explicit SmoothMesh(const Scene& scene);
 
   vtkPolyData* surface() const { return surface_; }
+  /// Leaves patches of the scene out.
+  /// @param hidden  one per patch
+  void leave_out(const Scene& scene, const std::vector<bool>& hidden);
   /// One color per patch.
   void color(std::span<const Color8> colors);
 

@@ -12,19 +12,23 @@
 #include "patches/material_panel.h"
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
+#include "patches/selection_actions.h"
 #include "widgets/scrolling.h"
 #include "window/dock_layouts.h"
 
 namespace transillum::viewer {
 
 InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
-                                   ColorChoice& colors, SolveRunner& runner, QWidget* window)
+                                   HiddenPatches& hidden, ColorChoice& colors, SolveRunner& runner,
+                                   QWidget* window)
     : QObject(window), relighting_(relighting) {
   materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
   paths_ = new PathPanel(selection);
   paths_->setObjectName("path_panel");
+  selecting_ = new SelectionActions(selection, hidden, this);
+  hidden.set_undo_stack(&relighting_.edits().undo_stack());
   compare_ = new CompareActions(colors, window, this);
   connect(&colors, &ColorChoice::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
@@ -80,11 +84,13 @@ void InspectionPanels::add_to(QMenuBar& bar) {
       },
       QKeySequence::Find);
   find->setObjectName("find_patch");
+  selecting_->add_to(*edit);
   compare_->add_to(*bar.addMenu(tr("&Compare")));
 }
 
 void InspectionPanels::show_scene(const LoadedScene& loaded) {
   materials_->show_scene(loaded.scene);
+  selecting_->show_scene(loaded.scene);
   tables_->clear();
   paths_->clear();
 }

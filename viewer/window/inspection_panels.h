@@ -7,6 +7,7 @@
 #include "colors/color_choice.h"
 #include "model/relighting.h"
 #include "model/snapshot.h"
+#include "state/hidden_patches.h"
 #include "state/selection.h"
 #include "transillum/light_paths.h"
 
@@ -20,6 +21,7 @@ class DockLayouts;
 class MaterialPanel;
 class PatchTablePanel;
 class PathPanel;
+class SelectionActions;
 class SolveRunner;
 
 /// The panels that inspect a scene: tables of patches, materials to change, a kept run to compare
@@ -28,8 +30,8 @@ class InspectionPanels : public QObject {
   Q_OBJECT
 
  public:
-  InspectionPanels(Relighting& relighting, Selection& selection, ColorChoice& colors,
-                   SolveRunner& runner, QWidget* window);
+  InspectionPanels(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
+                   ColorChoice& colors, SolveRunner& runner, QWidget* window);
 
   void add_materials_to(DockLayouts& docks);
   void add_tables_to(DockLayouts& docks);
@@ -54,6 +56,7 @@ class InspectionPanels : public QObject {
   PatchTablePanel* tables_;
   PathPanel* paths_;
   CompareActions* compare_;
+  SelectionActions* selecting_;
   QDockWidget* table_dock_ = nullptr;
 };
 

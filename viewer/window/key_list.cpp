@@ -37,7 +37,8 @@ KeyGroup pointer_group() {
   return {
       tr("Pointer"),
       {{tr("Scene"), tr("drag: rotate; Shift+drag or middle button: pan; wheel: zoom; click: "
-                        "select a patch")},
+                        "select a patch; Ctrl+click: add it, or take it out")},
+       {tr("Color bar"), tr("drag: select the patches with values in a range")},
        {tr("Map"), tr("drag: pan; wheel: zoom; double-click: fit; click: select a patch and "
                       "list the patches on its line; right-click: run to a point")},
        {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "

@@ -155,8 +155,8 @@ void MainWindow::make_views() {
   timeline_ = new TimelineBar(state_.focus, state_.selection, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
-  inspection_ =
-      new InspectionPanels(state_.relighting, state_.selection, state_.colors, state_.runner, this);
+  inspection_ = new InspectionPanels(state_.relighting, state_.selection, page_->hidden(),
+                                     state_.colors, state_.runner, this);
   study_ =
       new StudyDialog(remember_ ? ReferenceCache::default_folder() : std::filesystem::path(), this);
   progress_ = new ProgressLine;

@@ -1,0 +1,46 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <span>
+#include <vector>
+
+#include "transillum/scene.h"
+
+class QUndoStack;
+
+namespace transillum::viewer {
+
+/// The patches that the 3-D view leaves out, to see what is behind them. They keep their part in
+/// the solve.
+class HiddenPatches : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  /// Changes can be undone there, except reset(); null: no undo.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
+  /// Shows all patches of a new scene.
+  void reset(PatchId patches);
+  /// One per patch.
+  const std::vector<bool>& flags() const { return flags_; }
+  bool hidden(PatchId patch) const;
+  bool any() const;
+  void hide(std::span<const PatchId> patches);
+  /// Hides all others.
+  void isolate(std::span<const PatchId> patches);
+  void show_all();
+
+ signals:
+  void changed();
+
+ private:
+  void change(const QString& what, std::vector<bool> flags);
+
+  std::vector<bool> flags_;
+  QUndoStack* undo_ = nullptr;
+};
+
+}  // namespace transillum::viewer
