@@ -11,6 +11,7 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QRegularExpression>
@@ -485,6 +486,37 @@ class InspectTest : public QObject {
     const auto chosen = selection.patches();
     QTest::mouseClick(bar, Qt::LeftButton, {}, {20, top});
     QVERIFY(selection.patches() == chosen);
+  }
+
+  void a_click_on_a_warning_goes_to_its_face() {
+    const QTemporaryDir folder;
+    QFile scene(folder.filePath("warned.obj"));
+    QVERIFY(scene.open(QIODevice::WriteOnly));
+    scene.write(
+        "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n"
+        "v 1 1 1\nv 2 1 1\nv 2 2 1.5\nv 1 2 1\n"
+        "f 1 2 3 4\nf 5 6 7 8\n");  // face 1 is not planar
+    scene.close();
+    const Inspected shown(scene.fileName());
+    QVERIFY(shown.ready);
+    auto* button = shown.part<QPushButton>("list_warnings");
+    auto* list = shown.part<QListWidget>("warning_list");
+    QTRY_VERIFY(button->isVisible());
+    button->click();
+    QTRY_VERIFY(list->isVisible());
+    const auto items = list->findItems("face 1: ", Qt::MatchContains);
+    QCOMPARE(items.size(), 1);
+    const ViewPoint before = shown.scene_view->view_point();
+    const QRect place = list->visualItemRect(items[0]);
+    QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, place.center());
+    const std::vector<PatchId>& patches = shown.window->selection.patches();
+    QCOMPARE(patches.size(), std::size_t{2});  // its triangles
+    for (const PatchId i : patches) {
+      QCOMPARE(shown.window->snapshot()->loaded->scene->patch(i).face, 1);
+    }
+    QVERIFY(distance_of(shown.scene_view->view_point(), before) > 0.1);
+    shown.window->show_failure("another message");
+    QVERIFY(!button->isVisible());
   }
 
   void tables_and_views_share_the_selection() {

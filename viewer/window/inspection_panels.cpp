@@ -13,6 +13,7 @@
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
 #include "patches/selection_actions.h"
+#include "patches/warning_list.h"
 #include "widgets/scrolling.h"
 #include "window/dock_layouts.h"
 
@@ -27,6 +28,8 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
   tables_->setObjectName("table_panel");
   paths_ = new PathPanel(selection);
   paths_->setObjectName("path_panel");
+  warnings_ = new WarningList(selection);
+  connect(warnings_, &WarningList::face_chosen, this, &InspectionPanels::face_chosen);
   selecting_ = new SelectionActions(selection, hidden, this);
   hidden.set_undo_stack(&relighting_.edits().undo_stack());
   compare_ = new CompareActions(colors, window, this);
@@ -63,6 +66,11 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
 }
 
+void InspectionPanels::add_warnings_to(DockLayouts& docks) {
+  docks.add(tr("Warnings"), "warnings_dock", warnings_,
+            {{Layout::inspect, Qt::RightDockWidgetArea, 400, true}});
+}
+
 void InspectionPanels::add_to(QMenuBar& bar) {
   QMenu* edit = bar.addMenu(tr("&Edit"));
   QAction* undo = relighting_.edits().undo_stack().createUndoAction(this, tr("Undo"));
@@ -91,6 +99,7 @@ void InspectionPanels::add_to(QMenuBar& bar) {
 void InspectionPanels::show_scene(const LoadedScene& loaded) {
   materials_->show_scene(loaded.scene);
   selecting_->show_scene(loaded.scene);
+  warnings_->show_scene(loaded.scene);
   tables_->clear();
   paths_->clear();
 }

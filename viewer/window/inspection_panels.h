@@ -22,6 +22,7 @@ class MaterialPanel;
 class PatchTablePanel;
 class PathPanel;
 class SelectionActions;
+class WarningList;
 class SolveRunner;
 
 /// The panels that inspect a scene: tables of patches, materials to change, a kept run to compare
@@ -35,6 +36,7 @@ class InspectionPanels : public QObject {
 
   void add_materials_to(DockLayouts& docks);
   void add_tables_to(DockLayouts& docks);
+  void add_warnings_to(DockLayouts& docks);
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
 
@@ -47,6 +49,8 @@ class InspectionPanels : public QObject {
 
  signals:
   void failed(const QString& message);
+  /// As WarningList::face_chosen().
+  void face_chosen();
   /// As PathPanel::paths_shown().
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
 
@@ -55,6 +59,7 @@ class InspectionPanels : public QObject {
   MaterialPanel* materials_;
   PatchTablePanel* tables_;
   PathPanel* paths_;
+  WarningList* warnings_;
   CompareActions* compare_;
   SelectionActions* selecting_;
   QDockWidget* table_dock_ = nullptr;

@@ -221,6 +221,7 @@ void MainWindow::make_docks() {
              {{teach, right, 420, true}, {debug, right, 260, true}});
   docks_.add(tr("Received light"), "received_dock", received_view_,
              {{inspect, right, 400, true}, {debug, right, 260, true}});
+  inspection_->add_warnings_to(docks_);
   QDockWidget* timeline_dock =
       docks_.add(tr("Timeline"), "timeline_dock", timeline_,
                  {{teach, bottom, 132}, {inspect, bottom, 132}, {debug, bottom, 132}});
@@ -232,6 +233,10 @@ void MainWindow::make_docks() {
 /// Connects views with one another, through the shared state.
 void MainWindow::connect_views() {
   connect(inspection_, &InspectionPanels::paths_shown, page_->scene_view(), &SceneView::show_paths);
+  connect(inspection_, &InspectionPanels::face_chosen, page_->scene_view(),
+          &SceneView::fit_selected);
+  connect(notifier_, &Notifier::list_requested, this,
+          [this] { docks_.bring_to_front("warnings"); });
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   connect(lesson_panel_, &LessonPanel::errors_wanted, error_view_, &ErrorView::set_runs);
   connect(lesson_panel_, &LessonPanel::callouts_shown, map_view_->canvas(),
@@ -336,7 +341,7 @@ void MainWindow::connect_scene() {
     }
     // Older messages were dismissed when the scene was requested.
     if (!warnings.isEmpty()) {
-      notifier_->show_warnings(warnings);
+      notifier_->show_warnings(warnings, true);
     }
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {

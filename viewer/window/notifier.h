@@ -5,6 +5,7 @@
 #include <QString>
 #include <QStringList>
 
+class QPushButton;
 class QStatusBar;
 
 namespace transillum::viewer {
@@ -21,14 +22,19 @@ class Notifier : public QObject {
 
   void show_failure(const QString& message);
   /// Shows the first warning and the number of others; hides the banner where there is none.
-  void show_warnings(const QStringList& warnings);
+  /// @param listed  whether a panel lists all of them, which a button brings to the front
+  void show_warnings(const QStringList& warnings, bool listed = false);
   /// Confirms for a few seconds that a file has been written.
   void show_written(const QString& path);
   void dismiss();
 
+ signals:
+  void list_requested();
+
  private:
   Banner& banner_;
   QStatusBar& status_bar_;
+  QPushButton* list_;
 };
 
 }  // namespace transillum::viewer
