@@ -56,6 +56,28 @@ class StudyTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void engines_are_compared_against_seconds() {
+    const Shown shown("cornell-box");
+    const auto* fast = shown.dialog->findChild<QCheckBox*>("study_engine_fast");
+    QVERIFY(fast->isChecked());  // that of the solve
+    shown.choose("engine_rays", true);
+    shown.choose("random", false);
+    shown.study();
+    auto* table = shown.dialog->findChild<QTableWidget*>("study_table");
+    QCOMPARE(table->rowCount(), 2);
+    QVERIFY(shown.cell(0, 0).contains("fast") && shown.cell(1, 0).contains("rays"));
+    auto* chart = shown.dialog->findChild<StudyChart*>();
+    const QImage by_passes = chart->grab().toImage();
+    auto* axis = shown.dialog->findChild<QComboBox*>("study_axis");
+    axis->setCurrentIndex(1);
+    QCOMPARE(table->horizontalHeaderItem(2)->text(), QString("Seconds for 1 %"));
+    QVERIFY(chart->grab().toImage() != by_passes);
+    save_picture(*shown.dialog, "study-by-engine");
+    axis->setCurrentIndex(0);
+    QCOMPARE(table->horizontalHeaderItem(2)->text(), QString("Passes for 1 %"));
+    QCOMPARE(chart->grab().toImage(), by_passes);
+  }
+
   void shows_errors_and_slopes() {
     const Shown shown("cornell-box");
     shown.choose("one_way", true);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "transillum/study_files.h"
 #include "widgets/chart_picture.h"
 #include "widgets/theme.h"
 
@@ -29,6 +28,11 @@ void StudyChart::show_study(std::shared_ptr<const StudySnapshot> snapshot) {
 
 void StudyChart::set_measure(ErrorMeasure measure) {
   measure_ = measure;
+  discard_picture();
+}
+
+void StudyChart::set_axis(StudyAxis axis) {
+  axis_ = axis;
   discard_picture();
 }
 
@@ -66,7 +70,7 @@ void StudyChart::paintEvent(QPaintEvent*) {
     style.font = window.font;
     const double scale = std::min(width() / 800.0, height() / 480.0);
     paint_chart(study_chart(snapshot_->loaded->scene->name(), snapshot_->series, snapshot_->study,
-                            measure_, StudyAxis::passes, style),
+                            measure_, axis_, style),
                 picture_, pixels, scale * devicePixelRatioF());
   }
   painter.drawImage(rect(), picture_);

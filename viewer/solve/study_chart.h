@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/study_runner.h"
+#include "transillum/study_files.h"
 
 namespace transillum::viewer {
 
@@ -18,6 +19,7 @@ class StudyChart : public QWidget {
 
   void show_study(std::shared_ptr<const StudySnapshot> snapshot);
   void set_measure(ErrorMeasure measure);
+  void set_axis(StudyAxis axis);
 
   QSize sizeHint() const override { return {800, 480}; }
   QSize minimumSizeHint() const override { return {500, 300}; }
@@ -31,6 +33,7 @@ class StudyChart : public QWidget {
 
   std::shared_ptr<const StudySnapshot> snapshot_;
   ErrorMeasure measure_ = ErrorMeasure::rms;
+  StudyAxis axis_ = StudyAxis::passes;
   QImage picture_;  ///< in device pixels; null: to be drawn
 };
 

@@ -7,6 +7,7 @@
 #include <QCheckBox>
 #include <QGridLayout>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include "support/number_text.h"
@@ -60,6 +61,24 @@ StudyChoices::StudyChoices(QWidget* parent) : QWidget(parent) {
       add_box(passes_, QStringLiteral("one_way"), tr("ω only, as in the paper"), 0, false));
   layout->addSpacing(10);
 
+  layout->addWidget(heading(tr("Engines")));
+  auto* engines = new QGridLayout;
+  engines->setVerticalSpacing(4);
+  for (std::size_t k = 0; k < engine_names().size(); ++k) {
+    const auto engine = static_cast<Engine>(k);
+    if (engine == Engine::hemicube || engine == Engine::pairs) {
+      continue;  // their error does not depend on M
+    }
+    const QString name = QString::fromStdString(name_of(engine));
+    QCheckBox* box = add_box(engines_, QStringLiteral("engine_") + name, name, static_cast<int>(k),
+                             engine == solve_.engine);
+    box->setToolTip(engine_sentence(engine));
+    const int place = static_cast<int>(engines_.size()) - 1;
+    engines->addWidget(box, place / 2, place % 2);
+  }
+  layout->addLayout(engines);
+  layout->addSpacing(10);
+
   layout->addWidget(heading(tr("Directions M")));
   auto* grid = new QGridLayout;
   grid->setVerticalSpacing(4);
@@ -102,15 +121,35 @@ void StudyChoices::set_solve(const SolveOptions& solve) {
   if (solve == solve_) {
     return;
   }
+  const bool another_engine = solve.engine != solve_.engine;
   solve_ = solve;
+  if (another_engine) {
+    check_engine();
+  }
   show_solve();
   emit changed();
 }
 
+void StudyChoices::check_engine() {
+  for (const Choice& choice : engines_) {
+    const QSignalBlocker quiet(choice.box);
+    choice.box->setChecked(choice.value == static_cast<int>(solve_.engine));
+  }
+}
+
+std::vector<Engine> StudyChoices::engines() const {
+  std::vector<Engine> engines;
+  for (const Choice& choice : engines_) {
+    if (choice.box->isChecked()) {
+      engines.push_back(static_cast<Engine>(choice.value));
+    }
+  }
+  return engines.empty() ? std::vector<Engine>{solve_.engine} : engines;
+}
+
 void StudyChoices::show_solve() {
-  fixed_settings_->setText(tr("As in the current solve: engine %1, normalization %2, scheme %3")
-                               .arg(engine_label(solve_.engine),
-                                    QString::fromStdString(name_of(solve_.normalize)),
+  fixed_settings_->setText(tr("As in the current solve: normalization %1, scheme %2")
+                               .arg(QString::fromStdString(name_of(solve_.normalize)),
                                     QString::fromStdString(name_of(solve_.scheme))));
   show_cost();
 }
@@ -132,15 +171,18 @@ StudyOptions StudyChoices::options() const {
       if (!sampling.box->isChecked() || !pass.box->isChecked()) {
         continue;
       }
-      const StudySeries series{static_cast<Sampling>(sampling.value),
-                               pass.value == 1,
-                               solve_.normalize,
-                               solve_.scheme,
-                               solve_.first_shot,
-                               solve_.engine,
-                               solve_.engine_options.resolution};
-      if (is_valid(options.solve_options(series, first_directions))) {
-        options.series.push_back(series);
+      for (const Engine engine : engines()) {
+        const int resolution = engine == solve_.engine ? solve_.engine_options.resolution : 0;
+        const StudySeries series{static_cast<Sampling>(sampling.value),
+                                 pass.value == 1,
+                                 solve_.normalize,
+                                 solve_.scheme,
+                                 solve_.first_shot,
+                                 engine,
+                                 resolution};
+        if (is_valid(options.solve_options(series, first_directions))) {
+          options.series.push_back(series);
+        }
       }
     }
   }

@@ -12,7 +12,7 @@ class QVBoxLayout;
 
 namespace transillum::viewer {
 
-/// Check boxes for what a study compares: samplings, one-way or two-way passes, numbers of
+/// Check boxes for what a study compares: samplings, one-way or two-way passes, engines, numbers of
 /// directions.
 class StudyChoices : public QWidget {
   Q_OBJECT
@@ -20,8 +20,8 @@ class StudyChoices : public QWidget {
  public:
   explicit StudyChoices(QWidget* parent = nullptr);
 
-  /// Sets what has no control here: engine, normalization, scheme, first shot, seed, memory,
-  /// threads.
+  /// Sets what has no control here: normalization, scheme, first shot, seed, memory, threads.
+  /// Another engine becomes the only one that is checked.
   void set_solve(const SolveOptions& solve);
   /// All valid combinations of the checked choices; without series or directions where none is
   /// checked.
@@ -37,11 +37,14 @@ class StudyChoices : public QWidget {
   };
   QCheckBox* add_box(std::vector<Choice>& choices, const QString& name, const QString& text,
                      int value, bool on);
+  void check_engine();
+  /// Those checked; that of the solve where none is.
+  std::vector<Engine> engines() const;
   void show_solve();
   void show_cost();
 
   SolveOptions solve_;
-  std::vector<Choice> samplings_, passes_, directions_;
+  std::vector<Choice> samplings_, passes_, engines_, directions_;
   QLabel *cost_ = nullptr, *fixed_settings_ = nullptr;
 };
 

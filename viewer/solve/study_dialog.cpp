@@ -30,12 +30,20 @@ namespace {
 
 constexpr int controls_width = 250;
 
-QString cost_text(const std::optional<StudyCost>& cost) {
+QString cost_text(const std::optional<StudyCost>& cost, StudyAxis axis) {
   if (!cost) {
     return QStringLiteral("–");
   }
-  const QString passes = count_text(std::llround(cost->passes));
-  return cost->at_most ? StudyDialog::tr("≤ %1").arg(passes) : passes;
+  const QString text = axis == StudyAxis::passes ? count_text(std::llround(cost->passes))
+                                                 : number_text(cost->seconds);
+  return cost->at_most ? StudyDialog::tr("≤ %1").arg(text) : text;
+}
+
+QStringList headings(StudyAxis axis) {
+  const bool passes = axis == StudyAxis::passes;
+  return {StudyDialog::tr("Series"), StudyDialog::tr("Slope"),
+          passes ? StudyDialog::tr("Passes for 1 %") : StudyDialog::tr("Seconds for 1 %"),
+          passes ? StudyDialog::tr("Passes for 0.1 %") : StudyDialog::tr("Seconds for 0.1 %")};
 }
 
 Qt::Alignment alignment_of(int column) {
@@ -43,8 +51,7 @@ Qt::Alignment alignment_of(int column) {
 }
 
 QTableWidget* make_table() {
-  const QStringList names{StudyDialog::tr("Directions"), StudyDialog::tr("Slope"),
-                          StudyDialog::tr("Passes for 1 %"), StudyDialog::tr("Passes for 0.1 %")};
+  const QStringList names = headings(StudyAxis::passes);
   auto* table = new QTableWidget(0, names.size());
   table->setObjectName("study_table");
   for (int column = 0; column < names.size(); ++column) {
@@ -118,6 +125,16 @@ QWidget* StudyDialog::make_results() {
     chart_->set_measure(measure());
     show_table();
   });
+  axis_ = new QComboBox;
+  axis_->setObjectName("study_axis");
+  axis_->addItems({tr("Against passes"), tr("Against seconds")});
+  axis_->setToolTip(
+      tr("What the error is shown against: the number of passes, or the processor "
+         "time of passes\nand iteration, which compares engines"));
+  connect(axis_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+    chart_->set_axis(axis());
+    show_table();
+  });
   phase_ = new QLabel;
   phase_->setObjectName("study_phase");
   progress_ = new QProgressBar;
@@ -131,6 +148,7 @@ QWidget* StudyDialog::make_results() {
   auto* bar = new QHBoxLayout;
   bar->setSpacing(12);
   bar->addWidget(error_);
+  bar->addWidget(axis_);
   bar->addWidget(phase_, 1);
   bar->addWidget(progress_);
   bar->addWidget(save_);
@@ -150,6 +168,10 @@ QWidget* StudyDialog::make_results() {
 
 ErrorMeasure StudyDialog::measure() const {
   return error_->currentIndex() == 0 ? ErrorMeasure::rms : ErrorMeasure::max;
+}
+
+StudyAxis StudyDialog::axis() const {
+  return axis_->currentIndex() == 0 ? StudyAxis::passes : StudyAxis::seconds;
 }
 
 void StudyDialog::present() {
@@ -244,6 +266,10 @@ void StudyDialog::show_phase() {
 }
 
 void StudyDialog::show_table() {
+  const QStringList names_of_columns = headings(axis());
+  for (int column = 0; column < names_of_columns.size(); ++column) {
+    table_->horizontalHeaderItem(column)->setText(names_of_columns[column]);
+  }
   const std::size_t rows = has_points() ? snapshot_->series.size() : 0;
   table_->setRowCount(static_cast<int>(rows));
   if (rows == 0) {
@@ -257,7 +283,8 @@ void StudyDialog::show_table() {
         QString::fromStdString(names[series]),
         law ? QString::number(law->slope, 'f', 2).replace('-', QStringLiteral("−"))
             : QStringLiteral("–"),
-        cost_text(cost_of(points, 0.01, measure())), cost_text(cost_of(points, 0.001, measure()))};
+        cost_text(cost_of(points, 0.01, measure()), axis()),
+        cost_text(cost_of(points, 0.001, measure()), axis())};
     for (int column = 0; column < 4; ++column) {
       auto* item = new QTableWidgetItem(texts[column]);
       item->setTextAlignment(alignment_of(column));
@@ -295,7 +322,7 @@ void StudyDialog::save(const QString& path) {
     } else {
       check_chart_path(file);
       write_charts(file, {study_chart(snapshot_->loaded->scene->name(), snapshot_->series,
-                                      snapshot_->study, measure())});
+                                      snapshot_->study, measure(), axis())});
     }
   } catch (const std::exception& error) {
     banner_->show_message(Banner::Kind::error, QString::fromUtf8(error.what()));

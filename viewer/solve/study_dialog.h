@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/study_runner.h"
+#include "transillum/study_files.h"
 
 class QComboBox;
 class QLabel;
@@ -48,6 +49,7 @@ class StudyDialog : public QDialog {
   void show_table();
   void show_buttons();
   ErrorMeasure measure() const;
+  StudyAxis axis() const;
   bool has_points() const { return snapshot_ && !snapshot_->study.points.empty(); }
 
   StudyRunner runner_;
@@ -57,7 +59,7 @@ class StudyDialog : public QDialog {
 
   StudyChoices* choices_;
   QLabel *scene_, *phase_;
-  QComboBox* error_;
+  QComboBox *error_, *axis_;
   QProgressBar* progress_;
   QPushButton *run_, *save_;
   QTableWidget* table_;
