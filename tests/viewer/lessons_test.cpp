@@ -220,7 +220,7 @@ class LessonsTest : public QObject {
     const auto* map_dock = window.findChild<QDockWidget*>("map_dock");
     const int usual = map_dock->width();
     taught.trigger("lesson_next");
-    QTRY_VERIFY(map_dock->width() > 1.4 * usual);
+    QTRY_VERIFY(map_dock->width() > 1.25 * usual);
     QVERIFY(names().isEmpty());
     save_picture(window, "lesson-large");
     taught.trigger("lesson_next");

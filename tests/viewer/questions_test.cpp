@@ -248,8 +248,10 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Right"));
     QCOMPARE(room.counts(), (QMap<QString, int>{{"many", 2}, {"as many", 1}}));
     save_picture(*room.window, "question-revealed");
+    room.action("dark")->trigger();
     room.window->resize(1280, 720);
-    save_picture(*room.window, "question-small");
+    save_picture(*room.window, "question-dark-small");
+    room.action("dark")->trigger();
     room.action("question_reset")->trigger();
     QVERIFY(room.counts().isEmpty() && !room.action("question_reset")->isEnabled());
     room.action("undo")->trigger();

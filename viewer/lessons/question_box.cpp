@@ -161,6 +161,7 @@ void QuestionBox::set_text_font(const QFont& font) {
   for (QWidget* widget : widgets) {
     widget->setFont(font);
   }
+  show_state();  // colors of the theme may have changed too
 }
 
 void QuestionBox::fill_answers() {

@@ -47,7 +47,8 @@ class QuestionBox : public QFrame {
   void show_page(std::shared_ptr<const Lesson::Page> page, int number,
                  std::shared_ptr<Tally> tally);
 
-  /// The font of the question and its answers; buttons keep theirs.
+  /// The font of the question and its answers; buttons keep theirs. To be called after a change of
+  /// the appearance.
   void set_text_font(const QFont& font);
 
   /// Reveal, count and reset, for a menu.

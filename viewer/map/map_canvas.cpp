@@ -327,10 +327,11 @@ void MapCanvas::draw_callouts(QPainter& painter, const MapTransform& shown) cons
   for (const Callout& callout : callouts_) {
     mark_callout(painter, shown, callout);
   }
+  std::vector<QRectF> taken;
   for (const Callout& callout : callouts_) {
     if (const auto place = place_of(callout, shown); place && rect().contains(place->toPoint())) {
       draw_callout(painter, *place, QString::fromStdString(callout.text),
-                   rect().adjusted(2, 2, -2, -2));
+                   rect().adjusted(2, 2, -2, -2), taken);
     }
   }
 }

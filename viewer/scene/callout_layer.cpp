@@ -36,8 +36,9 @@ bool CalloutLayer::eventFilter(QObject* watched, QEvent* event) {
 
 void CalloutLayer::paintEvent(QPaintEvent*) {
   QPainter painter(this);
+  std::vector<QRectF> taken;
   for (const Placed& callout : callouts_) {
-    draw_callout(painter, callout.anchor, callout.text, rect().adjusted(2, 2, -2, -2));
+    draw_callout(painter, callout.anchor, callout.text, rect().adjusted(2, 2, -2, -2), taken);
   }
 }
 

@@ -8,8 +8,36 @@
 
 namespace transillum::viewer {
 
+namespace {
+
+// The first of the four corners around `anchor` that is within `bounds` and free; else within
+// `bounds` at the first.
+QRectF place_for(const QSizeF& size, const QPointF& anchor, const QRectF& bounds,
+                 const std::vector<QRectF>& taken) {
+  const double shift = 16 * theme::scale();
+  QRectF first;
+  for (const QPointF& side : {QPointF(1, -1), QPointF(-1, -1), QPointF(1, 1), QPointF(-1, 1)}) {
+    const QPointF corner(side.x() > 0 ? anchor.x() + shift : anchor.x() - shift - size.width(),
+                         side.y() > 0 ? anchor.y() + shift : anchor.y() - shift - size.height());
+    const QRectF plate(corner, size);
+    const bool is_free = std::none_of(taken.begin(), taken.end(),
+                                      [&](const QRectF& other) { return other.intersects(plate); });
+    if (bounds.contains(plate) && is_free) {
+      return plate;
+    }
+    first = first.isNull() ? plate : first;
+  }
+  first.moveLeft(std::clamp(first.left(), bounds.left(),
+                            std::max(bounds.left(), bounds.right() - size.width())));
+  first.moveTop(std::clamp(first.top(), bounds.top(),
+                           std::max(bounds.top(), bounds.bottom() - size.height())));
+  return first;
+}
+
+}  // namespace
+
 void draw_callout(QPainter& painter, const QPointF& anchor, const QString& text,
-                  const QRectF& bounds) {
+                  const QRectF& bounds, std::vector<QRectF>& taken) {
   const double unit = theme::scale();
   QFont font = painter.font();
   font.setBold(true);
@@ -17,17 +45,8 @@ void draw_callout(QPainter& painter, const QPointF& anchor, const QString& text,
   painter.setFont(font);
   painter.setRenderHint(QPainter::Antialiasing);
   const QSizeF size = painter.fontMetrics().size(0, text) + QSizeF(12 * unit, 6 * unit).toSize();
-  // Up and to the right, or to the other side where there is no room.
-  const QPointF shift(16 * unit, 16 * unit);
-  QRectF plate(anchor + QPointF(shift.x(), -shift.y() - size.height()), size);
-  if (plate.right() > bounds.right()) {
-    plate.moveRight(anchor.x() - shift.x());
-  }
-  if (plate.top() < bounds.top()) {
-    plate.moveTop(anchor.y() + shift.y());
-  }
-  plate.moveLeft(std::max(bounds.left(), plate.left()));
-  plate.moveBottom(std::min(bounds.bottom(), plate.bottom()));
+  const QRectF plate = place_for(size, anchor, bounds, taken);
+  taken.push_back(plate);
   const QPointF end(std::clamp(anchor.x(), plate.left(), plate.right()),
                     std::clamp(anchor.y(), plate.top(), plate.bottom()));
   painter.setPen(QPen(Qt::black, 4 * unit));

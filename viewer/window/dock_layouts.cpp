@@ -286,7 +286,7 @@ void DockLayouts::enlarge(const std::string& panel) {
     return;
   }
   enlarged_ = true;
-  constexpr double wide = 0.5, high = 0.75, narrow = 0.16;
+  constexpr double wide = 0.42, high = 0.75, narrow = 0.16;
   const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
     return panel_name(*dock.widget) == panel;
   });

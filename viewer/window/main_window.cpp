@@ -56,6 +56,7 @@
 #include "window/help_dialogs.h"
 #include "window/inspection_panels.h"
 #include "window/key_list.h"
+#include "window/lesson_export.h"
 #include "window/light_offer.h"
 #include "window/loading_notice.h"
 #include "window/notifier.h"
@@ -176,6 +177,7 @@ void MainWindow::make_whole_window_actions() {
   if (remember_) {
     recovery_ = new Recovery(parts, *session_, Recovery::usual_folder());
   }
+  lesson_export_ = new LessonExport(parts, [this] { return settled(); });
   new LightOffer(parts, inspection_->materials(), *applier_);
   new OrientationOffer(parts, *applier_);
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
@@ -414,7 +416,9 @@ void MainWindow::make_menus() {
   step->addSeparator();
   breakpoint_panel_->add_to(*step);
 
-  lesson_panel_->add_to(*menuBar()->addMenu(tr("&Lesson")));
+  QMenu* lesson = menuBar()->addMenu(tr("&Lesson"));
+  lesson_panel_->add_to(*lesson);
+  lesson->addAction(lesson_export_->action());
   make_view_menu();
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));

@@ -21,6 +21,7 @@ class ErrorView;
 class ExportActions;
 class FileActions;
 class InspectionPanels;
+class LessonExport;
 class PatchInspector;
 class ProgressLine;
 class ReceivedView;
@@ -120,6 +121,7 @@ class MainWindow : public QMainWindow {
   FileActions* files_;
   ExportActions* exports_;
   Recovery* recovery_ = nullptr;  ///< null: nothing is remembered
+  LessonExport* lesson_export_;
 };
 
 }  // namespace transillum::viewer

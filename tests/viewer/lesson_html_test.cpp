@@ -1,0 +1,182 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Lessons exported as HTML: the file stands alone, and has the pages, the maps and the answers.
+#include <QAction>
+#include <QFile>
+#include <QProcess>
+#include <QProgressDialog>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+
+#include "lessons/lesson_html.h"
+#include "lessons/lesson_panel.h"
+#include "solved_window.h"
+#include "transillum/at.h"
+#include "window/lesson_export.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+const char* const lesson_text = R"({"title": "Two <pages>", "pages": [
+  {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ.",
+   "show": {"scene": "furnace", "layout": "teach", "options": {"directions": 16},
+            "focus": {"direction": 3, "step": 4}},
+   "controls": {"M": {"option": "directions", "values": [8, 16]}},
+   "question": {"kind": "number", "ask": "How many?", "answer": {"figure": "steps"},
+                "then": "That is all."}},
+  {"title": "Two", "text": "The end.", "show": {"focus": "newest"}}]})";
+
+QByteArray content(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+int count(const QByteArray& text, const char* pattern) {
+  int found = 0;
+  auto all =
+      QRegularExpression(QString::fromUtf8(pattern), QRegularExpression::DotMatchesEverythingOption)
+          .globalMatch(QString::fromUtf8(text));
+  for (; all.hasNext(); all.next()) {
+    ++found;
+  }
+  return found;
+}
+
+/// A window with the lesson above.
+struct Exported {
+  QTemporaryDir folder;
+  std::unique_ptr<TestWindow> window = make_window();
+  LessonExport* exporter = window->findChild<LessonExport*>();
+  QString path = folder.filePath("lesson.html");
+
+  Exported() {
+    QFile file(folder.filePath("mine.json"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(lesson_text);
+    file.close();
+    window->files().try_open(file.fileName());
+    QVERIFY(wait_for([this] { return window->settled(); }));
+  }
+  void finish() {
+    exporter->export_to(path);
+    QVERIFY(wait_for([this] { return !exporter->busy(); }, 60000));
+  }
+};
+
+}  // namespace
+
+class LessonHtmlTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  // The polygons that a browser shows at a step are those of V.
+  void polygons_of_a_map_have_their_steps() {
+    const auto scene = load_scene("cornell-box");
+    auto loaded = std::make_shared<LoadedScene>();
+    loaded->scene = scene;
+    loaded->tree = std::make_shared<const BspTree>(*scene);
+    RecordedMap map;
+    map.history = MapHistory(
+        record_local_map(*scene, *loaded->tree, normalized(Vec3{0.3, 0.8, -0.4})).record);
+    const std::vector<Color8> colors(static_cast<std::size_t>(scene->patch_count()),
+                                     Color8{1, 2, 3});
+    const QByteArray svg = map_svg(map, 9, colors, true);
+    const QRegularExpression polygon(
+        "<polygon data-made=\"(\\d+)\" data-consumed=\"(\\d+)\"[^>]*?( style=\"display:none\")?>");
+    for (const std::int32_t step : {-1, 0, 5, 9, map.history.step_count() - 1}) {
+      std::size_t shown = 0, visible = 0;
+      for (auto all = polygon.globalMatch(QString::fromUtf8(svg)); all.hasNext();) {
+        const auto one = all.next();
+        shown += one.captured(1).toInt() <= step && step < one.captured(2).toInt() ? 1 : 0;
+        visible += one.captured(3).isEmpty() ? 1 : 0;
+      }
+      QCOMPARE(shown, map.record().map_after(step).size());
+      QCOMPARE(visible, map.record().map_after(9).size());  // without a script: the given step
+    }
+    QCOMPARE(count(map_svg(map, 9, colors, false), "<polygon"),
+             int(map.record().map_after(9).size()));
+  }
+
+  void a_lesson_becomes_one_file() {
+    Exported exported;
+    exported.finish();
+    const QByteArray html = content(exported.path);
+    const QString kept = qEnvironmentVariable("TRANSILLUM_PICTURES");
+    if (!kept.isEmpty()) {
+      QFile::copy(exported.path, kept + "/lesson.html");
+    }
+    QCOMPARE(count(html, "<section>"), 2);
+    QVERIFY(html.contains("<title>Two &lt;pages&gt;</title>"));
+    QCOMPARE(count(html, "<img [^>]*src=\"data:image/png;base64,"), 2);
+    QCOMPARE(count(html, "class=\"stepper\""), 1);  // the second page has no direction
+    QVERIFY(html.contains("max=\"12\" value=\"4\""));
+    // Nothing is loaded from elsewhere, and no link leads into the program.
+    QCOMPARE(count(html, "(src|href)=\"(?!data:)"), 0);
+    QVERIFY(!html.contains("symbol:") && !html.contains("{M}") && html.contains("16"));
+    QVERIFY(count(html, "vertical-align:sub") > 0);
+    QCOMPARE(count(html, "<details>.*computed: 12.*That is all.*</details>"), 1);
+    // The pictures are of the scene.
+    static const QRegularExpression png(QStringLiteral("base64,([^\"]*)\""));
+    const QImage image = QImage::fromData(
+        QByteArray::fromBase64(png.match(QString::fromUtf8(html)).captured(1).toLatin1()));
+    QVERIFY(image.width() > 200 && color_count(image) > 3);
+    // The window is back where it was.
+    QCOMPARE(exported.window->findChild<LessonPanel*>()->page(), 0);
+  }
+
+  void canceling_writes_nothing() {
+    Exported exported;
+    exported.exporter->export_to(exported.path);
+    auto* progress = exported.window->findChild<QProgressDialog*>("lesson_export_progress");
+    QVERIFY(progress);
+    progress->findChild<QPushButton*>()->click();
+    QVERIFY(!exported.exporter->busy());
+    QVERIFY(!QFile::exists(exported.path));
+    exported.path = exported.folder.filePath("no/such/folder.html");
+    exported.finish();
+    QVERIFY(exported.window->banner_text().contains("folder.html"));
+  }
+
+  // In a real browser, which ./check does not install: nightly, where one is found.
+  void a_browser_steps_through_the_map() {
+    if (qEnvironmentVariableIsEmpty("TRANSILLUM_BROWSER")) {
+      QSKIP("nightly only");
+    }
+    QString browser;
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+      browser = browser.isEmpty() ? QStandardPaths::findExecutable(name) : browser;
+    }
+    if (browser.isEmpty()) {
+      QSKIP("no Chromium is installed");
+    }
+    Exported exported;
+    exported.finish();
+    QByteArray html = content(exported.path);
+    // Clicks, and writes what is visible then into the title.
+    html.replace("</body>", R"(<script>
+      document.querySelector('.on').click();
+      document.title = document.querySelector('output').textContent + ': ' +
+        [...document.querySelectorAll('svg.map polygon')].filter(
+          p => getComputedStyle(p).display !== 'none').length;</script></body>)");
+    QFile file(exported.folder.filePath("clicked.html"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(html);
+    file.close();
+    QProcess process;
+    process.start(browser, {"--headless", "--no-sandbox", "--disable-gpu", "--dump-dom",
+                            "file://" + file.fileName()});
+    QVERIFY(process.waitForFinished(60000));
+    const auto map = exported.window->focus.map();
+    const auto polygons = map->record().map_after(4).size();  // the fifth step
+    const QByteArray title = "<title>5 / 12: " + QByteArray::number(int(polygons)) + "</title>";
+    QVERIFY2(process.readAllStandardOutput().contains(title), title.constData());
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(LessonHtmlTest)
+#include "lesson_html_test.moc"

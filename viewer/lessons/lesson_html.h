@@ -1,0 +1,37 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QByteArray>
+#include <QString>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "colors/color_map.h"
+#include "lessons/lesson.h"
+#include "model/recorded_map.h"
+
+namespace transillum::viewer {
+
+/// A page of a lesson as the window shows it.
+struct ShownPage {
+  Lesson::Page page;
+  QByteArray picture;                      ///< of the scene, PNG
+  std::shared_ptr<const RecordedMap> map;  ///< of the page's direction; null: without a map
+  std::int32_t step = -1;                  ///< shown first, from 0
+  std::vector<Color8> patch_colors;        ///< of the map, one per patch
+  std::optional<Solved> solved;            ///< of the page's question
+};
+
+/// A lesson as one HTML file that refers to no other: text, pictures, and maps as SVG with a slider
+/// for the step. UTF-8. Maps of more than 20,000 polygons show one step only.
+QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages);
+
+/// The map of a direction as an SVG element. Each polygon that was ever in V has the steps at which
+/// it was made and consumed (`data-made`, `data-consumed`), so that a script shows any step.
+/// @param step  shown without a script
+/// @param all  false: only the polygons of that step
+QByteArray map_svg(const RecordedMap& map, std::int32_t step,
+                   const std::vector<Color8>& patch_colors, bool all);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,169 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Export of a lesson: the window itself shows each page, so that the file has what a class saw.
+// What is right in a question is solved on a worker thread.
+#include "window/lesson_export.h"
+
+#include <QAction>
+#include <QBuffer>
+#include <QMainWindow>
+#include <QProgressDialog>
+#include <QSaveFile>
+#include <utility>
+
+#include "lessons/figure_values.h"
+#include "lessons/lesson_panel.h"
+#include "scene/scene_page.h"
+#include "scene/scene_view.h"
+#include "support/failure_text.h"
+#include "transillum/at.h"
+#include "widgets/save_dialog.h"
+#include "window/notifier.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int poll_ms = 40;
+constexpr int quiet_polls = 3;  // the window may be between two requests
+constexpr int widest_picture = 900;
+
+}  // namespace
+
+LessonExport::LessonExport(const WindowParts& parts, std::function<bool()> settled)
+    : QObject(&parts.window),
+      parts_(parts),
+      settled_(std::move(settled)),
+      action_(new QAction(tr("Export the lesson…"), this)),
+      worker_(
+          [this](const Job& job, const Cancellation& cancellation) { solve(job, cancellation); },
+          [this](const Job& job, const QString& message) {
+            QMetaObject::invokeMethod(
+                this,
+                [this, number = job.number, message] {
+                  if (number == number_ && busy()) {
+                    end();
+                    parts_.notifier.show_failure(message);
+                  }
+                },
+                Qt::QueuedConnection);
+          }) {
+  action_->setObjectName("lesson_export");
+  action_->setToolTip(tr("Write text, pictures and maps of all pages as one HTML file"));
+  poll_.setInterval(poll_ms);
+  connect(&poll_, &QTimer::timeout, this, &LessonExport::take_when_settled);
+  connect(action_, &QAction::triggered, this, &LessonExport::choose);
+}
+
+void LessonExport::choose() {
+  if (busy() || parts_.lessons.lesson() < 0) {
+    parts_.notifier.show_failure(tr("Choose the lesson to export first."));
+    return;
+  }
+  const QString path = ask_where_to_write(&parts_.window, tr("Export the lesson"),
+                                          tr("Web pages (*.html)"), QStringLiteral("lesson.html"));
+  if (!path.isEmpty()) {
+    export_to(path);
+  }
+}
+
+void LessonExport::export_to(const QString& path) {
+  path_ = path;
+  lesson_ = parts_.lessons.lesson();
+  page_before_ = parts_.lessons.page();
+  pages_.clear();
+  const auto count = static_cast<int>(at(parts_.lessons.lessons(), lesson_).pages.size());
+  progress_ = new QProgressDialog(tr("Showing and taking the pages…"), tr("Cancel"), 0, count,
+                                  &parts_.window);
+  progress_->setObjectName("lesson_export_progress");
+  progress_->setWindowTitle(tr("Export the lesson"));
+  progress_->setMinimumDuration(0);
+  connect(progress_, &QProgressDialog::canceled, this, &LessonExport::end);
+  progress_->setValue(0);
+  show_next();
+}
+
+void LessonExport::show_next() {
+  const auto& pages = at(parts_.lessons.lessons(), lesson_).pages;
+  if (pages_.size() == pages.size()) {
+    finish();
+    return;
+  }
+  progress_->setValue(static_cast<int>(pages_.size()));
+  quiet_ = 0;
+  parts_.lessons.show_page(lesson_, static_cast<int>(pages_.size()));
+  poll_.start();
+}
+
+void LessonExport::take_when_settled() {
+  quiet_ = settled_() ? quiet_ + 1 : 0;
+  if (quiet_ >= quiet_polls) {
+    poll_.stop();
+    take_page();
+  }
+}
+
+void LessonExport::take_page() {
+  ShownPage shown;
+  shown.page = at(parts_.lessons.lessons(), lesson_).pages[pages_.size()];
+  QImage picture = parts_.page.scene_view()->grab().toImage();
+  if (picture.width() > widest_picture) {
+    picture = picture.scaledToWidth(widest_picture, Qt::SmoothTransformation);
+  }
+  QBuffer buffer(&shown.picture);
+  buffer.open(QIODevice::WriteOnly);
+  picture.save(&buffer, "PNG");
+  if (shown.page.state.focus && parts_.focus.map()) {
+    shown.map = parts_.focus.map();
+    shown.step = parts_.focus.position().step;
+    shown.patch_colors = parts_.colors.patch_colors();
+  }
+  pages_.push_back(std::move(shown));
+  const auto& question = pages_.back().page.question;
+  if (!question || !parts_.scene.loaded()) {
+    show_next();
+    return;
+  }
+  worker_.request({parts_.scene.loaded(), *question, ++number_});
+}
+
+void LessonExport::solve(const Job& job, const Cancellation& cancellation) {
+  FigureValues figures(job.loaded, cancellation);
+  QMetaObject::invokeMethod(
+      this,
+      [this, number = job.number, solved = solve_question(job.question, figures)] {
+        if (number == number_ && busy()) {
+          pages_.back().solved = solved;
+          show_next();
+        }
+      },
+      Qt::QueuedConnection);
+}
+
+void LessonExport::finish() {
+  const QString path = path_;
+  const QString title = QString::fromStdString(at(parts_.lessons.lessons(), lesson_).title);
+  const QByteArray html = lesson_html(title, pages_);
+  end();
+  QSaveFile file(path);
+  if (!file.open(QIODevice::WriteOnly) || file.write(html) < 0 || !file.commit()) {
+    parts_.notifier.show_failure(path + ": " + file.errorString());
+    return;
+  }
+  parts_.notifier.show_written(path);
+}
+
+void LessonExport::end() {
+  ++number_;
+  worker_.clear();
+  poll_.stop();
+  pages_.clear();
+  path_.clear();
+  progress_->disconnect(this);
+  progress_->close();
+  progress_->deleteLater();
+  progress_ = nullptr;
+  parts_.lessons.show_page(lesson_, page_before_);
+}
+
+}  // namespace transillum::viewer
