@@ -312,6 +312,19 @@ void MainWindow::project(bool on) {
   });
 }
 
+void MainWindow::show_title_and_warnings(const LoadedScene& loaded) {
+  const std::string& file = loaded.stored ? loaded.file : loaded.scene->name();
+  setWindowTitle(tr("%1 – transillum").arg(QFileInfo(QString::fromStdString(file)).fileName()));
+  QStringList warnings;
+  for (const std::string& warning : loaded.scene->report().warnings) {
+    warnings << QString::fromStdString(warning);
+  }
+  // Older messages were dismissed when the scene was requested.
+  if (!warnings.isEmpty()) {
+    notifier_->show_warnings(warnings, true);
+  }
+}
+
 /// Connects every view with the open scene: the one place where scenes and snapshots go out.
 void MainWindow::connect_scene() {
   using Loaded = std::shared_ptr<const LoadedScene>;
@@ -335,16 +348,7 @@ void MainWindow::connect_scene() {
     page_->color_controls()->set_outlines(state_.scene.outlined_by_default());
     progress_->show_scene(*loaded);
     study_->show_scene(loaded);
-    const std::string& file = loaded->stored ? loaded->file : loaded->scene->name();
-    setWindowTitle(tr("%1 – transillum").arg(QFileInfo(QString::fromStdString(file)).fileName()));
-    QStringList warnings;
-    for (const std::string& warning : loaded->scene->report().warnings) {
-      warnings << QString::fromStdString(warning);
-    }
-    // Older messages were dismissed when the scene was requested.
-    if (!warnings.isEmpty()) {
-      notifier_->show_warnings(warnings, true);
-    }
+    show_title_and_warnings(*loaded);
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
     settings_->set_in_effect(snapshot->options, state_.scene.options());

@@ -72,6 +72,7 @@ class MainWindow : public QMainWindow {
   void connect_failures();
   QList<QWidget*> views_to_project();
   void project(bool on);
+  void show_title_and_warnings(const LoadedScene& loaded);
   void make_menus();
   void make_file_menu();
   void make_view_menu();
