@@ -6,6 +6,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCoordinate.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -55,14 +56,14 @@ void start_lines(vtkPolyData& data) {
   data.SetLines(vtkNew<vtkCellArray>());
 }
 
-// The point halfway along a path.
-Vec3 middle_of(const Scene& scene, const LightPath& path) {
+// The point at a share of the length of a path.
+Vec3 point_on(const Scene& scene, const LightPath& path, double share) {
   const auto center = [&](std::size_t k) { return scene.patch(path.patches[k]).center; };
   double length = 0;
   for (std::size_t k = 1; k < path.patches.size(); ++k) {
     length += norm(center(k) - center(k - 1));
   }
-  double left = 0.5 * length;
+  double left = share * length;
   for (std::size_t k = 1; k < path.patches.size(); ++k) {
     const double step = norm(center(k) - center(k - 1));
     if (left <= step) {
@@ -83,15 +84,16 @@ PathGlyph::PathGlyph(vtkRenderer& renderer)
   const QColor& color = theme::processed;
   emphasized_actor_->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
   for (auto& text : labels_) {
-    text = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+    text = vtkSmartPointer<vtkTextActor>::New();  // over everything, at a place in the scene
+    text->GetPositionCoordinate()->SetCoordinateSystemToWorld();
     text->GetTextProperty()->SetColor(1, 1, 1);
     text->GetTextProperty()->SetBackgroundColor(0, 0, 0);
     text->GetTextProperty()->SetBackgroundOpacity(0.6);
-    text->SetDisplayOffset(8, 6);  // beside the line, which is drawn over it
+    text->GetTextProperty()->SetJustificationToCentered();
+    text->GetTextProperty()->SetVerticalJustificationToCentered();
     text->PickableOff();
-    text->ForceOpaqueOn();
     text->VisibilityOff();
-    renderer.AddActor(text);
+    renderer.AddActor2D(text);
   }
 }
 
@@ -132,11 +134,13 @@ void PathGlyph::show(const Scene& scene, const LightPaths& paths, int emphasized
 
 void PathGlyph::label(std::size_t slot, const Scene& scene, const LightPaths& paths,
                       std::size_t path) {
-  const Vec3 place = middle_of(scene, paths.paths[path]);
+  // Paths may have parts in common: their labels are at different places.
+  constexpr double places[] = {0.5, 0.62, 0.38, 0.5};
+  const Vec3 place = point_on(scene, paths.paths[path], at(places, slot));
   const double share = 100 * luminance(paths.paths[path].contribution) / luminance(paths.radiosity);
-  const QString text = QStringLiteral("%1 %").arg(share, 0, 'g', 3);
+  const QString text = QStringLiteral(" %1 % ").arg(share, 0, 'g', 3);
   labels_[slot]->SetInput(text.toUtf8().constData());
-  labels_[slot]->SetPosition(place.x, place.y, place.z);
+  labels_[slot]->GetPositionCoordinate()->SetValue(place.x, place.y, place.z);
   labels_[slot]->VisibilityOn();
 }
 
@@ -152,7 +156,8 @@ void PathGlyph::set_line_width(double pixels) {
   lines_actor_->GetProperty()->SetLineWidth(static_cast<float>(pixels));
   emphasized_actor_->GetProperty()->SetLineWidth(static_cast<float>(2 * pixels));
   for (const auto& text : labels_) {
-    text->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(10 * pixels)));
+    // VTK multiplies it by the density of the screen.
+    text->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(13 * theme::scale())));
   }
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <vtkActor.h>
-#include <vtkBillboardTextActor3D.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
 #include <array>
 
@@ -31,7 +31,7 @@ class PathGlyph {
 
   vtkSmartPointer<vtkPolyData> lines_, emphasized_;
   vtkSmartPointer<vtkActor> lines_actor_, emphasized_actor_;
-  std::array<vtkSmartPointer<vtkBillboardTextActor3D>, 4> labels_;  ///< the last: emphasized
+  std::array<vtkSmartPointer<vtkTextActor>, 4> labels_;  ///< the last: emphasized
 };
 
 }  // namespace transillum::viewer
