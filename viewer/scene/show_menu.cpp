@@ -55,9 +55,9 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   auto* clip = new QWidgetAction(menu);
   clip->setDefaultWidget(clip_);
   menu->addAction(clip);
-  QAction* next =
+  next_clip_axis_ =
       menu->addAction(tr("Clip across the next axis"), clip_, &ClipControls::next_axis, Qt::Key_X);
-  next->setObjectName("clip_next");
+  next_clip_axis_->setObjectName("clip_next");
   setMenu(menu);
 }
 

@@ -23,6 +23,7 @@ class ShowMenu : public QToolButton {
   QAction* outlines() const { return outlines_; }
   QAction* direction() const { return direction_; }
   ClipControls* clip() const { return clip_; }
+  QAction* next_clip_axis() const { return next_clip_axis_; }
   QAction* overlay(Overlay overlay) const { return at(overlays_, overlay); }
 
  signals:
@@ -31,7 +32,7 @@ class ShowMenu : public QToolButton {
   void smooth_toggled(bool shown);
 
  private:
-  QAction *outlines_, *direction_;
+  QAction *outlines_, *direction_, *next_clip_axis_;
   ClipControls* clip_;
   std::array<QAction*, std::size(all_overlays)> overlays_{};
 };

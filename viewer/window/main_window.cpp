@@ -30,6 +30,7 @@
 #include "scene/error_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
+#include "scene/show_menu.h"
 #include "solve/convergence_view.h"
 #include "solve/progress_line.h"
 #include "solve/settings_panel.h"
@@ -455,6 +456,7 @@ void MainWindow::make_view_menu() {
   view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
                   &ColorControls::toggle_direction, QKeySequence(Qt::Key_D));
+  view->addAction(page_->color_controls()->show_menu()->next_clip_axis());
   QAction* stop = view->addAction(
       tr("Stop loading or searching, or clear the selection"), this,
       [this] {
