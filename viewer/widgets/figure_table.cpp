@@ -20,8 +20,11 @@ class SizeByFont : public QObject {
       : QObject(&table), table_(table), widest_(std::move(widest)) {
     table_.installEventFilter(this);
     if (const QAbstractItemModel* model = table_.model()) {
-      connect(model, &QAbstractItemModel::headerDataChanged, this, &SizeByFont::measure);
-      connect(model, &QAbstractItemModel::modelReset, this, &SizeByFont::measure);
+      // Later: a QTableWidget resets its model while it is being destroyed.
+      connect(model, &QAbstractItemModel::headerDataChanged, this, &SizeByFont::measure,
+              Qt::QueuedConnection);
+      connect(model, &QAbstractItemModel::modelReset, this, &SizeByFont::measure,
+              Qt::QueuedConnection);
     }
     measure();
   }
