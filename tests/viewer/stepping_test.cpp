@@ -388,8 +388,8 @@ class SteppingTest : public QObject {
     QVERIFY(window.breakpoints.list().empty());
     QVERIFY(wait_for([&] { return window.settled(); }));
     QVERIFY(window.breakpoints.list().empty());
-    QVERIFY(open("boards"));
-    QCOMPARE(window.breakpoints.list().size(), std::size_t{1});
+    window.files().open_scene("boards");
+    QVERIFY(wait_for([&] { return window.breakpoints.list().size() == 1; }));
   }
 
   void breakpoints_stop_a_run() {
