@@ -64,6 +64,8 @@ void TimelineLanes::set_marks(Marks marks) {
 
 void TimelineLanes::set_thin(bool thin) {
   thin_ = thin;
+  constexpr int greatest_height = 44;
+  setMaximumHeight(thin ? theme::scaled(greatest_height) : QWIDGETSIZE_MAX);
   updateGeometry();
   count_columns();
 }

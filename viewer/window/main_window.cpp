@@ -307,9 +307,14 @@ void MainWindow::project(bool on) {
   QTimer::singleShot(0, this, [this] {
     constexpr double page_share = 0.4;
     auto* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
-    auto* timeline = findChild<QDockWidget*>(QStringLiteral("timeline_dock"));
-    resizeDocks({page}, {static_cast<int>(page_share * width())}, Qt::Horizontal);
-    resizeDocks({timeline}, {timeline->minimumSizeHint().height()}, Qt::Vertical);
+    const int page_width = static_cast<int>(page_share * width());
+    QList<QDockWidget*> docks{page};
+    QList<int> widths{page_width};
+    if (auto* large = qobject_cast<QDockWidget*>(projected_.value(2))) {
+      docks << large;
+      widths << width() - page_width;
+    }
+    resizeDocks(docks, widths, Qt::Horizontal);
   });
 }
 
