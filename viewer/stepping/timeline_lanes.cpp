@@ -64,14 +64,12 @@ void TimelineLanes::set_marks(Marks marks) {
 
 void TimelineLanes::set_thin(bool thin) {
   thin_ = thin;
-  constexpr int greatest_height = 44;
-  setMaximumHeight(thin ? theme::scaled(greatest_height) : QWIDGETSIZE_MAX);
   updateGeometry();
   count_columns();
 }
 
 QSize TimelineLanes::minimumSizeHint() const {
-  constexpr int thin_height = 26, usual_height = 72;
+  constexpr int thin_height = 36, usual_height = 72;
   return {300, thin_ ? theme::scaled(thin_height) : usual_height};
 }
 

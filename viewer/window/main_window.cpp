@@ -291,6 +291,7 @@ QList<QWidget*> MainWindow::views_to_project() {
 void MainWindow::project(bool on) {
   projecting_ = on;
   timeline_->lanes()->set_thin(on);
+  timeline_->setMaximumHeight(QWIDGETSIZE_MAX);
   docks_.hold(false);
   full_screen_.show_all();
   projected_.clear();
@@ -305,6 +306,9 @@ void MainWindow::project(bool on) {
   docks_.hold(true);
   // Once the window has its new size.
   QTimer::singleShot(0, this, [this] {
+    if (!projecting_) {
+      return;
+    }
     constexpr double page_share = 0.4;
     auto* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
     const int page_width = static_cast<int>(page_share * width());
@@ -315,6 +319,7 @@ void MainWindow::project(bool on) {
       widths << width() - page_width;
     }
     resizeDocks(docks, widths, Qt::Horizontal);
+    timeline_->setMaximumHeight(timeline_->minimumSizeHint().height());
   });
 }
 
