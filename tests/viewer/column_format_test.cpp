@@ -15,19 +15,19 @@ class ColumnFormatTest : public QObject {
     QTest::addColumn<double>("value");
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("header");
-    QTest::newRow("hundreds") << 412.34 << 12.0 << "12.0"
+    QTest::newRow("hundreds") << 412.34 << 12.0 << "12.00"
                               << "B, W/m²";
-    QTest::newRow("share") << 0.2 << 0.0123456 << "0.0123"
+    QTest::newRow("share") << 0.2 << 0.0123456 << "0.01235"
                            << "B, W/m²";
-    QTest::newRow("small") << 8.594e-5 << 8.594e-5 << "85.94"
+    QTest::newRow("small") << 8.594e-5 << 8.594e-5 << "85.940"
                            << "B, 10⁻⁶ W/m²";
-    QTest::newRow("with smaller") << 8.594e-5 << 1.2e-6 << "1.20"
+    QTest::newRow("with smaller") << 8.594e-5 << 1.2e-6 << "1.200"
                                   << "B, 10⁻⁶ W/m²";
     QTest::newRow("rounding") << 0.05 << 1e-21 << "≈ 0"
                               << "B, W/m²";
-    QTest::newRow("negative") << 5.0 << -1.5 << "−1.500"
+    QTest::newRow("negative") << 5.0 << -1.5 << "−1.5000"
                               << "B, W/m²";
-    QTest::newRow("large") << 1.5e7 << 2.5e6 << "2.50"
+    QTest::newRow("large") << 1.5e7 << 2.5e6 << "2.500"
                            << "B, 10⁶ W/m²";
     QTest::newRow("zero") << 0.0 << 0.0 << "0"
                           << "B, W/m²";

@@ -13,11 +13,12 @@ ColumnFormat::ColumnFormat(double largest) {
     return;
   }
   const int magnitude = static_cast<int>(std::floor(std::log10(largest)));
-  constexpr int smallest = -3, greatest = 5;  // written without a power of ten
+  constexpr int smallest = -2, greatest = 5;  // written without a power of ten
   if (magnitude < smallest || magnitude > greatest) {
     exponent_ = 3 * static_cast<int>(std::floor(magnitude / 3.0));
   }
-  decimals_ = std::max(3 - (magnitude - exponent_), 0);
+  constexpr int digits = 5;
+  decimals_ = std::max(digits - 1 - (magnitude - exponent_), 0);
 }
 
 QString ColumnFormat::text(double value) const {

@@ -10,7 +10,7 @@ namespace transillum::viewer {
 class ColumnFormat {
  public:
   ColumnFormat() = default;
-  /// @param largest the largest size of a number in the column; it gets four significant digits
+  /// @param largest the largest size of a number in the column; it gets five significant digits
   explicit ColumnFormat(double largest);
 
   /// A number below half of the last decimal, but not 0, is "≈ 0"; "–" if not finite.
@@ -22,7 +22,7 @@ class ColumnFormat {
 
  private:
   int exponent_ = 0;  ///< of the power of ten, a multiple of 3
-  int decimals_ = 3;
+  int decimals_ = 4;
 };
 
 }  // namespace transillum::viewer

@@ -319,7 +319,9 @@ void MainWindow::project(bool on) {
       widths << width() - page_width;
     }
     resizeDocks(docks, widths, Qt::Horizontal);
-    timeline_->setMaximumHeight(timeline_->minimumSizeHint().height());
+    const int height = timeline_->minimumSizeHint().height();
+    timeline_->setMaximumHeight(height);
+    resizeDocks({findChild<QDockWidget*>(QStringLiteral("timeline_dock"))}, {height}, Qt::Vertical);
   });
 }
 
