@@ -80,12 +80,16 @@ class AppearanceTest : public QObject {
       QVERIFY(window.isFullScreen() && solved.scene_view->isVisible());
       QVERIFY(shown("timeline_dock") && shown("lesson_dock") && !shown("map_dock"));
     }
+    // A session that is kept meanwhile has the panels of the window.
+    const QByteArray kept = window.parts().docks.state();
     const auto* timeline = window.findChild<QDockWidget*>("timeline_dock");
     QVERIFY2(wait_for([&] { return timeline->height() < 0.1 * window.height(); }, 5000),
              qPrintable(QString::number(timeline->height())));
     QTest::keyClick(&window, Qt::Key_F11);
     QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
     QVERIFY(shown("map_dock") && window.menuBar()->isVisible());
+    QVERIFY(window.parts().docks.restore(static_cast<int>(Layout::inspect), kept));
+    QVERIFY(shown("map_dock") && shown("settings_dock"));
     QVERIFY(theme::scale() == 1);
   }
 

@@ -344,6 +344,25 @@ class SessionFileTest : public QObject {
     QVERIFY(!QFile::exists(kept));
   }
 
+  void every_kept_session_is_offered_until_it_is_discarded() {
+    const QTemporaryDir folder;
+    for (const char* name : {"one.json", "two.json"}) {
+      write(folder.filePath(name), "{}");
+    }
+    const auto window = make_window(8);
+    WindowSession session(window->parts(), window->applier());
+    Recovery recovery(window->parts(), session, folder.path());
+    recovery.offer();
+    auto* bar = window->findChild<Banner*>("recovery_bar");
+    for (const int left : {2, 1}) {
+      QCOMPARE(QDir(folder.path()).entryList({"*.json"}).size(), left);
+      QVERIFY(!bar->isHidden());
+      window->findChild<QPushButton*>("discard_session")->click();
+    }
+    QVERIFY(bar->isHidden());
+    QVERIFY(QDir(folder.path()).entryList({"*.json"}).isEmpty());
+  }
+
   void the_session_of_a_running_program_is_not_offered() {
     const QTemporaryDir folder;
     const auto window = make_window(8), other = make_window(8);

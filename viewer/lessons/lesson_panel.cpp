@@ -320,7 +320,7 @@ void LessonPanel::set_text_scale(double scale) {
   text_->place_insets();
 }
 
-// On a projector nobody should have to scroll: smaller type where a page is long.
+// Pages are not scrolled on a projector: the type is smaller where a page is long.
 void LessonPanel::fit_text() {
   constexpr double smallest = 0.95, step = 0.05;
   double scale = text_scale;

@@ -315,7 +315,7 @@ void ErrorView::showEvent(QShowEvent* event) {
   start_if_wanted();
 }
 
-// What nobody sees is not computed.
+// Errors are computed only while the panel is visible.
 void ErrorView::hideEvent(QHideEvent* event) {
   if (busy_) {
     drop();

@@ -200,12 +200,24 @@ bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
-QByteArray DockLayouts::state() const { return with_checksum(window_.saveState(layout_version)); }
+void DockLayouts::hold(bool held) {
+  if (held && !held_) {
+    held_state_ = state();
+  }
+  held_ = held;
+}
+
+QByteArray DockLayouts::state() const {
+  return held_ ? held_state_ : with_checksum(window_.saveState(layout_version));
+}
 
 bool DockLayouts::restore(int layout, const QByteArray& state) {
   const std::optional<QByteArray> checked = without_checksum(state);
   if (layout < 0 || layout >= layout_count || !checked) {
     return false;
+  }
+  if (held_) {
+    return true;
   }
   arrange(static_cast<Layout>(layout));
   return window_.restoreState(*checked, layout_version);

@@ -42,7 +42,7 @@ class DockLayouts : public QObject {
   void reset();
   /// Sets the widths of the sides for the current font size.
   void follow_type();
-  /// The places and sizes of all docks, for restore().
+  /// The places and sizes of all docks, for restore(). While held, those of before.
   QByteArray state() const;
   /// Restores a state saved in layout number `layout`. False where it is damaged or does not fit
   /// this version.
@@ -53,7 +53,7 @@ class DockLayouts : public QObject {
   /// out. @returns false where those of the layout in use are
   bool load(const QSettings& settings);
   /// While held, layouts and panels stay as they are, whoever asks for others.
-  void hold(bool held) { held_ = held; }
+  void hold(bool held);
   /// The layout in use.
   Layout current() const { return current_; }
   /// Shows a panel, in front of the others in its place.
@@ -85,6 +85,7 @@ class DockLayouts : public QObject {
   std::array<QByteArray, layout_count> kept_;  ///< states of the layouts that are not in use
   Layout current_ = Layout::inspect;
   bool held_ = false;
+  QByteArray held_state_;
   bool enlarged_ = false;
 };
 

@@ -299,11 +299,11 @@ void MainWindow::project(bool on) {
     return;
   }
   projected_ = views_to_project();
+  docks_.hold(true);
   full_screen_.show_only(projected_);
   for (QWidget* view : projected_) {
     view->show();
   }
-  docks_.hold(true);
   // Once the window has its new size.
   QTimer::singleShot(0, this, [this] {
     if (!projecting_) {

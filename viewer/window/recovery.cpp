@@ -58,7 +58,10 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
   connect(restore, &QPushButton::clicked, this, &Recovery::restore);
   QPushButton* discard = bar->add_button("discard_session", tr("Discard"));
   discard->setToolTip(tr("Delete the kept session"));
-  connect(discard, &QPushButton::clicked, this, &Recovery::discard);
+  connect(discard, &QPushButton::clicked, this, [this] {
+    this->discard();
+    offer();
+  });
 }
 
 Recovery::~Recovery() { QFile::remove(session_file(name_)); }
@@ -93,27 +96,20 @@ void Recovery::keep() {
 }
 
 void Recovery::offer() {
-  QFileInfo newest;
+  // The newest first; others are offered once it is discarded, or by later starts.
   for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.json"}, QDir::Files, QDir::Time)) {
     QLockFile lock(folder_ + '/' + found.completeBaseName() + ".lock");
     lock.setStaleLockTime(0);
     if (found.completeBaseName() == name_ || !lock.tryLock()) {
       continue;  // its program runs
     }
-    if (newest.filePath().isEmpty()) {
-      newest = found;
-    } else {
-      QFile::remove(found.filePath());
-    }
-  }
-  if (newest.filePath().isEmpty()) {
+    offered_ = found.filePath();
+    parts_.page.recovery_bar()->show_message(
+        Banner::Kind::offer,
+        tr("The program did not end as it should. Its session is kept, from %1.")
+            .arg(found.lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"))));
     return;
   }
-  offered_ = newest.filePath();
-  parts_.page.recovery_bar()->show_message(
-      Banner::Kind::offer,
-      tr("The program did not end as it should. Its session is kept, from %1.")
-          .arg(newest.lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"))));
 }
 
 void Recovery::restore() {

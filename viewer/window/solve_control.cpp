@@ -52,6 +52,7 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
               forecast_.request(parts_.scene.loaded(), options);
             }
           });
+  connect(&parts_.scene, &OpenScene::opening, this, [this] { awaits_forecast_ = false; });
   connect(&forecast_, &PatchForecast::counted, this, &SolveControl::show_forecast);
   connect(&forecast_, &PatchForecast::failed, this, [this] {
     // Reading the scene will fail likewise, and say why.
@@ -103,7 +104,11 @@ void SolveControl::open_again() {
 
 void SolveControl::show_forecast(const SceneOptions& options, std::int64_t patches) {
   parts_.settings.show_forecast(options, forecast_text(patches));
-  if (std::exchange(awaits_forecast_, false) && may_refine(patches)) {
+  // An earlier forecast may still arrive.
+  const SceneOptions wanted = parts_.settings.scene_options();
+  const bool newest =
+      options.max_patch_area == wanted.max_patch_area && options.two_sided == wanted.two_sided;
+  if (newest && std::exchange(awaits_forecast_, false) && may_refine(patches)) {
     open_again();
   }
 }
