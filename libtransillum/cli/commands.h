@@ -21,6 +21,7 @@ Run add_factors_command(CLI::App& program);
 Run add_directions_command(CLI::App& program);
 Run add_bounds_command(CLI::App& program);
 Run add_study_command(CLI::App& program);
+Run add_compare_command(CLI::App& program);
 Run add_info_command(CLI::App& program);
 
 }  // namespace transillum::cli

@@ -11,11 +11,15 @@
 #include "output_files.h"
 #include "progress_display.h"
 #include "scene_options.h"
+#include "sensor_factors.h"
 #include "sequence_options.h"
 #include "standard_output.h"
+#include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/form_factor_files.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
+#include "transillum/small_form_factors.h"
 
 namespace transillum::cli {
 namespace {
@@ -26,6 +30,8 @@ struct FactorsCall {
   SequenceOptions sequence;
   SolveOptions passes;
   GatherOptions rays;
+  SensorCall sensors;
+  double drop = 0;  ///< form factors below it are left out; 0: all are written
   std::string out;
 };
 
@@ -126,42 +132,66 @@ void check_options(const FactorsCall& call) {
   }
 }
 
+/// Leaves out what --drop says, and prints how much that is.
+FormFactors without_tiny(const FactorsCall& call, const Scene& scene, FormFactors form_factors,
+                         const Cancellation& cancellation) {
+  if (call.drop == 0) {
+    return form_factors;
+  }
+  DroppedFormFactors rest = drop_small_form_factors(scene, form_factors, call.drop, cancellation);
+  print_message(
+      fmt::format("{} of {} form factors left out, {:.2g} of all light; the others are "
+                  "rebalanced",
+                  rest.dropped, form_factors.size(), rest.share));
+  return std::move(rest.form_factors);
+}
+
 int run(const FactorsCall& call) {
+  check_sensor_options(*call.command, call.sensors);
+  if (!call.sensors.points.empty()) {
+    return run_sensors(call.sensors, call.scene, call.out, call.passes.memory, call.passes.threads);
+  }
   const Cancellation& cancellation = cancel_on_signals();
   check_options(call);
   const std::vector<std::string> outputs = given_files({call.out});
+  for (const std::string& file : outputs) {
+    check_form_factor_path(file);
+  }
   check_output_files(outputs);
   const auto scene = load_input_scene(call.scene, outputs, cancellation);
   ProgressDisplay display;
-  const FormFactors form_factors = compute_form_factors(call, scene, cancellation, display);
+  FormFactors computed = compute_form_factors(call, scene, cancellation, display);
   display.clear();
+  const FormFactors form_factors = without_tiny(call, *scene, std::move(computed), cancellation);
   if (call.out.empty() || is_standard_output(call.out)) {
     print_results([&](std::ostream& out) { write_form_factors_csv(out, form_factors); });
   } else {
-    write_form_factors_csv(call.out, form_factors);
+    write_form_factors(call.out, *scene, form_factors);
   }
   return success;
 }
 
-}  // namespace
-
-Run add_factors_command(CLI::App& program) {
-  auto call = std::make_shared<FactorsCall>();
-  CLI::App& command =
-      *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
-  call->command = &command;
-  add_scene_argument(command, call->scene);
-  add_sequence_options(command, call->sequence);
+/// How form factors are computed.
+void add_methods(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
   add_parsed_option(
       command, "--engine", "NAME",
       fmt::format("{} (default {}); rays: cosine-distributed rays from every patch instead of "
                   "directions; hemicube: a hemicube on every patch; pairs: pair by pair",
                   fmt::join(engine_names(), " | "), name_of(call->passes.engine)),
       [call](const std::string& text) { call->passes.engine = engine_from_name(text); });
-  add_parsed_option(command, "--points", "P", help_of("points", EngineOptions::default_points),
-                    [call](const std::string& text) {
-                      call->passes.engine_options.points = parse_points("--points", text);
-                    });
+  add_parsed_option(
+      command, "--points", "P|FILE",
+      help_of("points", EngineOptions::default_points) +
+          "; or a file with points x,y,z,nx,ny,nz, one a line: form factors from them instead of "
+          "patches, exactly by the visible parts",
+      [call](const std::string& text) {
+        if (text.find_first_not_of("+-0123456789") == std::string::npos) {
+          call->passes.engine_options.points = parse_points("--points", text);
+        } else {
+          call->sensors.points = text;
+        }
+      });
+  add_sensor_options(command, call->sensors);
   add_parsed_option(
       command, "--rays", "N",
       fmt::format("engine rays: rays per patch (default {})", call->rays.rays_per_patch),
@@ -177,14 +207,43 @@ Run add_factors_command(CLI::App& program) {
       [call](const std::string& text) {
         call->passes.engine_options.resolution = parse_resolution("--resolution", text);
       });
+}
+
+/// What is written.
+void add_outputs(CLI::App& command, const std::shared_ptr<FactorsCall>& call) {
+  command
+      .add_option("-o,--out", call->out,
+                  "by its ending .csv: i,j,F for every F > 0, sorted by i, then j; .npz: sparse "
+                  "matrix of SciPy; .mtx: Matrix Market; .vf: View3D (default: CSV on standard "
+                  "output)")
+      ->type_name("FILE");
+  add_parsed_option(command, "--drop", "F",
+                    "leave out form factors below F, such as 1e-6, and scale the others so that "
+                    "row sums and reciprocity stay",
+                    [call](const std::string& text) {
+                      call->drop = parse_number("--drop", text);
+                      if (!(call->drop > 0 && call->drop < 1)) {
+                        throw InputError(fmt::format(
+                            "--drop: \"{}\" is not greater than 0 and less than 1", text));
+                      }
+                    });
+}
+
+}  // namespace
+
+Run add_factors_command(CLI::App& program) {
+  auto call = std::make_shared<FactorsCall>();
+  CLI::App& command =
+      *program.add_subcommand("factors", "Writes the form factors of all pairs of patches");
+  call->command = &command;
+  add_scene_argument(command, call->scene);
+  add_sequence_options(command, call->sequence);
+  add_methods(command, call);
   add_scene_options(command, call->scene);
   add_machine_limits(command, call->passes.memory, call->passes.threads);
   command.get_option("--memory")
       ->description("largest memory for form factors (default: a quarter of the machine's)");
-  command
-      .add_option("-o,--out", call->out,
-                  "CSV: i,j,F for every F > 0, sorted by i, then j (default: standard output)")
-      ->type_name("FILE.csv");
+  add_outputs(command, call);
   command.footer(
       "F_ij is the fraction of the power leaving patch i that reaches patch j.\n"
       "Example: transillum factors cornell-box -m 256 --out factors.csv");

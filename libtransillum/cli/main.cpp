@@ -76,7 +76,7 @@ struct Program {
     app.formatter(std::make_shared<HelpFormat>());
     for (auto add : {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
                      add_factors_command, add_directions_command, add_bounds_command,
-                     add_study_command, add_info_command}) {
+                     add_study_command, add_compare_command, add_info_command}) {
       Run run = add(app);
       commands.emplace_back(app.get_subcommands({}).back(), std::move(run));
     }
@@ -100,12 +100,12 @@ struct Program {
   }
 };
 
-/// Joins `--direction` and its value by =, since a value such as -.5,0,1 would be taken for an
-/// option.
+/// Joins `--direction` and `--up` and their values by =, since a value such as -.5,0,1 would be
+/// taken for an option.
 std::vector<std::string> joined_directions(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int k = 1; k < argc; ++k) {
-    if (!arguments.empty() && arguments.back() == "--direction") {
+    if (!arguments.empty() && (arguments.back() == "--direction" || arguments.back() == "--up")) {
       arguments.back() += std::string("=") + argv[k];
     } else {
       arguments.emplace_back(argv[k]);

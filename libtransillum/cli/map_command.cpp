@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct MapCall {
   SceneInput scene;
   Vec3 direction;
   PatchId receiver = no_patch;
+  std::optional<std::int32_t> step;  ///< number of steps done; unset: all
   Engine engine = Engine::local;
   EngineOptions engine_options;
   bool difference = false;
@@ -45,7 +47,12 @@ void check_receiver(const MapCall& call, const Scene& scene) {
 VisibilityMap exact_map(const MapCall& call, const Scene& scene, const BspTree& tree,
                         const Cancellation& cancellation) {
   const RecordedDirection direction = record_local_map(scene, tree, call.direction, cancellation);
-  return call.receiver == no_patch ? map_from_below(direction)
+  const std::int32_t steps = direction.record.step_count();
+  if (call.step.value_or(0) > steps) {
+    throw InputError(fmt::format("--step: no step {}; the steps of this direction are 0 to {}",
+                                 *call.step, steps));
+  }
+  return call.receiver == no_patch ? map_after(direction, call.step.value_or(steps) - 1)
                                    : map_of_receiver(direction, call.receiver);
 }
 
@@ -99,6 +106,8 @@ void check_options(const MapCall& call) {
   refuse_unused(*call.command, {{.engine = call.engine, .engine_options = call.engine_options}});
   refuse_unless(call.engine != Engine::local, *call.command, "--difference",
                 "used only with engine zbuffer, painter or rays");
+  refuse_unless(call.engine == Engine::local && call.receiver == no_patch, *call.command, "--step",
+                "used only with engine local, without --receiver");
   const bool pictures = std::any_of(call.out.begin(), call.out.end(), is_map_picture);
   refuse_unless(pictures, *call.command, "--size", "used only with .svg and .png files");
 }
@@ -143,6 +152,13 @@ Run add_map_command(CLI::App& program) {
                       call->receiver = static_cast<PatchId>(parse_whole_number(
                           "--receiver", text, 0, std::numeric_limits<PatchId>::max()));
                     });
+  add_parsed_option(
+      command, "--step", "K",
+      "V after the first K fragments in BSP order, as the viewer steps through them (default: all)",
+      [call](const std::string& text) {
+        call->step = static_cast<std::int32_t>(
+            parse_whole_number("--step", text, 0, std::numeric_limits<std::int32_t>::max()));
+      });
   add_pixel_options(command, *call);
   add_parsed_option(
       command, "--size", "PIXELS",

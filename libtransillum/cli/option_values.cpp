@@ -29,36 +29,6 @@ std::string_view without_plus(std::string_view text) {
   throw InputError(fmt::format("{}: \"{}\" is not {}", option, text, expected));
 }
 
-/// Parses X,Y,Z: three finite numbers, not all 0. Returns a unit vector.
-Vec3 parse_direction(const std::string& option, const std::string& text) {
-  const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
-  std::array<double, 3> xyz{};
-  std::string_view rest = text;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) {
-      wrong();
-    }
-    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) {
-      wrong();
-    }
-    if (k < 2) {
-      rest.remove_prefix(comma + 1);
-    }
-  }
-  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
-  const double largest = max_abs(direction);
-  if (largest == 0) {
-    wrong();
-  }
-  // Scaled first, since squares of huge numbers overflow and those of tiny ones underflow; by a
-  // power of two, so a unit vector is not changed.
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
-                         std::ldexp(xyz[2], -exponent)});
-}
-
 }  // namespace
 
 std::int64_t parse_whole_number(const std::string& option, const std::string& text,
@@ -111,6 +81,62 @@ double parse_number(const std::string& option, const std::string& text) {
   return number;
 }
 
+Vec3 parse_direction(const std::string& option, const std::string& text) {
+  const auto wrong = [&] { refuse(option, text, "three finite numbers X,Y,Z, not all 0"); };
+  std::array<double, 3> xyz{};
+  std::string_view rest = text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) {
+      wrong();
+    }
+    if (!reads_as(without_plus(rest.substr(0, comma)), xyz[k]) || !std::isfinite(xyz[k])) {
+      wrong();
+    }
+    if (k < 2) {
+      rest.remove_prefix(comma + 1);
+    }
+  }
+  const Vec3 direction{xyz[0], xyz[1], xyz[2]};
+  const double largest = max_abs(direction);
+  if (largest == 0) {
+    wrong();
+  }
+  // Scaled first, since squares of huge numbers overflow and those of tiny ones underflow; by a
+  // power of two, so a unit vector is not changed.
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return normalized(Vec3{std::ldexp(xyz[0], -exponent), std::ldexp(xyz[1], -exponent),
+                         std::ldexp(xyz[2], -exponent)});
+}
+
+Rgb parse_exitance(const std::string& option, const std::string& text) {
+  const auto wrong = [&] {
+    refuse(option, text, "one or three numbers of at least 0, E or E,E,E");
+  };
+  std::vector<double> values;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    double value = 0;
+    if (!reads_as(without_plus(rest.substr(0, comma)), value) || !(value >= 0) ||
+        !std::isfinite(value)) {
+      wrong();
+    }
+    values.push_back(value);
+    if (comma == std::string_view::npos) {
+      break;
+    }
+    rest.remove_prefix(comma + 1);
+  }
+  if (values.size() == 1) {
+    values.resize(3, values.front());
+  }
+  if (values.size() != 3) {
+    wrong();
+  }
+  return {values[0], values[1], values[2]};
+}
+
 std::uint64_t parse_memory_size(const std::string& option, const std::string& text) {
   const auto wrong = [&] {
     refuse(option, text, "a size such as 2G or 800M, or a number of bytes");
@@ -161,6 +187,30 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
       refuse_unless(why.empty(), command, "--one-way", why);
     }
   }
+}
+
+void add_sky_options(CLI::App& command, Sky& sky) {
+  add_parsed_option(
+      command, "--sky", "E[,E,E]",
+      "what escapes from an open scene meets a sky: what an unobstructed patch turned upward "
+      "receives from it, in W/m2 (default: no sky)",
+      [&sky](const std::string& text) { sky.exitance = parse_exitance("--sky", text); });
+  add_parsed_option(
+      command, "--sky-model", "NAME",
+      fmt::format("{} (default {}); uniform: the same from everywhere, also from below; "
+                  "cie-overcast: three times as bright at the zenith as at the horizon, nothing "
+                  "from below",
+                  fmt::join(sky_model_names(), " | "), name_of(sky.model)),
+      [&sky](const std::string& text) { sky.model = sky_model_from_name(text); });
+  add_parsed_option(
+      command, "--up", "X,Y,Z",
+      "the zenith of the sky cie-overcast (default 0,0,1); the direction that becomes "
+      "up, +y, in .glb and .gltf files (default 0,1,0: coordinates stay)",
+      [&sky](const std::string& text) { sky.up = parse_direction("--up", text); });
+}
+
+void check_sky_options(const CLI::App& command, const Sky& sky) {
+  refuse_unless(sky.set(), command, "--sky-model", "used only with --sky");
 }
 
 void add_direction_option(CLI::App& command, Vec3& direction) {

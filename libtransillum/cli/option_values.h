@@ -28,6 +28,10 @@ AccuracyGoal parse_accuracy_of(const std::string& option, const std::string& tex
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 /// A finite number.
 double parse_number(const std::string& option, const std::string& text);
+/// X,Y,Z, not all 0, as a unit vector.
+Vec3 parse_direction(const std::string& option, const std::string& text);
+/// E or E,E,E: an exitance of at least 0 for all channels, or for each.
+Rgb parse_exitance(const std::string& option, const std::string& text);
 /// EngineOptions::resolution
 int parse_resolution(const std::string& option, const std::string& text);
 /// EngineOptions::points
@@ -65,6 +69,11 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
 
 /// --direction, required; normalized to a unit vector
 void add_direction_option(CLI::App& command, Vec3& direction);
+/// --sky, --sky-model and --up
+void add_sky_options(CLI::App& command, Sky& sky);
+/// Refuses --sky-model without a sky.
+/// @throws InputError
+void check_sky_options(const CLI::App& command, const Sky& sky);
 /// --engine, --lines, --resolution, --points, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// The same without --engine.

@@ -122,14 +122,25 @@ SceneOptions division(const SceneInput& input, const SceneDescription& descripti
   return options;
 }
 
+/// ".obj, .gltf, …", all formats of scenes.
+std::string scene_endings() {
+  std::vector<std::string> endings;
+  for (const SceneFormat& format : scene_formats()) {
+    endings.push_back(format.ending);
+  }
+  return fmt::format("{}", fmt::join(endings, ", "));
+}
+
 }  // namespace
 
 void add_scene_argument(CLI::App& command, SceneInput& input) {
   input.command = &command;
   command
       .add_option("SCENE", input.spec,
-                  "an .obj file (in its .mtl: Kd = reflectance, Ke = exitance in W/m2), or a "
-                  "built-in scene with parameters, such as sphere-flake:levels=1")
+                  fmt::format("a scene file ({}; OBJ: in its .mtl, Kd = reflectance, Ke = exitance "
+                              "in W/m2), or a built-in scene with parameters, such as "
+                              "sphere-flake:levels=1",
+                              scene_endings()))
       ->required()
       ->type_name("");
 }
@@ -159,6 +170,13 @@ void add_reading_options(CLI::App& command, SceneInput& input) {
                   fmt::join(length_unit_names(), " | ")),
       [&input](const std::string& text) { input.read.scale = length_unit_from_name(text); })
       ->excludes(scale);
+  command.add_flag_function(
+      "--join,!--no-join", [&input](std::int64_t count) { input.read.join = count > 0; },
+      "join faces of one plane, material and group that share edges (default: only "
+      "for glTF and STL, which have triangles alone)");
+  command.add_flag("--photometric", input.read.photometric,
+                   "glTF: emissive colors are luminances in cd/m2 instead of radiances: divide by "
+                   "683 lm/W");
 }
 
 void add_material_options(CLI::App& command, SceneInput& input) {

@@ -8,11 +8,13 @@
 #include <functional>
 #include <memory>
 
+#include "color_outputs.h"
 #include "commands.h"
 #include "interruption.h"
 #include "messages.h"
 #include "option_values.h"
 #include "output_files.h"
+#include "power_report.h"
 #include "progress_display.h"
 #include "scene_options.h"
 #include "sequence_options.h"
@@ -21,7 +23,9 @@
 #include "transillum/accuracy_plan.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/solve_errors.h"
 #include "transillum/study.h"
 
 namespace transillum::cli {
@@ -43,7 +47,20 @@ struct SolveCall {
   bool shot_given = false;  ///< --first-shot
   std::vector<std::string> out;
   std::string stats;
+  std::optional<PartsBy> by;  ///< --by
+  std::string factors;        ///< --factors
+  ColorOutputs colors;
   bool quiet = false;
+};
+
+/// What all ways of solving need.
+struct SolveJob {
+  std::shared_ptr<const Scene> scene;
+  SolveOptions options;
+  const Cancellation& cancellation;
+  ProgressDisplay& display;
+  bool form_factors = false;       ///< wanted in the solution, if they are kept
+  ResultSeries* series = nullptr;  ///< gets the result after every iteration
 };
 
 std::vector<std::string> checked_outputs(const SolveCall& call) {
@@ -61,11 +78,33 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
     check_statistics_path(call.stats);
     files.push_back(call.stats);
   }
+  if (!call.colors.series.empty()) {
+    files.push_back(call.colors.series);
+  }
   check_output_files(files);
+  if (!call.factors.empty()) {
+    check_distinct(files, {call.factors});
+  }
   return files;
 }
 
+/// Refuses options that say how form factors are computed.
+void check_stored_factors(const SolveCall& call) {
+  if (call.factors.empty()) {
+    return;
+  }
+  for (const char* option :
+       {"--directions", "--sampling", "--seed",      "--rotate",  "--engine",
+        "--resolution", "--points",   "--lines",     "--order",   "--random-lines",
+        "--one-way",    "--two-way",  "--normalize", "--scheme",  "--first-shot",
+        "--burn-in",    "--replicas", "--accuracy",  "--seconds", "--sky",
+        "--memory"}) {
+    refuse_unless(false, *call.command, option, "not used with --factors");
+  }
+}
+
 SolveOptions solve_options(const SolveCall& call) {
+  check_stored_factors(call);
   SolveOptions options = call.options;
   options.directions = call.sequence.directions;
   options.sampling = call.sequence.sampling;
@@ -81,6 +120,8 @@ SolveOptions solve_options(const SolveCall& call) {
   }
   options.validate();
   refuse_unused(*call.command, {options});
+  check_sky_options(*call.command, options.sky);
+  check_color_outputs(*call.command, call.colors, call.out, options);
   return options;
 }
 
@@ -102,28 +143,48 @@ struct FirstShot {
   double seconds = 0;
 };
 
-FirstShot shoot_first(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                      const Cancellation& cancellation, ProgressDisplay& display) {
+FirstShot shoot_first(const SolveJob& job) {
+  const SolveOptions& options = job.options;
   FirstShot shot;
   if (!options.first_shot) {
     return shot;
   }
   const auto start = Clock::now();
-  shot.light = std::make_shared<const DirectLight>(shoot(
-      *scene,
-      first_shot_sources(*scene, *options.first_shot, expected_directions(options), cancellation),
-      options.threads, cancellation, [&](double share) { display.show("first shot", share); }));
+  shot.light = std::make_shared<const DirectLight>(
+      shoot(*job.scene,
+            first_shot_sources(*job.scene, *options.first_shot, expected_directions(options),
+                               job.cancellation),
+            options.threads, job.cancellation,
+            [&](double share) { job.display.show("first shot", share); }));
   shot.seconds = seconds_since(start);
   return shot;
 }
 
+/// Advances a solver until it has finished.
+void advance(RadiositySolver& solver, const SolveJob& job) {
+  const auto until =
+      job.series != nullptr ? RadiositySolver::Until::iteration : RadiositySolver::Until::finished;
+  bool unfinished = true;
+  while (unfinished) {
+    unfinished = solver.advance(until, [&](const RadiositySolver& watched) {
+      show_progress(job.display, watched);
+      return true;
+    });
+    if (job.series != nullptr) {
+      job.series->add(solver.solution(), solver.progress().iteration);
+    }
+  }
+}
+
 /// Runs the solver until it has finished or is interrupted.
-Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
-                         const Cancellation& cancellation, ProgressDisplay& display) {
+Solution solve_by_passes(const SolveJob& job) {
+  const std::shared_ptr<const Scene>& scene = job.scene;
+  const SolveOptions& options = job.options;
+  ProgressDisplay& display = job.display;
   const auto start = Clock::now();
-  const auto tree = build_tree(*scene, cancellation, display, options.threads);
+  const auto tree = build_tree(*scene, job.cancellation, display, options.threads);
   const double seconds_bsp = seconds_since(start);
-  const auto shot = shoot_first(scene, options, cancellation, display);
+  const auto shot = shoot_first(job);
   if (options.goal.set()) {
     Solution solution = solve_to_accuracy(
         scene, options, tree, shot.light,
@@ -131,18 +192,15 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
           show_progress(display, watched);
           return true;
         },
-        cancellation, seconds_since(start));
+        job.cancellation, seconds_since(start));
     solution.statistics.seconds_bsp = seconds_bsp;
     solution.statistics.seconds_first_shot = shot.seconds;
     return solution;
   }
-  RadiositySolver solver(scene, options, tree, cancellation, shot.light);
+  RadiositySolver solver(scene, options, tree, job.cancellation, shot.light);
   display.expect_passes("iteration 1, ", solver.progress().passes);
   try {
-    solver.advance(RadiositySolver::Until::finished, [&](const RadiositySolver& watched) {
-      show_progress(display, watched);
-      return true;
-    });
+    advance(solver, job);
   } catch (const Canceled&) {
     const SolveProgress progress = solver.progress();
     if (progress.direction == 0 && progress.iteration == 0) {
@@ -150,19 +208,34 @@ Solution solve_by_passes(const std::shared_ptr<const Scene>& scene, const SolveO
     }
   }
   Solution solution = solver.solution();
+  if (job.form_factors && solution.complete && solution.statistics.kept_form_factors) {
+    solution.form_factors = std::make_shared<const FormFactors>(solver.form_factors());
+  }
   solution.statistics.seconds_bsp = seconds_bsp;
   solution.statistics.seconds_first_shot = shot.seconds;
   return solution;
 }
 
+/// Solves with the form factors of --factors.
+Solution solve_with_stored(const std::string& file, const SolveJob& job) {
+  job.display.begin("reading form factors");
+  StoredFormFactors stored = read_form_factors(file, job.cancellation);
+  check_form_factors(*job.scene, stored);
+  job.display.begin("iterating");
+  try {
+    return solve_with_form_factors(job.scene, std::move(stored.form_factors), job.options,
+                                   job.cancellation);
+  } catch (const SolveError& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 /// Engine pairs with as many points as an accuracy takes.
-Solution solve_by_pairs_to(const AccuracyGoal& goal, const std::shared_ptr<const Scene>& scene,
-                           const SolveOptions& options, const Cancellation& cancellation,
-                           ProgressDisplay& display) {
-  check_form_factor_options(options);
-  PairSolution pairs =
-      solve_by_pairs(scene, options, goal.accuracy, cancellation, [&](int points, double share) {
-        display.show(fmt::format("computing pairs, {} points", points), share);
+Solution solve_by_pairs_to(const AccuracyGoal& goal, const SolveJob& job) {
+  check_form_factor_options(job.options);
+  PairSolution pairs = solve_by_pairs(
+      job.scene, job.options, goal.accuracy, job.cancellation, [&](int points, double share) {
+        job.display.show(fmt::format("computing pairs, {} points", points), share);
       });
   AccuracyReport report;
   report.goal = goal;
@@ -174,28 +247,38 @@ Solution solve_by_pairs_to(const AccuracyGoal& goal, const std::shared_ptr<const
   return std::move(pairs.solution);
 }
 
-Solution solve_without_directions(const std::shared_ptr<const Scene>& scene,
-                                  const SolveOptions& options, const Cancellation& cancellation,
-                                  ProgressDisplay& display) {
+Solution solve_without_directions(const SolveJob& job) {
+  const SolveOptions& options = job.options;
   if (options.goal.set() && options.engine == Engine::pairs) {
-    return solve_by_pairs_to(options.goal, scene, options, cancellation, display);
+    return solve_by_pairs_to(options.goal, job);
   }
   const bool hemicubes = options.engine == Engine::hemicube;
   const char* task = hemicubes ? "drawing hemicubes" : "computing pairs";
-  const double patches = scene->patch_count();
+  const double patches = job.scene->patch_count();
   double done = 0;
-  display.begin(task);
+  job.display.begin(task);
   try {
-    return solve_by_form_factors(scene, options, cancellation, [&](double share) {
+    return solve_by_form_factors(job.scene, options, job.cancellation, [&](double share) {
       done = share;
-      display.show_rate(task, share, hemicubes ? patches : patches * (patches - 1) / 2,
-                        hemicubes ? "hemicubes" : "pairs");
+      job.display.show_rate(task, share, hemicubes ? patches : patches * (patches - 1) / 2,
+                            hemicubes ? "hemicubes" : "pairs");
     });
   } catch (const Canceled&) {
     // Without all rows of F there is no useful estimate of B.
     throw NothingToSave(fmt::format(
         "{:.0f} % of the {}, but B requires all of them: nothing is saved", std::floor(100 * done),
         hemicubes ? "hemicubes were drawn" : "pairs were computed"));
+  }
+}
+
+/// The table of --by, on standard output unless a result is there.
+void print_powers(const SolveCall& call, const Solution& solution) {
+  const std::string text =
+      power_report(power_table(solution, *call.by, solution.form_factors.get()), *call.by) + "\n";
+  if (std::any_of(call.out.begin(), call.out.end(), is_standard_output)) {
+    print_diagnostics(text);
+  } else {
+    print_results(text);
   }
 }
 
@@ -207,12 +290,15 @@ void write_outputs(const SolveCall& call, const SolveOptions& options, const Sol
       if (is_standard_output(file)) {
         print_results([&](std::ostream& out) { write_result_csv(out, solution); });
       } else {
-        write_result(file, solution);
+        write_result(file, solution, call.colors.display);
       }
     });
   }
   if (!call.stats.empty()) {
     writers.emplace_back([&] { write_statistics(call.stats, options, solution); });
+  }
+  if (call.by) {
+    writers.emplace_back([&] { print_powers(call, solution); });
   }
   if (call.out.empty()) {
     writers.emplace_back([&] { print_results(solve_summary(solution)); });
@@ -228,12 +314,19 @@ int run(const SolveCall& call) {
   const SolveOptions options = solve_options(call);
   const Cancellation& cancellation = cancel_on_signals();
   ProgressDisplay display(call.quiet);
-  const auto scene = load_input_scene(call.scene, outputs, cancellation, Light::required);
+  const auto scene = load_input_scene(call.scene, outputs, cancellation,
+                                      options.sky.set() ? Light::optional : Light::required);
   const double seconds_load = seconds_since(start);
 
-  const auto solve_scene =
-      takes_directions(options.engine) ? solve_by_passes : solve_without_directions;
-  Solution solution = solve_scene(scene, options, cancellation, display);
+  std::optional<ResultSeries> series;
+  if (!call.colors.series.empty()) {
+    series.emplace(call.colors.series);
+  }
+  const SolveJob job{
+      scene, options, cancellation, display, call.by.has_value(), series ? &*series : nullptr};
+  Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
+                      : takes_directions(options.engine) ? solve_by_passes(job)
+                                                         : solve_without_directions(job);
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
@@ -331,7 +424,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
   command
       .add_option(
           "-o,--out", call.out,
-          "result file: .csv, .vtp, .ply or .obj, by its ending, or - for CSV on standard output; "
+          "result file: .csv, .vtp, .ply, .obj, .glb or .gltf, by its ending, or - for CSV on "
+          "standard output; "
           "may be given several times "
           "(default: a summary on standard output)")
       ->type_name("FILE")
@@ -341,6 +435,12 @@ void add_outputs(CLI::App& command, SolveCall& call) {
       .add_option("--stats", call.stats,
                   "statistics: counts, times, change per iteration, closure and energy defects")
       ->type_name("FILE.json");
+  add_color_outputs(command, call.colors);
+  add_parsed_option(command, "--by", "NAME",
+                    fmt::format("print area and power emitted, received, absorbed, escaped and "
+                                "exchanged, by {}",
+                                fmt::join(parts_by_names(), " or ")),
+                    [&call](const std::string& text) { call.by = parts_by_from_name(text); });
   command.add_flag("-q,--quiet", call.quiet, "no progress and no summary on standard error");
 }
 
@@ -357,16 +457,24 @@ Run add_solve_command(CLI::App& program) {
   add_goal(command, call->options.goal);
   add_stopping_rules(command, *call);
   add_scene_options(command, call->scene);
+  add_sky_options(command, call->options.sky);
+  command
+      .add_option("--factors", call->factors,
+                  "iterate with the form factors in this file, .npz or .mtx, instead of computing "
+                  "them; it is checked against the scene")
+      ->type_name("FILE");
   add_machine_limits(command, call->options.memory, call->options.threads);
   add_outputs(command, *call);
   command.footer(
-      "Columns: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; areas in m2, exitance "
-      "E\n"
-      "and radiosity B in W/m2. Ctrl-C saves the results so far and exits with status 130; "
-      "pressed\n"
-      "twice, it exits immediately.\n"
+      "Columns: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b,H_r,H_g,H_b,F_sum,sky,\n"
+      "group,material; areas in m2, exitance E, radiosity B and irradiance H in W/m2.\n"
+      "Ctrl-C saves the results so far and exits with status 130; pressed twice, it exits "
+      "immediately.\n"
       "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
-  return [call] { return run(*call); };
+  return [call] {
+    set_up_of_display(*call->command, call->options.sky, call->colors);
+    return run(*call);
+  };
 }
 
 }  // namespace transillum::cli

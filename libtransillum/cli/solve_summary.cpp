@@ -74,6 +74,10 @@ std::string passes_text(const SolveStatistics& s) {
         "pairs", fmt::format("{}, by {} points where something is between, {} threads", s.pairs,
                              s.directions, s.threads));
   }
+  if (s.directions == 0) {
+    return report_row("form factors",
+                      fmt::format("{} given, {} threads", s.form_factors, s.threads));
+  }
   return report_row("passes", fmt::format("{} per iteration, {} directions, {} threads", s.passes,
                                           s.directions, s.threads));
 }

@@ -44,6 +44,15 @@ TEST(TransferComparison, MeasuresExchangesBetweenTheWrongPatches) {
   EXPECT_EQ(comparison.largest.source, 3);
   EXPECT_EQ(comparison.largest.area, -2);
   EXPECT_EQ(compare(a, a).misplaced, 0);
+  // The largest first; the pair (3, 1) does not differ.
+  ASSERT_EQ(comparison.pairs.size(), 3U);
+  const std::vector<std::vector<double>> expected{{0, 3, 0, 2}, {0, 1, 3, 2}, {0, 2, 1, 0}};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const PairDifference& pair = comparison.pairs[k];
+    EXPECT_THAT(expected[k],
+                ::testing::ElementsAre(pair.receiver, pair.source, pair.first, pair.other));
+  }
+  EXPECT_TRUE(compare(a, a).pairs.empty());
 }
 
 TEST(CorrectedEngine, IsExactWhereNothingIsPartlyHidden) {

@@ -2,10 +2,12 @@
 // The recorded history of a direction.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/scenes.h"
 #include "transillum/at.h"
+#include "transillum/map_history.h"
 #include "transillum/visibility_map.h"
 
 namespace transillum {
@@ -66,6 +68,49 @@ TEST(MapRecord, AreaIsKeptAtEveryStep) {
       area_before = area;
     }
   }
+}
+
+TEST(MapRecord, EdgesLieOnTheLinesOfTheFragmentsTheyComeFrom) {
+  const auto scene = load_scene("cornell-box");
+  const BspTree tree(*scene);
+  const MapHistory history(
+      record_local_map(*scene, tree, testing::test_directions(9, 4).back()).record);
+  const MapRecord& record = history.record();
+  ASSERT_EQ(record.lines.size(), record.corners.size());
+  const auto point = [&](PointId p) { return record.frame.project(at(tree.points(), p)); };
+  int of_parent = 0, of_cutter = 0, of_older_cut = 0;
+  for (std::size_t r = 0; r < record.rows.size(); ++r) {
+    const MapRecord::Row& row = record.rows[r];
+    const auto outline = record.outline(row);
+    const auto lines = record.edge_lines(row);
+    const auto origins = history.edge_origins(static_cast<std::int32_t>(r));
+    ASSERT_EQ(origins.size(), outline.size());
+    const MapRecord::Row& whole = at(record.rows, history.whole_of(static_cast<std::int32_t>(r)));
+    ASSERT_EQ(whole.patch, row.patch);
+    ASSERT_EQ(whole.parent, MapRecord::no_row);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      // Both ends are on the line, up to rounding.
+      const BspTree::Line& line = at(tree.lines(), lines[k]);
+      const Vec2 a = point(line.a), b = point(line.b);
+      const double length = std::hypot(b.x - a.x, b.y - a.y);
+      for (const Vec2& end : {outline[k], outline[(k + 1) % outline.size()]}) {
+        const double twice = (b.x - a.x) * (end.y - a.y) - (b.y - a.y) * (end.x - a.x);
+        ASSERT_LE(std::abs(twice), 1e-13 * length) << "row " << r << ", edge " << k;
+      }
+      // It comes from a whole fragment that has the line.
+      const MapRecord::Row& origin = at(record.rows, origins[k]);
+      ASSERT_EQ(origin.parent, MapRecord::no_row);
+      const auto known = record.edge_lines(origin);
+      ASSERT_NE(std::find(known.begin(), known.end(), lines[k]), known.end());
+      ASSERT_LE(origin.made, row.made);
+      of_parent += origin.patch == row.patch;
+      of_cutter += origin.made == row.made && row.parent != MapRecord::no_row;
+      of_older_cut += origin.patch != row.patch && origin.made < row.made;
+    }
+  }
+  EXPECT_GT(of_parent, 0);
+  EXPECT_GT(of_cutter, 0);
+  EXPECT_GT(of_older_cut, 0);
 }
 
 TEST(MapRecord, RowsReferToTheirParents) {

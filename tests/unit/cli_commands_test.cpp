@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "program_run.h"
+#include "transillum/bsp_tree.h"
 #include "transillum/directions.h"
 
 namespace transillum::testing {
@@ -50,8 +51,8 @@ TEST(CliHelp, EveryCommandHasHelpWithAnExample) {
        {"solve", "transfers", "map", "directions", "info", "sphere-flake", "rooms"}) {
     EXPECT_THAT(all.out, HasSubstr(word));
   }
-  for (const char* command :
-       {"scene", "solve", "transfers", "map", "factors", "directions", "bounds", "study", "info"}) {
+  for (const char* command : {"scene", "solve", "transfers", "map", "factors", "directions",
+                              "bounds", "study", "compare", "info"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example: transillum " + std::string(command)));
@@ -92,7 +93,8 @@ TEST(CliSolve, WritesEveryFormatAndNoOtherFiles) {
   EXPECT_THAT(result.err, HasSubstr("closure defect"));
   EXPECT_THAT(folder.names(), ElementsAre("a.csv", "a.json", "a.obj", "a.ply", "a.vtp"));
   EXPECT_EQ(split(read_file(folder / "a.csv"), '\n').front(),
-            "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b");
+            "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b,H_r,H_g,H_b,F_sum,sky,group,"
+            "material");
 }
 
 TEST(CliSolve, FurnaceHasRadiosityTwo) {
@@ -102,7 +104,7 @@ TEST(CliSolve, FurnaceHasRadiosityTwo) {
                 .status,
             0);
   for (const auto& row : numbers(read_file(folder / "a.csv"))) {
-    ASSERT_EQ(row.size(), 12U);
+    ASSERT_EQ(row.size(), 19U);
     EXPECT_NEAR(row[9], 2, 1e-10);
   }
 }
@@ -327,6 +329,32 @@ TEST(CliMap, OfAReceiverHasTheAreasOfItsTransfers) {
   for (const auto& [source, area] : seen) {
     EXPECT_NEAR(areas[source], area, 1e-12);
   }
+}
+
+TEST(CliMap, AfterAllStepsIsTheWholeMapAndAfterNoneEmpty) {
+  const TemporaryFolder folder;
+  const auto map = [&](const std::vector<std::string>& step) {
+    const std::string file = folder / "m.svg";
+    std::vector<std::string> call{"map", "boards", "--direction", "1,2,3", "-o", file};
+    call.insert(call.end(), step.begin(), step.end());
+    const ProgramResult result = run_program(call);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_file(file);
+  };
+  const std::string whole = map({});
+  std::string last;
+  int changes = 0;
+  // The step with the last fragment shows the same picture as the map without the option.
+  const auto scene = load_scene("boards");
+  const int steps = static_cast<int>(BspTree(*scene).fragments().size());
+  for (int k = 0; k <= steps; ++k) {
+    const std::string text = map({"--step", std::to_string(k)});
+    changes += text != last;
+    last = text;
+  }
+  EXPECT_EQ(last, whole);
+  EXPECT_GT(changes, steps / 2);
+  EXPECT_THAT(map({"--step", "0"}), HasSubstr("edge-on"));
 }
 
 TEST(CliMap, ReportsWhyAMapIsEmpty) {

@@ -65,8 +65,9 @@ TEST_F(CliOutputs, NoCommandOverwritesAFileThatItReads) {
   expect_refused({"solve", "a.obj", "-m", "8", "--out", "link.obj"}, obj);
   expect_refused({"solve", "a.obj", "-m", "8", "--out", "hard.csv"}, mtl);
   expect_refused({"solve", "a.obj", "-m", "8", "--stats", "hard.json"}, mtl);
-  expect_refused({"factors", "a.obj", "-m", "8", "-o", "mats.mtl"}, mtl);
-  expect_refused({"factors", "link.obj", "-m", "8", "-o", "a.obj"}, "input file link.obj");
+  expect_refused({"factors", "a.obj", "-m", "8", "-o", "hard.csv"}, mtl);
+  fs::create_symlink("a.obj", folder_ / "to-a.csv");
+  expect_refused({"factors", "link.obj", "-m", "8", "-o", "to-a.csv"}, "input file link.obj");
   expect_refused({"transfers", "a.obj", "--direction", "0,0,1", "-o", "mats.mtl"}, mtl);
   expect_refused({"map", "a.obj", "--direction", "0,0,1", "-o", "hard.svg"}, mtl);
   expect_refused({"study", "a.obj", "-m", "8", "--no-cache", "-o", "folder/mats.mtl"}, mtl);

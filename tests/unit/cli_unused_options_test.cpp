@@ -67,6 +67,8 @@ const Unused unused[] = {
     {transfers, {"--random-lines"}, "--random-lines: used only with"},
     {map, {"--out", "m.svg", "--resolution", "64"}, "--resolution: used only with"},
     {map, {"--out", "m.svg", "--order", "newell"}, "--order: used only with"},
+    {map, {"--out", "m.svg", "--receiver", "0", "--step", "3"}, "--step: used only with"},
+    {map, {"--out", "m.svg", "--engine", "rays", "--step", "3"}, "--step: used only with"},
     {map, {"--out", "m.svg", "--difference"}, "--difference: used only with"},
     {map, {"--out", "m.json", "--size", "300"}, "--size: used only with .svg and .png"},
     {factors, {"--rays", "10"}, "--rays: used only with engine rays"},

@@ -20,6 +20,7 @@
 #include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "transillum/pixel_map.h"
+#include "transillum/sensor_files.h"
 #include "transillum/study_files.h"
 
 namespace transillum::testing {
@@ -133,6 +134,7 @@ class FileTables : public ::testing::Test {
   FileTables() : scene_(load_scene("boards")) {
     options_.directions = 16;
     options_.replicas = 2;
+    options_.sky.exitance = {1, 1, 1};
   }
 
   TemporaryFolder folder_;
@@ -174,6 +176,10 @@ TEST_F(FileTables, CsvOfTransfersFactorsDirectionsAndStudies) {
               ElementsAreArray(table("Transfers CSV")));
   EXPECT_THAT(header([](auto& out) { write_form_factors_csv(out, FormFactors{}); }),
               ElementsAreArray(table("Factors CSV")));
+  EXPECT_THAT(header([](auto& out) { write_sensor_factors_csv(out, FormFactors{}); }),
+              ElementsAreArray(table("Sensors", "`--out")));
+  EXPECT_THAT(header([](auto& out) { write_sensor_irradiance_csv(out, {}, FormFactors{}, {}); }),
+              ElementsAreArray(table("Sensors", "`--irradiance")));
   EXPECT_THAT(header([](auto& out) { write_directions_csv(out, std::vector<DirectionSample>{}); }),
               ElementsAreArray(table("Directions CSV")));
   EXPECT_THAT(header([](auto& out) { write_study_csv(out, {StudySeries{}}, Study{}); }),

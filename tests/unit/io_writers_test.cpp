@@ -73,10 +73,10 @@ void expect_same_bits(const std::string& text, double value) {
       << text;
 }
 
-/// Columns from `first`: area, E, rho, B of patch i.
+/// Columns from `first`: area, E, rho, B of patch i, and `more` others.
 void expect_patch_values(const std::vector<std::string>& row, std::size_t first,
-                         const Solution& solution, PatchId i) {
-  ASSERT_EQ(row.size(), first + 10);
+                         const Solution& solution, PatchId i, std::size_t more = 0) {
+  ASSERT_EQ(row.size(), first + 10 + more);
   const Scene& scene = *solution.scene;
   expect_same_bits(row[first], scene.patch(i).area);
   std::size_t column = first + 1;
@@ -106,30 +106,54 @@ TEST_F(IoWriters, CsvReadsBackBitForBit) {
     const auto& row = rows[static_cast<std::size_t>(i) + 1];
     EXPECT_EQ(row[0], std::to_string(i));
     EXPECT_EQ(row[1], std::to_string(i));
-    expect_patch_values(row, 2, solution_, i);
+    expect_patch_values(row, 2, solution_, i, 5);
+    expect_same_bits(row[12], at(solution_.irradiance, i).r);
+    expect_same_bits(row[14], at(solution_.irradiance, i).b);
+    EXPECT_EQ(row[15], "");  // no group
+    EXPECT_EQ(row[16], solution_.scene->material(i).name);
   }
+}
+
+TEST_F(IoWriters, CsvHasWhatIsKnownOfTheSkyAndQuotesNames) {
+  SceneDescription description;
+  description.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  description.materials = {{"red, \"matt\"", {0.5, 0.5, 0.5}, {1, 1, 1}}};
+  description.groups = {"wall"};
+  description.add_face(std::vector<PointId>{0, 1, 2}, 0, 0, 0);
+  solution_ = {};
+  solution_.scene = std::make_shared<const Scene>(description);
+  solution_.radiosity = {{1, 1, 1}};
+  solution_.irradiance = {{}};
+  solution_.form_factor_sums = {0.25};
+  solution_.sky_shares = {0.75};
+  const std::string text = written("a.csv");
+  EXPECT_THAT(text, HasSubstr(",H_r,H_g,H_b,F_sum,sky,group,material\n"));
+  EXPECT_THAT(text, HasSubstr(",0,0,0,0.25,0.75,wall,\"red, \"\"matt\"\"\"\n"));
 }
 
 TEST_F(IoWriters, PlyReadsBackBitForBit) {
   const std::string text = written("a.PLY");
   EXPECT_EQ(text.rfind("ply\nformat ascii 1.0\n", 0), 0U);
   const auto rows = cells(text.substr(text.find("end_header\n") + 11), ' ');
-  const auto& points = solution_.scene->points();
-  ASSERT_EQ(rows.size(), points.size() + 3);
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    expect_same_bits(rows[p][0], points[p].x);
-    expect_same_bits(rows[p][1], points[p].y);
-    expect_same_bits(rows[p][2], points[p].z);
-  }
+  std::size_t corners = 0, row = 0;
   for (PatchId i = 0; i < 3; ++i) {
-    const auto& row = rows[points.size() + static_cast<std::size_t>(i)];
-    const auto outline = solution_.scene->outline(i);
-    ASSERT_EQ(row[0], std::to_string(outline.size()));
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-      EXPECT_EQ(row[1 + k], std::to_string(outline[k]));
+    for (const PointId p : solution_.scene->outline(i)) {
+      const Vec3& point = solution_.scene->point(p);
+      ASSERT_EQ(rows[row].size(), 6U);
+      expect_same_bits(rows[row][0], point.x);
+      expect_same_bits(rows[row][1], point.y);
+      expect_same_bits(rows[row++][2], point.z);
     }
-    expect_patch_values(row, outline.size() + 3, solution_, i);
   }
+  for (PatchId i = 0; i < 3; ++i, ++row) {
+    const auto outline = solution_.scene->outline(i);
+    ASSERT_EQ(rows[row][0], std::to_string(outline.size()));
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      EXPECT_EQ(rows[row][1 + k], std::to_string(corners++));
+    }
+    expect_patch_values(rows[row], outline.size() + 3, solution_, i);
+  }
+  EXPECT_EQ(row, rows.size());
 }
 
 TEST_F(IoWriters, ObjStoresRadiosityAtUnsharedCorners) {

@@ -61,7 +61,7 @@ std::map<std::string, std::string> files_written(const Solution& solution) {
   description.name = "room";  // instead of the path, which differs from call to call
   write_obj(path("copy.obj"), description);
   const Scene scene(description);
-  for (const char* name : {"r.vtp", "r.csv", "r.ply", "r.obj"}) {
+  for (const char* name : {"r.vtp", "r.csv", "r.ply", "r.obj", "r.gltf", "r.glb"}) {
     write_result(path(name), solution);
   }
   write_result(path("again.csv"), read_result(path("r.vtp")));

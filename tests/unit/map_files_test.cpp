@@ -433,6 +433,40 @@ TEST_F(MapFiles, PngShowsTheLampAtItsPosition) {
   EXPECT_EQ(picture.at(x, y), (std::array<int, 3>{255, 255, 255})) << x << ", " << y;
 }
 
+TEST_F(MapFiles, LabelsPointAtPlacesOfTheMap) {
+  const Vec2 place = direction_.record.frame.project({0.5, 1.5, 0});
+  MapPictureOptions options{.size = 400};
+  options.labels = {{"a < b", place}, {"below it", place}};
+  const std::string svg = written("m.svg", of_floor(), options);
+  EXPECT_THAT(svg, HasSubstr(">a &lt; b</text>"));
+  EXPECT_THAT(svg, HasSubstr(">below it</text>"));
+  const auto figure = parsed(svg);
+  ASSERT_NE(figure, nullptr);
+  // Two labels at one place are drawn one below the other.
+  std::vector<double> heights;
+  for (vtkXMLDataElement* text : elements(*figure, "text")) {
+    if (text->GetAttribute("class") && attribute(*text, "class").starts_with("label")) {
+      heights.push_back(std::stod(attribute(*text, "y")));
+    }
+  }
+  ASSERT_EQ(heights.size(), 2U);
+  EXPECT_GT(heights[1] - heights[0], 15);
+
+  write_map(folder_ / "plain.png", *scene_, of_floor(), {.size = 400});
+  const Picture plain(folder_ / "plain.png");
+  write_map(folder_ / "labeled.png", *scene_, of_floor(), options);
+  const Picture labeled(folder_ / "labeled.png");
+  const Vec2 middle = direction_.record.frame.project({1, 1, 0});
+  const double scale = 376.0 / 2;
+  const int x = static_cast<int>(200 - scale * (place.x - middle.x));
+  const int y = static_cast<int>(200 - scale * (place.y - middle.y));
+  EXPECT_EQ(labeled.at(x, y), (std::array<int, 3>{255, 255, 255}));
+  EXPECT_NE(plain.at(x, y), labeled.at(x, y));
+  // Colors far from the labels are the same.
+  EXPECT_EQ(plain.at(2, 398), labeled.at(2, 398));
+  EXPECT_EQ(plain.width(), labeled.width());
+}
+
 /// At a slanted edge between two polygons, no pixel shows the background.
 TEST(MapPng, HasNoSeams) {
   Sketch sketch;
@@ -469,7 +503,8 @@ TEST_F(MapFiles, EmptyMapsCanBeWritten) {
     EXPECT_THAT(nlohmann::json::parse(read_file(folder_ / "m.json")).at("polygons"), IsEmpty());
   }
   EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(edge_on, 0)), HasSubstr("edge-on"));
-  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)), HasSubstr("is back-facing"));
+  EXPECT_THAT(empty_map_reason(*scene_, map_of_receiver(from_above, 0)),
+              HasSubstr("is back-facing"));
   EXPECT_EQ(empty_map_reason(*scene_, of_floor()), "");
 }
 

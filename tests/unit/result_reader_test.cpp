@@ -34,12 +34,14 @@ using ::testing::StartsWith;
 void expect_same(const Solution& read, const Solution& written) {
   const Scene &a = *read.scene, &b = *written.scene;
   EXPECT_EQ(a.name(), b.name());
+  EXPECT_EQ(a.groups(), b.groups());
   EXPECT_EQ(a.options().two_sided, b.options().two_sided);
   ASSERT_EQ(a.patch_count(), b.patch_count());
   for (PatchId i = 0; i < a.patch_count(); ++i) {
     EXPECT_EQ(a.patch(i).normal, b.patch(i).normal);
     EXPECT_EQ(a.patch(i).area, b.patch(i).area);
     EXPECT_EQ(a.patch(i).face, b.patch(i).face);
+    EXPECT_EQ(a.patch(i).group, b.patch(i).group);
     EXPECT_EQ(a.exitance(i), b.exitance(i));
     EXPECT_EQ(a.reflectance(i), b.reflectance(i));
     EXPECT_EQ(a.material(i).name, b.material(i).name);
@@ -50,6 +52,9 @@ void expect_same(const Solution& read, const Solution& written) {
   }
   EXPECT_EQ(read.radiosity, written.radiosity);
   EXPECT_EQ(read.irradiance, written.irradiance);
+  EXPECT_EQ(read.form_factor_sums, written.form_factor_sums);
+  EXPECT_EQ(read.sky_shares, written.sky_shares);
+  EXPECT_EQ(read.sky_irradiance, written.sky_irradiance);
   EXPECT_EQ(read.complete, written.complete);
   EXPECT_EQ(read.error.standard_error, written.error.standard_error);
   EXPECT_EQ(read.error.rms, written.error.rms);
@@ -144,6 +149,32 @@ TEST_F(ResultReader, ReadsBothSidesOfRefinedFacesAndTheErrorEstimate) {
   // What is read can be written, and read, again.
   write_result(path_, read);
   expect_same(read_result(path_), solution_);
+}
+
+TEST_F(ResultReader, ReadsGroupsAndTheLightOfTheSky) {
+  SceneDescription description = describe_scene("boards");
+  description.groups = {"first", "last"};
+  description.face_group.assign(description.face_count(), no_group);
+  description.face_group.front() = 0;
+  description.face_group.back() = 1;
+  solution_ = solve(std::make_shared<const Scene>(description),
+                    {.directions = 16, .sky = {.exitance = {1, 2, 3}}});
+  ASSERT_FALSE(solution_.sky_irradiance.empty());
+  write_result(path_, solution_);
+  expect_same(read_result(path_), solution_);
+  const auto set = [&](const char* array, double value) {
+    write_result(path_, solution_);
+    change(
+        [&](vtkPolyData& mesh) { mesh.GetCellData()->GetArray(array)->SetComponent(1, 0, value); });
+  };
+  set("group", 2);
+  expect_refused("patch 1 is of group 2, which is not in the range -1 to 1");
+  set("group", -2);
+  expect_refused("patch 1 is of group -2");
+  set("sky", -0.5);
+  expect_refused("sky of patch 1 is -0.5");
+  set("F_sum", std::numeric_limits<double>::infinity());
+  expect_refused("F_sum of patch 1 is inf");
 }
 
 TEST_F(ResultReader, NeedsNeitherMaterialsNorFigures) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,16 +47,53 @@ void check_writable(const std::filesystem::path& path);
 void check_distinct(const std::vector<std::string>& outputs,
                     const std::vector<std::string>& inputs);
 
-/// Checks that `path` is writable and ends in .csv, .vtp, .ply or .obj.
+/// How radiosity is shown in files for other programs.
+struct DisplayOptions {
+  /// Linear color per radiosity, m²/W, > 0: where B times it is 1, the color is white. Unset:
+  /// automatic_exposure().
+  std::optional<double> exposure = std::nullopt;
+  /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; unset: +y, coordinates
+  /// stay.
+  std::optional<Vec3> up = std::nullopt;
+
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+};
+/// The exposure that makes B white where it exceeds that of 98 % of the area that does not emit (of
+/// all area, where all emits); 1 without light.
+double automatic_exposure(const Solution& solution);
+
+/// Checks that `path` is writable and ends in .csv, .vtp, .ply, .obj, .glb or .gltf.
 /// @throws InputError
 void check_result_path(const std::filesystem::path& path);
 /// Checks that `path` is writable and ends in .json.
 /// @throws InputError
 void check_statistics_path(const std::filesystem::path& path);
 /// Writes a solution in the format given by the extension of `path`.
+/// @param path the file.
+/// @param solution the solution.
+/// @param display colors in .ply, .glb and .gltf files.
 /// @throws InputError for another extension, or where `path` is a file of the scene;
 /// std::runtime_error if it cannot be written.
-void write_result(const std::filesystem::path& path, const Solution& solution);
+void write_result(const std::filesystem::path& path, const Solution& solution,
+                  const DisplayOptions& display = {});
+
+/// Results as a series for ParaView: a .pvd file that lists .vtp files beside it.
+class ResultSeries {
+ public:
+  /// @param path ending in .pvd.
+  /// @throws InputError for another ending, or where it cannot be written.
+  explicit ResultSeries(std::filesystem::path path);
+  /// Writes the next result, STEM-0001.vtp and so on, and the .pvd file with all of them.
+  /// @param solution the result.
+  /// @param time its place in the series, such as the number of the iteration.
+  /// @throws InputError, std::runtime_error as write_result()
+  void add(const Solution& solution, double time);
+
+ private:
+  std::filesystem::path path_;
+  std::vector<double> times_;
+};
 
 /// Writes a solution as CSV, as write_result() does to a file.
 void write_result_csv(std::ostream& out, const Solution& solution);

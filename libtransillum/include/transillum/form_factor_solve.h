@@ -32,6 +32,19 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const Cancellation& cancellation = {},
                                const std::function<void(double)>& progress = {});
 
+/// Solves with given form factors, by the iteration of solve_by_form_factors(). No passes are made:
+/// in the statistics, their number and that of directions is 0.
+/// @param scene the scene.
+/// @param form_factors of `scene`, as of read_form_factors().
+/// @param options tolerance, iterations and threads apply.
+/// @param cancellation checked during the iteration.
+/// @throws InputError where the form factors are of another number of patches, or an option
+/// requires directions
+/// @throws Canceled, NotConvergent
+Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors form_factors,
+                                 const SolveOptions& options,
+                                 const Cancellation& cancellation = {});
+
 /// The result of solve_by_pairs().
 struct PairSolution {
   Solution solution;     ///< of the last solve

@@ -26,7 +26,9 @@ std::string read_json_file(const std::filesystem::path& path);
 /// It must be one JSON value (RFC 8259) in UTF-8, with or without a byte order mark, within the
 /// limits above, without a number beyond the range of double and without a key twice in one object.
 /// @param name  of the file, at the beginning of messages
+/// @param limit  most bytes; more than largest_json_file for formats with data in strings
 /// @throws InputError naming line, column (from 1, in characters) and problem
-void check_json(std::string_view text, const std::string& name);
+void check_json(std::string_view text, const std::string& name,
+                std::uintmax_t limit = largest_json_file);
 
 }  // namespace transillum

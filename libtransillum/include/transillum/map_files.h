@@ -12,6 +12,12 @@
 
 namespace transillum {
 
+/// A text that names a place of a map.
+struct MapLabel {
+  std::string text;  ///< UTF-8, one line
+  Vec2 point;        ///< on the plane, m
+};
+
 /// Options of write_map() for pictures (.svg, .png).
 struct MapPictureOptions {
   static constexpr int smallest_size = 200;  ///< pixels
@@ -19,6 +25,7 @@ struct MapPictureOptions {
   int size = 1200;  ///< pixels along the longer side, smallest_size … largest_size
   /// sRGB of each patch's front side; empty: by its exitance or reflectance.
   std::vector<std::array<std::uint8_t, 3>> patch_colors{};
+  std::vector<MapLabel> labels{};  ///< drawn over the map
 };
 
 /// Why the map is empty, as a phrase for the user; empty if it is not.
@@ -36,7 +43,7 @@ bool is_map_picture(const std::filesystem::path& path);
 /// - .svg: a figure with title, legend and scale bar; one path per patch, of class
 ///   `patch pN front` or `patch pN back`, with its area in `data-area` (m², sum of its polygons)
 ///   and a tool tip.
-/// - .png: the same polygons, anti-aliased and without text; its text chunks describe it.
+/// - .png: the same polygons, anti-aliased, without text but labels; its text chunks describe it.
 /// - .vtp: polygons at z = 0 in plane coordinates, with cell arrays patch, front, area.
 /// - .json: frame, receiver and polygons; numbers read back bit for bit.
 ///

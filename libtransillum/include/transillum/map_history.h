@@ -63,6 +63,11 @@ class MapHistory {
   bool exchanges(std::int32_t r) const;
   /// The patch by whose polygon row r was cut from its parent; no_patch for an uncut polygon.
   PatchId cut_by(std::int32_t r) const;
+  /// The polygon that entered V and of which row r is a part: a row without a parent.
+  std::int32_t whole_of(std::int32_t r) const;
+  /// Where each edge of row r comes from: the polygon that entered V with an edge on the same line,
+  /// as a row without a parent. It is row r, an ancestor of it, or a polygon that cut one of them.
+  std::vector<std::int32_t> edge_origins(std::int32_t r) const;
 
   /// Steps, ascending, that processed a polygon of the patch or consumed a row of it.
   std::span<const std::int32_t> steps_of(PatchId patch) const;

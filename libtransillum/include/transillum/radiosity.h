@@ -21,6 +21,7 @@
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
+#include "transillum/sky.h"
 #include "transillum/transfers.h"
 
 namespace transillum {
@@ -89,6 +90,8 @@ struct SolveOptions {
   /// If set, solve() chooses `directions` and `replicas` (accuracy_plan.h). A RadiositySolver uses
   /// those given.
   AccuracyGoal goal = {};
+  /// Light that enters where nothing is above a patch. Not with engines hemicube and pairs.
+  Sky sky = {};
 
   /// `sampling`, or default_sampling(two_way).
   Sampling used_sampling() const { return sampling.value_or(default_sampling(two_way)); }
@@ -174,13 +177,15 @@ struct SolveStatistics {
   /// to the variance of B. 0: no direct light. Below least_light_directions per replica, the error
   /// estimate cannot be trusted.
   double light_directions = 0;
-  double escaped = 0;                ///< share of projected area with nothing above; 0: closed
-  double energy_defect = 0;          ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
-                                     ///< (ALGORITHM.md, oracle 4)
-  double energy_balance = 0;         ///< sum A_i (1 - rho_i) H_i / sum A_i E_i; 1 in a closed scene
-  double rho_max = 0;                ///< largest reflectance
-  double predicted_contraction = 0;  ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
-  PassCounts counts;                 ///< sum over all different directions
+  double escaped = 0;        ///< share of projected area with nothing above; 0: closed
+  double energy_defect = 0;  ///< |sum A_i H_i - sum_j s_j A_j B_j| over the latter
+                             ///< (ALGORITHM.md, oracle 4)
+  /// Power absorbed, sum A_i (1 - rho_i) H_i, over that emitted, sum A_i E_i, and received from the
+  /// sky; 1 in a closed scene.
+  double energy_balance = 0;
+  double rho_max = 0;                              ///< largest reflectance
+  double predicted_contraction = 0;                ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
+  PassCounts counts;                               ///< sum over all different directions
   std::vector<IterationRecord> iteration_records;  ///< one per iteration
   std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
   double shot_power_share = 0;    ///< their power over all power emitted
@@ -284,6 +289,13 @@ class RadiositySolver {
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.
   std::vector<double> form_factor_sums() const;
+  /// Per patch: share of the light leaving it that escapes, meeting no patch; from the passes done
+  /// so far, with the weights of form_factor_sums(). Where no backs are seen, both sum to 1 (eq.
+  /// 17).
+  std::vector<double> sky_shares() const;
+  /// Per patch: what it receives from SolveOptions::sky, W/m², from the passes done so far; empty
+  /// without a sky. In the semi-iterative scheme, of the last set of directions.
+  std::vector<Rgb> sky_irradiance() const;
   /// Per patch: share of its visible area, over all passes so far, of which receivers see the back
   /// side.
   std::vector<double> back_seen_shares() const;
@@ -319,6 +331,15 @@ struct Solution {
   SolveStatistics statistics;          ///< figures of the run
   bool complete = false;  ///< false: stopped early, radiosity is the best estimate so far
   std::optional<AccuracyReport> accuracy = {};  ///< of a solve with a goal
+  /// sum_j F_ij, one per patch; empty: not known
+  std::vector<double> form_factor_sums = {};
+  /// RadiositySolver::sky_shares(); of solves with given form factors, 1 - sum_j F_ij, which counts
+  /// what meets back sides as escaping. Empty: not known.
+  std::vector<double> sky_shares = {};
+  /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty: there is no sky
+  std::vector<Rgb> sky_irradiance = {};
+  /// Of solves with given form factors; null: RadiositySolver::form_factors() may have them.
+  std::shared_ptr<const FormFactors> form_factors = nullptr;
 };
 
 /// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so

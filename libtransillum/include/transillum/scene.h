@@ -110,6 +110,12 @@ struct ReadOptions {
   std::optional<double> max_reflectance = std::nullopt;
   /// Meters per unit of the coordinates, > 0; built-in scenes are scaled too.
   double scale = 1;
+  /// Whether faces of one plane, material and group that share edges are joined to one. Unset: only
+  /// those of formats that have triangles alone, glTF and STL.
+  std::optional<bool> join = std::nullopt;
+  /// Whether a glTF file's emissive colors are luminances, cd/m², at 683 lm/W, instead of
+  /// radiances.
+  bool photometric = false;
 
   /// @throws InputError naming the value and the valid range
   void validate() const;
@@ -233,9 +239,19 @@ class Scene {
   SceneReport report_;
 };
 
+/// A format of scene files.
+struct SceneFormat {
+  std::string ending;  ///< in lower case, with its dot
+  std::string name;    ///< as "Wavefront OBJ"
+};
+/// All formats that describe_scene() reads, by the ending of a file's name.
+const std::vector<SceneFormat>& scene_formats();
+/// Whether `path` ends as one of scene_formats(), in upper or lower case.
+bool is_scene_file(const std::string& path);
+
 /// Reads a file or generates a built-in scene.
-/// @param spec a path ending in .obj, or the name of a built-in scene (built_in_scenes()), with
-/// parameters as in `sphere-flake:levels=2,slices=17,stacks=8`.
+/// @param spec a path of a scene file (is_scene_file()), or the name of a built-in scene
+/// (built_in_scenes()), with parameters as in `sphere-flake:levels=2,slices=17,stacks=8`.
 /// @param read what replaces missing values, and the unit of lengths. What was replaced is noted in
 /// SceneDescription::notes.
 /// @param cancellation checked while reading.

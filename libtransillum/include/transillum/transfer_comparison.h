@@ -7,6 +7,14 @@
 
 namespace transillum {
 
+/// What two engines find of one pair of patches.
+struct PairDifference {
+  PatchId receiver;
+  PatchId source;
+  double first;  ///< A(receiver, source, omega), m², by the first; 0: none
+  double other;  ///< by the other
+};
+
 /// The differences between two engines' transfers along one direction.
 struct TransferComparison {
   double exchanged = 0;        ///< m², sum over all pairs of the first
@@ -19,6 +27,8 @@ struct TransferComparison {
   std::vector<double> differences;
   /// The pair with the largest absolute difference, and the difference: first minus other, m².
   Transfer largest{no_patch, no_patch, 0};
+  /// All pairs that differ, by decreasing absolute difference, then by receiver and source.
+  std::vector<PairDifference> pairs;
 };
 
 /// Compares `other` with `first`; both of the same direction and scene.

@@ -20,6 +20,13 @@ struct Transfer {
 struct Coverage {
   double projected = 0;  ///< area of the patch's projection, m²; 0 where it does not receive
   double covered = 0;    ///< part of it with some surface above, front or back side, m²
+
+  /// The part with nothing above, which sees the sky, m²; 0 where it is rounding (ALGORITHM.md,
+  /// oracle 1).
+  double uncovered() const {
+    const double rest = projected - covered;
+    return rest > 1e-12 * projected ? rest : 0;
+  }
 };
 
 /// The work done by one pass, for statistics and tests. Counts that do not apply to an engine stay

@@ -36,9 +36,12 @@ namespace transillum {}
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
 #include "transillum/light_paths.h"
+#include "transillum/power_table.h"
 #include "transillum/radiosity.h"
 #include "transillum/relight.h"
+#include "transillum/result_comparison.h"
 #include "transillum/settings.h"
+#include "transillum/sky.h"
 
 // Directions and what is proven or measured about them.
 #include "transillum/bounds.h"
@@ -65,6 +68,8 @@ namespace transillum {}
 #include "transillum/form_factors.h"
 #include "transillum/hemicube.h"
 #include "transillum/pair_form_factors.h"
+#include "transillum/point_sensors.h"
+#include "transillum/small_form_factors.h"
 
 // Studies of the error against the number of passes.
 #include "transillum/reference_cache.h"
@@ -72,7 +77,9 @@ namespace transillum {}
 
 // Files: results, maps, charts, JSON.
 #include "transillum/files.h"
+#include "transillum/form_factor_files.h"
 #include "transillum/json_text.h"
 #include "transillum/line_chart.h"
 #include "transillum/map_files.h"
+#include "transillum/sensor_files.h"
 #include "transillum/study_files.h"

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
 
 namespace transillum {
@@ -62,12 +63,18 @@ struct MapRecord {
   std::vector<PatchId> step_patch;  ///< per step: the patch of its fragment
   std::vector<Row> rows;            ///< in the order made
   std::vector<Vec2> corners;        ///< of all rows
+  std::vector<LineId> lines;        ///< per corner: the line of the BSP tree on which the edge to
+                                    ///< the next corner lies
 
   /// Number of steps: fragments processed.
   std::int32_t step_count() const { return static_cast<std::int32_t>(order.size()); }
   /// Corners of a row's polygon.
   std::span<const Vec2> outline(const Row& row) const {
     return {corners.data() + row.begin, row.end - row.begin};
+  }
+  /// Lines of the edges of a row's polygon: the first is that from the first corner to the second.
+  std::span<const LineId> edge_lines(const Row& row) const {
+    return {lines.data() + row.begin, row.end - row.begin};
   }
   /// Area of the row's polygon, m².
   double area(const Row& row) const;
@@ -131,6 +138,8 @@ struct VisibilityMap {
 };
 /// V after step `step` (-1: before the first), without exchanges.
 VisibilityMap map_after(const MapRecord& record, std::int32_t step);
+/// The same with the exchanges of the steps so far.
+VisibilityMap map_after(const RecordedDirection& direction, std::int32_t step);
 /// V after the last step: what is visible from below the scene.
 VisibilityMap map_from_below(const RecordedDirection& direction);
 /// What patch `receiver` sees along the direction: the inside lists of the steps that process it.

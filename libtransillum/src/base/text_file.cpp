@@ -49,7 +49,7 @@ bool is_at_least_one(std::string_view word) {
 
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& path, std::uintmax_t limit) {
+std::string read_binary_file(const std::filesystem::path& path, std::uintmax_t limit) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -72,6 +72,11 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lim
   if (!file || file.gcount() != static_cast<std::streamsize>(size)) {
     throw InputError(path.string() + ": cannot be read");
   }
+  return text;
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::uintmax_t limit) {
+  std::string text = read_binary_file(path, limit);
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     throw InputError(path.string() + ": text in UTF-16; save it as UTF-8");
   }

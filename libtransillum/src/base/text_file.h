@@ -18,8 +18,12 @@
 
 namespace transillum {
 
-/// Largest scene file (OBJ or MTL) accepted, in bytes.
+/// Largest file of a scene accepted, in bytes.
 inline constexpr std::uintmax_t largest_scene_file = std::uintmax_t{1} << 30;
+
+/// The bytes of a file.
+/// @throws InputError if it is missing, not a regular file, unreadable or larger than `limit` bytes
+std::string read_binary_file(const std::filesystem::path& path, std::uintmax_t limit);
 
 /// The text of a file.
 /// @throws InputError if it is missing, not a regular file, unreadable, larger than `limit` bytes,

@@ -123,10 +123,10 @@ std::string read_json_file(const std::filesystem::path& path) {
   return read_text_file(path, largest_json_file);
 }
 
-void check_json(std::string_view text, const std::string& name) {
-  if (text.size() > largest_json_file) {
+void check_json(std::string_view text, const std::string& name, std::uintmax_t limit) {
+  if (text.size() > limit) {
     throw InputError(
-        fmt::format("{}: {} bytes of JSON; the limit is {}", name, text.size(), largest_json_file));
+        fmt::format("{}: {} bytes of JSON; the limit is {}", name, text.size(), limit));
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     throw InputError(name + ": an empty file");

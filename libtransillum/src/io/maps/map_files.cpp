@@ -42,7 +42,7 @@ std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
     return {};
   }
   if (map.receiver == no_patch) {
-    return "every patch is edge-on to the direction";
+    return "every patch that was processed is edge-on to the direction";
   }
   if (!map.window.empty()) {
     return fmt::format("nothing is above patch {}", map.receiver);

@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Maps as PNG: an anti-aliased rasterizer for the convex polygons and lines of a map, encoded by
-// VTK.
+// VTK. Cairo draws the labels over it.
+#include <cairo.h>
 #include <fmt/format.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -11,10 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <ostream>
 #include <stdexcept>
 
 #include "io/maps/map_drawing.h"
+#include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
 
 namespace transillum {
@@ -160,6 +163,90 @@ class Canvas {
   std::vector<Pixel> pixels_;
 };
 
+/// A drawing by Cairo over a picture of VTK, which has the bottom row first and three bytes a
+/// pixel.
+class Overlay {
+ public:
+  explicit Overlay(vtkImageData& image)
+      : image_(image),
+        width_(image.GetDimensions()[0]),
+        height_(image.GetDimensions()[1]),
+        surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
+        cairo_(cairo_create(surface_)) {
+    each_pixel([](unsigned char* picture, unsigned char* drawing) {
+      std::copy(picture, picture + 3, std::reverse_iterator(drawing + 3));
+    });
+    cairo_surface_mark_dirty(surface_);
+  }
+  ~Overlay() {
+    cairo_destroy(cairo_);
+    cairo_surface_destroy(surface_);
+  }
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+
+  void draw(const PlacedLabel& label) {
+    cairo_select_font_face(cairo_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+    cairo_set_font_size(cairo_, label_size);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo_, label.text.c_str(), &extents);
+    cairo_set_source_rgb(cairo_, 1, 1, 1);
+    cairo_set_line_width(cairo_, 2);
+    cairo_move_to(cairo_, label.point.x, label.point.y);
+    cairo_line_to(cairo_, label.base.x, label.base.y);
+    cairo_stroke(cairo_);
+    cairo_arc(cairo_, label.point.x, label.point.y, 3, 0, 7);
+    cairo_fill(cairo_);
+    cairo_move_to(cairo_, label.base.x - (label.ends_at ? extents.x_advance : 0), label.base.y);
+    cairo_text_path(cairo_, label.text.c_str());
+    cairo_set_source_rgb(cairo_, 0, 0, 0);
+    cairo_set_line_width(cairo_, 4);
+    cairo_stroke_preserve(cairo_);
+    cairo_set_source_rgb(cairo_, 1, 1, 1);
+    cairo_fill(cairo_);
+  }
+  /// Copies the drawing back into the picture.
+  void finish() {
+    cairo_surface_flush(surface_);
+    each_pixel([](unsigned char* picture, const unsigned char* drawing) {
+      std::copy(drawing, drawing + 3, std::reverse_iterator(picture + 3));
+    });
+  }
+
+ private:
+  // Cairo stores blue first (little endian), VTK red.
+  template <typename Copy>
+  void each_pixel(Copy copy) {
+    auto* pixels = static_cast<unsigned char*>(image_.GetScalarPointer());
+    unsigned char* drawing = cairo_image_surface_get_data(surface_);
+    const int stride = cairo_image_surface_get_stride(surface_);
+    for (int y = 0; y < height_; ++y) {
+      unsigned char* row = pixels + std::ptrdiff_t{3} * width_ * (height_ - 1 - y);
+      for (int x = 0; x < width_; ++x) {
+        copy(row + std::ptrdiff_t{3} * x,
+             drawing + std::ptrdiff_t{stride} * y + std::ptrdiff_t{4} * x);
+      }
+    }
+  }
+
+  vtkImageData& image_;
+  const int width_, height_;
+  cairo_surface_t* surface_;
+  cairo_t* cairo_;
+};
+
+void draw_labels(vtkImageData& image, const MapLayout& layout,
+                 const std::vector<MapLabel>& labels) {
+  if (labels.empty()) {
+    return;
+  }
+  Overlay overlay(image);
+  for (const PlacedLabel& label : place_labels(labels, layout.transform, 0, layout.width)) {
+    overlay.draw(label);
+  }
+  overlay.finish();
+}
+
 /// Adds title and description as text chunks.
 void describe(vtkPNGWriter& writer, const Scene& scene, const VisibilityMap& map, double scale) {
   const Vec3& omega = map.frame.omega;
@@ -217,6 +304,7 @@ void write_map_png(std::ostream& out, const Scene& scene, const VisibilityMap& m
 
   vtkNew<vtkImageData> image;
   canvas.copy_to(*image);
+  draw_labels(*image, layout, options.labels);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
   writer->WriteToMemoryOn();

@@ -8,6 +8,7 @@
 
 #include "io/clean_text.h"
 #include "io/maps/map_drawing.h"
+#include "io/maps/map_labels.h"
 #include "io/maps/map_writers.h"
 #include "io/text_buffer.h"
 
@@ -25,6 +26,8 @@ constexpr const char* style = R"(  <style>
     .patch { stroke: #0a0c0f; stroke-linejoin: round; }
     .pixel { stroke: none; }
     .border { stroke: #0a0c0f; fill: none; stroke-linecap: square; }
+    .label { font-size: 15px; font-weight: bold; fill: #ffffff; stroke: #000000; stroke-width: 4; paint-order: stroke; }
+    .pointer { stroke: #ffffff; stroke-width: 2; fill: #ffffff; }
     .patch:hover { stroke: #ff3e9e; stroke-width: 2; }
   </style>
 )";
@@ -143,6 +146,7 @@ class SvgFigure {
     if (in_pixels()) {
       add_pixel_marks();
     }
+    add_labels();
     const std::string reason = empty_map_reason(scene_, map_);
     if (reason.empty()) {
       return;
@@ -183,6 +187,19 @@ class SvgFigure {
       text_.add("M{:.7g} {:.7g}L{:.7g} {:.7g}", a.x, a.y, b.x, b.y);
     }
     text_.add("\"/>\n");
+  }
+
+  void add_labels() {
+    for (const PlacedLabel& label :
+         place_labels(options_.labels, layout_.transform, left_, layout_.width)) {
+      text_.add(
+          "  <path class=\"pointer\" d=\"M{0:.2f} {1:.2f}L{2:.2f} {3:.2f}M{4:.2f} {1:.2f}a3 3 0 1 "
+          "0 6 "
+          "0a3 3 0 1 0 -6 0\"/>\n",
+          label.point.x, label.point.y, label.base.x, label.base.y, label.point.x - 3);
+      text_.add("  <text class=\"label{}\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n",
+                label.ends_at ? " end" : "", label.base.x, label.base.y, xml_text(label.text));
+    }
   }
 
   void add_window() {

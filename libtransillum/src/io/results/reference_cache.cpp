@@ -113,6 +113,11 @@ void add_options(Hash& hash, const SolveOptions& options) {
   constexpr double no_shot = -2;  // no value that the option can have
   hash.add(options.first_shot.value_or(no_shot));
   hash.add(options.tolerance);
+  if (options.sky.set()) {
+    hash.add(options.sky.exitance);
+    hash.add(name_of(options.sky.model));
+    hash.add(options.sky.up);
+  }
 }
 
 std::string key_of(const Scene& scene, const SolveOptions& options) {

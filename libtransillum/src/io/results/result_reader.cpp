@@ -37,6 +37,11 @@ class ResultReader {
     solution.statistics.patches = solution.scene->patch_count();
     solution.radiosity = colors("B");
     solution.irradiance = colors("H");
+    solution.form_factor_sums = shares("F_sum");
+    solution.sky_shares = shares("sky");
+    if (file_.has("CellData", "H_sky")) {
+      solution.sky_irradiance = colors("H_sky");
+    }
     if (solution.error.replicas > 0) {
       solution.error.standard_error = colors("standard_error");
     }
@@ -86,6 +91,21 @@ class ResultReader {
       colors[i] = {rgb[0], rgb[1], rgb[2]};
     }
     return colors;
+  }
+
+  /// One number >= 0 per patch; empty: the file does not say.
+  std::vector<double> shares(const char* name) const {
+    if (!file_.has("CellData", name)) {
+      return {};
+    }
+    std::vector<double> values = file_.numbers("CellData", name, 1, file_.polygons());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!(values[i] >= 0) || !std::isfinite(values[i])) {
+        file_.fail(fmt::format("{} of patch {} is {}, not a finite number of at least 0", name, i,
+                               values[i]));
+      }
+    }
+    return values;
   }
 
   std::vector<std::string> strings(const char* name) const {
@@ -185,6 +205,23 @@ class ResultReader {
     return faces;
   }
 
+  /// The group of each polygon, index into the names of groups or no_group; empty: the file does
+  /// not say.
+  std::vector<std::int32_t> read_groups(std::size_t names) const {
+    if (!file_.has("CellData", "group")) {
+      return {};
+    }
+    std::vector<std::int32_t> groups;
+    for (const std::int64_t group : file_.whole_numbers("CellData", "group", file_.polygons())) {
+      if (group < no_group || group >= static_cast<std::int64_t>(names)) {
+        file_.fail(fmt::format("patch {} is of group {}, which is not in the range -1 to {}",
+                               groups.size(), group, static_cast<std::int64_t>(names) - 1));
+      }
+      groups.push_back(static_cast<std::int32_t>(group));
+    }
+    return groups;
+  }
+
   /// One patch per polygon; in a two-sided scene, two polygons are the sides of one face.
   std::shared_ptr<const Scene> make_scene() const {
     SceneDescription description;
@@ -197,12 +234,14 @@ class ResultReader {
     read_figure("two_sided", two_sided);
     const Outlines outlines = read_outlines();
     const std::vector<std::int32_t> faces = read_faces();
+    description.groups = strings("groups");
+    const std::vector<std::int32_t> groups = read_groups(description.groups.size());
     for (std::size_t i = 0; i < file_.polygons(); ++i) {
       if (i % 4096 == 0) {
         cancellation_.throw_if_canceled();
       }
       const auto outline = outlines[i];
-      description.add_face(outline, materials[i]);
+      description.add_face(outline, materials[i], 0, groups.empty() ? no_group : groups[i]);
       if (!faces.empty()) {
         description.face_number.push_back(faces[i]);
       }

@@ -1,6 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as text: CSV, PLY and OBJ. data/FILES.md lists their columns and properties.
+#include <algorithm>
+#include <cmath>
+
 #include "io/results/result_writers.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
@@ -24,6 +27,49 @@ void add_patch_values(TextBuffer& text, const Solution& solution, PatchId i, cha
   }
 }
 
+/// A name as a cell of a CSV file: in quotes where it contains what separates cells.
+std::string csv_cell(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) {
+    return name;
+  }
+  std::string cell = "\"";
+  for (const char c : name) {
+    cell += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return cell + '"';
+}
+
+/// Writes H, row sum of F and share of the sky where they are known, group and material.
+void add_light_and_names(TextBuffer& text, const Solution& solution, PatchId i) {
+  const Scene& scene = *solution.scene;
+  add_color(text, at(solution.irradiance, i), ',');
+  if (!solution.form_factor_sums.empty()) {
+    text.add(",{}", at(solution.form_factor_sums, i));
+  }
+  if (!solution.sky_shares.empty()) {
+    text.add(",{}", at(solution.sky_shares, i));
+  }
+  const std::int32_t group = scene.patch(i).group;
+  text.add(",{},{}", group == no_group ? std::string() : csv_cell(at(scene.groups(), group)),
+           csv_cell(scene.material(i).name));
+}
+
+/// A linear value as sRGB, 0 to 255.
+int srgb_byte(double linear) {
+  const double value = std::clamp(linear, 0.0, 1.0);
+  const double encoded =
+      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+  return static_cast<int>(std::lround(255 * encoded));
+}
+
+std::size_t corner_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    count += scene.outline(i).size();
+  }
+  return count;
+}
+
 bool has_large_outlines(const Scene& scene) {
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     if (scene.outline(i).size() > 255) {
@@ -36,27 +82,34 @@ bool has_large_outlines(const Scene& scene) {
 }  // namespace
 
 /// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
-/// also SE_r,SE_g,SE_b.
+/// also SE_r,SE_g,SE_b; then H_r,H_g,H_b, F_sum and sky where they are known, group,material.
 void write_result_csv(std::ostream& out, const Solution& solution) {
   TextBuffer text(out);
   const std::vector<Rgb>& errors = solution.error.standard_error;
-  text.add("face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{}\n",
-           errors.empty() ? "" : ",SE_r,SE_g,SE_b");
+  text.add(
+      "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{},H_r,H_g,H_b{}{},group,"
+      "material\n",
+      errors.empty() ? "" : ",SE_r,SE_g,SE_b", solution.form_factor_sums.empty() ? "" : ",F_sum",
+      solution.sky_shares.empty() ? "" : ",sky");
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     add_patch_values(text, solution, i, ',');
     if (!errors.empty()) {
       add_color(text, at(errors, i), ',');
     }
+    add_light_and_names(text, solution, i);
     text.add("\n");
   }
 }
 
-void write_result_ply(std::ostream& out, const Solution& solution) {
+void write_result_ply(std::ostream& out, const Solution& solution, const DisplayOptions& display) {
   const Scene& scene = *solution.scene;
+  const double exposure = exposure_of(solution, display);
   TextBuffer text(out);
   text.add("ply\nformat ascii 1.0\ncomment transillum; lengths in m, E and B in W/m2\n");
+  text.add("comment colors: B times {}, as sRGB\n", exposure);
   text.add("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-           scene.points().size());
+           corner_count(scene));
+  text.add("property uchar red\nproperty uchar green\nproperty uchar blue\n");
   // Most readers support only lists whose length is a byte.
   text.add("element face {}\nproperty list {} int vertex_indices\n", scene.patch_count(),
            has_large_outlines(scene) ? "uint" : "uchar");
@@ -66,14 +119,20 @@ void write_result_ply(std::ostream& out, const Solution& solution) {
     text.add("property double {}\n", name);
   }
   text.add("end_header\n");
-  for (const Vec3& p : scene.points()) {
-    text.add("{} {} {}\n", p.x, p.y, p.z);
-  }
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto outline = scene.outline(i);
-    text.add("{} ", outline.size());
-    for (const PointId p : outline) {
-      text.add("{} ", p);
+    const Rgb color = exposure * at(solution.radiosity, i);
+    for (const PointId id : scene.outline(i)) {
+      const Vec3& p = scene.point(id);
+      text.add("{} {} {} {} {} {}\n", p.x, p.y, p.z, srgb_byte(color.r), srgb_byte(color.g),
+               srgb_byte(color.b));
+    }
+  }
+  std::int64_t corner = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::size_t corners = scene.outline(i).size();
+    text.add("{} ", corners);
+    for (std::size_t k = 0; k < corners; ++k) {
+      text.add("{} ", corner++);
     }
     add_patch_values(text, solution, i, ' ');
     text.add("\n");

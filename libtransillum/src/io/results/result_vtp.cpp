@@ -69,13 +69,25 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
                [&](PatchId i) { return at(solution.error.standard_error, i); });
   }
   add_colors(fields, "H", count, [&](PatchId i) { return at(solution.irradiance, i); });
+  if (!solution.form_factor_sums.empty()) {
+    add_numbers(fields, "F_sum", count,
+                [&](PatchId i) { return at(solution.form_factor_sums, i); });
+  }
+  if (!solution.sky_shares.empty()) {
+    add_numbers(fields, "sky", count, [&](PatchId i) { return at(solution.sky_shares, i); });
+  }
+  if (!solution.sky_irradiance.empty()) {
+    add_colors(fields, "H_sky", count, [&](PatchId i) { return at(solution.sky_irradiance, i); });
+  }
+  add_integers(fields, "group", count, [&](PatchId i) { return scene.patch(i).group; });
 }
 
-void add_names(vtkFieldData& fields, const char* name, const std::vector<Material>& materials) {
+template <class List, class NameOf>
+void add_names(vtkFieldData& fields, const char* name, const List& list, NameOf name_of) {
   vtkNew<vtkStringArray> array;
   array->SetName(name);
-  for (const Material& material : materials) {
-    array->InsertNextValue(material.name);
+  for (const auto& entry : list) {
+    array->InsertNextValue(name_of(entry));
   }
   fields.AddArray(array);
 }
@@ -85,7 +97,8 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   const Scene& scene = *solution.scene;
   add_field(fields, "transillum_version", std::string(TRANSILLUM_VERSION));
   add_field(fields, "scene", scene.name());
-  add_names(fields, "materials", scene.materials());
+  add_names(fields, "materials", scene.materials(), [](const Material& m) { return m.name; });
+  add_names(fields, "groups", scene.groups(), [](const std::string& group) { return group; });
   add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
   add_field(fields, "max_patch_area", scene.options().max_patch_area);
   visit_figures(solution, [&](const char* name, const auto& value) {

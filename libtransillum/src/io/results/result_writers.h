@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 
+#include "transillum/files.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -12,12 +13,20 @@ namespace transillum {
 // and properties.
 
 /// VTK PolyData with cell arrays face, patch, area, material, E, rho, B, H, with replicas also
-/// standard_error; field data: names of the scene and its materials, options and statistics of the
-/// solve. read_result() reads it back.
+/// standard_error, where known F_sum, sky and H_sky, and group; field data: names of the scene, its
+/// materials and groups, options and statistics of the solve. read_result() reads it back.
 void write_result_vtp(std::ostream& out, const Solution& solution);
-/// ASCII PLY, doubles; one polygon per patch with its face, patch, area, E, rho, B.
-void write_result_ply(std::ostream& out, const Solution& solution);
+/// ASCII PLY, doubles; one polygon per patch with its own corners, colored by B, and its face,
+/// patch, area, E, rho, B.
+void write_result_ply(std::ostream& out, const Solution& solution, const DisplayOptions& display);
+/// Binary glTF 2.0: triangles with COLOR_0 from B and an unlit material; a node per group.
+void write_result_glb(std::ostream& out, const Solution& solution, const DisplayOptions& display);
+/// The same as JSON, with the buffer in a data URI.
+void write_result_gltf(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 /// One polygon per patch with its own corners, whose color is the patch's B, linear, unscaled.
 void write_result_obj(std::ostream& out, const Solution& solution);
+
+/// The exposure of `display`, or the automatic one.
+double exposure_of(const Solution& solution, const DisplayOptions& display);
 
 }  // namespace transillum

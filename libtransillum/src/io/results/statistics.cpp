@@ -12,6 +12,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
+
+/// The sky; null without one.
+Json sky_json(const Sky& sky) {
+  if (!sky.set()) {
+    return {};
+  }
+  return {{"exitance", list_of(sky.exitance)},
+          {"model", name_of(sky.model)},
+          {"up", {sky.up.x, sky.up.y, sky.up.z}}};
+}
+
 Json options_json(const SolveOptions& options, const SceneOptions& scene_options) {
   Json json;
   json["directions"] = options.directions;
@@ -38,6 +50,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["iterations"] = by_number ? Json(options.iterations) : Json();
   json["averaged_iterations"] = by_mean ? Json(options.averaged_iterations) : Json();
   json["tolerance"] = by_number || by_mean ? Json() : Json(options.tolerance);
+  json["sky"] = sky_json(options.sky);
   json["memory"] = options.memory > 0 ? Json(options.memory) : Json();
   json["threads"] = options.threads > 0 ? Json(options.threads) : Json();
   json["two_sided"] = scene_options.two_sided;
@@ -54,8 +67,6 @@ Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
   }
   return list;
 }
-
-Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
 
 /// The error estimate; null without replicas.
 Json error_json(const ErrorEstimate& error) {

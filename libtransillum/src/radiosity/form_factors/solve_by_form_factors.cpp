@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Solves with form factors from an engine without directions (hemicubes, pairs) and fills in the
-// statistics of a Solution. Input: a Scene and SolveOptions.
+// Solves with form factors that are given or come from an engine without directions (hemicubes,
+// pairs) and fills in the statistics of a Solution. Input: a Scene and SolveOptions.
 #include "transillum/form_factor_solve.h"
 
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 
 #include "base/seconds_since.h"
 #include "base/worker_threads.h"
+#include "radiosity/form_factors/form_factor_input.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
@@ -63,17 +64,26 @@ FormFactors compute_form_factors(const Scene& scene, const SolveOptions& options
   return pair_form_factors(scene, pairs, cancellation, progress);
 }
 
+std::vector<double> row_sums(const FormFactors& form_factors) {
+  std::vector<double> sums;
+  for (std::size_t i = 0; i + 1 < form_factors.row_begin.size(); ++i) {
+    double sum = 0;
+    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+      sum += form_factors.value[k];
+    }
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
 /// Sets the figures that are sums over rows of F: closure, escaped, energy and rho_max.
-void add_power(const Scene& scene, const FormFactors& form_factors,
+void add_power(const Scene& scene, const std::vector<double>& sums,
                const JacobiIteration& iteration, SolveStatistics& statistics) {
   double area = 0, visible = 0, outside = 0, previous = 0;
   Rgb received, sent, absorbed, emitted;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const auto row = static_cast<std::size_t>(i);
-    double sum = 0;
-    for (std::size_t k = form_factors.row_begin[row]; k < form_factors.row_begin[row + 1]; ++k) {
-      sum += form_factors.value[k];
-    }
+    const double sum = sums[row];
     const double own = scene.patch(i).area;
     area += own;
     visible += own * sum;
@@ -94,6 +104,50 @@ void add_power(const Scene& scene, const FormFactors& form_factors,
       ratio_or_zero(absorbed.r + absorbed.g + absorbed.b, emitted.r + emitted.g + emitted.b);
 }
 
+/// The iteration with `form_factors`; sets all but what computing them took.
+Solution iterate(std::shared_ptr<const Scene> scene, FormFactors form_factors,
+                 const SolveOptions& options, const Cancellation& cancellation) {
+  Solution solution;
+  SolveStatistics& statistics = solution.statistics;
+  const auto start = Clock::now();
+  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
+  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
+                options.iterations > 0 ? 0 : options.tolerance, cancellation);
+  statistics.seconds_iterate = seconds_since(start);
+  solution.form_factor_sums = row_sums(form_factors);
+  for (const double sum : solution.form_factor_sums) {
+    solution.sky_shares.push_back(std::max(0.0, 1 - sum));
+  }
+  add_power(*scene, solution.form_factor_sums, iteration, statistics);
+  statistics.patches = statistics.fragments = scene->patch_count();
+  statistics.iterations = static_cast<int>(iteration.records.size());
+  statistics.threads = thread_count(options.threads);
+  statistics.form_factors = static_cast<std::int64_t>(form_factors.size());
+  statistics.kept_form_factors = true;
+  statistics.converged = iteration.converged;
+  statistics.predicted_contraction = statistics.rho_max;
+  statistics.iteration_records = std::move(iteration.records);
+  solution.scene = std::move(scene);
+  solution.radiosity = std::move(iteration.b);
+  solution.irradiance = std::move(iteration.h);
+  solution.form_factors = std::make_shared<const FormFactors>(std::move(form_factors));
+  solution.complete = true;
+  return solution;
+}
+
+/// @throws InputError where an option needs the directions of passes; `who` has none.
+void refuse_directions(const SolveOptions& options, const std::string& who) {
+  if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
+      options.replicas > 1 || options.first_shot) {
+    throw InputError(who +
+                     " no directions, and therefore no schemes, normalizations, replicas or "
+                     "first shot");
+  }
+  if (options.sky.set()) {
+    throw InputError(who + " no directions, and cannot tell the sky from the backs of patches");
+  }
+}
+
 }  // namespace
 
 void check_form_factor_options(const SolveOptions& options) {
@@ -101,12 +155,7 @@ void check_form_factor_options(const SolveOptions& options) {
   if (takes_directions(options.engine)) {
     throw InputError("engine " + name_of(options.engine) + " has directions");
   }
-  if (options.scheme != Scheme::fixed || options.normalize != Normalization::none ||
-      options.replicas > 1 || options.first_shot) {
-    throw InputError("engine " + name_of(options.engine) +
-                     " has no directions, and therefore no schemes, normalizations, replicas or "
-                     "first shot");
-  }
+  refuse_directions(options, "engine " + name_of(options.engine) + " has");
   const AccuracyGoal& goal = options.goal;
   if (goal.set() &&
       (options.engine != Engine::pairs || goal.of != AccuracyOf::rms || goal.seconds > 0)) {
@@ -126,32 +175,32 @@ Solution solve_by_form_factors(std::shared_ptr<const Scene> scene, const SolveOp
                                const std::function<void(double)>& progress) {
   check_form_factor_options(options);
   const auto start = Clock::now();
-  Solution solution;
+  SolveStatistics figures;
+  FormFactors form_factors = compute_form_factors(*scene, options, cancellation, progress, figures);
+  const double seconds_transfers = seconds_since(start);
+  Solution solution = iterate(std::move(scene), std::move(form_factors), options, cancellation);
   SolveStatistics& statistics = solution.statistics;
-  const FormFactors form_factors =
-      compute_form_factors(*scene, options, cancellation, progress, statistics);
-  statistics.seconds_transfers = seconds_since(start);
-  const auto start_iteration = Clock::now();
-  JacobiIteration iteration(*scene, form_factors, scene->materials(), options.threads);
-  iteration.run(options.iterations > 0 ? options.iterations : JacobiIteration::max_iterations,
-                options.iterations > 0 ? 0 : options.tolerance, cancellation);
-  statistics.seconds_iterate = seconds_since(start_iteration);
-  add_power(*scene, form_factors, iteration, statistics);
-  statistics.patches = statistics.fragments = scene->patch_count();
-  statistics.passes = scene->patch_count();
-  statistics.passes_made = scene->patch_count();
-  statistics.iterations = static_cast<int>(iteration.records.size());
-  statistics.threads = thread_count(options.threads);
-  statistics.form_factors = static_cast<std::int64_t>(form_factors.size());
-  statistics.kept_form_factors = true;
-  statistics.converged = iteration.converged;
-  statistics.predicted_contraction = statistics.rho_max;
-  statistics.iteration_records = std::move(iteration.records);
+  statistics.hemicubes = figures.hemicubes;
+  statistics.pairs = figures.pairs;
+  statistics.directions = figures.directions;
+  statistics.passes = static_cast<int>(statistics.patches);
+  statistics.passes_made = statistics.patches;
+  statistics.seconds_transfers = seconds_transfers;
   statistics.seconds_total = seconds_since(start);
-  solution.scene = std::move(scene);
-  solution.radiosity = std::move(iteration.b);
-  solution.irradiance = std::move(iteration.h);
-  solution.complete = true;
+  return solution;
+}
+
+Solution solve_with_form_factors(std::shared_ptr<const Scene> scene, FormFactors form_factors,
+                                 const SolveOptions& options, const Cancellation& cancellation) {
+  options.validate();
+  refuse_directions(options, "given form factors have");
+  if (options.goal.set()) {
+    throw InputError("accuracy: given form factors have none to choose");
+  }
+  check_form_factor_input(*scene, form_factors, scene->materials(), {});
+  const auto start = Clock::now();
+  Solution solution = iterate(std::move(scene), std::move(form_factors), options, cancellation);
+  solution.statistics.seconds_total = seconds_since(start);
   return solution;
 }
 
@@ -176,6 +225,7 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
   PairSolution result{solved(), points, HUGE_VAL, false};
   while (!result.reached && 2 * points <= EngineOptions::largest_points) {
     points *= 2;
+    result.solution.form_factors.reset();  // the memory limit is that of one matrix
     Solution finer = solved();
     result.error = radiosity_error(result.solution.radiosity, finer.radiosity).rms;
     result.solution = std::move(finer);

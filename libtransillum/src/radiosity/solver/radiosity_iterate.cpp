@@ -37,6 +37,7 @@ RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& optio
       shot_(shot),
       two_way_(options.two_way),
       normalization_(options.normalize),
+      sky_(options.sky),
       h_(shot.irradiance) {
   const auto patches = scene.patches().size();
   b_.resize(patches);
@@ -46,6 +47,7 @@ RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& optio
   }
   gathered_.resize(patches);
   projected_.resize(patches);
+  sky_areas_.resize(sky_.set() ? patches : 0);
 }
 
 void RadiosityIterate::start_from(const Rgb& gathered) {
@@ -62,12 +64,14 @@ void RadiosityIterate::start_from(const RadiosityIterate& other) {
 void RadiosityIterate::begin() {
   std::fill(gathered_.begin(), gathered_.end(), Rgb{});
   std::fill(projected_.begin(), projected_.end(), 0.0);
+  std::fill(sky_areas_.begin(), sky_areas_.end(), 0.0);
   passes_ = 0;
 }
 
 void RadiosityIterate::begin(const KeptSums& sums) {
   gather(sums);
   projected_ = kept_projected_;
+  sky_areas_ = kept_sky_areas_;
   passes_ = kept_passes_;
 }
 
@@ -86,11 +90,24 @@ void RadiosityIterate::add(const Transfers& transfers) {
       projected_[i] += transfers.backward[i].projected;
     }
   }
+  add_sky(transfers);
   ++passes_;
+}
+
+void RadiosityIterate::add_sky(const Transfers& transfers) {
+  const double ahead = sky_.relative_radiance(transfers.direction);
+  const double behind = sky_.relative_radiance(-transfers.direction);
+  for (std::size_t i = 0; i < sky_areas_.size(); ++i) {
+    sky_areas_[i] += ahead * transfers.forward[i].uncovered();
+    if (two_way_) {
+      sky_areas_[i] += behind * transfers.backward[i].uncovered();
+    }
+  }
 }
 
 void RadiosityIterate::keep(const KeptSums& sums) {
   kept_projected_ = projected_;
+  kept_sky_areas_ = sky_areas_;
   kept_passes_ = passes_;
   if (normalization_ != Normalization::symmetric) {
     return;
@@ -163,9 +180,36 @@ double RadiosityIterate::row_scale(std::size_t i, double projected, int passes) 
   return 4.0 / (passes * (two_way_ ? 2 : 1) * scene_.patches()[i].area);
 }
 
-Rgb RadiosityIterate::estimate(PatchId i) const {
+/// Symmetric scales give rows the sums that Normalization::rows gives them, so the sky's part of
+/// a row is scaled as there.
+double RadiosityIterate::sky_scale(std::size_t i, double projected, int passes) const {
+  if (normalization_ == Normalization::none) {
+    return row_scale(i, projected, passes);
+  }
+  return projected > 0 ? 1 / projected : 0.0;
+}
+
+double RadiosityIterate::sky_share(PatchId i, double uncovered, double projected,
+                                   int passes) const {
+  return sky_scale(static_cast<std::size_t>(i), projected, passes) * uncovered;
+}
+
+Rgb RadiosityIterate::sky_irradiance(PatchId i) const {
   const auto row = static_cast<std::size_t>(i);
-  return radiosity(i, irradiance(i, row_scale(row) * gathered_[row]));
+  if (sky_areas_.empty() || passes_ == 0) {
+    return {};
+  }
+  return (sky_scale(row, projected_[row], passes_) * sky_areas_[row]) * sky_.exitance;
+}
+
+Rgb RadiosityIterate::gathered_irradiance(PatchId i) const {
+  const auto row = static_cast<std::size_t>(i);
+  const Rgb from_patches = row_scale(row) * gathered_[row];
+  return sky_areas_.empty() ? from_patches : from_patches + sky_irradiance(i);
+}
+
+Rgb RadiosityIterate::estimate(PatchId i) const {
+  return radiosity(i, irradiance(i, gathered_irradiance(i)));
 }
 
 Rgb RadiosityIterate::irradiance(PatchId i, const Rgb& gathered) const {
@@ -208,7 +252,7 @@ double RadiosityIterate::finish() {
   double change = 0;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {
     const auto row = static_cast<std::size_t>(i);
-    h_[row] = irradiance(i, row_scale(row) * gathered_[row]);
+    h_[row] = irradiance(i, gathered_irradiance(i));
     const Rgb next = radiosity(i, h_[row]);
     change = std::max(change, max_abs(next - b_[row]));
     set_radiosity(i, next);
@@ -221,7 +265,11 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
   const double unit = 4.0 / (kept_passes_ * 2);
   const auto patches = scene_.patches().size();
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
-  std::vector<Rgb> result(patches);
+  std::vector<Rgb> result(patches), given = shot_.irradiance;
+  for (std::size_t i = 0; i < kept_sky_areas_.size(); ++i) {
+    given[i] +=
+        (sky_scale(i, kept_projected_[i], kept_passes_) * kept_sky_areas_[i]) * sky_.exitance;
+  }
   const auto channel = [&](auto rho_of) {
     // With E the known part of B that was not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i
     // sqrt(rho_i / A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
@@ -229,7 +277,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
       const auto row = static_cast<std::size_t>(i);
       const double scale = scales_.empty() ? 1.0 : scales_[row];
       weights[row] = scale * std::sqrt(unit * rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      const Rgb known = radiosity(i, shot_.irradiance[row]);
+      const Rgb known = radiosity(i, given[row]);
       emitted[row] = scale * (rho_of(known) - rho_of(shot_.exitance[row]));
     }
     std::vector<double> right(patches);
@@ -253,7 +301,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
     for (PatchId i = 0; i < scene_.patch_count(); ++i) {
       const auto row = static_cast<std::size_t>(i);
       const double share = std::sqrt(rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      const Rgb known = radiosity(i, shot_.irradiance[row]);
+      const Rgb known = radiosity(i, given[row]);
       rho_of(result[row]) = rho_of(known) + share * unknown[row];
     }
   };

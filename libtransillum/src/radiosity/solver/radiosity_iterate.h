@@ -20,7 +20,7 @@ class RadiosityIterate {
  public:
   /// Keeps references to `scene` and `shot`. The light of the first shot is added to H, and the
   /// exitance that it covers is not gathered again:
-  ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
+  ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
   RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot);
 
   const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
@@ -52,6 +52,11 @@ class RadiosityIterate {
   /// sum_j F_ij.
   /// @param row_areas, projected, passes of the kept sums, as in VisibleAreaSums
   double form_factor_sum(PatchId i, double row_areas, double projected, int passes) const;
+  /// The share of what leaves patch i that escapes.
+  /// @param uncovered, projected, passes as in VisibleAreaSums
+  double sky_share(PatchId i, double uncovered, double projected, int passes) const;
+  /// What patch i receives from the sky in the passes so far, W/m².
+  Rgb sky_irradiance(PatchId i) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
   Rgb sent(const std::vector<double>& column_areas) const;
@@ -63,25 +68,32 @@ class RadiosityIterate {
   void set_to_limit(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
 
  private:
-  /// H_i from what is gathered, and B_i from H_i.
+  /// H_i from what is gathered, the sky included, and B_i from H_i.
   Rgb irradiance(PatchId i, const Rgb& gathered) const;
+  /// What patch i gathers from patches and sky, W/m².
+  Rgb gathered_irradiance(PatchId i) const;
   Rgb radiosity(PatchId i, const Rgb& irradiance) const;
   void set_radiosity(PatchId i, const Rgb& b);
   void gather(const KeptSums& sums);
   void find_scales(const KeptSums& sums);
   double row_scale(std::size_t i, double projected, int passes) const;
+  /// The factor from uncovered area in `passes` passes to a share of the hemisphere.
+  double sky_scale(std::size_t i, double projected, int passes) const;
+  void add_sky(const Transfers& transfers);
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
   const Scene& scene_;
   const DirectLight& shot_;
   bool two_way_;
   Normalization normalization_;
+  Sky sky_;
   std::vector<Rgb> b_, h_;
   std::vector<Rgb> unshot_;        ///< B - E shot: what passes gather
   std::vector<Rgb> gathered_;      ///< sum_d sum_j A(i,j,omega_d) unshot_j, scaled if symmetric
   std::vector<double> projected_;  ///< sum_d A_i max(n_i·omega_d, 0)
+  std::vector<double> sky_areas_;  ///< uncovered area times relative radiance; empty without a sky
   int passes_ = 0;
-  std::vector<double> kept_projected_;
+  std::vector<double> kept_projected_, kept_sky_areas_;
   int kept_passes_ = 0;
   std::vector<double> scales_;    ///< of rows and columns, if symmetric; else empty
   std::vector<double> row_sums_;  ///< of the kept sums, scaled; if symmetric

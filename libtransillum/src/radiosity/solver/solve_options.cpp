@@ -111,6 +111,7 @@ void SolveOptions::validate() const {
   if (threads < 0 || threads > 4096) {
     throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
   }
+  sky.validate();
   goal.validate();
   if (goal.set()) {
     check_error_is_seen(*this);

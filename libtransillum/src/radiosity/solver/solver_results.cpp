@@ -18,13 +18,16 @@ namespace {
 double sum(const Rgb& value) { return value.r + value.g + value.b; }
 
 /// Sets rho_max, predicted_contraction and energy_balance. Requires statistics.directions.
-void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h, SolveStatistics& statistics) {
+/// @param from_sky irradiance from the sky; empty without one
+void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
+                       const std::vector<Rgb>& from_sky, SolveStatistics& statistics) {
   double absorbed = 0, emitted = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
     const double area = scene.patch(i).area;
     const Rgb& rho = scene.reflectance(i);
     absorbed += area * sum((Rgb{1, 1, 1} - rho) * at(h, i));
-    emitted += area * sum(scene.exitance(i));
+    emitted +=
+        area * sum(from_sky.empty() ? scene.exitance(i) : scene.exitance(i) + at(from_sky, i));
     statistics.rho_max = std::max(statistics.rho_max, max_abs(rho));
   }
   statistics.energy_balance = ratio_or_zero(absorbed, emitted);
@@ -73,7 +76,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.iteration_records = history.records();
   result.converged = history.converged();
   result.energy_defect = iteration.energy_defect;
-  add_scene_figures(*input.scene, history.h(), result);
+  add_scene_figures(*input.scene, history.h(), sky_irradiance(), result);
   result.shot_sources = std::ssize(input.shot->sources);
   result.shot_power_share = input.shot->power_share;
   result.seconds_bsp = input.seconds_bsp;
@@ -130,6 +133,31 @@ std::vector<double> RadiositySolver::form_factor_sums() const {
   return form_factor_sums;
 }
 
+std::vector<double> RadiositySolver::sky_shares() const {
+  const VisibleAreaSums& areas = impl_->statistics.areas();
+  std::vector<double> shares(areas.uncovered.size());
+  if (areas.passes == 0) {
+    return shares;
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i] = impl_->whole.sky_share(static_cast<PatchId>(i), areas.uncovered[i],
+                                       areas.projected[i], areas.passes);
+  }
+  return shares;
+}
+
+std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
+  std::vector<Rgb> received;
+  if (input.options.sky.set()) {
+    for (PatchId i = 0; i < input.scene->patch_count(); ++i) {
+      received.push_back(whole.sky_irradiance(i));
+    }
+  }
+  return received;
+}
+
+std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irradiance(); }
+
 std::vector<double> RadiositySolver::back_seen_shares() const {
   return impl_->statistics.back_seen_shares();
 }
@@ -139,6 +167,11 @@ Solution RadiositySolver::solution() const {
   solution.scene = shared_scene();
   solution.radiosity = impl_->passes_done() > 0 ? running_estimate() : radiosity();
   solution.irradiance = irradiance();
+  if (impl_->statistics.areas().passes > 0) {
+    solution.form_factor_sums = form_factor_sums();
+    solution.sky_shares = sky_shares();
+    solution.sky_irradiance = sky_irradiance();
+  }
   solution.error = error_estimate();
   solution.statistics = statistics();
   solution.complete = impl_->history.finished();

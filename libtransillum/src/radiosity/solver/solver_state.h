@@ -74,6 +74,8 @@ struct RadiositySolver::Impl {
 
   SolveProgress progress() const;
   SolveStatistics solve_statistics() const;
+  /// As RadiositySolver::sky_irradiance()
+  std::vector<Rgb> sky_irradiance() const;
   FormFactors form_factors() const;
   ErrorEstimate error_estimate() const;
 };

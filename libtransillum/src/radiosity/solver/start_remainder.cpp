@@ -70,7 +70,7 @@ void StartRemainder::start(const RadiosityIterate& whole) {
              (scene.exitance(i) - at(input_.shot->exitance, i) + scene.reflectance(i) * shot);
     area += scene.patch(i).area;
   }
-  gathered = max_of(gathered, (1 / area) * power);
+  gathered = max_of(gathered, (1 / area) * power + input_.options.sky.exitance);
   gathered = {gathered.r / (1 - rho_max_.r), gathered.g / (1 - rho_max_.g),
               gathered.b / (1 - rho_max_.b)};
   upper_.emplace(scene, input_.options, *input_.shot);

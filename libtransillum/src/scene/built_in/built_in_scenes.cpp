@@ -7,9 +7,10 @@
 #include <filesystem>
 
 #include "base/text_file.h"
+#include "scene/build/joining.h"
 #include "scene/build/precision.h"
 #include "scene/built_in/built_in_makers.h"
-#include "scene/read/obj_reader.h"
+#include "scene/read/scene_files.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/scene.h"
 
@@ -66,11 +67,20 @@ std::string file_ending(const std::string& spec) {
   return ending.size() > 1 ? ending : std::string();
 }
 
+/// "scene files end in .obj, .gltf, …".
+std::string endings_text() {
+  std::vector<std::string> endings;
+  for (const SceneFormat& format : scene_formats()) {
+    endings.push_back(format.ending);
+  }
+  return fmt::format("scene files end in {}", fmt::join(endings, ", "));
+}
+
 /// Whether `spec` is a path rather than the name of a built-in.
 bool names_a_file(const std::string& spec) {
   std::error_code ignored;
   return spec.find('/') != std::string::npos || !file_ending(spec).empty() ||
-         std::filesystem::exists(spec, ignored);
+         is_scene_file(spec) || std::filesystem::exists(spec, ignored);
 }
 
 SceneDescription read_file(const std::string& spec, const ReadOptions& read,
@@ -80,13 +90,13 @@ SceneDescription read_file(const std::string& spec, const ReadOptions& read,
     throw InputError(spec + ": no such file");
   }
   if (file_ending(spec) == ".vtp") {
-    throw InputError(spec +
-                     ": is a result file (open it in transillum-viewer); scene files end in .obj");
+    throw InputError(fmt::format("{}: is a result file (open it in transillum-viewer); {}", spec,
+                                 endings_text()));
   }
-  if (file_ending(spec) != ".obj") {
-    throw InputError(spec + ": not a scene file; scene files end in .obj");
+  if (!is_scene_file(spec)) {
+    throw InputError(fmt::format("{}: not a scene file; {}", spec, endings_text()));
   }
-  return read_obj(spec, read, cancellation);
+  return read_scene_file(spec, read, cancellation);
 }
 
 std::vector<std::string> built_in_names() {
@@ -128,7 +138,9 @@ SceneDescription describe_unscaled(const std::string& spec, const ReadOptions& r
     if (b.name != name) {
       continue;
     }
-    return make(b, spec, colon < spec.size() ? spec.substr(colon + 1) : "", cancellation);
+    SceneDescription made =
+        make(b, spec, colon < spec.size() ? spec.substr(colon + 1) : "", cancellation);
+    return read.join.value_or(false) ? join_faces(made, cancellation).description : made;
   }
   if (names_a_file(spec)) {
     return read_file(spec, read, cancellation);
@@ -146,7 +158,10 @@ SceneDescription describe_scene(const std::string& spec, const ReadOptions& read
   read.validate();
   SceneDescription description = describe_unscaled(spec, read, cancellation);
   if (read.scale != 1) {
-    description.coordinate_rounding = read.scale * coordinate_rounding(description.points);
+    const double rounding = description.coordinate_rounding > 0
+                                ? description.coordinate_rounding
+                                : coordinate_rounding(description.points);
+    description.coordinate_rounding = read.scale * rounding;
   }
   for (Vec3& point : description.points) {
     point = read.scale * point;

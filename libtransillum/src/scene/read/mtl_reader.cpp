@@ -12,12 +12,10 @@
 
 #include "base/text_file.h"
 #include "scene/build/description_check.h"
+#include "scene/read/reflectance_limit.h"
 
 namespace transillum {
 namespace {
-
-/// A reflectance within this of 1 was 1 before it was printed.
-constexpr double rounding_of_one = 1e-6;
 
 bool is_black(const Rgb& color) { return color == Rgb{}; }
 
@@ -221,15 +219,9 @@ TextureAverage MaterialLibrary::average(const Place& place, const Cancellation& 
 
 void MaterialLibrary::lower_reflectance(Material& material, const Place& place,
                                         const ReadOptions& options, Warnings& notes) const {
-  const double least = options.max_reflectance.value_or(1 - rounding_of_one);
-  const double lowered = options.max_reflectance.value_or(ReadOptions::default_max_reflectance);
   const Rgb given = material.reflectance;
-  for (double* rho : {&material.reflectance.r, &material.reflectance.g, &material.reflectance.b}) {
-    if (*rho > least) {
-      *rho = lowered;
-    }
-  }
-  if (given == material.reflectance || std::isnan(given.r + given.g + given.b)) {
+  const double lowered = transillum::lower_reflectance(material.reflectance, options);
+  if (lowered == 0 || std::isnan(given.r + given.g + given.b)) {
     return;
   }
   notes.add(

@@ -1,13 +1,14 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-// The average color of a texture, read row by row by libpng or libjpeg. Both report errors by a
-// function that must not return, so they are left by a jump: the two functions that read have no
-// variable with a destructor.
+// The average color of a texture, or its pixels, read row by row by libpng or libjpeg. Both report
+// errors by a function that must not return, so they are left by a jump: the two functions that
+// read have no variable with a destructor.
 #include "scene/read/texture_average.h"
 
 // jpeglib.h requires <cstdio> before it.
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csetjmp>
@@ -67,19 +68,35 @@ struct Histogram {
   }
 };
 
-/// What reading an image ended with, its size, and what was counted.
+/// What reading an image ended with, its size, and what was counted or kept.
 struct Reading {
   enum class End { broken, too_large, canceled, complete } end = End::broken;
   std::uint64_t width = 0, height = 0;
+  bool keeps_pixels = false;
   Histogram histogram{};
+  std::vector<std::uint8_t> rgb;  ///< by row, if kept
+
+  void add(std::uint64_t x, std::uint64_t y, std::array<std::uint8_t, 3> color,
+           std::uint64_t alpha) {
+    if (!keeps_pixels) {
+      histogram.add(color, alpha);
+      return;
+    }
+    const std::size_t first = 3 * static_cast<std::size_t>(y * width + x);
+    std::copy(color.begin(), color.end(), rgb.begin() + static_cast<std::ptrdiff_t>(first));
+  }
 };
 
+/// Prepares for an image of this size; returns whether it is too large.
 bool is_too_large(Reading& reading, std::uint64_t width, std::uint64_t height) {
   reading.width = width;
   reading.height = height;
   if (height > 0 && width > most_pixels / height) {
     reading.end = Reading::End::too_large;
     return true;
+  }
+  if (reading.keeps_pixels) {
+    reading.rgb.resize(3 * static_cast<std::size_t>(width * height));
   }
   return false;
 }
@@ -117,7 +134,9 @@ void read_png(std::FILE* file, png_structp png, png_infop info, const Cancellati
       png_read_row(png, row.data(), nullptr);
       for (png_uint_32 x = 0; x < columns; ++x) {
         const png_byte* p = row.data() + 4 * std::size_t{x};
-        reading.histogram.add({p[0], p[1], p[2]}, p[3]);
+        const bool whole = passes == 1;
+        reading.add(whole ? x : PNG_COL_FROM_PASS_COL(x, pass),
+                    whole ? y : PNG_ROW_FROM_PASS_ROW(y, pass), {p[0], p[1], p[2]}, p[3]);
       }
     }
   }
@@ -138,8 +157,9 @@ struct PngReader {
   PngReader& operator=(const PngReader&) = delete;
 };
 
-Reading reading_of_png(std::FILE* file, const Cancellation& cancellation) {
+Reading reading_of_png(std::FILE* file, bool keeps_pixels, const Cancellation& cancellation) {
   Reading reading;
+  reading.keeps_pixels = keeps_pixels;
   const PngReader reader;
   std::vector<png_byte> row;
   if (reader.info == nullptr) {
@@ -185,7 +205,8 @@ void read_jpeg(std::FILE* file, jpeg_decompress_struct& jpeg, JpegErrors& errors
     jpeg_read_scanlines(&jpeg, row, 1);
     for (std::size_t x = 0; x < jpeg.output_width; ++x) {
       const JSAMPLE* p = row[0] + x * components;
-      reading.histogram.add({p[0], p[components == 3 ? 1 : 0], p[components == 3 ? 2 : 0]}, 255);
+      reading.add(x, jpeg.output_scanline - 1,
+                  {p[0], p[components == 3 ? 1 : 0], p[components == 3 ? 2 : 0]}, 255);
     }
   }
   jpeg_finish_decompress(&jpeg);
@@ -193,8 +214,9 @@ void read_jpeg(std::FILE* file, jpeg_decompress_struct& jpeg, JpegErrors& errors
   reading.end = errors.manager.num_warnings == 0 ? Reading::End::complete : Reading::End::broken;
 }
 
-Reading reading_of_jpeg(std::FILE* file, const Cancellation& cancellation) {
+Reading reading_of_jpeg(std::FILE* file, bool keeps_pixels, const Cancellation& cancellation) {
   Reading reading;
+  reading.keeps_pixels = keeps_pixels;
   jpeg_decompress_struct jpeg{};
   JpegErrors errors{};
   read_jpeg(file, jpeg, errors, cancellation, reading);
@@ -202,24 +224,66 @@ Reading reading_of_jpeg(std::FILE* file, const Cancellation& cancellation) {
   return reading;
 }
 
-TextureAverage average_of(const Reading& reading) {
-  switch (reading.end) {
+/// Reads an image of either format; the first bytes tell it, whatever the ending of a name is.
+/// Empty if it has neither.
+std::optional<Reading> reading_of(std::FILE* file, bool keeps_pixels,
+                                  const Cancellation& cancellation) {
+  std::array<char, 8> start{};
+  const std::size_t length = std::fread(start.data(), 1, start.size(), file);
+  std::rewind(file);
+  const std::string_view bytes(start.data(), length);
+  if (bytes == std::string_view("\x89PNG\r\n\x1a\n", 8)) {
+    return reading_of_png(file, keeps_pixels, cancellation);
+  }
+  if (bytes.starts_with("\xff\xd8\xff")) {
+    return reading_of_jpeg(file, keeps_pixels, cancellation);
+  }
+  return {};
+}
+
+/// Why an image has no pixels; empty if it has.
+/// @throws Canceled
+std::string problem_of(const std::optional<Reading>& reading) {
+  if (!reading) {
+    return "is not a PNG or JPEG image";
+  }
+  switch (reading->end) {
     case Reading::End::canceled:
       throw Canceled();
     case Reading::End::broken:
-      return {{}, "is a broken image"};
+      return "is a broken image";
     case Reading::End::too_large:
-      return {{},
-              fmt::format("has {} x {} pixels; the limit is {}", reading.width, reading.height,
-                          most_pixels)};
+      return fmt::format("has {} x {} pixels; the limit is {}", reading->width, reading->height,
+                         most_pixels);
     case Reading::End::complete:
       break;
   }
-  const std::optional<Rgb> color = reading.histogram.average();
-  return color ? TextureAverage{color, {}} : TextureAverage{{}, "has no opaque pixel"};
+  return {};
 }
 
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
 }  // namespace
+
+double linear_of_srgb(std::uint8_t value) { return srgb_table()[value]; }
+
+DecodedImage decode_image(std::span<const unsigned char> bytes, const Cancellation& cancellation) {
+  if (bytes.empty()) {
+    return {0, 0, {}, "has no data"};
+  }
+  // The file is only read.
+  const File file(::fmemopen(const_cast<unsigned char*>(bytes.data()), bytes.size(), "rb"),
+                  std::fclose);
+  if (file == nullptr) {
+    return {0, 0, {}, "cannot be read"};
+  }
+  std::optional<Reading> reading = reading_of(file.get(), true, cancellation);
+  std::string problem = problem_of(reading);
+  if (!problem.empty()) {
+    return {0, 0, {}, std::move(problem)};
+  }
+  return {reading->width, reading->height, std::move(reading->rgb), {}};
+}
 
 TextureAverage average_of_texture(const std::filesystem::path& path,
                                   const Cancellation& cancellation) {
@@ -227,23 +291,17 @@ TextureAverage average_of_texture(const std::filesystem::path& path,
   if (!std::filesystem::is_regular_file(path, error)) {
     return {{}, "is not a file"};
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             std::fclose);
+  const File file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (file == nullptr) {
     return {{}, "cannot be read"};
   }
-  // The first bytes tell the format, whatever the ending of the name is.
-  std::array<char, 8> start{};
-  const std::size_t length = std::fread(start.data(), 1, start.size(), file.get());
-  std::rewind(file.get());
-  const std::string_view bytes(start.data(), length);
-  if (bytes == std::string_view("\x89PNG\r\n\x1a\n", 8)) {
-    return average_of(reading_of_png(file.get(), cancellation));
+  const std::optional<Reading> reading = reading_of(file.get(), false, cancellation);
+  std::string problem = problem_of(reading);
+  if (!problem.empty()) {
+    return {{}, std::move(problem)};
   }
-  if (bytes.starts_with("\xff\xd8\xff")) {
-    return average_of(reading_of_jpeg(file.get(), cancellation));
-  }
-  return {{}, "is not a PNG or JPEG image"};
+  const std::optional<Rgb> color = reading->histogram.average();
+  return color ? TextureAverage{color, {}} : TextureAverage{{}, "has no opaque pixel"};
 }
 
 }  // namespace transillum

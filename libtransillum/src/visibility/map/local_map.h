@@ -172,6 +172,7 @@ class LocalMap {
       for (const BasicMapCorner<Number>& corner : outline) {
         record.corners.push_back(
             {static_cast<double>(corner.at.x), static_cast<double>(corner.at.y)});
+        record.lines.push_back(corner.line);
       }
       row.end = static_cast<std::uint32_t>(record.corners.size());
       record.rows.push_back(row);

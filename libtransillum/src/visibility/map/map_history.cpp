@@ -35,6 +35,7 @@ double MapHistory::Step::open_share() const {
 MapHistory::MapHistory(MapRecord record) : record_(std::move(record)) {
   record_.rows.shrink_to_fit();
   record_.corners.shrink_to_fit();
+  record_.lines.shrink_to_fit();
   find_steps();
   find_patches();
 }
@@ -151,6 +152,30 @@ PatchId MapHistory::cut_by(std::int32_t r) const {
   return row(r).parent == MapRecord::no_row ? no_patch : step(row(r).made).patch;
 }
 
+std::int32_t MapHistory::whole_of(std::int32_t r) const {
+  while (row(r).parent != MapRecord::no_row) {
+    r = row(r).parent;
+  }
+  return r;
+}
+
+std::vector<std::int32_t> MapHistory::edge_origins(std::int32_t r) const {
+  const auto has = [this](std::int32_t number, LineId line) {
+    const auto lines = record_.edge_lines(row(number));
+    return std::find(lines.begin(), lines.end(), line) != lines.end();
+  };
+  std::vector<std::int32_t> origins;
+  for (const LineId line : record_.edge_lines(row(r))) {
+    std::int32_t origin = r;
+    while (row(origin).parent != MapRecord::no_row) {
+      const std::int32_t cutter = step(row(origin).made).row;
+      origin = has(row(origin).parent, line) ? row(origin).parent : cutter;
+    }
+    origins.push_back(origin);
+  }
+  return origins;
+}
+
 std::span<const std::int32_t> MapHistory::steps_of(PatchId patch) const {
   const auto p = static_cast<std::size_t>(patch);
   if (patch < 0 || p + 1 >= patch_begin_.size()) {
@@ -173,8 +198,8 @@ std::int32_t MapHistory::previous_step_of(PatchId patch, std::int32_t k) const {
 
 std::size_t MapHistory::memory() const {
   return bytes_of(record_.order) + bytes_of(record_.step_patch) + bytes_of(record_.rows) +
-         bytes_of(record_.corners) + bytes_of(steps_) + bytes_of(first_row_) +
-         bytes_of(patch_steps_) + bytes_of(patch_begin_);
+         bytes_of(record_.corners) + bytes_of(record_.lines) + bytes_of(steps_) +
+         bytes_of(first_row_) + bytes_of(patch_steps_) + bytes_of(patch_begin_);
 }
 
 }  // namespace transillum

@@ -2,6 +2,8 @@
 #include "transillum/visibility_map.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 #include "transillum/at.h"
 
@@ -47,10 +49,41 @@ VisibilityMap map_after(const MapRecord& record, std::int32_t step) {
   return maker.finish();
 }
 
-VisibilityMap map_from_below(const RecordedDirection& direction) {
-  VisibilityMap map = map_after(direction.record, direction.record.step_count() - 1);
-  map.exchanges = direction.transfers.exchanges;
+namespace {
+
+/// Sums over the inside lists of the steps up to `step`.
+std::vector<Transfer> exchanges_until(const MapRecord& record, std::int32_t step) {
+  std::map<std::pair<PatchId, PatchId>, double> areas;  // by receiver and source
+  auto first = record.rows.begin();
+  while (first != record.rows.end() && first->made <= step) {
+    const auto end = std::find_if(first, record.rows.end(), [first](const MapRecord::Row& row) {
+      return row.made != first->made;
+    });
+    const MapRecord::Row& below = *std::prev(end);  // the step's own polygon comes last
+    for (; first != end; ++first) {
+      if (first->made == first->consumed && below.front_facing && !first->front_facing) {
+        areas[{below.patch, first->patch}] += record.area(*first);
+      }
+    }
+  }
+  std::vector<Transfer> exchanges;
+  for (const auto& [pair, area] : areas) {
+    exchanges.push_back({pair.first, pair.second, area});
+  }
+  return exchanges;
+}
+
+}  // namespace
+
+VisibilityMap map_after(const RecordedDirection& direction, std::int32_t step) {
+  VisibilityMap map = map_after(direction.record, step);
+  map.exchanges = step + 1 < direction.record.step_count() ? exchanges_until(direction.record, step)
+                                                           : direction.transfers.exchanges;
   return map;
+}
+
+VisibilityMap map_from_below(const RecordedDirection& direction) {
+  return map_after(direction, direction.record.step_count() - 1);
 }
 
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver) {

@@ -51,6 +51,13 @@ class ExchangeFinder {
   /// face, and no error is estimated.
   void for_each_after(PatchId i, const std::function<void()>& tick,
                       const std::function<void(PatchId j, double area)>& visit) const;
+  /// Form factor from an area element at x to the visible part of patch j, exact up to rounding.
+  /// Polygons in whose plane x is do not block.
+  /// @param x position, m.
+  /// @param normal unit, of the element.
+  /// @param tick as above.
+  double from_point(const Vec3& x, const Vec3& normal, PatchId j,
+                    const std::function<void()>& tick = {}) const;
 
  private:
   /// A convex part of a patch that coplanar patches do not cover.
@@ -70,6 +77,8 @@ class ExchangeFinder {
   bool is_hidden(const FacingPolygons& facing, const Corners& blocker) const;
   void add_partial(const FacingPolygons& facing, const Numbers& blockers, bool estimate,
                    const std::function<void()>& tick, PatchExchange& exchange) const;
+  void collect_blockers(const Vec3& x, Outline polygon, const HalfSpace& front_of,
+                        Numbers& blockers) const;
   int divisions_of(double size) const;
   PatchExchange between(PatchId i, PatchId j, const Numbers* among, bool estimate,
                         const std::function<void()>& tick) const;

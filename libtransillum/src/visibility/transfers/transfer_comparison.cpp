@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "transillum/transfer_comparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -12,7 +13,12 @@ TransferComparison compare(const Transfers& first, const Transfers& other) {
   TransferComparison comparison;
   comparison.differences.resize(first.forward.size());
   double sum = 0;
-  const auto add = [&](const Transfer& pair, double difference) {
+  const auto add = [&](const Transfer& pair, double of_first, double of_other) {
+    const double difference = of_first - of_other;
+    if (difference == 0) {
+      return;
+    }
+    comparison.pairs.push_back({pair.receiver, pair.source, of_first, of_other});
     sum += std::abs(difference);
     at(comparison.differences, pair.receiver) += std::abs(difference);
     at(comparison.differences, pair.source) += std::abs(difference);
@@ -36,17 +42,21 @@ TransferComparison compare(const Transfers& first, const Transfers& other) {
       comparison.other_exchanged += b->area;
     }
     if (only_a) {
-      add(*a, a->area);
+      add(*a, a->area, 0);
       ++a;
     } else if (only_b) {
-      add(*b, -b->area);
+      add(*b, 0, b->area);
       ++b;
     } else {
-      add(*a, a->area - b->area);
+      add(*a, a->area, b->area);
       ++a;
       ++b;
     }
   }
+  std::stable_sort(comparison.pairs.begin(), comparison.pairs.end(),
+                   [](const PairDifference& x, const PairDifference& y) {
+                     return std::abs(x.first - x.other) > std::abs(y.first - y.other);
+                   });
   if (comparison.exchanged > 0) {
     comparison.misplaced = sum / (2 * comparison.exchanged);
   }

@@ -1,0 +1,67 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "color_outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+
+#include "option_values.h"
+#include "transillum/engine.h"
+#include "transillum/errors.h"
+
+namespace transillum::cli {
+namespace {
+
+bool is_any_of(const std::vector<std::string>& files, std::initializer_list<const char*> endings) {
+  return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  });
+}
+
+}  // namespace
+
+void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
+  add_parsed_option(
+      command, "--exposure", "X",
+      "colors in .ply, .glb and .gltf files: B times X is the linear color, 1 is white (default: "
+      "98 % of the area that does not emit is below white)",
+      [&colors](const std::string& text) {
+        colors.display.exposure = parse_number("--exposure", text);
+        if (!(*colors.display.exposure > 0)) {
+          throw InputError("--exposure: \"" + text + "\" is not greater than 0");
+        }
+      });
+  command
+      .add_option(
+          "--series", colors.series,
+          "the result after each iteration: files STEM-0001.vtp and so on, and this list of "
+          "them for ParaView")
+      ->type_name("STEM.pvd");
+}
+
+void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors) {
+  if (command.get_option("--up")->count() > 0) {
+    colors.display.up = sky.up;
+  }
+}
+
+void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
+                         const std::vector<std::string>& out, const SolveOptions& options) {
+  refuse_unless(is_any_of(out, {".ply", ".glb", ".gltf"}), command, "--exposure",
+                "used only with a .ply, .glb or .gltf file");
+  const bool sky_has_zenith = options.sky.set() && options.sky.model != SkyModel::uniform;
+  refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf"}), command, "--up",
+                "used only with --sky and --sky-model cie-overcast, or a .glb or .gltf file");
+  const bool has_factors = command.get_option("--factors")->count() > 0;
+  refuse_unless(takes_directions(options.engine) && !options.goal.set() && !has_factors, command,
+                "--series",
+                "not used with engine hemicube or pairs, an accuracy, a time limit or --factors");
+  if (!colors.series.empty()) {
+    ResultSeries{colors.series};
+  }
+}
+
+}  // namespace transillum::cli

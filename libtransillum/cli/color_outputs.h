@@ -1,0 +1,28 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "transillum/files.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::cli {
+
+/// Results for programs that show them.
+struct ColorOutputs {
+  DisplayOptions display;
+  std::string series;  ///< --series
+};
+
+/// --exposure, --series
+void add_color_outputs(CLI::App& command, ColorOutputs& colors);
+/// Takes --up, which the sky has, for the display too.
+void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors);
+/// Refuses --exposure, --up and --series where no output or solve uses them.
+/// @throws InputError
+void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
+                         const std::vector<std::string>& out, const SolveOptions& options);
+
+}  // namespace transillum::cli

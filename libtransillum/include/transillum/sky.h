@@ -1,0 +1,43 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "transillum/vec3.h"
+
+namespace transillum {
+
+/// How the radiance of a sky depends on the direction.
+enum class SkyModel {
+  uniform,       ///< the same from every direction, also from below
+  cie_overcast,  ///< the overcast sky of the CIE: L = L_zenith (1 + 2 sin(elevation)) / 3 above the
+                 ///< horizon, and nothing below
+};
+/// The names of the models as in options and files, in the order of the enumeration.
+const std::vector<std::string>& sky_model_names();
+/// The model called `name`.
+/// @throws InputError listing the choices.
+SkyModel sky_model_from_name(const std::string& name);
+/// The name in sky_model_names().
+const std::string& name_of(SkyModel model);
+
+/// Light from outside of an open scene: where a line meets no patch, it meets the sky.
+struct Sky {
+  /// What an unobstructed patch that is turned upward receives, W/m², per channel; 0: no sky.
+  Rgb exitance;
+  SkyModel model = SkyModel::uniform;  ///< its distribution
+  Vec3 up{0, 0, 1};                    ///< toward the zenith; unit; read by cie_overcast only
+
+  /// Whether there is light.
+  bool set() const { return max_abs(exitance) > 0; }
+  /// pi L / exitance of the sky in the direction omega, a unit vector: 1 everywhere in a uniform
+  /// sky; of cie_overcast 9/7 at the zenith and 3/7 at the horizon.
+  double relative_radiance(const Vec3& omega) const;
+  /// @throws InputError naming the value and its range.
+  void validate() const;
+  /// Exact comparison of all members.
+  friend bool operator==(const Sky&, const Sky&) = default;
+};
+
+}  // namespace transillum

@@ -1,0 +1,123 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Sums of power over the patches of groups or materials. Input: a Solution, and form factors for
+// what parts exchange.
+#include "transillum/power_table.h"
+
+#include "base/choice.h"
+#include "transillum/at.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+/// Which part each patch is in.
+struct Division {
+  std::vector<std::string> names;     ///< of the parts that have patches
+  std::vector<std::size_t> of_patch;  ///< index in `names`
+};
+
+Division divide(const Scene& scene, PartsBy by) {
+  const bool groups = by == PartsBy::group;
+  const std::size_t named = groups ? scene.groups().size() : scene.materials().size();
+  const auto key = [&](PatchId i) {
+    const std::int32_t index = groups ? scene.patch(i).group : scene.patch(i).material;
+    return index < 0 ? named : static_cast<std::size_t>(index);
+  };
+  std::vector<bool> used(named + 1);
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    used[key(i)] = true;
+  }
+  Division division;
+  std::vector<std::size_t> part(named + 1);
+  for (std::size_t k = 0; k <= named; ++k) {
+    if (used[k]) {
+      part[k] = division.names.size();
+      division.names.push_back(k == named ? std::string()
+                               : groups   ? scene.groups()[k]
+                                          : scene.materials()[k].name);
+    }
+  }
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    division.of_patch.push_back(part[key(i)]);
+  }
+  return division;
+}
+
+void add(PartPower& to, const PartPower& part) {
+  to.patches += part.patches;
+  to.area += part.area;
+  to.emitted += part.emitted;
+  to.received += part.received;
+  to.from_sky += part.from_sky;
+  to.absorbed += part.absorbed;
+  to.escaped += part.escaped;
+}
+
+PartPower power_of(const Solution& solution, PatchId i) {
+  const Scene& scene = *solution.scene;
+  const double area = scene.patch(i).area;
+  const Rgb h = at(solution.irradiance, i);
+  PartPower power{.patches = 1,
+                  .area = area,
+                  .emitted = area * scene.exitance(i),
+                  .received = area * h,
+                  .absorbed = area * ((Rgb{1, 1, 1} - scene.reflectance(i)) * h)};
+  if (!solution.sky_irradiance.empty()) {
+    power.from_sky = area * at(solution.sky_irradiance, i);
+  }
+  if (!solution.sky_shares.empty()) {
+    power.escaped = (area * at(solution.sky_shares, i)) * at(solution.radiosity, i);
+  }
+  return power;
+}
+
+void add_exchanges(const Solution& solution, const Division& division,
+                   const FormFactors& form_factors, std::vector<std::vector<Rgb>>& exchanged) {
+  const std::size_t patches = solution.radiosity.size();
+  if (form_factors.row_begin.size() != patches + 1) {
+    throw InputError("the form factors belong to another scene: the number of patches differs");
+  }
+  exchanged.assign(division.names.size(), std::vector<Rgb>(division.names.size()));
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double area = solution.scene->patches()[i].area;
+    std::vector<Rgb>& row = exchanged[division.of_patch[i]];
+    for (std::size_t k = form_factors.row_begin[i]; k < form_factors.row_begin[i + 1]; ++k) {
+      const PatchId j = form_factors.source[k];
+      row[at(division.of_patch, j)] += (area * form_factors.value[k]) * at(solution.radiosity, j);
+    }
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& parts_by_names() {
+  static const std::vector<std::string> names{"group", "material"};
+  return names;
+}
+
+PartsBy parts_by_from_name(const std::string& name) {
+  return choice_from_name<PartsBy>(parts_by_names(), "kind of parts", name);
+}
+
+PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors) {
+  const Division division = divide(*solution.scene, by);
+  PowerTable table;
+  table.escape_known = !solution.sky_shares.empty();
+  for (const std::string& name : division.names) {
+    table.parts.push_back({.name = name});
+  }
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    add(table.parts[at(division.of_patch, i)], power_of(solution, i));
+  }
+  table.total.name = "total";
+  for (const PartPower& part : table.parts) {
+    add(table.total, part);
+  }
+  if (form_factors != nullptr) {
+    add_exchanges(solution, division, *form_factors, table.exchanged);
+  }
+  return table;
+}
+
+}  // namespace transillum

@@ -1,0 +1,138 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Compares the radiosity of two results, patch by patch. Input: two Solutions, from solves or from
+// read_result().
+#include "transillum/result_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "transillum/at.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+std::string text_of(const Rgb& c) { return fmt::format("{} {} {}", c.r, c.g, c.b); }
+
+std::string two_values(PatchId i, const std::string& what, const std::string& one,
+                       const std::string& other) {
+  return fmt::format("patch {} has {} {} in one and {} in the other", i, what, one, other);
+}
+
+std::string outline_difference(const Scene& one, const Scene& other, PatchId i) {
+  const auto a = one.outline(i), b = other.outline(i);
+  if (a.size() != b.size()) {
+    return fmt::format("patch {} has {} corners in one and {} in the other", i, a.size(), b.size());
+  }
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const Vec3 &p = one.point(a[k]), &q = other.point(b[k]);
+    if (p != q) {
+      return two_values(i, fmt::format("corner {} at", k), fmt::format("{} {} {}", p.x, p.y, p.z),
+                        fmt::format("{} {} {}", q.x, q.y, q.z));
+    }
+  }
+  return {};
+}
+
+/// |value| over `unit`; 0 / 0 is 0.
+double relative(double value, double unit) {
+  if (value == 0) {
+    return 0;
+  }
+  return unit > 0 ? value / unit : std::numeric_limits<double>::infinity();
+}
+
+/// Sums over some patches.
+class DifferenceSums {
+ public:
+  /// @param unit largest |B|, which squares are scaled by: those of very large or very small
+  /// radiosities are out of range
+  explicit DifferenceSums(double unit) : scale_(unit > 0 ? 1 / unit : 1) {}
+
+  void add(PatchId i, const Rgb& first, const Rgb& second) {
+    const Rgb difference = second - first;
+    squares_ += sum_of_squares(difference);
+    reference_squares_ += sum_of_squares(first);
+    reference_ = std::max(reference_, max_abs(first));
+    ++patches_;
+    if (max_abs(difference) > largest_) {
+      largest_ = max_abs(difference);
+      result_.worst = i;
+      result_.first = first;
+      result_.second = second;
+    }
+  }
+  std::int64_t patches() const { return patches_; }
+  RadiosityDifference result() const {
+    RadiosityDifference result = result_;
+    result.rms = std::sqrt(relative(squares_, reference_squares_));
+    result.largest = relative(largest_, reference_);
+    return result;
+  }
+
+ private:
+  double sum_of_squares(const Rgb& value) const {
+    const Rgb scaled = scale_ * value;
+    return scaled.r * scaled.r + scaled.g * scaled.g + scaled.b * scaled.b;
+  }
+
+  double scale_;
+  double squares_ = 0, reference_squares_ = 0, reference_ = 0, largest_ = 0;
+  std::int64_t patches_ = 0;
+  RadiosityDifference result_;
+};
+
+}  // namespace
+
+std::string scene_difference(const Scene& one, const Scene& other) {
+  if (one.patch_count() != other.patch_count()) {
+    return fmt::format("one has {} patches and the other {}", one.patch_count(),
+                       other.patch_count());
+  }
+  for (PatchId i = 0; i < one.patch_count(); ++i) {
+    if (const std::string outline = outline_difference(one, other, i); !outline.empty()) {
+      return outline;
+    }
+    if (one.exitance(i) != other.exitance(i)) {
+      return two_values(i, "E", text_of(one.exitance(i)), text_of(other.exitance(i)));
+    }
+    if (one.reflectance(i) != other.reflectance(i)) {
+      return two_values(i, "rho", text_of(one.reflectance(i)), text_of(other.reflectance(i)));
+    }
+  }
+  return {};
+}
+
+ResultComparison compare_results(const Solution& first, const Solution& second) {
+  const Scene& scene = *first.scene;
+  if (const std::string difference = scene_difference(scene, *second.scene); !difference.empty()) {
+    throw InputError("the results are of different scenes: " + difference);
+  }
+  double unit = 0;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    unit = std::max({unit, max_abs(at(first.radiosity, i)), max_abs(at(second.radiosity, i))});
+  }
+  DifferenceSums whole(unit);
+  const std::size_t groups = scene.groups().size();
+  std::vector<DifferenceSums> parts(groups + 1, DifferenceSums(unit));  // the last: no group
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const std::int32_t group = scene.patch(i).group;
+    const Rgb &a = at(first.radiosity, i), &b = at(second.radiosity, i);
+    whole.add(i, a, b);
+    parts[group == no_group ? groups : static_cast<std::size_t>(group)].add(i, a, b);
+  }
+  ResultComparison comparison{whole.result(), {}};
+  for (std::size_t g = 0; g < parts.size(); ++g) {
+    if (parts[g].patches() > 0) {
+      comparison.groups.push_back({g == groups ? no_group : static_cast<std::int32_t>(g),
+                                   parts[g].patches(), parts[g].result()});
+    }
+  }
+  return comparison;
+}
+
+}  // namespace transillum

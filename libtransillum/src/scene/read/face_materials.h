@@ -1,0 +1,34 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "scene/build/warnings.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// The materials of a file that has colors instead: one for each color that faces have.
+class FaceMaterials {
+ public:
+  FaceMaterials(SceneDescription& description, const ReadOptions& options);
+
+  /// The number of the material with this reflectance, 0 to 1, rounded to 1/1024 and lowered as
+  /// `options` say, and this exitance.
+  std::int32_t of_color(const Rgb& reflectance, const Rgb& exitance = {});
+  /// The number of the material of faces without a color.
+  std::int32_t without_color();
+  /// Notes how many faces got the default reflectance.
+  void note(Warnings& notes, const char* format) const;
+
+ private:
+  SceneDescription& description_;
+  const ReadOptions& options_;
+  std::map<std::array<double, 6>, std::int32_t> numbers_;
+  std::int32_t without_ = -1;
+  std::int64_t faces_without_ = 0;
+};
+
+}  // namespace transillum

@@ -1,0 +1,245 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A Radiance file is a sequence of words: each primitive has a modifier, a type, a name and three
+// lists of arguments, each after its length: texts, whole numbers (always 0) and numbers.
+#include "scene/read/radiance_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <new>
+#include <numbers>
+#include <optional>
+
+#include "base/text_file.h"
+#include "scene/build/description_check.h"
+#include "scene/build/warnings.h"
+#include "scene/read/reflectance_limit.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+constexpr std::array<std::string_view, 4> opaque_types{"plastic", "metal", "plastic2", "metal2"};
+constexpr std::array<std::string_view, 4> light_types{"light", "glow", "illum", "spotlight"};
+constexpr std::array<std::string_view, 11> surface_types{
+    "sphere", "bubble",   "cone", "cup",    "cylinder",  "tube",
+    "ring",   "instance", "mesh", "source", "spotsource"};
+
+template <std::size_t n>
+bool is_one_of(std::string_view type, const std::array<std::string_view, n>& types) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+class RadianceReader {
+ public:
+  RadianceReader(const std::filesystem::path& path, const ReadOptions& options,
+                 const Cancellation& cancellation)
+      : options_(options),
+        text_(read_text_file(path, largest_scene_file)),
+        lines_(text_, cancellation) {
+    description_.name = path.string();
+    description_.files = {path.string()};
+  }
+
+  SceneDescription read() {
+    while (has_word()) {
+      if (word().starts_with('!')) {
+        fail(in_quotes(line_text_) +
+             " is a command, which is not run; expand the scene by `xform -e` of Radiance first");
+      }
+      read_primitive();
+    }
+    if (description_.face_count() == 0) {
+      throw InputError(description_.name + ": has no polygons");
+    }
+    description_.notes = notes_.sentences();
+    return std::move(description_);
+  }
+
+ private:
+  // Words -----------------------------------------------------------------------------------
+
+  /// Whether there is a word before the end of the file, which word() then is.
+  bool has_word() {
+    while (next_ >= words_.size()) {
+      const std::optional<TextLine> line = lines_.next();
+      if (!line) {
+        return false;
+      }
+      line_ = line->number;
+      next_ = 0;
+      split_words(line->rest, words_);
+      words_.insert(words_.begin(), line->keyword);
+      line_text_ = fmt::format("{}{}{}", line->keyword, line->rest.empty() ? "" : " ", line->rest);
+    }
+    return true;
+  }
+  std::string_view word() const { return words_[next_]; }
+  std::string take() {
+    if (!has_word()) {
+      fail("the file ends within a primitive");
+    }
+    return std::string(words_[next_++]);
+  }
+
+  /// The length of a list of arguments.
+  std::size_t take_count() {
+    const std::string text = take();
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size() || count > text_.size()) {
+      fail(fmt::format("{} is not a number of arguments", in_quotes(text)));
+    }
+    return count;
+  }
+
+  // Primitives ------------------------------------------------------------------------------
+
+  void read_primitive() {
+    const std::string modifier = take(), type = take(), name = take();
+    if (type == "alias" || modifier == "alias") {
+      define(name, find(take()));
+      return;
+    }
+    for (std::size_t texts = take_count(); texts > 0; --texts) {
+      take();
+    }
+    for (std::size_t wholes = take_count(); wholes > 0; --wholes) {
+      take();
+    }
+    numbers_.clear();
+    for (std::size_t numbers = take_count(); numbers > 0; --numbers) {
+      const std::string text = take();
+      const std::optional<double> value = parse_number(text);
+      if (!value) {
+        fail(in_quotes(text) + " is not a number");
+      }
+      numbers_.push_back(*value);
+    }
+    use(modifier, type, name);
+  }
+
+  void use(const std::string& modifier, const std::string& type, const std::string& name) {
+    if (type == "polygon") {
+      add_polygon(modifier, name);
+    } else if (is_one_of(type, surface_types)) {
+      notes_.add("surfaces other than polygons, left out",
+                 fmt::format("{}{} {} is not a polygon; left out", place(), type, in_quotes(name)));
+    } else if (is_one_of(type, light_types)) {
+      const Rgb radiance = color(type, name);
+      define(name, add_material({name, {}, std::numbers::pi * radiance}));
+    } else if (is_one_of(type, opaque_types) || type == "trans" || type == "trans2") {
+      const double specular = numbers_.size() > 3 ? std::clamp(numbers_[3], 0.0, 1.0) : 0;
+      define(name, add_material({name, (1 - specular) * color(type, name), {}}));
+    } else if (type.starts_with("mirror") || type.starts_with("prism") ||
+               type.find("glass") != std::string::npos || type == "dielectric" ||
+               type == "interface") {
+      notes_.add("materials that are not diffuse",
+                 fmt::format("{}{} {} has no diffuse reflectance; rho = 0, opaque", place(), type,
+                             in_quotes(name)));
+      define(name, add_material({name, {}, {}}));
+    } else {
+      // A pattern, a texture or a mixture: its material is that of its modifier.
+      notes_.add("patterns and other modifiers, ignored",
+                 fmt::format("{}{} {} is ignored", place(), type, in_quotes(name)));
+      define(name, find(modifier));
+    }
+  }
+
+  Rgb color(const std::string& type, const std::string& name) const {
+    if (numbers_.size() < 3) {
+      fail(fmt::format("{} {} must have three numbers at least", type, in_quotes(name)));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!std::isfinite(numbers_[k]) || numbers_[k] < 0) {
+        fail(fmt::format("{} {}: {} is not a color", type, in_quotes(name), numbers_[k]));
+      }
+    }
+    return {numbers_[0], numbers_[1], numbers_[2]};
+  }
+
+  std::int32_t add_material(Material material) {
+    lower_reflectance(material.reflectance, options_);
+    check_material(material, fmt::format("{}material {}: ", place(), in_quotes(material.name)));
+    description_.materials.push_back(std::move(material));
+    return static_cast<std::int32_t>(description_.materials.size() - 1);
+  }
+
+  /// A later definition of a name replaces the earlier, for what follows.
+  void define(const std::string& name, std::int32_t material) { materials_[name] = material; }
+
+  /// The material that a name means.
+  std::int32_t find(const std::string& name) {
+    if (const auto found = materials_.find(name); found != materials_.end()) {
+      return found->second;
+    }
+    if (name != "void") {
+      notes_.add("materials that are not defined",
+                 fmt::format("{}material {} is not defined; rho = {}, E = 0 assumed", place(),
+                             in_quotes(name), options_.default_reflectance));
+    }
+    const double rho = options_.default_reflectance;
+    const std::int32_t assumed = add_material({name, {rho, rho, rho}, {}});
+    define(name, assumed);
+    return assumed;
+  }
+
+  void add_polygon(const std::string& modifier, const std::string& name) {
+    if (numbers_.size() < 9 || numbers_.size() % 3 != 0) {
+      fail(
+          fmt::format("polygon {} has {} numbers; three for each of three corners or more are "
+                      "required",
+                      in_quotes(name), numbers_.size()));
+    }
+    std::vector<PointId> outline;
+    for (std::size_t k = 0; k < numbers_.size(); k += 3) {
+      const Vec3 p{numbers_[k], numbers_[k + 1], numbers_[k + 2]};
+      if (!is_finite(p) || max_abs(p) > largest_coordinate) {
+        fail(fmt::format("polygon {}: corner {} is not a finite point of at most {}",
+                         in_quotes(name), k / 3, largest_coordinate));
+      }
+      outline.push_back(static_cast<PointId>(description_.points.size()));
+      description_.points.push_back(p);
+    }
+    const auto next = static_cast<std::int32_t>(description_.groups.size());
+    const std::int32_t group = groups_.try_emplace(name, next).first->second;
+    if (group == next) {
+      description_.groups.push_back(name);
+    }
+    description_.add_face(outline, find(modifier), line_, group);
+  }
+
+  std::string place() const { return fmt::format("{}:{}: ", description_.name, line_); }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(place() + what); }
+
+  const ReadOptions& options_;
+  const std::string text_;
+  LineReader lines_;
+  SceneDescription description_;
+  Warnings notes_;
+  std::vector<std::string_view> words_;  ///< of the line
+  std::size_t next_ = 0;                 ///< of words_
+  std::int32_t line_ = 0;
+  std::string line_text_;
+  std::vector<double> numbers_;
+  std::map<std::string, std::int32_t> materials_;  ///< by name
+  std::map<std::string, std::int32_t> groups_;
+};
+
+}  // namespace
+
+SceneDescription read_radiance(const std::filesystem::path& path, const ReadOptions& options,
+                               const Cancellation& cancellation) {
+  try {
+    return RadianceReader(path, options, cancellation).read();
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string() + ": not enough memory");
+  }
+}
+
+}  // namespace transillum

@@ -1,0 +1,88 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// What a point receives from a patch: for each part of the patch, the blockers in the pyramid from
+// the point to it are found in the box tree and subtracted (point_view.h).
+#include <algorithm>
+#include <cmath>
+
+#include "visibility/pairs/patch_exchange.h"
+#include "visibility/pairs/point_view.h"
+
+namespace transillum {
+namespace {
+
+/// The pyramid from an apex to a convex polygon whose front it sees.
+class Pyramid {
+ public:
+  Pyramid(const Vec3& apex, Outline polygon) {
+    box_.add(apex);
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+      box_.add(a);
+      // Seen from the front, the polygon runs counter-clockwise: this is outward.
+      const Vec3 outward = cross(a - apex, b - apex);
+      if (const double length = norm(outward); length > 0) {
+        const Vec3 inward = outward / -length;
+        sides_.push_back({inward, dot(inward, apex)});
+      }
+    }
+  }
+  /// Whether the box may reach into the pyramid; never false if it does.
+  bool reaches(const CenteredBox& box) const {
+    const Vec3 apart = box.center - box_.center(), sum = box.half + 0.5 * (box_.high - box_.low);
+    return std::abs(apart.x) <= sum.x && std::abs(apart.y) <= sum.y && std::abs(apart.z) <= sum.z &&
+           std::all_of(sides_.begin(), sides_.end(), [&](const HalfSpace& side) {
+             return box.reach(side.normal) >= side.offset;
+           });
+  }
+
+ private:
+  Bounds box_;
+  boost::container::small_vector<HalfSpace, 12> sides_;
+};
+
+}  // namespace
+
+/// Finds the blockers in the pyramid from x to a polygon, without those in whose plane x is, and
+/// those that do not reach in front of the polygon's plane, such as itself.
+void ExchangeFinder::collect_blockers(const Vec3& x, Outline polygon, const HalfSpace& front_of,
+                                      Numbers& blockers) const {
+  blockers.clear();
+  const Pyramid pyramid(x, polygon);
+  tree_.for_each([&](const CenteredBox& box) { return pyramid.reaches(box); },
+                 [&](std::int32_t number) {
+                   const Corners& blocker = at(blockers_, number);
+                   const bool reaches_in = std::any_of(
+                       blocker.begin(), blocker.end(),
+                       [&](const Vec3& c) { return front_of.distance(c) > tolerance_; });
+                   if (reaches_in && std::abs(lit_half_space(blocker).distance(x)) > tolerance_) {
+                     blockers.push_back(number);
+                   }
+                 });
+}
+
+double ExchangeFinder::from_point(const Vec3& x, const Vec3& normal, PatchId j,
+                                  const std::function<void()>& tick) const {
+  const Vec3 apex = scale_ * x;
+  double sum = 0;
+  Numbers numbers;
+  std::vector<Corners> blockers;
+  for (const Part& part : parts_of(j)) {
+    if (part.front.distance(apex) <= tolerance_) {
+      continue;
+    }
+    const Corners above = clipped(part.corners, {normal, dot(normal, apex)});
+    if (above.size() < 3) {
+      continue;
+    }
+    collect_blockers(apex, above, part.front, numbers);
+    blockers.clear();
+    for (const std::int32_t number : numbers) {
+      blockers.push_back(at(blockers_, number));
+    }
+    sum += PointView(above, blockers).form_factor(apex, normal, tick);
+  }
+  return sum;
+}
+
+}  // namespace transillum

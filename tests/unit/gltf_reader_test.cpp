@@ -1,0 +1,399 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// glTF: nodes, primitives and numbers in all their forms, the diffuse part of materials, textures,
+// and what is refused with which message.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+
+#include <array>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "scene_test_support.h"
+#include "transillum/files.h"
+
+namespace transillum {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+/// A glTF file with one buffer.
+class File {
+ public:
+  json root = {{"asset", {{"version", "2.0"}}},
+               {"scene", 0},
+               {"scenes", {{{"nodes", json::array()}}}},
+               {"nodes", json::array()},
+               {"meshes", json::array()},
+               {"accessors", json::array()},
+               {"bufferViews", json::array()},
+               {"materials", json::array()}};
+  std::string bytes;
+
+  /// Returns the number of the view.
+  template <class Number>
+  int view(const std::vector<Number>& numbers, int stride = 0) {
+    bytes.resize((bytes.size() + 7) / 8 * 8);
+    json added = {{"buffer", 0},
+                  {"byteOffset", bytes.size()},
+                  {"byteLength", numbers.size() * sizeof(Number)}};
+    if (stride > 0) {
+      added["byteStride"] = stride;
+    }
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + numbers.size() * sizeof(Number));
+    std::memcpy(bytes.data() + begin, numbers.data(), numbers.size() * sizeof(Number));
+    root["bufferViews"].push_back(added);
+    return static_cast<int>(root["bufferViews"].size()) - 1;
+  }
+  int accessor(int view, int component, const char* type, std::size_t count) {
+    root["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", count}});
+    return static_cast<int>(root["accessors"].size()) - 1;
+  }
+  int points(const std::vector<float>& xyz) {
+    return accessor(view(xyz), 5126, "VEC3", xyz.size() / 3);
+  }
+  int indices(const std::vector<std::uint16_t>& all) {
+    return accessor(view(all), 5123, "SCALAR", all.size());
+  }
+  /// Adds a mesh with one primitive and a root node that has it.
+  json& add(const json& primitive, const json& node = json::object()) {
+    root["meshes"].push_back({{"primitives", {primitive}}});
+    json added = node;
+    added["mesh"] = root["meshes"].size() - 1;
+    root["nodes"].push_back(added);
+    root["scenes"][0]["nodes"].push_back(root["nodes"].size() - 1);
+    return root["nodes"].back();
+  }
+
+  std::string glb() const {
+    json whole = root;
+    whole["buffers"] = {{{"byteLength", bytes.size()}}};
+    std::string text = whole.dump(), data = bytes;
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    data.resize((data.size() + 3) / 4 * 4, '\0');
+    std::string file = "glTF";
+    const auto word = [&](std::size_t w) {
+      for (int k = 0; k < 4; ++k) {
+        file += static_cast<char>(w >> (8 * k));
+      }
+    };
+    word(2);
+    word(12 + 8 + text.size() + 8 + data.size());
+    word(text.size());
+    file += "JSON" + text;
+    word(data.size());
+    file += std::string("BIN\0", 4) + data;
+    return file;
+  }
+  std::string gltf(const std::string& uri) const {
+    json whole = root;
+    whole["buffers"] = {{{"byteLength", bytes.size()}, {"uri", uri}}};
+    return whole.dump(1);
+  }
+};
+
+const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<std::uint16_t> two_triangles{0, 1, 2, 0, 2, 3};
+
+/// A square in the plane z = 0 that faces up.
+json square_in(File& file, int material = -1) {
+  json primitive = {{"attributes", {{"POSITION", file.points(square)}}},
+                    {"indices", file.indices(two_triangles)}};
+  if (material >= 0) {
+    primitive["material"] = material;
+  }
+  return primitive;
+}
+
+SceneDescription read(const File& file, const ReadOptions& options = {}) {
+  const test::TemporaryFolder folder;
+  return describe_scene(folder.write("a.glb", file.glb()), options);
+}
+std::string refusal_of(const std::string& text, const std::string& name = "a.gltf") {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write(name, text);
+  const std::string message = test::refusal([&] { (void)describe_scene(path); });
+  const std::size_t found = message.find(name);
+  return found == std::string::npos ? message : message.substr(found);
+}
+const Material& material_of(const SceneDescription& d, std::size_t face) {
+  return d.materials[static_cast<std::size_t>(d.face_material[face])];
+}
+
+TEST(Gltf, IsReadFromOneFileOrWithABufferBesideItOrInIt) {
+  File file;
+  file.add(square_in(file));
+  const test::TemporaryFolder folder;
+  folder.write("my data.bin", file.bytes);
+  const std::string glb = folder.write("a.glb", file.glb());
+  const std::string beside = folder.write("a.gltf", file.gltf("my%20data.bin"));
+  for (const std::string& path : {glb, beside}) {
+    const SceneDescription d = describe_scene(path);
+    ASSERT_EQ(d.face_count(), 1U);
+    EXPECT_THAT(d.outline(0), SizeIs(4));
+    EXPECT_THAT(d.notes, Contains(HasSubstr("2 triangles joined to 1 polygons")));
+  }
+  EXPECT_THAT(describe_scene(beside).files,
+              ElementsAre(beside, (folder.path() / "my data.bin").string()));
+  EXPECT_EQ(read(file, {.join = false}).face_count(), 2U);
+}
+
+TEST(Gltf, PlacesMeshesByAllTheirNodes) {
+  File file;
+  const json primitive = square_in(file);
+  // A parent that scales by 2, and a child that turns by 90 degrees about x and moves.
+  const double h = std::numbers::sqrt2 / 2;
+  file.add(primitive, {{"rotation", {h, 0, 0, h}}, {"translation", {0, 0, 1}}, {"name", "wall"}});
+  file.root["nodes"].push_back({{"children", {0}}, {"scale", {2, 2, 2}}});
+  file.root["scenes"][0]["nodes"] = {1};
+  // The same mesh again, mirrored.
+  file.root["nodes"].push_back(
+      {{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1}}});
+  file.root["scenes"][0]["nodes"].push_back(2);
+  const Scene scene(read(file));
+  ASSERT_EQ(scene.patch_count(), 2);
+  EXPECT_NEAR(scene.patch(0).area, 4, 1e-12);
+  EXPECT_NEAR(norm(scene.patch(0).center - Vec3{1, 0, 3}), 0, 1e-12);
+  EXPECT_NEAR(norm(scene.patch(0).normal - Vec3{0, -1, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(scene.patch(1).center - Vec3{4.5, 0.5, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(scene.patch(1).normal - Vec3{0, 0, 1}), 0, 1e-12);
+  EXPECT_THAT(scene.groups(), ElementsAre("wall", "node 2"));
+}
+
+TEST(Gltf, TakesStripsFansAndTrianglesWithoutIndices) {
+  File file;
+  const int strip = file.points({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0});
+  const int fan = file.points({0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1});
+  const int plain = file.points({0, 0, 2, 1, 0, 2, 1, 1, 2});
+  file.add({{"attributes", {{"POSITION", strip}}}, {"mode", 5}});
+  file.add({{"attributes", {{"POSITION", fan}}}, {"mode", 6}});
+  file.add({{"attributes", {{"POSITION", plain}}}});
+  file.add({{"attributes", {{"POSITION", plain}}}, {"mode", 1}});
+  const SceneDescription d = read(file);
+  const Scene scene(d);
+  ASSERT_EQ(scene.patch_count(), 3);
+  for (PatchId i = 0; i < 3; ++i) {
+    EXPECT_NEAR(scene.patch(i).area, (std::array{1.5, 1.0, 0.5}[static_cast<std::size_t>(i)]),
+                1e-12);
+    EXPECT_NEAR(scene.patch(i).normal.z, 1, 1e-12);
+  }
+  EXPECT_THAT(d.notes, Contains(HasSubstr("1 meshes of points or lines, left out")));
+}
+
+TEST(Gltf, ReadsNumbersOfAllTypesAndSparseOnes) {
+  File file;
+  // Shorts normalized to 1, four numbers apart.
+  const int view =
+      file.view<std::int16_t>({0, 0, 0, 9, 32767, 0, 0, 9, 32767, 32767, 0, 9, 0, 32767, 0, 9}, 8);
+  file.root["accessors"].push_back({{"bufferView", view},
+                                    {"componentType", 5122},
+                                    {"normalized", true},
+                                    {"type", "VEC3"},
+                                    {"count", 4}});
+  const int bytes = file.accessor(file.view<std::uint8_t>({0, 1, 2, 0, 2, 3}), 5121, "SCALAR", 6);
+  file.add({{"attributes", {{"POSITION", 0}}}, {"indices", bytes}});
+  // All points of the square are 0, and then replaced.
+  json sparse = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}};
+  sparse["sparse"] = {
+      {"count", 4},
+      {"indices",
+       {{"bufferView", file.view<std::uint16_t>({3, 2, 1, 0})}, {"componentType", 5123}}},
+      {"values", {{"bufferView", file.view<float>({0, 1, 1, 1, 1, 1, 1, 0, 1, 0, 0, 1})}}}};
+  file.root["accessors"].push_back(sparse);
+  file.add({{"attributes", {{"POSITION", 2}}}, {"indices", bytes}});
+  const Scene scene(read(file));
+  ASSERT_EQ(scene.patch_count(), 2);
+  EXPECT_NEAR(scene.patch(0).area, 1, 1e-12);
+  EXPECT_NEAR(scene.patch(1).area, 1, 1e-12);
+  EXPECT_NEAR(scene.patch(1).center.z, 1, 1e-12);
+}
+
+TEST(Gltf, HasTheDiffusePartOfItsMaterials) {
+  File file;
+  file.root["materials"] = {
+      {{"name", "paint"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}, {"metallicFactor", 0.2}}}},
+      {{"name", "lamp"},
+       {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+       {"emissiveFactor", {1, 0.5, 0}},
+       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10}}}}}},
+      {{"name", "steel"}}};
+  for (int m = -1; m < 3; ++m) {
+    file.add(square_in(file, m), {{"translation", {0, 0, m}}});
+  }
+  const SceneDescription d = read(file);
+  EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_NEAR(material_of(d, 1).reflectance.r, 0.4, 1e-12);
+  EXPECT_NEAR(material_of(d, 1).reflectance.b, 0.8, 1e-12);
+  EXPECT_EQ(material_of(d, 2).reflectance, (Rgb{0.98, 0.98, 0.98}));
+  EXPECT_NEAR(material_of(d, 2).exitance.r, 10 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(material_of(d, 2).exitance.g, 5 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(material_of(d, 3).reflectance, Rgb());
+  EXPECT_THAT(d.notes, Contains(HasSubstr("`steel` is a metal")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("lamp: reflectance rho 1 1 1 is lowered to 0.98")));
+  EXPECT_THAT(d.notes, Contains(HasSubstr("1 meshes have no material; rho = 0.5")));
+  EXPECT_NEAR(material_of(read(file, {.photometric = true}), 2).exitance.r,
+              10 * std::numbers::pi / 683, 1e-12);
+}
+
+TEST(Gltf, DoubleSidedMaterialsGiveTwoPatches) {
+  File file;
+  file.root["materials"] = {{{"name", "leaf"}, {"doubleSided", true}}};
+  file.add(square_in(file));
+  file.add(square_in(file, 0), {{"translation", {0, 0, 1}}});
+  const Scene scene(read(file));
+  ASSERT_EQ(scene.patch_count(), 3);
+  EXPECT_EQ(scene.patch(1).face, scene.patch(2).face);
+  EXPECT_EQ(scene.patch(1).normal.z, -scene.patch(2).normal.z);
+}
+
+/// A PNG image of 64 x 64 pixels: the value is 188, a half in linear light, in the left half, 0 in
+/// the right.
+std::string half_image(const test::TemporaryFolder& folder) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(64, 64, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        image->SetScalarComponentFromDouble(x, y, 0, c, x < 32 ? 188 : 0);
+      }
+    }
+  }
+  const std::string path = (folder.path() / "half.png").string();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  return path;
+}
+
+TEST(Gltf, AveragesATextureOverEachFace) {
+  File file;
+  file.root["images"] = {{{"uri", "half.png"}}};
+  file.root["textures"] = {{{"source", 0}}};
+  file.root["materials"] = {{{"name", "poster"},
+                             {"pbrMetallicRoughness",
+                              {{"baseColorFactor", {1, 0.5, 1, 1}},
+                               {"baseColorTexture", {{"index", 0}}},
+                               {"metallicFactor", 0}}}}};
+  const auto add = [&](const std::vector<float>& uv, double z) {
+    json primitive = square_in(file, 0);
+    primitive["attributes"]["TEXCOORD_0"] = file.accessor(file.view(uv), 5126, "VEC2", 4);
+    file.add(primitive, {{"translation", {0, 0, z}}});
+  };
+  file.root["materials"].push_back(
+      {{"name", "plain"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {0.3, 0.6, 0.9, 1}}, {"metallicFactor", 0}}}});
+  file.add(square_in(file, 1), {{"translation", {0, 0, -1}}});
+  add({0, 0, 1, 0, 1, 1, 0, 1}, 0);                          // all
+  add({0, 0, 0.5F, 0, 0.5F, 1, 0, 1}, 1);                    // the left half
+  add({0.5F, 0, 1, 0, 1, 1, 0.5F, 1}, 2);                    // the right half
+  add({-3, 0, 5, 0, 5, 8, -3, 8}, 3);                        // repeated
+  add({0.1F, 0.1F, 0.1F, 0.1F, 0.1F, 0.1F, 0.1F, 0.1F}, 4);  // one point
+  const test::TemporaryFolder folder;
+  (void)half_image(folder);
+  const SceneDescription d = describe_scene(folder.write("a.glb", file.glb()));
+  ASSERT_EQ(d.face_count(), 6U);
+  EXPECT_EQ(material_of(d, 0).reflectance, (Rgb{0.3, 0.6, 0.9}));
+  const std::array expected{0.25, 0.5, 0.0, 0.25, 0.5};
+  for (std::size_t f = 0; f < 5; ++f) {
+    EXPECT_NEAR(material_of(d, f + 1).reflectance.r, expected[f], 0.006) << f;
+    EXPECT_NEAR(material_of(d, f + 1).reflectance.g, expected[f] / 2, 0.003) << f;
+    EXPECT_EQ(material_of(d, f + 1).name, "poster");
+  }
+  EXPECT_THAT(d.files, Contains((folder.path() / "half.png").string()));
+  // Without the image, the factor is all there is.
+  const test::TemporaryFolder empty;
+  const SceneDescription missing = describe_scene(empty.write("a.glb", file.glb()));
+  EXPECT_NEAR(material_of(missing, 1).reflectance.g, 0.5, 1e-12);
+  EXPECT_THAT(missing.notes, Contains(HasSubstr("image 0 has no data; it is taken as white")));
+}
+
+TEST(Gltf, ColorsOfVerticesFilterTheBaseColor) {
+  File file;
+  file.root["materials"] = {
+      {{"name", "paint"},
+       {"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.8, 0.8, 1}}, {"metallicFactor", 0}}}}};
+  json primitive = square_in(file, 0);
+  primitive["attributes"]["COLOR_0"] = file.accessor(
+      file.view<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}), 5126, "VEC4", 4);
+  file.add(primitive);
+  const Rgb rho = material_of(read(file), 0).reflectance;
+  EXPECT_NEAR(rho.r, 0.8, 1e-12);
+  EXPECT_EQ(rho.g, 0);
+}
+
+TEST(Gltf, RefusesWhatIsBroken) {
+  File file;
+  file.add(square_in(file));
+  const auto with = [&](const std::function<void(json&)>& change) {
+    File changed = file;
+    change(changed.root);
+    return refusal_of(changed.glb(), "a.glb");
+  };
+  EXPECT_THAT(refusal_of("{", "a.gltf"), HasSubstr("a.gltf, line 1, column 1: invalid JSON"));
+  EXPECT_THAT(refusal_of("{}"), HasSubstr("a.gltf: is not a valid glTF file"));
+  EXPECT_THAT(refusal_of("glTF"), HasSubstr("a.gltf: is cut"));
+  EXPECT_THAT(refusal_of(file.glb().substr(0, 300), "a.glb"), HasSubstr("a.glb: is cut"));
+  EXPECT_THAT(with([](json& r) { r["asset"]["version"] = "1.0"; }),
+              HasSubstr("is of version `1.0` of glTF"));
+  EXPECT_THAT(with([](json& r) { r["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }),
+              HasSubstr("requires KHR_draco_mesh_compression, which cannot be read"));
+  EXPECT_THAT(with([](json& r) { r["accessors"][0]["count"] = 5; }),
+              HasSubstr("buffer view 0 has no 60 bytes from byte 0"));
+  EXPECT_THAT(with([](json& r) { r["accessors"][0]["count"] = 4'000'000'000U; }),
+              HasSubstr("accessor 0 has 4000000000 entries; at most 20000000 are left"));
+  EXPECT_THAT(with([](json& r) { r["accessors"][0]["bufferView"] = 7; }),
+              HasSubstr("buffer view 7 does not exist; there are 2"));
+  EXPECT_THAT(with([](json& r) { r["bufferViews"][0]["byteOffset"] = 1U << 31; }),
+              HasSubstr("a.glb: buffer view 0 has no"));
+  EXPECT_THAT(with([](json& r) { r["accessors"][0]["type"] = "VEC2"; }),
+              HasSubstr("accessor 0 must have 3 numbers per entry"));
+  EXPECT_THAT(with([](json& r) { r["accessors"][1]["componentType"] = 5126; }),
+              HasSubstr("accessor 1 must have whole numbers"));
+  EXPECT_THAT(with([](json& r) { r["nodes"][0]["children"] = {0}; }),
+              HasSubstr("node 0 has two parents or is a child of itself"));
+  EXPECT_THAT(with([](json& r) { r["nodes"][0]["mesh"] = 3; }),
+              HasSubstr("node 0: mesh 3 does not exist; there are 1"));
+  EXPECT_THAT(with([](json& r) { r["meshes"][0]["primitives"][0]["material"] = 0; }),
+              HasSubstr("node 0, mesh 0: material 0 does not exist; there are 0"));
+  EXPECT_THAT(with([](json& r) {
+                r["nodes"][0]["translation"] = {0, 1e300, 0};
+              }),
+              HasSubstr("node 0, mesh 0: vertex 0 is not a finite point"));
+  EXPECT_THAT(with([](json& r) { r["scenes"][0]["nodes"] = json::array(); }),
+              HasSubstr("has no triangles"));
+  File far;
+  json primitive = square_in(far);
+  primitive["indices"] = far.indices({0, 1, 4});
+  far.add(primitive);
+  EXPECT_THAT(refusal_of(far.glb(), "a.glb"), HasSubstr("vertex 4 does not exist; there are 4"));
+}
+
+TEST(Gltf, BoundsWhatInstancesMultiply) {
+  File file;
+  const json primitive = square_in(file);
+  file.root["meshes"].push_back({{"primitives", json::array()}});
+  for (int k = 0; k < 3000; ++k) {
+    file.root["meshes"][0]["primitives"].push_back(primitive);
+  }
+  for (int k = 0; k < 3000; ++k) {
+    file.root["nodes"].push_back({{"mesh", 0}});
+    file.root["scenes"][0]["nodes"].push_back(k);
+  }
+  EXPECT_THAT(refusal_of(file.glb(), "a.glb"), HasSubstr("at most"));
+}
+
+}  // namespace
+}  // namespace transillum

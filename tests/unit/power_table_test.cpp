@@ -1,0 +1,168 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// power_table(): sums by group and material against the statistics of the solve, the balance of
+// energy and the furnace.
+#include "transillum/power_table.h"
+
+#include <gmock/gmock.h>
+
+#include "program_run.h"
+#include "support/refusal.h"
+#include "support/scenes.h"
+#include "transillum/at.h"
+
+namespace transillum::testing {
+namespace {
+
+using test::refusal;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+struct Solved {
+  Solution solution;
+  FormFactors form_factors;
+};
+
+Solved solved(const std::shared_ptr<const Scene>& scene, Normalization normalize) {
+  RadiositySolver solver(scene, {.directions = 64, .normalize = normalize, .tolerance = 1e-13});
+  solver.advance(RadiositySolver::Until::finished);
+  return {solver.solution(), solver.form_factors()};
+}
+
+double sum(const Rgb& c) { return c.r + c.g + c.b; }
+
+/// The first half of the faces in one group, some of the others in another.
+std::shared_ptr<const Scene> grouped(const char* spec) {
+  SceneDescription description = describe_scene(spec);
+  description.groups = {"first half", "others"};
+  description.face_group.clear();
+  for (std::size_t f = 0; f < description.face_count(); ++f) {
+    description.face_group.push_back(f < description.face_count() / 2 ? 0
+                                     : f % 3 == 0                     ? no_group
+                                                                      : 1);
+  }
+  return std::make_shared<const Scene>(description);
+}
+
+TEST(PowerTable, PartsSumToTheStatistics) {
+  for (const PartsBy by : {PartsBy::group, PartsBy::material}) {
+    const Solved s = solved(grouped("cornell-box"), Normalization::none);
+    const PowerTable table = power_table(s.solution, by, &s.form_factors);
+    ASSERT_GT(table.parts.size(), 2U);
+    double area = 0;
+    Rgb received, exchanged;
+    std::int64_t patches = 0;
+    for (std::size_t p = 0; p < table.parts.size(); ++p) {
+      patches += table.parts[p].patches;
+      area += table.parts[p].area;
+      received += table.parts[p].received;
+      Rgb row;
+      for (const Rgb& power : table.exchanged[p]) {
+        row += power;
+      }
+      // What a part receives comes from the parts.
+      EXPECT_LE(max_abs(row - table.parts[p].received), 1e-9 * max_abs(row));
+      exchanged += row;
+    }
+    EXPECT_EQ(patches, s.solution.scene->patch_count());
+    EXPECT_DOUBLE_EQ(table.total.area, area);
+    EXPECT_LE(max_abs(table.total.received - received), 1e-12 * max_abs(received));
+    EXPECT_LE(max_abs(exchanged - received), 1e-9 * max_abs(received));
+    EXPECT_NEAR(sum(table.total.absorbed) / sum(table.total.emitted),
+                s.solution.statistics.energy_balance, 1e-12);
+  }
+}
+
+TEST(PowerTable, ExchangesAreReciprocal) {
+  // A part that emits B sends to another what it would receive from it at the same B.
+  Solved s = solved(grouped("rooms"), Normalization::none);
+  for (Rgb& b : s.solution.radiosity) {
+    b = {1, 1, 1};
+  }
+  const auto exchanged = power_table(s.solution, PartsBy::group, &s.form_factors).exchanged;
+  for (std::size_t i = 0; i < exchanged.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NEAR(exchanged[i][j].r, exchanged[j][i].r, 1e-10 * exchanged[i][j].r);
+    }
+  }
+}
+
+TEST(PowerTable, EnergyOfClosedScenesIsConserved) {
+  const Solved s = solved(grouped("cornell-box"), Normalization::symmetric);
+  const PartPower total = power_table(s.solution, PartsBy::group).total;
+  EXPECT_GT(sum(total.emitted), 0);
+  EXPECT_NEAR(sum(total.absorbed + total.escaped) / sum(total.emitted), 1, 1e-8);
+}
+
+/// E = 1, rho = 0.5 gives B = H = 2 everywhere, and nothing escapes.
+TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
+  const Solved s = solved(load_scene("furnace"), Normalization::rows);
+  const PowerTable table = power_table(s.solution, PartsBy::material);
+  ASSERT_EQ(table.parts.size(), 1U);
+  EXPECT_TRUE(table.escape_known);
+  EXPECT_NEAR(table.total.emitted.r, table.total.area, 1e-9 * table.total.area);
+  EXPECT_NEAR(table.total.absorbed.r, table.total.area, 1e-9 * table.total.area);
+  EXPECT_NEAR(table.total.received.r, 2 * table.total.area, 1e-9 * table.total.area);
+  EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
+}
+
+TEST(PowerTable, KnowsWhatIsNotKnown) {
+  Solved s = solved(load_scene("boards"), Normalization::none);
+  s.solution.sky_shares.clear();
+  const PowerTable table = power_table(s.solution, PartsBy::group);
+  EXPECT_FALSE(table.escape_known);
+  EXPECT_TRUE(table.exchanged.empty());
+  ASSERT_EQ(table.parts.size(), 1U);
+  EXPECT_EQ(table.parts[0].name, "");
+  EXPECT_THAT(refusal([&] {
+                power_table(s.solution, PartsBy::group, std::make_unique<FormFactors>().get());
+              }),
+              HasSubstr("number of patches differs"));
+  EXPECT_EQ(refusal([] { parts_by_from_name("face"); }),
+            "unknown kind of parts \"face\"; choose one of group, material");
+}
+
+TEST(CliSolveBy, PrintsTheTable) {
+  const ProgramResult table =
+      run_program({"solve", "cornell-box", "-m", "32", "--by", "material", "-q"});
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.out, ContainsRegex("material +patches +area, m2 +emitted, W"));
+  EXPECT_THAT(table.out, HasSubstr("escaped, W"));
+  EXPECT_THAT(table.out, ContainsRegex("total +[0-9]+ "));
+  EXPECT_THAT(table.out, ContainsRegex("from +to +power, W"));
+  EXPECT_THAT(table.out, HasSubstr("B mean, W/m2"));  // the summary follows
+  const ProgramResult csv =
+      run_program({"solve", "furnace", "-m", "8", "--by", "group", "-q", "-o", "-"});
+  EXPECT_EQ(csv.out.rfind("face,", 0), 0U);
+  EXPECT_THAT(csv.err, HasSubstr("(no group)"));
+  const TemporaryFolder folder;
+  write_text(folder / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramResult sky =
+      run_program({"solve", folder / "open.obj", "-m", "16", "--sky", "2", "--by", "group"});
+  EXPECT_EQ(sky.status, 0) << sky.err;
+  EXPECT_THAT(sky.out, HasSubstr("from the sky, W"));
+}
+
+TEST(CliSolveSky, ChecksItsOptions) {
+  const auto refused = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"solve", "boards", "-m", "8"});
+    const ProgramResult result = run_program(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(line_count(result.err), 1U);
+    return result.err;
+  };
+  EXPECT_THAT(refused({"--sky", "1,2"}), HasSubstr("--sky: \"1,2\" is not one or three numbers"));
+  EXPECT_THAT(refused({"--sky", "-1"}), HasSubstr("--sky"));
+  EXPECT_THAT(refused({"--sky-model", "uniform"}), HasSubstr("used only with --sky"));
+  EXPECT_THAT(refused({"--sky", "1", "--sky-model", "blue"}), HasSubstr("model of the sky"));
+  EXPECT_THAT(refused({"--sky", "1", "--up", "0,1,0"}), HasSubstr("cie-overcast"));
+  EXPECT_THAT(run_program({"solve", "boards", "--sky", "1", "--engine", "pairs"}).err,
+              HasSubstr("backs of patches"));
+  EXPECT_EQ(run_program({"solve", "boards", "-m", "8", "--sky", "1,2,3", "--sky-model",
+                         "cie-overcast", "--up", "-1,0,0"})
+                .status,
+            0);
+}
+
+}  // namespace
+}  // namespace transillum::testing

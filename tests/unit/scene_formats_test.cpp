@@ -1,0 +1,370 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// PLY, STL, OFF, View3D and Radiance: the same unit cube in each of them, in all their variants,
+// and what is refused with which message.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <numbers>
+
+#include "scene_test_support.h"
+
+namespace transillum {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+SceneDescription read(const std::string& name, const std::string& text,
+                      const ReadOptions& options = {}) {
+  const test::TemporaryFolder folder;
+  return describe_scene(folder.write(name, text), options);
+}
+/// The message, without the folder.
+std::string refusal_of(const std::string& name, const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write(name, text);
+  const std::string message = test::refusal([&] { (void)describe_scene(path); });
+  const std::size_t found = message.find(name);
+  return found == std::string::npos ? message : message.substr(found);
+}
+
+const std::vector<Vec3> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+/// Outward.
+const std::vector<std::vector<int>> squares{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                            {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}};
+
+void expect_cube(const SceneDescription& d) {
+  const Scene scene(d);
+  ASSERT_EQ(scene.patch_count(), 6);
+  for (PatchId i = 0; i < 6; ++i) {
+    EXPECT_DOUBLE_EQ(scene.patch(i).area, 1);
+    EXPECT_GT(dot(scene.patch(i).normal, scene.patch(i).center - Vec3{0.5, 0.5, 0.5}), 0);
+  }
+  EXPECT_EQ(scene.points().size(), 8U);
+}
+
+// PLY -----------------------------------------------------------------------------------------
+
+template <class Number>
+void put(std::string& bytes, Number number, bool big) {
+  std::string raw(sizeof(Number), '\0');
+  std::memcpy(raw.data(), &number, sizeof(Number));
+  bytes += big != (std::endian::native == std::endian::big) ? std::string(raw.rbegin(), raw.rend())
+                                                            : raw;
+}
+
+std::string ply(const std::string& form) {
+  std::string text = "ply\nformat " + form +
+                     " 1.0\ncomment a cube\nelement vertex 8\nproperty double x\nproperty float y\n"
+                     "property short z\nelement edge 1\nproperty uint a\nelement face 6\n"
+                     "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                     "property list uchar ushort vertex_indices\nend_header\n";
+  const bool ascii = form == "ascii", big = form == "binary_big_endian";
+  const auto add = [&](auto number) {
+    if (ascii) {
+      text += std::to_string(number) + " ";
+    } else {
+      put(text, number, big);
+    }
+  };
+  for (const Vec3& p : corners) {
+    add(p.x);
+    add(static_cast<float>(p.y));
+    add(static_cast<std::int16_t>(p.z));
+  }
+  add(std::uint32_t{7});
+  for (const auto& square : squares) {
+    add(std::uint8_t{255});
+    add(std::uint8_t{0});
+    add(std::uint8_t{188});
+    add(static_cast<std::uint8_t>(square.size()));
+    for (const int c : square) {
+      add(static_cast<std::uint16_t>(c));
+    }
+  }
+  return text;
+}
+
+TEST(SceneFormats, PlyIsReadInAllItsForms) {
+  for (const std::string form : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const SceneDescription d = read("cube.ply", ply(form));
+    expect_cube(d);
+    ASSERT_THAT(d.materials, SizeIs(1)) << form;
+    // 255 is 1, which is lowered; 188 of 255 is a half in linear light.
+    EXPECT_NEAR(d.materials[0].reflectance.r, 0.98, 1e-12);
+    EXPECT_EQ(d.materials[0].reflectance.g, 0);
+    EXPECT_NEAR(d.materials[0].reflectance.b, 0.5, 0.01);
+    EXPECT_THAT(d.notes, SizeIs(0));
+  }
+}
+
+TEST(SceneFormats, PlyTakesColorsOfVerticesAndTheProgramsOwnProperties) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\n";
+  const SceneDescription colored =
+      read("a.ply", head +
+                        "property float red\nproperty float green\nproperty float blue\n"
+                        "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                        "0 0 0 .75 0 0 1 0 0 0 .75 0 0 1 0 0 0 .75 3 0 1 2\n");
+  EXPECT_EQ(colored.materials[0].reflectance, (Rgb{0.25, 0.25, 0.25}));
+  const SceneDescription own = read(
+      "b.ply", head +
+                   "element face 1\nproperty list uchar int vertex_index\nproperty double E_r\n"
+                   "property double E_g\nproperty double E_b\nproperty double rho_r\n"
+                   "property double rho_g\nproperty double rho_b\nend_header\n"
+                   "0 0 0 1 0 0 0 1 0 3 0 1 2 7 8 9 .5 .25 .125\n");
+  EXPECT_EQ(own.materials[0].exitance, (Rgb{7, 8, 9}));
+  EXPECT_EQ(own.materials[0].reflectance, (Rgb{0.5, 0.25, 0.125}));
+  const SceneDescription plain =
+      read("c.ply",
+           head +
+               "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+               "0 0 0 1 0 0 0 1 0 3 0 1 2\n",
+           {.default_reflectance = 0.25});
+  EXPECT_EQ(plain.materials[0].reflectance, (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_THAT(plain.notes, ElementsAre(HasSubstr("1 of 1 faces have no color; rho = 0.25")));
+}
+
+TEST(SceneFormats, PlyIgnoresWhatFollowsOnALineAndUnknownLinesOfTheHeader) {
+  const SceneDescription d =
+      read("a.ply",
+           "ply\nformat ascii 1.0\nCreated by hand\nelement vertex 3\nproperty float x\n"
+           "property float y\nproperty float z\nelement face 2\n"
+           "property list uchar int vertex_index\nend_header\n"
+           "0 0 0 1\n1 0 0 1\n0 1 0\n3 0 1 2 9 1 1\n3 2 1 0\n");
+  EXPECT_THAT(d.outline(1), ElementsAre(2, 1, 0));
+  EXPECT_THAT(d.notes, testing::Contains(HasSubstr("a.ply:3: `Created` is not a keyword")));
+}
+
+TEST(SceneFormats, PlyRefusesWhatIsBroken) {
+  const std::string good = ply("ascii");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return refusal_of("a.ply", text);
+  };
+  EXPECT_EQ(refusal_of("a.ply", "solid\n"),
+            "a.ply:1: is not a PLY file: its first line must be `ply`");
+  EXPECT_EQ(
+      with("element vertex 8", "element vertex 9999999999"),
+      "a.ply:4: an element must have a name and a count of at most 555, the size of the file");
+  EXPECT_THAT(with("list uchar", "list float"), HasSubstr("a.ply:14: a property must be"));
+  EXPECT_EQ(with("ascii", "utf-8"),
+            "a.ply:2: format `utf-8` is not ascii, binary_little_endian or binary_big_endian");
+  EXPECT_EQ(with("4 0 3 2 1", "4 0 3 2 8"), "a.ply: face 0: vertex 8 does not exist; there are 8");
+  EXPECT_EQ(with("4 0 3 2 1", "4 0 3 x 1"), "a.ply: face 0: `x` is not a number");
+  EXPECT_EQ(with("4 0 3 2 1", "250 0 3 2 1").find("a.ply: face 0: a list of 250 numbers"), 0U);
+  const std::string binary = ply("binary_little_endian");
+  EXPECT_THAT(refusal_of("a.ply", binary.substr(0, binary.size() - 3)),
+              HasSubstr("a.ply: face 5: a list of 4 numbers does not fit into the file"));
+  EXPECT_THAT(refusal_of("a.ply", binary.substr(0, binary.size() - 90)),
+              HasSubstr("the file ends before it"));
+  EXPECT_THAT(refusal_of("a.ply", good.substr(0, 100)), HasSubstr("the header has no end"));
+}
+
+// STL -----------------------------------------------------------------------------------------
+
+std::string text_stl() {
+  std::string text = "solid cube\n";
+  for (const auto& s : squares) {
+    for (const auto& t : {std::array{s[0], s[1], s[2]}, {s[0], s[2], s[3]}}) {
+      text += " facet normal 0 0 0\n  outer loop\n";
+      for (const int c : t) {
+        const Vec3& p = corners[static_cast<std::size_t>(c)];
+        text += "   vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " +
+                std::to_string(p.z) + "\n";
+      }
+      text += "  endloop\n endfacet\n";
+    }
+  }
+  return text + "endsolid cube\n";
+}
+
+std::string binary_stl(const std::string& header) {
+  std::string bytes = header + std::string(80 - header.size(), ' ');
+  put(bytes, std::uint32_t{12}, false);
+  for (const auto& s : squares) {
+    for (const auto& t : {std::array{s[0], s[1], s[2]}, {s[0], s[2], s[3]}}) {
+      bytes += std::string(12, '\0');
+      for (const int c : t) {
+        const Vec3& p = corners[static_cast<std::size_t>(c)];
+        for (const double v : {p.x, p.y, p.z}) {
+          put(bytes, static_cast<float>(v), false);
+        }
+      }
+      bytes += std::string(2, '\0');
+    }
+  }
+  return bytes;
+}
+
+TEST(SceneFormats, StlIsReadAsTextAndBinaryAndJoined) {
+  for (const std::string& text : {text_stl(), binary_stl("made by a test"), binary_stl("solid")}) {
+    const SceneDescription d = read("cube.stl", text);
+    expect_cube(d);
+    EXPECT_THAT(d.notes, ElementsAre(HasSubstr("12 of 12 faces have no color (STL has none)"),
+                                     HasSubstr("12 faces joined to 6")));
+    EXPECT_EQ(read("cube.stl", text, {.join = false}).face_count(), 12U);
+  }
+  EXPECT_THAT(read("cube.stl", text_stl()).groups, ElementsAre("cube"));
+}
+
+TEST(SceneFormats, StlRefusesWhatIsBroken) {
+  EXPECT_EQ(refusal_of("a.stl", "x"), "a.stl: is not an STL file: it has no 84 bytes");
+  EXPECT_THAT(refusal_of("a.stl", binary_stl("").substr(0, 300)),
+              HasSubstr("12 triangles take 684 bytes, the file has 300"));
+  std::string text = text_stl();
+  text.replace(text.find("endloop"), 7, "endlop");
+  EXPECT_EQ(refusal_of("a.stl", text), "a.stl:7: `endlop` is not a line of an STL file");
+  text = text_stl();
+  text.replace(text.find("vertex"), 8, "normal 0");
+  EXPECT_THAT(refusal_of("a.stl", text), HasSubstr("a.stl:4: `normal` is not a line"));
+  EXPECT_EQ(refusal_of("a.stl", text_stl().substr(0, 80)), "a.stl: the file ends within a facet");
+  EXPECT_EQ(refusal_of("a.stl", "solid\nendsolid\n"), "a.stl: has no triangles");
+}
+
+// OFF -----------------------------------------------------------------------------------------
+
+std::string off(const std::string& head, const std::string& color) {
+  std::string text = head;
+  for (const Vec3& p : corners) {
+    text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  }
+  for (const auto& s : squares) {
+    text += "4";
+    for (const int c : s) {
+      text += " " + std::to_string(c);
+    }
+    text += color + "\n";
+  }
+  return text;
+}
+
+TEST(SceneFormats, OffIsReadWithAndWithoutColors) {
+  for (const std::string head : {"OFF\n8 6 12\n", "OFF 8 6 0\n",
+                                 "# a cube\nOFF\n\n8 6 0 # counts\n", "8 6 12\n", "OFF8 6 12\n"}) {
+    expect_cube(read("cube.off", off(head, "")));
+  }
+  const SceneDescription whole = read("cube.off", off("OFF\n8 6 12\n", " 0 188 0 255"));
+  EXPECT_NEAR(whole.materials[0].reflectance.g, 0.5, 0.01);
+  const SceneDescription fraction = read("cube.off", off("OFF\n8 6 12\n", " 0.5 0.25 0.0"));
+  EXPECT_EQ(fraction.materials[0].reflectance, (Rgb{0.5, 0.25, 0}));
+}
+
+TEST(SceneFormats, OffRefusesWhatIsBroken) {
+  EXPECT_EQ(refusal_of("a.off", "OFF\n8 6 0\n0 0 0\n"),
+            "a.off:3: the file ends before vertex 1 of 8");
+  EXPECT_THAT(refusal_of("a.off", off("OFF\n8 6 12\n", " 0 0 256")), HasSubstr("color 256"));
+  EXPECT_THAT(refusal_of("a.off", "OFF\n99999 1 0\n"),
+              HasSubstr("`99999` is not a number of lines"));
+  EXPECT_THAT(refusal_of("a.off", "OFF BINARY\n"), HasSubstr("is a binary OFF file"));
+  EXPECT_THAT(refusal_of("a.off", "4OFF\n1 1 1\n"), HasSubstr("`4OFF`"));
+  EXPECT_EQ(refusal_of("a.off", "OFF\n1 1 0\n0 0 0\n3 0 0 1\n"),
+            "a.off:4: face 0: vertex `1` does not exist; there are 1");
+}
+
+// View3D --------------------------------------------------------------------------------------
+
+const std::string view3d =
+    "T a room with a window\nC encl=1 list=0\nF 3\n! # x y z\n"
+    "V 1 0 0 0 ! floor\nV 2 4 0 0\nV 3 4 3 0\nV 4 0 3 0\nV 5 0 0 2\nV 6 4 0 2\nV 7 4 3 2\n"
+    "V 8 0 3 2\nV 9 1 0 1\nV 10 2 0 1\nV 11 2 0 1.5\nV 12 1 0 1.5\n"
+    "! # v1 v2 v3 v4 base cmb emit name\n"
+    "S 1 1 2 3 4 0 0 0.9 floor\nS 2 8 7 6 5 0 0 0.8 ceiling\nS 3 5 6 2 1 0 0 0.9 south\n"
+    "S 4 12 11 10 9 3 0 0.25 window\nS 5 4 3 7 8 0 0 0.9 north\nS 6 1 4 8 5 0 5 0.9 west\n"
+    "S 7 3 2 6 7 0 5 0.9 east\nO 8 9 10 11 0\nEnd of data\nwhat follows is not read\n";
+
+TEST(SceneFormats, View3dCutsSubsurfacesOutOfTheirBase) {
+  const SceneDescription d = read("room.vs3", view3d);
+  const Scene scene(d);
+  EXPECT_THAT(scene.report().warnings, SizeIs(0));
+  double south = 0, total = 0;
+  for (const Patch& patch : scene.patches()) {
+    south += patch.face == 2 ? patch.area : 0;
+    total += patch.area;
+    if (patch.face < 7) {
+      EXPECT_GT(dot(patch.normal, Vec3{2, 1.5, 1} - patch.center), 0) << patch.face;
+    }
+  }
+  EXPECT_NEAR(south, 4 * 2 - 0.5, 1e-12);
+  EXPECT_NEAR(total, 2 * (12 + 8 + 6) + 0.25, 1e-12);  // the obstruction has 0.25 m²
+  EXPECT_THAT(scene.groups(),
+              ElementsAre("floor", "ceiling", "south", "window", "north", "surface 8"));
+  EXPECT_EQ(scene.reflectance(0), (Rgb{1 - 0.9, 1 - 0.9, 1 - 0.9}));
+  EXPECT_EQ(scene.material(scene.patch_count() - 1).name, "obstruction");
+}
+
+TEST(SceneFormats, View3dRefusesWhatIsBroken) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = view3d;
+    text.replace(text.find(from), from.size(), to);
+    return refusal_of("a.vs3", text);
+  };
+  EXPECT_EQ(with("F 3\n", "F 3a\n"),
+            "a.vs3:3: only geometry in three dimensions by vertices (F 3) can be read");
+  EXPECT_THAT(with("V 2 4", "V 3 4"), HasSubstr("a.vs3:6: the vertex's number"));
+  EXPECT_THAT(with("V 2 4", "V 1 4"), HasSubstr("a.vs3:6: vertices must be numbered in order"));
+  EXPECT_THAT(with("S 1 1 2 3 4", "S 1 1 2 13 4"), HasSubstr("a.vs3:18: a vertex of a surface"));
+  EXPECT_THAT(with("0.25 window", "1.25 window"), HasSubstr("a.vs3:21: the emissivity must be"));
+  EXPECT_THAT(with("V 4 0 3 0", "V 4 0 nan 0"), HasSubstr("not a finite point"));
+  EXPECT_EQ(refusal_of("a.vs3", "T nothing\n"), "a.vs3: has no surfaces");
+}
+
+// Radiance ------------------------------------------------------------------------------------
+
+const std::string radiance =
+    "# a lamp over a floor\nvoid plastic red 0 0 5 .8 .4 .2 .5 0\n"
+    "void light lamp\n0\n0\n3 2 1 .5\nvoid glass pane 0 0 3 .9 .9 .9\n"
+    "red polygon floor.1 0 0\n12\n0 0 0  1 0 0\n1 1 0\n0 1 0\n"
+    "lamp polygon ceiling 0 0 9 0 0 1 0 1 1 1 0 1\n"
+    "lamp sphere ball 0 0 4 0 0 0 1\nvoid brightfunc stripes 2 a b 0 0\n"
+    "stripes alias other red\nother polygon wall 0 0 9 0 0 0 0 1 0 0 0 1\n";
+
+TEST(SceneFormats, RadiancePolygonsHaveTheDiffusePartOfTheirMaterials) {
+  const SceneDescription d = read("a.rad", radiance);
+  ASSERT_EQ(d.face_count(), 3U);
+  const auto material = [&](std::size_t f) {
+    return d.materials[static_cast<std::size_t>(d.face_material[f])];
+  };
+  EXPECT_EQ(material(0).reflectance, (Rgb{0.4, 0.2, 0.1}));
+  EXPECT_EQ(material(1).exitance,
+            (Rgb{2 * std::numbers::pi, std::numbers::pi, 0.5 * std::numbers::pi}));
+  EXPECT_EQ(material(2).name, "red");
+  EXPECT_THAT(d.groups, ElementsAre("floor.1", "ceiling", "wall"));
+  EXPECT_THAT(d.notes, testing::Contains(HasSubstr("sphere `ball` is not a polygon; left out")));
+}
+
+TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
+  EXPECT_THAT(refusal_of("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n!xform -t 1 0 0 b.rad\n"),
+              HasSubstr("a.rad:2: `!xform -t 1 0 0 b.rad` is a command, which is not run"));
+  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 8 1 2 3 4 5 6 7 8\n"),
+            "a.rad:1: polygon `a` has 8 numbers; three for each of three corners or more are "
+            "required");
+  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 999\n"),
+            "a.rad:1: `999` is not a number of arguments");
+  EXPECT_EQ(refusal_of("a.rad", "void polygon a 0 0 9 1 2\n"),
+            "a.rad:1: the file ends within a primitive");
+  EXPECT_EQ(refusal_of("a.rad", "void plastic a 0 0 5 -1 1 1 0 0\n"),
+            "a.rad:1: plastic `a`: -1 is not a color");
+  EXPECT_EQ(refusal_of("a.rad", "void plastic a 0 0 5 1 1 1 0 0\n"), "a.rad: has no polygons");
+}
+
+// All -----------------------------------------------------------------------------------------
+
+TEST(SceneFormats, AreFoundByTheEndingInAnyCaseAndListedWhenItIsUnknown) {
+  expect_cube(read("CUBE.STL", text_stl()));
+  EXPECT_TRUE(is_scene_file("a.Glb"));
+  EXPECT_FALSE(is_scene_file("a.vtp"));
+  EXPECT_EQ(refusal_of("a.step", "x"),
+            "a.step: not a scene file; scene files end in .obj, .gltf, .glb, .ply, .stl, .off, "
+            ".rad, .vs3");
+}
+
+}  // namespace
+}  // namespace transillum
