@@ -93,6 +93,29 @@ class AppearanceTest : public QObject {
     QVERIFY(theme::scale() == 1);
   }
 
+  void a_session_kept_on_a_full_screen_has_the_panels_of_the_window() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    TestWindow& window = *solved.window;
+    const QWidget* canvas = solved.scene_view->canvas();
+    QCursor::setPos(canvas->mapToGlobal(canvas->rect().center()));
+    const auto* map = window.findChild<QDockWidget*>("map_dock");
+    QVERIFY(map->isVisible());
+    window.findChild<QAction*>("full_screen")->trigger();
+    QVERIFY(wait_for([&] { return window.isFullScreen() && !map->isVisible(); }, 5000));
+    const QByteArray kept = window.parts().docks.state();
+    window.findChild<QAction*>("layout_debug")->trigger();
+    QVERIFY(!map->isVisible());
+    window.findChild<QAction*>("full_screen")->trigger();
+    QVERIFY(wait_for([&] { return !window.isFullScreen(); }, 5000));
+    QVERIFY(map->isVisible());
+    QVERIFY(window.parts().docks.current() == Layout::inspect);
+    QVERIFY(window.parts().docks.restore(static_cast<int>(Layout::inspect), kept));
+    QVERIFY(map->isVisible());
+    window.findChild<QAction*>("layout_debug")->trigger();
+    QVERIFY(window.parts().docks.current() == Layout::debug);
+  }
+
   void no_page_has_to_be_scrolled_on_a_projector() {
     const auto window = make_active_window();
     auto* lessons = window->findChild<LessonPanel*>();
@@ -228,8 +251,8 @@ class AppearanceTest : public QObject {
       QVERIFY2(text.contains('`' + key + '`'), qPrintable(key + ": " + use));
     }
     // The table of the guide has no other keys than those of the menus, of a saved view, of the
-    // kept run and of the timeline.
-    const QStringList others{"Alt+1", "A", "←", "→"};
+    // kept run, of the list of kept runs and of the timeline.
+    const QStringList others{"Alt+1", "A", "F2", "Del", "←", "→"};
     static const QRegularExpression quoted(QStringLiteral("`([^`]+)`"));
     int listed = 0;
     for (const QString& row : text.mid(text.indexOf("## Keys")).split('\n')) {

@@ -7,8 +7,11 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <QUndoStack>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "state/algorithm_state.h"
 #include "state/camera_views.h"
@@ -140,7 +143,94 @@ class BreakpointsTest : public QObject {
     QVERIFY(breakpoints.steps_in(d.history()).empty());
     breakpoints.remove(0);
     QCOMPARE(breakpoints.list().size(), std::size_t{1});
-    QCOMPARE(breakpoints.list()[0].patch, 5);
+    QCOMPARE(breakpoints.list()[0].condition.patch, 5);
+  }
+
+  void conditions_are_joined_by_and_and_or() {
+    const Direction d("cornell-box");
+    const auto steps = [&](const Breakpoint& breakpoint) {
+      const auto list = steps_where(d.history(), breakpoint);
+      return std::set<std::int32_t>(list.begin(), list.end());
+    };
+    int tried = 0;
+    const PatchId count = d.scene->scene->patch_count();
+    for (PatchId one = 0; one < count; ++one) {
+      const Condition a{Kind::patch, (one + 5) % count}, b{Kind::cut, one},
+          c{Kind::patch, (one + 1) % count};
+      const auto of_a = steps({a}), of_b = steps({b}), of_c = steps({c});
+      std::set<std::int32_t> both, either = of_a, a_or_both = of_a;
+      std::set_intersection(of_b.begin(), of_b.end(), of_c.begin(), of_c.end(),
+                            std::inserter(both, both.end()));
+      either.insert(of_b.begin(), of_b.end());
+      a_or_both.insert(both.begin(), both.end());
+      tried += !both.empty() && both != of_b && both != of_c && a_or_both != of_a;
+      QVERIFY(steps({b, true, {{false, c}}}) == both);
+      QVERIFY(steps({a, true, {{true, b}}}) == either);
+      // "And" binds more strongly, on both sides of "or".
+      QVERIFY(steps({a, true, {{true, b}, {false, c}}}) == a_or_both);
+      QVERIFY(steps({b, true, {{false, c}, {true, a}}}) == a_or_both);
+    }
+    QVERIFY(tried > 0);
+    QCOMPARE(text_of({{Kind::patch, 3},
+                      true,
+                      {{true, {Kind::cut, 7}}, {false, {Kind::large_map, 0, 0, 50}}},
+                      4}),
+             QString("Patch 3 takes part, or patch 7 is cut and V grows beyond 50 polygons (stop "
+                     "at hit 4)"));
+  }
+
+  void a_run_counts_hits_and_stops_at_the_given_one() {
+    const Direction d("cornell-box");
+    const MapHistory& history = d.history();
+    // The patch with the most events, and one that is cut.
+    PatchId busy = 0;
+    for (PatchId patch = 1; patch < d.scene->scene->patch_count(); ++patch) {
+      if (history.steps_of(patch).size() > history.steps_of(busy).size()) {
+        busy = patch;
+      }
+    }
+    const auto steps = steps_where(history, {Kind::patch, busy});
+    const auto cuts = steps_where(history, {Kind::cut, busy});
+    QVERIFY(steps.size() >= 6 && !cuts.empty());
+    Breakpoints breakpoints;
+    breakpoints.add({{Kind::patch, busy}, true, {}, 3});
+    breakpoints.add({{Kind::cut, busy}, true, {}, 1000});
+    breakpoints.add({{Kind::patch, 5}, false});
+    const auto hits = std::make_shared<HitCounts>();
+    const StepFinder run = breakpoints.run_finder(hits);
+    QCOMPARE(run(history, -1, StepOrder::forward), steps[2]);
+    const auto passed = [&](std::int32_t end) {
+      return std::count_if(cuts.begin(), cuts.end(), [end](std::int32_t k) { return k <= end; });
+    };
+    QVERIFY((*hits == HitCounts{3, passed(steps[2]), 0}));
+    // Back from there: the third before it; from the third, none.
+    QCOMPARE(breakpoints.run_finder(hits)(history, steps[5], StepOrder::backward), steps[2]);
+    QCOMPARE(breakpoints.run_finder(hits)(history, steps[2], StepOrder::backward),
+             MapHistory::none);
+    QCOMPARE((*hits)[0], 2);
+  }
+
+  void a_run_that_comes_back_counts_no_step_twice() {
+    const Direction d("cornell-box");
+    const Direction other("cornell-box", {0.1, -0.4, 0.7});
+    const Breakpoint all{{Kind::patch, 3}, true, {}, 1'000'000};
+    Breakpoints breakpoints;
+    breakpoints.add(all);
+    const auto here = steps_where(d.history(), all).size();
+    const auto there = steps_where(other.history(), all).size();
+    const auto total = static_cast<std::int64_t>(here + there);
+    const std::int32_t middle = d.history().step_count() / 2;
+    for (const StepOrder order : {StepOrder::forward, StepOrder::backward}) {
+      const auto hits = std::make_shared<HitCounts>();
+      const StepFinder run = breakpoints.run_finder(hits);
+      const auto from = [&](const MapHistory& history) {
+        return order == StepOrder::forward ? -1 : history.step_count();
+      };
+      QCOMPARE(run(d.history(), middle, order), MapHistory::none);
+      QCOMPARE(run(other.history(), from(other.history()), order), MapHistory::none);
+      QCOMPARE(run(d.history(), from(d.history()), order), MapHistory::none);
+      QCOMPARE((*hits)[0], total);
+    }
   }
 
   void running_forward_and_back_finds_the_same_steps() {
@@ -166,7 +256,10 @@ class BreakpointsTest : public QObject {
     before.add({Kind::pair, 12, 7});
     before.set_scene("boards");
     before.add({Kind::small_fragment, 0, 0, 1.25e-9, false});
-    before.add({Kind::large_map, 0, 0, 1000});
+    before.add({{Kind::large_map, 0, 0, 1000},
+                true,
+                {{false, {Kind::cut, 4}}, {true, {Kind::pair, 5, 6}}},
+                12});
     {
       QSettings settings(folder.filePath("kept.ini"), QSettings::IniFormat);
       before.save(settings);

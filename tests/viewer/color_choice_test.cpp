@@ -223,6 +223,73 @@ class ColorChoiceTest : public QObject {
     QVERIFY(colors.patch_colors() == second_colors);
   }
 
+  void any_two_kept_runs_of_the_same_patches_are_compared() {
+    ColorChoice colors(selection_);
+    KeptRuns& runs = colors.kept_runs();
+    const auto base = solved("cornell-box");
+    colors.set_quantity(Quantity::difference);
+    for (const double factor : {1.0, 1.25, 2.0}) {
+      colors.fit(times(*base, factor));
+      if (factor < 2) {
+        QVERIFY(colors.keep_run());
+      }
+    }
+    // Whether the difference shown is `factor` times the first run.
+    const auto is_shown = [&](double factor) {
+      for (std::size_t i = 0; i < base->radiosity.size(); ++i) {
+        if (!(max_abs(colors.values().at(i) - factor * base->radiosity[i]) < 1e-12)) {
+          return false;
+        }
+      }
+      return true;
+    };
+    QCOMPARE(runs.first(), 1);
+    QCOMPARE(runs.second(), -1);
+    QVERIFY(is_shown(0.75));
+    runs.set_first(0);
+    QVERIFY(is_shown(1));
+    runs.set_second(1);
+    QVERIFY(is_shown(0.25));
+    const RunDifference difference =
+        difference_of(colors.run_b()->radiosity, colors.run_a()->radiosity);
+    QVERIFY(std::abs(difference.rms - 0.25) < 1e-12);
+    double largest = 0;
+    for (const Rgb& b : base->radiosity) {
+      largest = std::max(largest, max_abs(b));
+    }
+    QVERIFY(std::abs(difference.largest - 0.25 * largest) < 1e-12);
+    QCOMPARE(max_abs(base->radiosity.at(std::size_t(difference.worst))), largest);
+    QCOMPARE(difference_of(base->radiosity, base->radiosity).worst, no_patch);
+
+    runs.remove(1);
+    QCOMPARE(runs.second(), -1);
+    QVERIFY(is_shown(1));
+  }
+
+  void runs_of_other_patches_say_why_they_cannot_be_compared() {
+    ColorChoice colors(selection_);
+    KeptRuns& runs = colors.kept_runs();
+    colors.fit(solved("cornell-box"));
+    QVERIFY(colors.keep_run());
+    QVERIFY(runs.reason_against(0).isEmpty());
+    QVERIFY(!runs.run(0)->form_factors);  // they take far more memory than B
+    colors.fit(solved("furnace"));
+    QVERIFY2(runs.reason_against(0).contains("cornell-box"), qPrintable(runs.reason_against(0)));
+    QVERIFY(!colors.run_a());
+    runs.set_first(0);
+    runs.set_second(0);
+    QCOMPARE(runs.first(), -1);
+    QCOMPARE(runs.second(), -1);
+    colors.set_quantity(Quantity::difference);
+    QVERIFY(colors.values().empty() && !colors.missing().isEmpty());
+    // The same patches, read again.
+    colors.fit(solved("cornell-box"));
+    QVERIFY(runs.reason_against(0).isEmpty());
+    QVERIFY(colors.run_a() == runs.run(0));
+    QVERIFY(!runs.keep(*colors.snapshot(), 1000));
+    QCOMPARE(runs.all().size(), std::size_t{1});
+  }
+
   void the_histogram_is_weighted_by_area() {
     const auto scene_of_values = load_scene("cornell-box");
     const Scene& scene = *scene_of_values;

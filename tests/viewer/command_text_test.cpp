@@ -4,7 +4,11 @@
 #include "model/command_text.h"
 
 #include <QClipboard>
+#include <QFile>
 #include <QFileInfo>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QProcess>
 #include <QTemporaryDir>
 
@@ -88,6 +92,44 @@ class CommandTextTest : public QObject {
       const QList<QByteArray> fields = rows[static_cast<int>(i) + 1].split(',');
       QCOMPARE(fields[column].toDouble(), radiosity[i].r);
       QCOMPARE(fields[column + 2].toDouble(), radiosity[i].b);
+    }
+  }
+
+  void a_copied_step_is_v_at_that_step_data() {
+    QTest::addColumn<int>("step");
+    QTest::addColumn<int>("phase");
+    QTest::newRow("before the first") << -1 << static_cast<int>(Phase::after);
+    QTest::newRow("before") << 7 << static_cast<int>(Phase::before);
+    QTest::newRow("split") << 7 << static_cast<int>(Phase::split);
+    QTest::newRow("after") << 20 << static_cast<int>(Phase::after);
+  }
+  void a_copied_step_is_v_at_that_step() {
+    QFETCH(int, step);
+    QFETCH(int, phase);
+    const SolvedWindow solved("boards:n=5", {.directions = 8});
+    QVERIFY(solved.ready);
+    Focus& focus = solved.window->focus;
+    focus.go_to({0, 3, step});
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    focus.set_phase(static_cast<Phase>(phase));
+    const QTemporaryDir folder;
+    const QString file = folder.filePath("map.json");
+    QVERIFY(
+        !output_of(copied(solved, "copy_step") + " --out " + file + " && echo written").isEmpty());
+    QFile written(file);
+    QVERIFY(written.open(QIODevice::ReadOnly));
+    const QJsonArray polygons = QJsonDocument::fromJson(written.readAll())["polygons"].toArray();
+    const VisibilityMap shown =
+        map_after(focus.map()->record(),
+                  focus.position().step - (step >= 0 && phase == static_cast<int>(Phase::before)));
+    QCOMPARE(polygons.size(), static_cast<int>(shown.polygons.size()));
+    QVERIFY(step < 0 || polygons.size() > 0);
+    for (int k = 0; k < polygons.size(); ++k) {
+      const QJsonObject polygon = polygons[k].toObject();
+      const VisibilityMap::Polygon& expected = shown.polygons[static_cast<std::size_t>(k)];
+      QCOMPARE(polygon["patch"].toInt(), expected.patch);
+      QCOMPARE(polygon["facing"].toString(), QString(expected.front_facing ? "front" : "back"));
+      QCOMPARE(polygon["area"].toDouble(), expected.area);
     }
   }
 

@@ -6,12 +6,17 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSpinBox>
+#include <QTableView>
 #include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "map/compare_view.h"
 #include "map/difference_picture.h"
 #include "map/hemicube_view.h"
+#include "map/pair_picture.h"
+#include "map/pair_table.h"
 #include "map/pixel_view.h"
 #include "solve/settings_panel.h"
 #include "solved_window.h"
@@ -98,6 +103,106 @@ class CompareTest : public QObject {
     const Breakpoint meets{Breakpoint::Kind::pair, patch, named.captured(2).toInt()};
     QVERIFY(holds(meets, history, focus.position().step) ||
             history.step(focus.position().step).patch == patch);
+  }
+
+  void differences_are_listed() {
+    const ComparedWindow shown;
+    QVERIFY(shown.ready);
+    const auto* list = shown.view->findChild<QTableView*>("pair_differences");
+    const auto* table = static_cast<const PairTable*>(list->model());
+    const auto* picture = shown.view->findChild<PairPicture*>();
+    const int count = table->rowCount();
+    QVERIFY(count > 5);
+    double last = HUGE_VAL;
+    for (int row = 0; row < count; ++row) {
+      const PairDifference& pair = table->pair(row);
+      const double size = std::abs(pair.other - pair.first);
+      QVERIFY(0 < size && size <= last);
+      last = size;
+    }
+    QVERIFY(shown.text("compare_words")
+                .contains(QString("patches %1 and %2")
+                              .arg(table->pair(0).receiver)
+                              .arg(table->pair(0).source)));
+    // Without a choice: the receiver of the largest difference.
+    QCOMPARE(picture->receiver(), table->pair(0).receiver);
+  }
+
+  void the_chosen_pair_is_drawn_by_polygon() {
+    const ComparedWindow shown;
+    QVERIFY(shown.ready);
+    auto* list = shown.view->findChild<QTableView*>("pair_differences");
+    const auto* table = static_cast<const PairTable*>(list->model());
+    const auto* picture = shown.view->findChild<PairPicture*>();
+    // A pair that both see, of which the picture shows the polygons in one color.
+    int row = 0;
+    while (table->pair(row).first == 0 || table->pair(row).other == 0) {
+      ++row;
+    }
+    const PairDifference pair = table->pair(row);
+    list->setCurrentIndex(table->index(row, 0));
+    QCOMPARE(picture->receiver(), pair.receiver);
+    QCOMPARE(shown.window->selection.patch(), pair.source);
+    QCOMPARE(picture->share(pair.source),
+             (pair.other - pair.first) / std::max(pair.other, pair.first));
+    MapCanvas* canvas = picture->canvas();
+    QVERIFY(wait_for([&] { return canvas->up_to_date() && canvas->polygon_count() > 0; }));
+    const MapHistory& history = shown.window->focus.map()->history;
+    std::size_t polygons = 0;
+    double area = 0;
+    for (std::int32_t k = 0; k < history.step_count(); ++k) {
+      if (history.step(k).patch != pair.receiver || !history.step(k).front_facing) {
+        continue;
+      }
+      for (const std::int32_t r : history.inside_at(k)) {
+        ++polygons;
+        area += history.row(r).patch == pair.source ? history.record().area(history.row(r)) : 0;
+      }
+    }
+    QCOMPARE(canvas->polygon_count(), polygons);
+    QVERIFY(std::abs(area - pair.first) < 1e-9);
+    const Color8 expected = color_of(
+        ColorMap::diverging, 0.5 + picture->share(pair.source) / (2 * PairPicture::full_color_at));
+    shown.window->selection.select(no_patch);
+    const QImage image = canvas->grab().toImage();
+    int colored = 0;
+    for (int y = 0; y < canvas->height(); ++y) {
+      for (int x = 0; x < canvas->width(); ++x) {
+        const QPoint place(x, y);
+        const QColor color = image.pixelColor(place * image.devicePixelRatio());
+        colored += canvas->patch_at(place) == pair.source &&
+                   color == QColor(expected[0], expected[1], expected[2]);
+      }
+    }
+    QVERIFY(colored > 0);
+    save_picture(*shown.window, "compare-pairs");
+
+    // Return goes to where the two meet.
+    QTest::keyClick(list, Qt::Key_Return);
+    QVERIFY(wait_for([&] { return shown.window->settled(); }));
+    QCOMPARE(shown.window->selection.patch(), pair.receiver);
+    QVERIFY(holds(Breakpoint{Breakpoint::Kind::pair, pair.receiver, pair.source}, history,
+                  shown.window->focus.position().step));
+  }
+
+  void the_comparison_takes_most_of_the_window_and_gives_it_back() {
+    const ComparedWindow shown;
+    QVERIFY(shown.ready);
+    auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
+    const QSize usual = dock->size();
+    shown.trigger("compare_large");
+    QVERIFY(
+        wait_for([&] { return dock->width() > usual.width() && dock->height() > usual.height(); }));
+    save_picture(*shown.window, "compare-large");
+    shown.trigger("compare_large");
+    QVERIFY2(wait_for([&] { return dock->width() == usual.width(); }),
+             qPrintable(QString("%1, not %2").arg(dock->width()).arg(usual.width())));
+    // It is a tab of the map's place, also where maps are debugged.
+    const auto tabs = shown.window->tabifiedDockWidgets(dock);
+    QVERIFY(tabs.contains(shown.window->findChild<QDockWidget*>("map_dock")));
+    shown.trigger("layout_debug");
+    QVERIFY(shown.window->tabifiedDockWidgets(dock).contains(
+        shown.window->findChild<QDockWidget*>("map_dock")));
   }
 
   void shows_both_side_by_side() {

@@ -22,6 +22,8 @@
 #include <QTableView>
 #include <QTableWidget>
 #include <QTemporaryDir>
+#include <QToolButton>
+#include <numeric>
 
 #include "colors/color_bar.h"
 #include "colors/pointer_label.h"
@@ -721,6 +723,76 @@ class InspectTest : public QObject {
     QVERIFY(shown.window->colors.missing().isEmpty());
   }
 
+  void kept_runs_are_named_compared_and_removed() {
+    Inspected shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.raise("runs_dock");
+    auto* table = shown.part<QTableWidget>("run_table");
+    shown.trigger("keep_run");
+    shown.window->runner.advance_one_iteration();
+    QVERIFY(wait_for([&] {
+      return shown.window->snapshot()->progress.iteration == 2 && shown.window->settled();
+    }));
+    shown.trigger("keep_run");
+    QCOMPARE(table->rowCount(), 2);
+    QCOMPARE(table->item(0, 1)->text(), QString("32"));
+    QCOMPARE(table->item(0, 2)->text(), QString("antipodal"));
+    QVERIFY(table->item(0, 0)->toolTip().contains("--directions 32"));
+    const auto rename = [table](int row, const char* name) {
+      table->setFocus();
+      table->setCurrentCell(row, 0);
+      QTest::keyClick(table, Qt::Key_F2);
+      auto* editor = table->findChild<QLineEdit*>();
+      QTest::keyClicks(editor, name);
+      QTest::keyClick(editor, Qt::Key_Return);
+    };
+    rename(0, "one bounce");
+    auto* first = shown.part<QComboBox>("run_a");
+    auto* second = shown.part<QComboBox>("run_b");
+    QTRY_COMPARE(first->itemText(0), QString("one bounce"));
+    QCOMPARE(table->item(0, 0)->text(), QString("one bounce"));
+
+    // The current run is the second one; A becomes the first.
+    QVERIFY(shown.text("run_difference").contains("No difference"));
+    QCOMPARE(first->currentText(), QString("Run 2"));
+    QTest::keyClick(first, Qt::Key_Up);
+    QCOMPARE(first->currentText(), QString("one bounce"));
+    const auto with_current = shown.text("run_difference");
+    QVERIFY2(with_current.contains("RMS"), qPrintable(with_current));
+    QTest::keyClick(second, Qt::Key_End);
+    QCOMPARE(second->currentText(), QString("Run 2"));
+    QCOMPARE(shown.text("run_difference"), with_current);
+    shown.trigger("show_difference");
+    QVERIFY(shown.window->colors.missing().isEmpty());
+    save_picture(*shown.window, "kept-runs");
+
+    const ViewPoint before = shown.scene_view->view_point();
+    QTest::mouseClick(shown.part<QToolButton>("go_to_difference"), Qt::LeftButton);
+    const PatchId worst = shown.window->selection.patch();
+    QVERIFY(with_current.contains(QString("patch %1").arg(worst)));
+    QVERIFY(distance_of(before, shown.scene_view->view_point()) > 0);
+
+    shown.window->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(shown.window.get()));
+    table->setFocus();
+    table->setCurrentCell(0, 0);
+    QTest::keyClick(table, Qt::Key_Delete);
+    QCOMPARE(table->rowCount(), 1);
+    QVERIFY(shown.text("run_difference").contains("No difference"));
+    shown.trigger("undo");
+    QCOMPARE(table->item(0, 0)->text(), QString("one bounce"));
+    QCOMPARE(shown.text("run_difference"), with_current);
+
+    // Another scene: the runs stay, and say why they cannot be compared.
+    shown.window->open("furnace", {Goal::Kind::iteration});
+    QVERIFY(wait_for([&] { return shown.window->snapshot() && first->currentIndex() < 0; }));
+    QVERIFY(!first->isEnabled() && !shown.window->colors.run_a());
+    QVERIFY(!shown.part<QAction>("show_kept_run")->isEnabled());
+    table->setCurrentCell(1, 0);
+    QVERIFY(shown.text("run_hint").contains("cornell-box"));
+    QVERIFY(shown.part<QLabel>("run_hint")->isVisible());
+  }
+
   void each_overlay_changes_the_picture_data() {
     QTest::addColumn<QString>("scene");
     QTest::addColumn<QStringList>("overlays");
@@ -743,6 +815,45 @@ class InspectTest : public QObject {
       QVERIFY2(wait_for([&] { return shown.picture() != before; }, 3000), name);
       shown.trigger(name);
       QVERIFY2(wait_for([&] { return shown.picture() == before; }, 3000), name);
+    }
+  }
+
+  void normals_and_cuts_follow_hiding_and_the_clipping_plane() {
+    const Inspected shown("boards");
+    QVERIFY(shown.ready);
+    shown.trigger("show_direction");
+    shown.part<QComboBox>("clip_axis")->setCurrentIndex(3);
+    auto* place = shown.part<QSlider>("clip_place");
+    // The number of pixels that an overlay draws, with all else as it is.
+    const auto drawn = [&shown](const char* overlay) {
+      QTest::qWait(300);  // until the scene is at rest, and antialiased
+      const QImage without = shown.picture();
+      shown.trigger(overlay);
+      QTest::qWait(300);
+      const QImage with = shown.picture();
+      shown.trigger(overlay);
+      int pixels = 0;
+      for (int y = 0; y < with.height(); ++y) {
+        for (int x = 0; x < with.width(); ++x) {
+          pixels += with.pixel(x, y) != without.pixel(x, y);
+        }
+      }
+      return pixels;
+    };
+    for (const char* overlay : {"show_normals", "show_fragments"}) {
+      place->setValue(place->minimum());
+      QVERIFY2(drawn(overlay) > 100, overlay);
+      place->setValue(place->maximum());
+      QVERIFY2(drawn(overlay) < 10, overlay);
+      place->setValue(place->minimum());
+      const int patches = shown.window->snapshot()->loaded->scene->patch_count();
+      std::vector<PatchId> all(static_cast<std::size_t>(patches));
+      std::iota(all.begin(), all.end(), 0);
+      shown.window->selection.select_all(all);
+      shown.trigger("hide_selection");
+      shown.window->selection.select(no_patch);
+      QCOMPARE(drawn(overlay), 0);
+      shown.trigger("show_all");
     }
   }
 

@@ -100,6 +100,14 @@ class LessonHtmlTest : public QObject {
     }
     QCOMPARE(count(map_svg(map, 9, colors, false), "<polygon"),
              int(map.record().map_after(9).size()));
+    // What the page names is named where it is shown, and only that.
+    const PatchId shown = map.row(map.record().map_after(9).front()).patch;
+    const std::vector<Callout> callouts{{"this < that", Callout::Anchor::patch, shown, {}},
+                                        {"the same", Callout::Anchor::patch, shown, {}},
+                                        {"nowhere", Callout::Anchor::patch, no_patch, {}}};
+    const QByteArray named = map_svg(map, 9, colors, true, callouts);
+    QVERIFY(named.contains(">this &lt; that</text>") && named.contains(">the same</text>"));
+    QVERIFY(!named.contains("nowhere"));
   }
 
   void a_lesson_becomes_one_file() {

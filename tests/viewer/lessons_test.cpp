@@ -15,6 +15,7 @@
 #include "solved_window.h"
 #include "stepping/algorithm_view.h"
 #include "transillum/at.h"
+#include "window/export_actions.h"
 #include "window/view_state_applier.h"
 
 using namespace transillum;
@@ -160,6 +161,45 @@ class LessonsTest : public QObject {
     taught.trigger("step_on");
     QTRY_COMPARE(step->value(), 8);
     save_picture(window, "lesson-controls");
+  }
+
+  void exported_pictures_have_the_callouts_of_the_page() {
+    Taught taught;
+    TestWindow& window = *taught.window;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("named.json");
+    write(path, R"({"title": "T", "pages": [
+      {"text": "One.", "show": {"layout": "teach", "scene": "cornell-box",
+        "options": {"directions": 8}, "focus": {"direction": 5, "step": "last"}},
+       "callouts": [{"text": "the top", "patch": 16}, {"text": "here", "point": [0.2, 0.3, 0.1]}]},
+      {"text": "Two."}]})");
+    window.files().try_open(path);
+    QVERIFY(taught.settles());
+    const auto* layer = window.findChild<CalloutLayer*>();
+    QTRY_COMPARE(layer->callouts().size(), std::size_t{2});
+    auto* view = window.findChild<SceneView*>();
+    const auto& exports = *window.findChild<ExportActions*>();
+    const auto exported_map = [&] {
+      exports.write_map_picture(folder.filePath("map.svg"));
+      exports.write_map_picture(folder.filePath("map.png"));
+      QFile file(folder.filePath("map.svg"));
+      return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    };
+    // The top is behind others there.
+    QVERIFY(exported_map().contains(">here</text>"));
+    const QImage named_map(folder.filePath("map.png"));
+    const QPointF anchor = layer->callouts()[0].anchor;
+    // At twice the size, the point of the callout is at twice the distance.
+    const QImage named = view->picture(2);
+    const QPoint point = (2 * anchor * view->devicePixelRatioF()).toPoint();
+    QCOMPARE(QColor(named.pixel(point)), theme::on_dark);
+    save_picture(*view, "callout");
+    window.findChild<LessonPanel*>()->show_page(0, 1);
+    QVERIFY(taught.settles());
+    QTRY_VERIFY(layer->callouts().empty());
+    QVERIFY(QColor(view->picture(2).pixel(point)) != theme::on_dark);
+    QVERIFY(!exported_map().contains("here"));
+    QVERIFY(QImage(folder.filePath("map.png")) != named_map);
   }
 
   void a_page_enlarges_a_panel_and_names_things() {
@@ -334,7 +374,7 @@ class LessonsTest : public QObject {
       QVERIFY(taught.focus().following());
       QVERIFY(window.colors.exposure_is_automatic() && window.colors.scale().logarithmic);
       QVERIFY(!window.parts().map.labels_shown());
-      const auto* view = window.findChild<SceneView*>();
+      auto* view = window.findChild<SceneView*>();
       const ViewPoint shown = view->view_point();
       window.findChild<SceneView*>()->reset_view();
       QVERIFY(view->view_point() == shown);

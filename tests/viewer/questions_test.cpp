@@ -112,6 +112,35 @@ class QuestionsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void a_question_about_a_direction_hides_the_values_of_its_steps() {
+    Class room;
+    const auto ask = [](const QString& figure) {
+      const QString lesson = R"({"title": "T", "pages": [{"text": "", "show": {"layout": "teach",
+        "scene": "cornell-box", "options": {"directions": 8}, "panels": ["algorithm"],
+        "focus": {"direction": 3, "step": "exchange"}},
+        "question": {"kind": "number", "ask": "How many?", "answer": {"figure": "%1"}}}]})";
+      return lesson.arg(figure).toStdString();
+    };
+    const auto* algorithm = room.window->findChild<QWidget*>("algorithm_dock");
+    const auto* value = room.window->findChild<QLabel*>("value_j");
+    const auto* note = room.window->findChild<QLabel*>("values_hidden");
+    const auto hidden = [&] { return note->isVisible() && !value->isVisible(); };
+    const auto shown = [&] { return !note->isVisible() && value->isVisible(); };
+    room.open(ask("polygons"));
+    QTRY_VERIFY(algorithm->isVisible());
+    QTRY_VERIFY(hidden());
+    room.reveal();
+    QTRY_VERIFY(shown());
+    room.action("question_reveal")->trigger();  // asks again
+    QTRY_VERIFY(hidden());
+    room.open(ask("patches"));  // not about the direction
+    QTRY_VERIFY(shown());
+    room.open(ask("steps"));
+    QTRY_VERIFY(hidden());
+    room.window->files().open_scene("furnace");
+    QTRY_VERIFY(shown());
+  }
+
   void every_lesson_asks() {
     for (const Lesson& lesson : built_in_lessons()) {
       const auto asking = std::count_if(lesson.pages.begin(), lesson.pages.end(),
@@ -312,7 +341,8 @@ class QuestionsTest : public QObject {
     QVERIFY(room.text("question_result").contains("Not this time"));
     QVERIFY(room.text("question_result").contains("100 %"));
     room.action("question_reveal")->trigger();
-    QTest::keyClicks(number, "104");
+    // With a decimal comma.
+    QTest::keyClicks(number, "104,5");
     room.reveal();
     QVERIFY(room.text("question_result").contains("Right"));
   }

@@ -2,23 +2,36 @@
 //
 // Session files in the viewer's window: saving, opening and errors; recent files; exports.
 #include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
+#include <QDropEvent>
+#include <QImageReader>
+#include <QMenuBar>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSettings>
+#include <QSlider>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QToolButton>
+#include <QUrl>
+#include <algorithm>
+#include <cmath>
 
 #include "lessons/session_file.h"
 #include "scene/scene_page.h"
 #include "scene/show_menu.h"
 #include "solved_window.h"
 #include "stepping/algorithm_view.h"
+#include "stepping/play_control.h"
 #include "widgets/banner.h"
 #include "window/export_actions.h"
 #include "window/file_actions.h"
+#include "window/frame_recorder.h"
 #include "window/inspection_panels.h"
 #include "window/recovery.h"
 #include "window/view_state_applier.h"
@@ -69,6 +82,14 @@ class SessionFileTest : public QObject {
     show.overlay(Overlay::normals)->setChecked(true);
     show.overlay(Overlay::wireframe)->setChecked(true);
   }
+  static std::vector<Breakpoint> breakpoints() {
+    using Kind = Condition::Kind;
+    return {{{Kind::pair, 3, 4}, false},
+            {{Kind::cut, 7},
+             true,
+             {{false, {Kind::small_fragment, 0, 0, 0.25}}, {true, {Kind::patch, 2}}},
+             9}};
+  }
   static void check_appearance(TestWindow& window) {
     QVERIFY(window.colors.scale().mode == ColorMode::luminance);
     QVERIFY(window.colors.range_rule() == RangeRule::fixed);
@@ -104,7 +125,9 @@ class SessionFileTest : public QObject {
       window.focus.go_to({0, 5, 3});
       QVERIFY(settles(window));
       window.focus.set_phase(Phase::split);
-      window.breakpoints.set_list({{Breakpoint::Kind::pair, 3, 4, 0, false}});
+      window.breakpoints.set_list(breakpoints());
+      window.watches.add({Watch::Kind::closure_defect});
+      window.watches.add({Watch::Kind::patch_area, 7});
       window.findChild<QPlainTextEdit*>("notes")->setPlainText("mind the \"gap\"\nω");
       change_appearance(window);
       window.parts().algorithm.set_kind(MapKind::global);
@@ -123,9 +146,9 @@ class SessionFileTest : public QObject {
     const RunPosition there{0, 5, 3};
     QVERIFY(window->focus.position() == there);
     QVERIFY(window->focus.phase() == Phase::split);
-    QCOMPARE(window->breakpoints.list().size(), std::size_t{1});
-    QVERIFY(window->breakpoints.list()[0].kind == Breakpoint::Kind::pair);
-    QVERIFY(!window->breakpoints.list()[0].enabled);
+    QVERIFY(window->breakpoints.list() == breakpoints());
+    const std::vector<Watch> watches{{Watch::Kind::closure_defect}, {Watch::Kind::patch_area, 7}};
+    QVERIFY(window->watches.list() == watches);
     QCOMPARE(window->findChild<QPlainTextEdit*>("notes")->toPlainText(),
              QString("mind the \"gap\"\nω"));
     QCOMPARE(window->findChild<SceneView*>()->view_point().eye.x, camera.eye.x);
@@ -136,6 +159,57 @@ class SessionFileTest : public QObject {
     QCOMPARE(views[0].name, QString("the \"first\" one"));
     QCOMPARE(views[0].view.eye.x, camera.eye.x - 1);
     QVERIFY(!window->findChild<QAction*>("undo")->isEnabled());
+  }
+
+  void a_session_keeps_selected_and_hidden_patches_and_the_clipping_plane() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("cut.json");
+    const std::vector<PatchId> selected{3, 4, 5, 7}, hidden{0, 1, 2, 5, 9};
+    const ClipPlane clip{ClipPlane::Axis::y, 0.25, true};
+    {
+      SolvedWindow solved("furnace");
+      QVERIFY(solved.ready);
+      solved.window->selection.select(7);
+      solved.window->selection.select_all(selected);
+      solved.window->parts().page.hidden().hide(hidden);
+      solved.window->findChild<QComboBox*>("clip_axis")->setCurrentIndex(2);
+      solved.window->findChild<QSlider*>("clip_place")->setValue(50);
+      solved.window->findChild<QCheckBox*>("clip_other_side")->setChecked(true);
+      solved.window->files().save_session(path);
+      QVERIFY(contents(path).contains("hidden"));
+    }
+    const auto window = make_window(16);
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QCOMPARE(window->selection.patch(), PatchId{7});
+    QVERIFY(window->selection.patches() == selected);
+    const HiddenPatches& left_out = window->parts().page.hidden();
+    for (PatchId i = 0; i < window->scene.loaded()->scene->patch_count(); ++i) {
+      QCOMPARE(left_out.hidden(i), std::count(hidden.begin(), hidden.end(), i) > 0);
+    }
+    QVERIFY(window->applier().state().clip == clip);
+    // A session without these keys shows everything.
+    write(path, R"({"show": {"scene": "furnace", "options": {"directions": 32}}})");
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QVERIFY(!left_out.any() && !window->applier().state().clip);
+    QVERIFY(window->selection.patches().empty());
+  }
+
+  void patches_that_the_scene_lacks_are_reported() {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("many.json");
+    write(path, R"({"show": {"scene": "cornell-box", "options": {"directions": 16}, "select": 1,
+                             "also-selected": [3, [5, 7]], "hidden": [2, [4, 1073741824]]}})");
+    const auto window = make_window(16);
+    window->files().open(path);
+    QVERIFY(settles(*window));
+    QVERIFY2(window->banner_text().startsWith("hidden: there is no patch 1073741824; the scene"),
+             qPrintable(window->banner_text()));
+    const std::vector<PatchId> selected{1, 3, 5, 6, 7};
+    QVERIFY(window->selection.patches() == selected);
+    QVERIFY(!window->parts().page.hidden().hidden(3));
+    QVERIFY(window->parts().page.hidden().hidden(4));
   }
 
   void a_locked_range_keeps_its_ends() {
@@ -409,6 +483,92 @@ class SessionFileTest : public QObject {
     QCOMPARE(asked, 2);
   }
 
+  void asks_before_another_scene_replaces_long_work_data() {
+    QTest::addColumn<QString>("way");
+    QTest::addColumn<QString>("button");
+    QTest::newRow("solve again") << "restart"
+                                 << "Solve again";
+    QTest::newRow("reload") << "reload"
+                            << "Reload";
+    QTest::newRow("a built-in scene") << "built-in"
+                                      << "Open";
+    QTest::newRow("a dropped scene") << "room.obj"
+                                     << "Open";
+    QTest::newRow("a dropped session") << "session.json"
+                                       << "Open";
+    QTest::newRow("a lesson") << "lesson_next"
+                              << "Begin the lesson";
+    QTest::newRow("a kept session") << "restore_session"
+                                    << "Go on";
+  }
+
+  // Each way to lose a long solve asks once; Cancel keeps the solve, the button loses it.
+  void asks_before_another_scene_replaces_long_work() {
+    QFETCH(QString, way);
+    QFETCH(QString, button);
+    const QTemporaryDir folder, kept_sessions;
+    write(folder.filePath("room.obj"), triangle_room);
+    write(folder.filePath("session.json"), R"({"show": {"scene": "furnace"}})");
+    write(kept_sessions.filePath("killed.json"), R"({"show": {"scene": "furnace"}})");
+    const auto window = make_window(8);
+    WindowSession session(window->parts(), window->applier());
+    Recovery recovery(window->parts(), session, kept_sessions.path());
+    recovery.offer();
+    window->open("cornell-box");
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    // Each run has its own list.
+    const auto run = window->snapshot()->kept_directions.front();
+    window->work_guard().set_long_seconds(0);
+    const auto go = [&] {
+      if (auto* action = window->findChild<QAction*>(way)) {
+        action->trigger();
+      } else if (auto* clicked = window->findChild<QPushButton*>(way)) {
+        clicked->click();
+      } else if (way == "built-in") {
+        const auto actions = window->menuBar()->findChildren<QAction*>();
+        const auto scene = std::find_if(actions.begin(), actions.end(), [](const QAction* one) {
+          return one->text().startsWith("furnace");
+        });
+        QVERIFY(scene != actions.end());
+        (*scene)->trigger();
+      } else {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(folder.filePath(way))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(window.get(), &enter);
+        QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(window.get(), &drop);
+      }
+    };
+    QString answer = "Cancel";
+    int asked = 0;
+    QTimer answers;
+    connect(&answers, &QTimer::timeout, window.get(), [&] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (!box || box->objectName() != "long_work") {
+        return;
+      }
+      for (QAbstractButton* choice : box->buttons()) {
+        if (choice->text().remove('&') == answer) {
+          ++asked;
+          choice->click();
+          return;
+        }
+      }
+    });
+    answers.start(20);
+    go();
+    QVERIFY(wait_for([&] { return asked == 1; }));
+    QCoreApplication::processEvents();
+    QVERIFY(!window->scene.is_opening());
+    QVERIFY(window->snapshot()->kept_directions.front() == run);
+    answer = button;
+    go();
+    QVERIFY(wait_for([&] { return asked == 2; }));
+    QVERIFY(wait_for(
+        [&] { return window->snapshot() && window->snapshot()->kept_directions.front() != run; }));
+  }
+
   void a_session_and_its_scene_move_together() {
     const QTemporaryDir folder;
     write(folder.filePath("room.obj"), triangle_room);
@@ -440,6 +600,17 @@ class SessionFileTest : public QObject {
                           << "breakpoint 1, kind";
     QTest::newRow("patch") << R"({"show": {}, "breakpoints": [{"kind": "cut", "patch": -1}]})"
                            << "breakpoint 1, patch";
+    QTest::newRow("hit") << R"({"show": {}, "breakpoints": [{"kind": "cut", "stop-at": 0}]})"
+                         << "breakpoint 1, stop-at";
+    QTest::newRow("join")
+        << R"({"show": {}, "breakpoints": [{"kind": "cut", "further": [{"kind": "cut"}]}]})"
+        << "breakpoint 1, condition 1, join: must be \"and\" or \"or\"";
+    QTest::newRow("watch") << R"({"show": {}, "watches": [{"kind": "map-size", "patch": 1}]})"
+                           << "watch 1: unknown key";
+    QTest::newRow("watches") << R"({"show": {}, "watches": [)" +
+                                    QString(R"({"kind": "map-size"},)").repeated(6) +
+                                    R"({"kind": "map-size"}]})"
+                             << "watches: must be a list of at most 6";
     QTest::newRow("view") << R"({"show": {}, "kept-views": [{"name": "x"}]})"
                           << "saved view 1, camera";
     QTest::newRow("notes") << R"({"show": {}, "notes": []})"
@@ -452,6 +623,25 @@ class SessionFileTest : public QObject {
                            << "the key `notes` occurs twice";
     QTest::newRow("deep") << R"({"show": {}, "notes": )" + QString(2'000'000, '[')
                           << "more than 64 lists and objects";
+    QTest::newRow("hidden") << R"({"show": {"hidden": 3}})"
+                            << "bad.json, show, hidden: must be a list of patches";
+    QTest::newRow("hidden twice") << R"({"show": {"hidden": [[3, 5], 5]}})"
+                                  << "show, hidden, item 2: patches must ascend";
+    QTest::newRow("hidden pair") << R"({"show": {"hidden": [7, [9, 8]]}})"
+                                 << "show, hidden, item 2: patches must ascend";
+    QTest::newRow("hidden patch") << R"({"show": {"hidden": [[3, 1e10]]}})"
+                                  << "show, hidden, item 1: must be a patch, or a pair";
+    QTest::newRow("hidden list") << R"({"show": {"hidden": [0)" + QString(",0").repeated(100'000) +
+                                        "]}}"
+                                 << "show, hidden: must be a list of at most 100000";
+    QTest::newRow("alone") << R"({"show": {"also-selected": [1]}})"
+                           << "also-selected: requires \"select\"";
+    QTest::newRow("axis") << R"({"show": {"clip": {"axis": "w"}}})"
+                          << "show, clip, axis: must be one of \"x\", \"y\", \"z\"";
+    QTest::newRow("no axis") << R"({"show": {"clip": {}}})"
+                             << "show, clip, axis: is missing";
+    QTest::newRow("place") << R"({"show": {"clip": {"axis": "x", "place": 1.1}}})"
+                           << "show, clip, place: must be from 0 to 1";
     QTest::newRow("many") << R"({"show": {}, "breakpoints": [0)" + QString(",0").repeated(1000) +
                                  "]}"
                           << "breakpoints: must be a list of at most 1000";
@@ -550,24 +740,94 @@ class SessionFileTest : public QObject {
     const SolvedWindow solved("furnace");
     QVERIFY(solved.ready);
     const QTemporaryDir folder;
-    ExportActions& exports = *solved.window->findChild<ExportActions*>();
-    exports.begin_frames(folder.path());
+    FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
+    recorder.begin_frames(folder.path());
     solved.trigger("one_direction");
-    QVERIFY(wait_for([&] { return exports.frames() >= 2; }));
-    exports.end_frames();
-    const int frames = exports.frames();
+    QVERIFY(wait_for([&] { return recorder.frames() >= 2; }));
+    recorder.end();
+    const int frames = recorder.frames();
     solved.trigger("one_direction");
     QTest::qWait(200);
     QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), frames);
     // Steps are recorded too, after the frames of the earlier recording.
     const QByteArray first = contents(folder.filePath("frame_00001.png"));
-    exports.begin_frames(folder.path());
+    recorder.begin_frames(folder.path());
     solved.window->focus.go_to({0, 0, 2});
-    QVERIFY(wait_for([&] { return exports.frames() >= frames + 2; }));
-    exports.end_frames();
-    QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), exports.frames());
+    QVERIFY(wait_for([&] { return recorder.frames() >= frames + 2; }));
+    recorder.end();
+    QCOMPARE(QDir(folder.path()).entryList(QDir::Files).size(), recorder.frames());
     QVERIFY(contents(folder.filePath("frame_00001.png")) == first);
     QVERIFY(color_count(QImage(folder.filePath("frame_00001.png"))) > 5);
+  }
+
+  void records_what_is_played_as_an_animation() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("played.gif");
+    FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
+    auto* play = solved.window->findChild<PlayControl*>();
+    play->set_speed(25);
+    play->set_by(PlayControl::By::polygons);
+    solved.window->findChild<QAction*>("play_turns")->setChecked(true);
+    solved.window->focus.go_to({0, 0, -1});
+    QVERIFY(settles(*solved.window));
+    recorder.begin_animation(path);
+    QVERIFY(solved.window->findChild<QAction*>("export_animation")->isChecked());
+    QVERIFY(solved.window->findChild<QWidget*>("recording")->isVisible());
+    const QImage first = solved.scene_view->picture(1).copy();
+    constexpr int steps = 12;
+    play->action()->trigger();
+    QVERIFY(wait_for([&] { return recorder.frames() > steps; }));
+    play->action()->trigger();
+    QVERIFY(!QFile::exists(path));
+    QTest::mouseClick(solved.window->findChild<QToolButton*>("finish_recording"), Qt::LeftButton);
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    QVERIFY(!solved.window->findChild<QWidget*>("recording")->isVisible());
+
+    QImageReader reader(path);
+    QCOMPARE(reader.imageCount(), recorder.frames());
+    QCOMPARE(reader.loopCount(), -1);  // without end
+    const QImage read = reader.read().convertToFormat(QImage::Format_RGB32);
+    QCOMPARE(read.size(), first.size());
+    // 256 colors are enough for this scene.
+    double sum = 0;
+    for (int y = 0; y < first.height(); ++y) {
+      for (int x = 0; x < first.width(); ++x) {
+        sum += std::abs(qGray(first.pixel(x, y)) - qGray(read.pixel(x, y)));
+      }
+    }
+    QVERIFY2(sum < 2.0 * first.width() * first.height(), qPrintable(QString::number(sum)));
+    QImage before = read;
+    int others = 0;
+    for (int frame = 1; frame < recorder.frames(); ++frame) {
+      QCOMPARE(reader.nextImageDelay(), 40);
+      const QImage now = reader.read().convertToFormat(QImage::Format_RGB32);
+      QVERIFY(!now.isNull());
+      others += now != before;
+      before = now;
+    }
+    QVERIFY2(others >= steps / 2, qPrintable(QString::number(others)));
+  }
+
+  void a_canceled_animation_leaves_no_file() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    FrameRecorder& recorder = *solved.window->findChild<FrameRecorder*>();
+    recorder.begin_animation(folder.filePath("thrown-away.gif"));
+    solved.trigger("one_direction");
+    QVERIFY(wait_for([&] { return recorder.frames() >= 2; }));
+    QTest::mouseClick(solved.window->findChild<QToolButton*>("cancel_recording"), Qt::LeftButton);
+    QVERIFY(!recorder.writing());
+    QVERIFY(!solved.window->findChild<QAction*>("export_animation")->isChecked());
+    const QDir files(folder.path());
+    QVERIFY(wait_for([&] { return files.entryList(QDir::Files | QDir::Hidden).isEmpty(); }));
+    // Where nothing can be written, the recording ends with one message.
+    recorder.begin_animation(folder.filePath("no/such/folder.gif"));
+    QVERIFY(wait_for([&] { return !recorder.writing(); }));
+    QVERIFY2(solved.window->banner_text().contains("folder.gif"),
+             qPrintable(solved.window->banner_text()));
   }
 };
 

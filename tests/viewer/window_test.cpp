@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <QAbstractItemView>
+#include <QAbstractSpinBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
@@ -13,10 +14,12 @@
 #include <QTemporaryDir>
 #include <QTimer>
 #include <QToolBar>
+#include <QToolButton>
 #include <QUrl>
 #include <set>
 
 #include "lessons/lesson_panel.h"
+#include "scene/color_controls.h"
 #include "solved_window.h"
 #include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
@@ -319,6 +322,93 @@ class WindowTest : public QObject {
     window->findChild<QAction*>("projector")->trigger();
     QVERIFY2(least.width() <= small.width() && least.height() <= small.height(),
              qPrintable(QString("%1 x %2").arg(least.width()).arg(least.height())));
+  }
+
+  // 1280 x 720, or 2560 x 1440 at doubled scale, less the frame of a window.
+  void no_layout_needs_more_than_a_small_screen_data() {
+    QTest::addColumn<QString>("layout");
+    for (const char* layout : {"layout_teach", "layout_inspect", "layout_debug"}) {
+      QTest::newRow(layout) << layout;
+    }
+  }
+  void no_layout_needs_more_than_a_small_screen() {
+    QFETCH(QString, layout);
+    const QSize screen(1280 - 16, 720 - 48);
+    const auto window = make_window();
+    QStringList too_large;
+    const auto check = [&](const QString& what) {
+      QCoreApplication::processEvents();
+      const QSize least = window->minimumSizeHint();
+      if (least.width() > screen.width() || least.height() > screen.height()) {
+        too_large << QString("%1: %2 x %3").arg(what).arg(least.width()).arg(least.height());
+      }
+    };
+    window->findChild<QAction*>(layout)->trigger();
+    check("the start page");
+    window->open("cornell-box", {Goal::Kind::iteration});
+    QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+    window->colors.set_mode(ColorMode::luminance);
+    check("a scene");
+    window->hide();  // nothing has to be painted
+    window->parts().lessons.show_page(3, 0);
+    window->findChild<QAction*>(layout)->trigger();
+    check("a lesson");
+    for (const std::string& panel : window->parts().docks.panels()) {
+      window->parts().docks.bring_to_front(panel);
+      check(QString::fromStdString(panel));
+    }
+    QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
+  }
+
+  void color_controls_do_not_overlap_in_a_narrow_view_data() {
+    QTest::addColumn<bool>("projects");
+    QTest::newRow("usual type") << false;
+    QTest::newRow("projector") << true;
+  }
+  void color_controls_do_not_overlap_in_a_narrow_view() {
+    QFETCH(bool, projects);
+    const auto window = make_window();
+    if (projects) {
+      window->findChild<QAction*>("projector")->trigger();
+    }
+    ColorControls controls(window->colors);
+    auto* tool = new QToolButton;
+    tool->setText("Camera ");
+    controls.add_tool(tool);
+    controls.show();
+    for (const ColorMode mode : {ColorMode::true_color, ColorMode::luminance}) {
+      window->colors.set_mode(mode);
+      QCoreApplication::processEvents();
+      QVERIFY2(controls.minimumWidth() <= 480,
+               qPrintable(QString::number(controls.minimumWidth())));
+      for (int width = controls.minimumWidth(); width < 900; width += 15) {
+        controls.resize(width, controls.sizeHint().height());
+        QCoreApplication::processEvents();
+        controls.resize(width, controls.sizeHint().height());  // more rows
+        QCoreApplication::processEvents();
+        std::vector<QRect> places;
+        for (const QWidget* part : controls.findChildren<QWidget*>()) {
+          const bool is_control = qobject_cast<const QComboBox*>(part) ||
+                                  qobject_cast<const QAbstractSpinBox*>(part) ||
+                                  qobject_cast<const QAbstractButton*>(part);
+          if (!is_control || !part->isVisible() || !controls.isAncestorOf(part->parentWidget())) {
+            continue;
+          }
+          const QRect place(part->mapTo(&controls, QPoint()), part->size());
+          QVERIFY2(controls.rect().contains(place),
+                   qPrintable(part->objectName() + " at " + QString::number(width)));
+          for (const QRect& other : places) {
+            QVERIFY2(!other.intersects(place),
+                     qPrintable(part->objectName() + " at " + QString::number(width)));
+          }
+          places.push_back(place);
+        }
+        QVERIFY(places.size() >= 4);
+      }
+    }
+    if (projects) {
+      window->findChild<QAction*>("projector")->trigger();
+    }
   }
 
   void a_panel_behind_others_does_no_work() {

@@ -45,6 +45,10 @@ ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
       change();
     }
   });
+  connect(&kept_runs_, &KeptRuns::compared_changed, this, [this] {
+    shows_kept_run_ = shows_kept_run_ && run_a();
+    change();
+  });
 }
 
 void ColorChoice::set_quantity(Quantity quantity) {
@@ -139,17 +143,19 @@ void ColorChoice::set_automatic_exposure(bool automatic) {
   change();
 }
 
-void ColorChoice::keep_run() {
-  if (!snapshot_) {
-    return;
-  }
-  kept_run_ = snapshot_;
-  emit kept_run_changed();
-  change();
+bool ColorChoice::keep_run() { return !snapshot_ || kept_runs_.keep(*snapshot_); }
+
+std::shared_ptr<const SolverSnapshot> ColorChoice::run_a() const {
+  return kept_runs_.run(kept_runs_.first());
+}
+
+std::shared_ptr<const SolverSnapshot> ColorChoice::run_b() const {
+  const auto kept = kept_runs_.run(kept_runs_.second());
+  return kept ? kept : snapshot_;
 }
 
 void ColorChoice::show_kept_run(bool shown) {
-  shown = shown && kept_run_;
+  shown = shown && run_a();
   if (shown == shows_kept_run_) {
     return;
   }
@@ -160,6 +166,10 @@ void ColorChoice::show_kept_run(bool shown) {
 void ColorChoice::fit(std::shared_ptr<const SolverSnapshot> snapshot) {
   const bool new_scene = !snapshot_ || snapshot_->loaded != snapshot->loaded;
   snapshot_ = std::move(snapshot);
+  if (new_scene) {
+    kept_runs_.set_scene(snapshot_->loaded->scene);
+    shows_kept_run_ = shows_kept_run_ && run_a();
+  }
   if (new_scene && range_rule_ != RangeRule::fixed) {
     reset_range();
   }
@@ -191,21 +201,32 @@ void ColorChoice::refit() {
   if (!snapshot_) {
     return;
   }
-  const bool show_kept =
-      shows_kept_run_ && kept_run_->radiosity.size() == snapshot_->radiosity.size();
+  const auto kept = run_a();
+  const bool show_kept = shows_kept_run_ && kept && quantity_ != Quantity::difference;
   lit_ = has_light(*snapshot_);
   if (!lit_ && needs_light(quantity_)) {
     values_ = {};
     color();
     return;
   }
-  const SolverSnapshot& shown = show_kept ? *kept_run_ : *snapshot_;
-  values_ = traits.by_response ? values_by_response(shown)
-                               : values_of(quantity_, shown, selection_.patch(), kept_run_.get());
-  if (!show_kept) {
+  if (show_kept) {
+    values_ = values_of_kept(*kept);
+  } else {
+    const auto& shown = quantity_ == Quantity::difference ? run_b() : snapshot_;
+    values_ = traits.by_response ? values_by_response(*shown)
+                                 : values_of(quantity_, *shown, selection_.patch(), kept.get());
     fit_range();
   }
   color();
+}
+
+PatchValues ColorChoice::values_of_kept(const SolverSnapshot& kept) const {
+  if (traits_of(quantity_).of_selection) {
+    return {{}, tr("Kept runs have no form factors.")};
+  }
+  // The tree is that of the open scene.
+  const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : kept;
+  return values_of(quantity_, shown, selection_.patch(), nullptr);
 }
 
 PatchValues ColorChoice::values_by_response(const SolverSnapshot& snapshot) {

@@ -11,6 +11,7 @@
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
 #include "model/snapshot.h"
+#include "state/kept_runs.h"
 #include "state/selection.h"
 
 namespace transillum::viewer {
@@ -57,11 +58,16 @@ class ColorChoice : public QObject {
   void set_exposure(double exposure);
   void set_automatic_exposure(bool automatic);
 
-  /// Keeps the newest snapshot as A, to compare later ones with it.
-  void keep_run();
-  /// The kept run A, or null.
-  std::shared_ptr<const SolverSnapshot> kept_run() const { return kept_run_; }
-  /// Shows the kept run instead of the newest snapshot, with the same scale.
+  /// The runs to compare with.
+  KeptRuns& kept_runs() { return kept_runs_; }
+  const KeptRuns& kept_runs() const { return kept_runs_; }
+  /// Keeps the newest snapshot, which becomes A. @returns false where the kept runs are too large
+  bool keep_run();
+  /// The two runs whose difference is B - A: a kept run, and a kept run or the newest snapshot;
+  /// null where there is none.
+  std::shared_ptr<const SolverSnapshot> run_a() const;
+  std::shared_ptr<const SolverSnapshot> run_b() const;
+  /// Shows A instead of the newest snapshot, with the same scale.
   void show_kept_run(bool shown);
   bool shows_kept_run() const { return shows_kept_run_; }
 
@@ -85,11 +91,11 @@ class ColorChoice : public QObject {
   void changed();  ///< all pictures must be recolored
   void fitted();
   void form_factors_requested();
-  void kept_run_changed();
 
  private:
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
+  PatchValues values_of_kept(const SolverSnapshot& kept) const;
   void refit();
   void fit_range();
   void color();
@@ -106,7 +112,8 @@ class ColorChoice : public QObject {
   RangeRule range_rule_ = RangeRule::automatic;
   bool range_is_known_ = false;  ///< the range was fitted since reset_range()
   bool automatic_ = true;
-  std::shared_ptr<const SolverSnapshot> snapshot_, kept_run_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  KeptRuns kept_runs_;
   bool shows_kept_run_ = false;
   bool lit_ = true;  ///< something emits
   PatchValues values_;

@@ -3,25 +3,21 @@
 
 #include <QVBoxLayout>
 
-#include "widgets/theme.h"
+#include "transillum/at.h"
 
 namespace transillum::viewer {
 
-KeptRunLabel::KeptRunLabel(const ColorChoice& colors, QWidget* canvas)
-    : QLabel(tr("Kept run A, while the key is held"), canvas) {
+KeptRunLabel::KeptRunLabel(const ColorChoice& colors, QWidget* canvas) : Plate(canvas) {
   setObjectName("kept_run_label");
-  setAttribute(Qt::WA_TransparentForMouseEvents);
-  QPalette surroundings = palette();
-  surroundings.setColor(QPalette::Window, theme::scene_background.lighter(140));
-  surroundings.setColor(QPalette::WindowText, theme::on_dark);
-  setPalette(surroundings);
-  setAutoFillBackground(true);
-  setMargin(5);
   auto* over = new QVBoxLayout(canvas);
   over->addWidget(this, 0, Qt::AlignHCenter | Qt::AlignTop);
-  connect(&colors, &ColorChoice::changed, this,
-          [this, &colors] { setVisible(colors.shows_kept_run()); });
-  hide();
+  connect(&colors, &ColorChoice::changed, this, [this, &colors] {
+    setVisible(colors.shows_kept_run());
+    if (colors.shows_kept_run()) {
+      const KeptRun& run = at(colors.kept_runs().all(), colors.kept_runs().first());
+      setText(tr("A: %1, while the key is held").arg(run.name));
+    }
+  });
 }
 
 }  // namespace transillum::viewer

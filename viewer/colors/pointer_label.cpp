@@ -13,7 +13,6 @@
 #include "support/has_index.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
-#include "widgets/theme.h"
 
 namespace transillum::viewer {
 
@@ -67,17 +66,11 @@ QString pointer_text(const ColorChoice& colors, PatchId patch) {
 
 PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
                            std::function<PatchId(const QPoint&)> patch_at)
-    : QLabel(&canvas), colors_(colors), canvas_(canvas), patch_at_(std::move(patch_at)) {
+    : Plate(&canvas), colors_(colors), canvas_(canvas), patch_at_(std::move(patch_at)) {
   setObjectName("pointer_label");
-  setAttribute(Qt::WA_TransparentForMouseEvents);
-  setTextFormat(Qt::PlainText);
-  QPalette surroundings = palette();
-  surroundings.setColor(QPalette::Window, theme::scene_background.lighter(140));
-  surroundings.setColor(QPalette::WindowText, theme::on_dark);
-  setPalette(surroundings);
-  setAutoFillBackground(true);
-  setMargin(5);
-  hide();
+  rest_.setSingleShot(true);
+  rest_.setInterval(rest_ms);
+  connect(&rest_, &QTimer::timeout, this, &PointerLabel::show_details);
   canvas_.setMouseTracking(true);
   canvas_.installEventFilter(this);
   const auto update_text = [this] {
@@ -90,16 +83,49 @@ PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
   connect(&colors_.selection(), &Selection::changed, this, update_text);
 }
 
+void PointerLabel::set_details(std::function<QString(const QPoint&)> details) {
+  details_ = std::move(details);
+}
+
+void PointerLabel::point_again() {
+  end_rest();
+  if (isVisible()) {
+    show_patch(patch_at_(pointer_));
+    rest_.start();
+  }
+}
+
+void PointerLabel::show_details() {
+  const QString details = isVisible() && details_ ? details_(pointer_) : QString();
+  if (details.isEmpty()) {
+    return;
+  }
+  detailed_ = true;
+  setText(pointer_text(colors_, patch_) + QLatin1Char('\n') + details);
+  place();
+  emit rested(pointer_);
+}
+
+void PointerLabel::end_rest() {
+  rest_.stop();
+  if (std::exchange(detailed_, false)) {
+    emit left();
+  }
+}
+
 bool PointerLabel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::MouseMove) {
+    end_rest();
+    rest_.start();
     const auto* mouse = static_cast<QMouseEvent*>(event);
     pointer_ = mouse->pos();
     show_patch(mouse->buttons() == Qt::NoButton ? patch_at_(pointer_) : no_patch);
   } else if (event->type() == QEvent::Leave || event->type() == QEvent::Wheel ||
              event->type() == QEvent::MouseButtonPress) {
+    end_rest();
     hide();
   }
-  return QLabel::eventFilter(watched, event);
+  return Plate::eventFilter(watched, event);
 }
 
 void PointerLabel::show_patch(PatchId patch) {

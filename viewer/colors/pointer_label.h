@@ -1,10 +1,11 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <QLabel>
+#include <QTimer>
 #include <functional>
 
 #include "colors/color_choice.h"
+#include "widgets/plate.h"
 
 namespace transillum::viewer {
 
@@ -14,7 +15,7 @@ QString pointer_text(const ColorChoice& colors, PatchId patch);
 
 /// A plate beside the mouse pointer with pointer_text() of the patch under it, without delay.
 /// Hidden while a button is pressed.
-class PointerLabel : public QLabel {
+class PointerLabel : public Plate {
   Q_OBJECT
 
  public:
@@ -22,8 +23,15 @@ class PointerLabel : public QLabel {
   /// @param patch_at the patch drawn at a point of the canvas, logical pixels
   PointerLabel(const ColorChoice& colors, QWidget& canvas,
                std::function<PatchId(const QPoint&)> patch_at);
+  /// More lines, shown once the pointer has rested.
+  void set_details(std::function<QString(const QPoint&)> details);
+  /// To be called when the canvas shows something else.
+  void point_again();
+  static constexpr int rest_ms = 500;
 
  signals:
+  void rested(const QPoint& position);  ///< the details are shown
+  void left();                          ///< they are hidden
   /// A form factor is to be shown, and the snapshot has none.
   void form_factors_requested();
 
@@ -32,11 +40,16 @@ class PointerLabel : public QLabel {
 
  private:
   void show_patch(PatchId patch);
+  void show_details();
+  void end_rest();
   void place();
 
   const ColorChoice& colors_;
   QWidget& canvas_;
   std::function<PatchId(const QPoint&)> patch_at_;
+  std::function<QString(const QPoint&)> details_;
+  QTimer rest_;
+  bool detailed_ = false;
   QPoint pointer_;
   PatchId patch_ = no_patch;
 };

@@ -75,10 +75,7 @@ PatchValues by_response(Quantity quantity, const SolverSnapshot& snapshot, Patch
 
 PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* other) {
   if (!other) {
-    return {{}, tr("Keep a run as A first (menu Compare).")};
-  }
-  if (other->radiosity.size() != snapshot.radiosity.size()) {
-    return {{}, tr("The kept run A has a different number of patches.")};
+    return {{}, tr("Keep a run of this scene first (K): it becomes A.")};
   }
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
@@ -198,7 +195,10 @@ constexpr QuantityTraits all_traits[] = {
      .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
      .symbol = "B − A",
      .unit = "W/m²",
-     .meaning = QT_TRANSLATE_NOOP("Quantity", "B minus the B of the kept run A"),
+     .meaning =
+         QT_TRANSLATE_NOOP("Quantity",
+                           "B of the current run, or of the one chosen in Kept runs, minus that of "
+                           "the kept run A"),
      .has_channels = true,
      .is_signed = true},
 };

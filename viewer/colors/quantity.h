@@ -56,7 +56,7 @@ struct PatchValues {
 };
 
 /// @param selected  patch of the form factors; may be no_patch
-/// @param other  snapshot to subtract for Quantity::difference; may be null
+/// @param other  snapshot of the same patches to subtract for Quantity::difference; may be null
 /// @param response  of the selected patch, for quantities by it; null: being solved
 PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId selected,
                       const SolverSnapshot* other, const PatchResponse* response = nullptr);

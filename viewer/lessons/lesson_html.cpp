@@ -4,12 +4,14 @@
 // of polygons with the steps of their lives, so stepping in the browser shows or hides polygons.
 #include "lessons/lesson_html.h"
 
+#include <QRectF>
 #include <QRegularExpression>
 #include <QTextDocument>
 #include <algorithm>
 #include <limits>
 
 #include "lessons/symbols.h"
+#include "state/callout_place.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 
@@ -28,6 +30,9 @@ img, svg.map { max-width: 100%; height: auto; display: block; margin: .5rem 0; }
 svg.map { background: #1d2127; }
 svg.map polygon { stroke: #1d2127; stroke-width: .6; }
 svg.map polygon.back { fill: url(#hatch); }
+svg.map .callout path { stroke: #fff; stroke-width: 2; }
+svg.map .callout circle { fill: #fff; }
+svg.map .callout text { font: bold 14px system-ui, sans-serif; fill: #fff; stroke: #000; stroke-width: 4px; paint-order: stroke; }
 svg.map polygon.now { stroke: #ffe04d; stroke-width: 3; }
 .steps { display: flex; gap: .6rem; align-items: center; flex-wrap: wrap; }
 .steps input { flex: 1; }
@@ -140,7 +145,8 @@ QString question_html(const ShownPage& shown) {
 QString map_html(const ShownPage& shown) {
   const MapHistory& history = shown.map->history;
   const bool all = history.record().rows.size() <= most_rows;
-  const QString svg = QString::fromUtf8(map_svg(*shown.map, shown.step, shown.patch_colors, all));
+  const QString svg = QString::fromUtf8(
+      map_svg(*shown.map, shown.step, shown.patch_colors, all, shown.page.callouts));
   if (!all) {
     return QStringLiteral("<div>%1</div>\n").arg(svg);
   }
@@ -155,10 +161,33 @@ QString map_html(const ShownPage& shown) {
       .arg(tr("Step"));
 }
 
+QByteArray number(double value) { return QByteArray::number(value, 'f', 2); }
+
+// A text beside the point, on the side with more room, and below texts that it would hide.
+QByteArray callout_svg(const QString& text, double x, double y, double width,
+                       std::vector<QRectF>& taken) {
+  constexpr double shift = 14, line = 18, letter = 8.5;
+  const bool to_left = x > width / 2;
+  const double end = to_left ? x - shift : x + shift, room = letter * text.size();
+  QRectF place(to_left ? end - room : end, std::max(y - shift, line) - line, room, line);
+  while (std::any_of(taken.begin(), taken.end(),
+                     [&](const QRectF& other) { return other.intersects(place); })) {
+    place.translate(0, line);
+  }
+  taken.push_back(place);
+  const double base = place.bottom() - 0.25 * line;
+  return "<g class=\"callout\"><path d=\"M" + number(x) + ' ' + number(y) + 'L' + number(end) +
+         ' ' + number(base) + "\"/><circle cx=\"" + number(x) + "\" cy=\"" + number(y) +
+         "\" r=\"3\"/><text x=\"" + number(end) + "\" y=\"" + number(base) +
+         (to_left ? "\" text-anchor=\"end\">" : "\">") + text.toHtmlEscaped().toUtf8() +
+         "</text></g>";
+}
+
 }  // namespace
 
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
-                   const std::vector<Color8>& patch_colors, bool all) {
+                   const std::vector<Color8>& patch_colors, bool all,
+                   const std::vector<Callout>& callouts) {
   const MapRecord& record = map.record();
   Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   Vec2 high{-low.x, -low.y};
@@ -167,7 +196,6 @@ QByteArray map_svg(const RecordedMap& map, std::int32_t step,
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const double scale = map_width / std::max({high.x - low.x, high.y - low.y, 1e-300});
-  const auto number = [](double value) { return QByteArray::number(value, 'f', 2); };
   QByteArray svg = "<svg class=\"map\" viewBox=\"-8 -8 " + number(scale * (high.x - low.x) + 16) +
                    ' ' + number(scale * (high.y - low.y) + 16) + "\" width=\"" +
                    number(scale * (high.x - low.x) + 16) +
@@ -194,6 +222,19 @@ QByteArray map_svg(const RecordedMap& map, std::int32_t step,
     }
     svg += shown ? ">" : " style=\"display:none\">";
     svg += "<title>" + QObject::tr("patch %1").arg(row.patch).toUtf8() + "</title></polygon>";
+  }
+  std::vector<QRectF> taken;
+  const std::vector<std::int32_t> rows = record.map_after(step);
+  for (const Callout& callout : callouts) {
+    const double width = scale * (high.x - low.x);
+    std::optional<Vec2> place = place_in_map(callout, map, rows, step);
+    if (callout.anchor == Callout::Anchor::direction) {
+      place = Vec2{(low.x + high.x) / 2, high.y};
+    }
+    if (place) {
+      svg += callout_svg(QString::fromStdString(callout.text), scale * (high.x - place->x),
+                         scale * (high.y - place->y), width, taken);
+    }
   }
   return svg + "</svg>";
 }

@@ -31,7 +31,9 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
 /// it was made and consumed (`data-made`, `data-consumed`), so that a script shows any step.
 /// @param step  shown without a script
 /// @param all  false: only the polygons of that step
+/// @param callouts  drawn over it, where they are after that step
 QByteArray map_svg(const RecordedMap& map, std::int32_t step,
-                   const std::vector<Color8>& patch_colors, bool all);
+                   const std::vector<Color8>& patch_colors, bool all,
+                   const std::vector<Callout>& callouts = {});
 
 }  // namespace transillum::viewer

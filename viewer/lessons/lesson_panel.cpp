@@ -101,6 +101,7 @@ LessonPanel::LessonPanel(std::vector<Lesson> lessons, Selection& selection, Focu
   connect(question_, &QuestionBox::then_shown, this, &LessonPanel::show_state);
   connect(question_, &QuestionBox::sketched, this, &LessonPanel::sketched);
   connect(question_, &QuestionBox::failed, this, &LessonPanel::failed);
+  connect(question_, &QuestionBox::values_hidden, this, &LessonPanel::values_hidden);
   fill_list();
   show_state();
 }
@@ -205,6 +206,10 @@ void LessonPanel::fill_list() {
 }
 
 void LessonPanel::show_page(int lesson, int page) {
+  if (!guard_()) {
+    show_state();
+    return;
+  }
   lesson_ = lesson;
   page_ = page;
   show_question();
@@ -212,6 +217,7 @@ void LessonPanel::show_page(int lesson, int page) {
   emit page_shown(at(at(lessons_, lesson).pages, page).state);
   emit enlarged(at(at(lessons_, lesson).pages, page).large);
   point_at({});
+  emit values_hidden(question_->hides_values());
   emit errors_wanted(at(at(lessons_, lesson).pages, page).errors);
   // Last: the new page dismisses older messages.
   if (!tally_failure_.isEmpty()) {
@@ -222,6 +228,7 @@ void LessonPanel::show_page(int lesson, int page) {
 void LessonPanel::leave_scene() {
   emit callouts_shown({});
   emit errors_wanted({});
+  emit values_hidden(false);
 }
 
 void LessonPanel::point_at(const QString& link) {

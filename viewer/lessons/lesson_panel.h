@@ -2,9 +2,11 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lessons/lesson.h"
@@ -45,7 +47,10 @@ class LessonPanel : public QWidget {
   /// Counted from 0; -1: no lesson.
   int lesson() const { return lesson_; }
   int page() const { return page_; }
+  /// Nothing happens where the guard refuses.
   void show_page(int lesson, int page);
+  /// Asked before each page whether the window's state may be replaced.
+  void set_guard(std::function<bool()> guard) { guard_ = std::move(guard); }
   QuestionBox& question() { return *question_; }
   /// Where the tallies of lessons are kept that cannot be kept beside their file; empty: tallies
   /// are not kept at all. To be called before the first page is shown.
@@ -73,6 +78,8 @@ class LessonPanel : public QWidget {
   void enlarged(const std::string& panel);
   void sketched(const transillum::viewer::MapSketch& sketch);
   void failed(const QString& message);
+  /// As QuestionBox::values_hidden().
+  void values_hidden(bool hidden);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -103,6 +110,7 @@ class LessonPanel : public QWidget {
   QString tally_failure_;                                  ///< to be reported
   std::map<std::string, std::shared_ptr<Tally>> tallies_;  ///< by the lesson's file
   int lesson_ = -1, page_ = 0;
+  std::function<bool()> guard_ = [] { return true; };
   QComboBox* list_;
   QLabel *title_, *page_number_;
   Selection& selection_;

@@ -75,6 +75,8 @@ Question question_from_json(const nlohmann::json& value, const std::string& wher
                             const nlohmann::json& page_state, const ViewState& page,
                             const std::string& folder);
 
+/// Whether it asks for what one direction shows: its map, its steps, or what is above what.
+bool is_of_direction(const Question& question);
 /// Whether the answer is complete: a choice, a patch, a number, or at least three corners.
 bool is_given(const Question& question, const GivenAnswer& answer);
 /// Computes what is right. @throws as FigureValues

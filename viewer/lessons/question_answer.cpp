@@ -16,6 +16,21 @@ namespace {
 
 constexpr double same = 1e-9;  // relative: values of equal patches differ by rounding
 
+bool is_of_direction(const Figure& figure) {
+  switch (figure.kind) {
+    case FigureKind::steps:
+    case FigureKind::polygons:
+    case FigureKind::projected_area:
+    case FigureKind::visible_area:
+    case FigureKind::seen:
+    case FigureKind::above:
+      return true;
+    default:
+      return std::any_of(figure.parts.begin(), figure.parts.end(),
+                         [](const Figure& part) { return is_of_direction(part); });
+  }
+}
+
 double value_or_nan(const std::optional<Figure>& figure, FigureValues& figures) {
   return figure ? figures.value(*figure) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -55,6 +70,14 @@ bool operator==(const GivenAnswer& a, const GivenAnswer& b) {
   return a.choice == b.choice && a.patch == b.patch && a.number == b.number &&
          std::equal(a.outline.begin(), a.outline.end(), b.outline.begin(), b.outline.end(),
                     [](const Vec2& p, const Vec2& q) { return p.x == q.x && p.y == q.y; });
+}
+
+bool is_of_direction(const Question& question) {
+  return question.kind == Question::Kind::area || is_of_direction(question.figure) ||
+         std::any_of(question.choices.begin(), question.choices.end(),
+                     [](const Question::Choice& choice) {
+                       return choice.value && is_of_direction(*choice.value);
+                     });
 }
 
 bool is_given(const Question& question, const GivenAnswer& answer) {

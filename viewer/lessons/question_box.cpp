@@ -59,20 +59,15 @@ QuestionBox::QuestionBox(Selection& selection, Focus& focus, QWidget* parent)
     : QFrame(parent),
       selection_(selection),
       focus_(focus),
-      worker_(
-          [this](const Job& job, const Cancellation& cancellation) { solve(job, cancellation); },
-          [this](const Job& job, const QString& message) {
-            QMetaObject::invokeMethod(
-                this,
-                [this, number = job.number, message] {
-                  if (number == job_) {
-                    solving_ = false;
-                    show_state();
-                    emit failed(message);
-                  }
-                },
-                Qt::QueuedConnection);
-          }) {
+      solver_(*this, [this](const QuestionRequest&, const std::shared_ptr<const Solved>& solved,
+                            const QString& error) {
+        if (solved) {
+          show_solved(*solved);
+          return;
+        }
+        show_state();
+        emit failed(error);
+      }) {
   setObjectName("question");
   setFrameShape(QFrame::StyledPanel);
   make_actions();
@@ -134,9 +129,7 @@ void QuestionBox::show_page(std::shared_ptr<const Lesson::Page> page, int number
   page_ = asks ? std::move(page) : nullptr;
   page_number_ = number;
   tally_ = std::move(tally);
-  ++job_;
-  worker_.clear();
-  solving_ = false;
+  solver_.clear();
   solved_.reset();
   answer_ = {};
   delete std::exchange(answers_, nullptr);
@@ -227,9 +220,11 @@ void QuestionBox::add_number() {
   number_->setValidator(validator);
   grid->addWidget(number_, 0, 0);
   grid->addWidget(new QLabel(QString::fromStdString(question.unit)), 0, 1);
-  connect(number_, &QLineEdit::textChanged, this, [this](const QString& text) {
+  connect(number_, &QLineEdit::textChanged, this, [this](QString text) {
     bool valid = false;
-    const double value = text.toDouble(&valid) / (page_->question->percent ? 100 : 1);
+    // The validator lets commas pass as separators; many users write them for the point.
+    const double value =
+        text.replace(',', '.').toDouble(&valid) / (page_->question->percent ? 100 : 1);
     set_answer({.number = valid && std::isfinite(value) ? std::optional(value) : std::nullopt});
   });
   connect(number_, &QLineEdit::returnPressed, reveal_, &QAction::trigger);
@@ -286,10 +281,8 @@ void QuestionBox::reveal() {
   if (!page_) {
     return;
   }
-  if (solving_) {
-    ++job_;
-    worker_.clear();
-    solving_ = false;
+  if (solver_.busy()) {
+    solver_.clear();
     show_state();
     return;
   }
@@ -298,25 +291,11 @@ void QuestionBox::reveal() {
     emit failed(tr("The scene of this page is not open. Show the page again (Ctrl+L)."));
     return;
   }
-  solving_ = true;
-  worker_.request({loaded, *page_->question, ++job_});
+  solver_.request({loaded, *page_->question});
   show_state();
 }
 
-void QuestionBox::solve(const Job& job, const Cancellation& cancellation) {
-  FigureValues figures(job.loaded, cancellation);
-  QMetaObject::invokeMethod(
-      this,
-      [this, number = job.number, solved = solve_question(job.question, figures)] {
-        if (number == job_) {
-          show_solved(solved);
-        }
-      },
-      Qt::QueuedConnection);
-}
-
 void QuestionBox::show_solved(const Solved& solved) {
-  solving_ = false;
   solved_ = solved;
   if (is_given(*page_->question, answer_)) {
     count();
@@ -464,10 +443,16 @@ QString QuestionBox::tally_text(const AnswerCounts& counts) const {
 
 void QuestionBox::show_state() {
   const bool asks = page_ != nullptr;
+  const bool hides = asks && !solved_ && is_of_direction(*page_->question);
+  if (hides != std::exchange(hides_values_, hides)) {
+    emit values_hidden(hides);
+  }
   const bool given = asks && is_given(*page_->question, answer_);
   const AnswerCounts counts =
       asks && tally_ ? tally_->of(page_number_, *page_->question) : AnswerCounts();
-  reveal_->setText(solving_ ? tr("Stop") : solved_ ? tr("Ask again") : tr("Reveal the answer"));
+  reveal_->setText(solver_.busy() ? tr("Stop")
+                   : solved_      ? tr("Ask again")
+                                  : tr("Reveal the answer"));
   reveal_->setEnabled(asks);
   count_->setEnabled(given && !solved_ && page_->question->kind != Question::Kind::area);
   reset_->setEnabled(total_of(counts) > 0);
@@ -476,7 +461,7 @@ void QuestionBox::show_state() {
   }
   ask_->setText(QString::fromStdString(page_->question->ask));
   QString result;
-  if (solving_) {
+  if (solver_.busy()) {
     result = tr("The program computes the answer…");
   } else if (solved_) {
     result = result_text().trimmed();

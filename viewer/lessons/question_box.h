@@ -7,13 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "lessons/question.h"
+#include "lessons/question_solver.h"
 #include "lessons/tally.h"
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/map_sketch.h"
 #include "state/selection.h"
-#include "support/request_worker.h"
 
 class QAction;
 class QButtonGroup;
@@ -54,6 +53,8 @@ class QuestionBox : public QFrame {
   /// Reveal, count and reset, for a menu.
   std::vector<QAction*> actions() const { return {reveal_, count_, reset_}; }
   const GivenAnswer& answer() const { return answer_; }
+  /// As the last values_hidden().
+  bool hides_values() const { return hides_values_; }
   /// What Reveal has computed; null before.
   const Solved* solved() const { return solved_ ? &*solved_ : nullptr; }
 
@@ -62,15 +63,12 @@ class QuestionBox : public QFrame {
   void revealed(const transillum::viewer::ViewState& state);
   void then_shown();  ///< solved() has changed: Question::then is to be shown or hidden
   void sketched(const transillum::viewer::MapSketch& sketch);
+  /// The values of the step shown are to be hidden, since the question asks for one of them, or to
+  /// be shown again.
+  void values_hidden(bool hidden);
   void failed(const QString& message);
 
  private:
-  struct Job {
-    std::shared_ptr<const LoadedScene> loaded;
-    Question question;
-    int number = 0;
-  };
-
   void make_actions();
   void make_widgets();
   QWidget* make_buttons();
@@ -84,7 +82,6 @@ class QuestionBox : public QFrame {
   void clear_answer();
   void reveal();
   void ask_again();
-  void solve(const Job& job, const Cancellation& cancellation);
   void show_solved(const Solved& solved);
   void select_right();
   void count();
@@ -108,8 +105,6 @@ class QuestionBox : public QFrame {
   std::shared_ptr<Tally> tally_;
   GivenAnswer answer_;
   std::optional<Solved> solved_;
-  int job_ = 0;  ///< number of the newest
-  bool solving_ = false;
 
   QVBoxLayout* layout_;
   QLabel *ask_, *result_, *counts_;
@@ -125,7 +120,8 @@ class QuestionBox : public QFrame {
   QLabel* given_ = nullptr;  ///< the answer as text, of a patch or an area
   QToolButton* drop_ = nullptr;
   QAction *reveal_, *count_, *reset_;
-  RequestWorker<Job> worker_;
+  bool hides_values_ = false;
+  QuestionSolver solver_;
 };
 
 }  // namespace transillum::viewer

@@ -8,6 +8,7 @@
 #include "lessons/view_state.h"
 #include "state/breakpoints.h"
 #include "state/camera_views.h"
+#include "state/watches.h"
 
 namespace transillum::viewer {
 
@@ -18,6 +19,7 @@ struct Session {
   std::vector<CameraBookmarks::Bookmark> saved_views;
   std::string notes;  ///< free text
   QByteArray docks;   ///< DockLayouts::state() of state.layout; empty: its default
+  std::vector<Watch> watches = {};
 };
 
 /// Parses the text of a session file.

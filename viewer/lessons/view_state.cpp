@@ -54,6 +54,8 @@ constexpr Name<Overlay> overlays[] = {{"normals", Overlay::normals},
                                       {"cuts", Overlay::cuts},
                                       {"wireframe", Overlay::wireframe},
                                       {"smooth", Overlay::smooth}};
+constexpr Name<ClipPlane::Axis> axes[] = {
+    {"x", ClipPlane::Axis::x}, {"y", ClipPlane::Axis::y}, {"z", ClipPlane::Axis::z}};
 constexpr Name<MapKind> algorithms[] = {{"local-map", MapKind::local},
                                         {"global-map", MapKind::global}};
 constexpr Name<Phase> phases[] = {
@@ -195,6 +197,28 @@ void read_colors(ViewState& state, const json& value, const std::string& where) 
   object.done();
 }
 
+ClipPlane clip_from(const json& value, const std::string& where) {
+  ClipPlane clip;
+  JsonObject object(value, where);
+  if (!object.find("axis")) {
+    object.fail_at("axis", "is missing");
+  }
+  read(object, "axis", axes, clip.axis);
+  object.read("place", clip.place);
+  if (!(clip.place >= 0 && clip.place <= 1)) {
+    object.fail_at("place", "must be from 0 to 1");
+  }
+  object.read("other-side", clip.other_side);
+  object.done();
+  return clip;
+}
+
+json to_json(const ClipPlane& clip) {
+  return {{"axis", name_in_file(axes, clip.axis)},
+          {"place", clip.place},
+          {"other-side", clip.other_side}};
+}
+
 void read_overlays(ViewState& state, JsonObject& object) {
   const json* list = object.find("overlays");
   if (!list) {
@@ -278,6 +302,14 @@ ViewState view_state_from_json(const json& value, const std::string& where,
   }
   state.materials = material_changes_from_json(object, "materials");
   object.read("select", state.selection, 0, largest_number);
+  state.also_selected = patch_ranges_from_json(object, "also-selected");
+  if (!state.also_selected.empty() && state.selection == no_patch) {
+    object.fail_at("also-selected", "requires \"select\"");
+  }
+  state.hidden = patch_ranges_from_json(object, "hidden");
+  if (const json* clip = object.find("clip")) {
+    state.clip = clip_from(*clip, object.where("clip"));
+  }
   if (const json* camera = object.find("camera")) {
     state.camera = view_point_from_json(*camera, object.where("camera"));
   }
@@ -331,6 +363,15 @@ json to_json(const ViewState& state) {
   }
   if (state.selection != no_patch) {
     result["select"] = state.selection;
+  }
+  if (!state.also_selected.empty()) {
+    result["also-selected"] = viewer::to_json(state.also_selected);
+  }
+  if (!state.hidden.empty()) {
+    result["hidden"] = viewer::to_json(state.hidden);
+  }
+  if (state.clip) {
+    result["clip"] = to_json(*state.clip);
   }
   if (state.camera) {
     result["camera"] = to_json(*state.camera);

@@ -10,9 +10,11 @@
 
 #include "colors/color_choice.h"
 #include "colors/quantity.h"
+#include "lessons/patch_ranges.h"
 #include "model/run_options.h"
 #include "model/solve_runner.h"
 #include "state/algorithm_state.h"
+#include "state/clip_plane.h"
 #include "state/focus.h"
 #include "state/initial_view.h"
 #include "state/layout.h"
@@ -48,6 +50,9 @@ struct ViewState {
   std::optional<FocusChoice> focus;       ///< none: follow the newest direction
   std::vector<MaterialChange> materials;  ///< relative to the scene's own
   PatchId selection = no_patch;
+  std::vector<PatchRange> also_selected;    ///< besides `selection`
+  std::vector<PatchRange> hidden;           ///< left out of the picture
+  std::optional<ClipPlane> clip;            ///< none: off
   std::optional<ViewPoint> camera;          ///< none: the initial view
   Quantity quantity = Quantity::radiosity;  ///< shown in color; never Quantity::difference
   ColorMode color_mode = ColorMode::true_color;

@@ -1,29 +1,37 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Compares two engines on the direction in focus. Their transfers come from EngineComparer; the
-// maps are painted by MapCanvas, the difference by DifferencePicture.
+// maps are painted by MapCanvas, the differences by DifferencePicture (by patch) and PairPicture
+// (by polygon), and listed by PairTable.
 #include "map/compare_view.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QItemSelectionModel>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QStackedWidget>
+#include <QTableView>
 #include <QTimer>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "map/difference_picture.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
+#include "map/pair_picture.h"
+#include "map/pair_table.h"
 #include "state/breakpoints.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "transillum/pixel_map.h"
 #include "widgets/elided.h"
 #include "widgets/engine_text.h"
+#include "widgets/figure_table.h"
 
 namespace transillum::viewer {
 
@@ -56,6 +64,16 @@ QString direction_text(const EngineComparison& c) {
                     .arg(largest.source)
                     .arg(number_text(std::abs(largest.area)),
                          largest.area > 0 ? CompareView::tr("less") : CompareView::tr("more"));
+}
+
+/// Without those that differ by rounding.
+std::vector<PairDifference> pairs_of(const TransferComparison& transfers) {
+  constexpr double rounding = 1e-13;  // of all that is exchanged
+  std::vector<PairDifference> pairs = transfers.pairs;
+  std::erase_if(pairs, [&](const PairDifference& pair) {
+    return std::abs(pair.first - pair.other) < rounding * transfers.exchanged;
+  });
+  return pairs;
 }
 
 QString row_text(const EngineComparison& c, std::size_t directions) {
@@ -91,29 +109,20 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   grid->setVerticalSpacing(0);
   grid->addLayout(column_of(first_), 0, 0);
   grid->addLayout(column_of(other_), 0, 1);
-  text_ = new QLabel;
-  text_->setObjectName(QStringLiteral("compare_words"));
-  text_->setWordWrap(true);
-  text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  text_->setContentsMargins(10, 6, 10, 6);
   difference_ = new DifferencePicture(selection_);
   difference_->canvas()->set_height_hint(map_height);
-  link({first_.map, other_.map, difference_->canvas()});
-  worst_ = new QPushButton(tr("Worst pair"));
-  worst_->setObjectName("worst_pair");
-  worst_->setToolTip(
-      tr("Select the patch of the largest difference and go to the step where it meets the other"));
-  connect(worst_, &QPushButton::clicked, this, &CompareView::go_to_worst);
-  auto* words = new QVBoxLayout;
-  words->addWidget(text_, 1);
-  words->addWidget(worst_, 0, Qt::AlignLeft);
-  words->setContentsMargins(0, 0, 0, 6);
-  grid->addLayout(words, 1, 0);
-  grid->addWidget(difference_, 1, 1);
+  by_polygon_ = new PairPicture(selection_);
+  by_polygon_->canvas()->set_height_hint(map_height);
+  link({first_.map, other_.map, difference_->canvas(), by_polygon_->canvas()});
+  grid->addWidget(difference_, 1, 0);
+  grid->addWidget(by_polygon_, 1, 1);
+  grid->addWidget(make_words(), 2, 0, 1, 2);
+  grid->addWidget(make_list(), 3, 0, 1, 2);
   for (const int part : {0, 1}) {
-    grid->setRowStretch(part, 1);
+    grid->setRowStretch(part, 3);
     grid->setColumnStretch(part, 1);
   }
+  grid->setRowStretch(3, 1);
 
   request_timer_ = new QTimer(this);
   request_timer_->setSingleShot(true);
@@ -126,6 +135,9 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   });
   connect(&comparer_, &EngineComparer::compared, this, &CompareView::show_comparison);
   connect(&selection_, &Selection::changed, this, [this] {
+    if (list_->currentIndex().row() < 0) {
+      by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
+    }
     if (!first_.has_directions() || !other_.has_directions()) {
       request_timer_->start();
     }
@@ -133,6 +145,87 @@ CompareView::CompareView(Focus& focus, Selection& selection, const ColorChoice& 
   connect(&focus_, &Focus::probed, this, &CompareView::show_maps);
   connect(&colors_, &ColorChoice::changed, this, &CompareView::show_maps);
   show_comparison(nullptr);
+}
+
+void CompareView::make_large_action() {
+  large_ = new QAction(tr("Compare engines, large"), this);
+  large_->setObjectName("compare_large");
+  large_->setIconText(tr("Large"));
+  large_->setCheckable(true);
+  large_->setShortcut(Qt::Key_G);
+  large_->setToolTip(tr("Give the comparison of engines most of the window (G)"));
+  connect(large_, &QAction::toggled, this, &CompareView::enlarged);
+}
+
+QWidget* CompareView::make_words() {
+  text_ = new QLabel;
+  text_->setObjectName(QStringLiteral("compare_words"));
+  text_->setWordWrap(true);
+  text_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  worst_ = new QPushButton(tr("Worst pair"));
+  worst_->setObjectName("worst_pair");
+  worst_->setToolTip(
+      tr("Select the patch of the largest difference and go to the step where it meets the other"));
+  connect(worst_, &QPushButton::clicked, this, [this] {
+    const Transfer& worst = comparison_->transfers.largest;
+    go_to(worst.receiver, worst.source);
+  });
+  make_large_action();
+  auto* large = new QToolButton;
+  large->setDefaultAction(large_);
+  auto* words = new QWidget;
+  auto* row = new QHBoxLayout(words);
+  row->setContentsMargins(10, 6, 10, 6);
+  row->addWidget(text_, 1);
+  row->addWidget(worst_, 0, Qt::AlignTop);
+  row->addWidget(large, 0, Qt::AlignTop);
+  return words;
+}
+
+QTableView* CompareView::make_list() {
+  pairs_ = new PairTable(this);
+  list_ = new QTableView;
+  list_->setObjectName("pair_differences");
+  list_->setModel(pairs_);
+  list_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  list_->setSelectionMode(QAbstractItemView::SingleSelection);
+  list_->setMinimumHeight(90);
+  list_->setToolTip(
+      tr("Pairs of patches in which the engines differ. A chosen pair is shown in the maps; Return "
+         "or a double-click goes to the step where the two meet."));
+  set_up_figure_table(*list_, {"888888", "888888"});
+  connect(list_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& index) { show_pair(index.row()); });
+  connect(list_, &QTableView::activated, this, [this](const QModelIndex& index) {
+    const PairDifference& pair = pairs_->pair(index.row());
+    go_to(pair.receiver, pair.source);
+  });
+  return list_;
+}
+
+void CompareView::show_pair(int row) {
+  by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
+  if (row >= 0) {
+    selection_.select(pairs_->pair(row).source);  // outlined in all maps
+  }
+}
+
+/// Of the chosen pair, or the selected patch, if it sees anything, or of the largest difference.
+PatchId CompareView::receiver_to_show() const {
+  if (list_->currentIndex().isValid()) {
+    return pairs_->pair(list_->currentIndex().row()).receiver;
+  }
+  const auto map = focus_.map();
+  const PatchId selected = selection_.patch();
+  if (map && selected != no_patch) {
+    for (const std::int32_t k : map->history.steps_of(selected)) {
+      const MapHistory::Step& step = map->history.step(k);
+      if (step.patch == selected && step.front_facing && step.cut > 0) {
+        return selected;
+      }
+    }
+  }
+  return comparison_ ? comparison_->transfers.largest.receiver : no_patch;
 }
 
 CompareView::Choice CompareView::make_choice(const char* name, Engine engine) {
@@ -238,7 +331,8 @@ void CompareView::clear() {
 
 bool CompareView::up_to_date() const {
   return comparison_ && !comparing_ && focus_.map() && snapshot_ && current_request() == sent_ &&
-         first_.up_to_date() && other_.up_to_date() && difference_->canvas()->up_to_date();
+         first_.up_to_date() && other_.up_to_date() && difference_->canvas()->up_to_date() &&
+         by_polygon_->canvas()->up_to_date();
 }
 
 void CompareView::showEvent(QShowEvent* event) {
@@ -317,26 +411,25 @@ void CompareView::show_maps() {
   }
 }
 
-void CompareView::go_to_worst() {
+void CompareView::go_to(PatchId receiver, PatchId source) {
   const auto map = focus_.map();
-  if (!map || !comparison_) {
+  if (!map || !comparison_ || comparison_->eye != no_patch) {
     return;
   }
-  const Transfer& worst = comparison_->transfers.largest;
   const MapHistory& history = map->history;
-  const auto steps = history.steps_of(worst.receiver);
+  const auto steps = history.steps_of(receiver);
   if (steps.empty()) {
     return;
   }
   std::int32_t step = steps.front();  // where only pixels see the pair
-  const Breakpoint pair{Breakpoint::Kind::pair, worst.receiver, worst.source};
+  const Breakpoint pair{Breakpoint::Kind::pair, receiver, source};
   for (std::int32_t k = 0; k < history.step_count(); ++k) {
     if (holds(pair, history, k)) {
       step = k;
       break;
     }
   }
-  selection_.select(worst.receiver);
+  selection_.select(receiver);
   focus_.go_to_step(step);
 }
 
@@ -346,6 +439,9 @@ void CompareView::show_comparison(std::shared_ptr<const EngineComparison> compar
   worst_->setVisible(comparison_ && comparison_->eye == no_patch &&
                      comparison_->transfers.largest.receiver != no_patch);
   difference_->show(focus_.map(), comparison_);
+  pairs_->set_pairs(comparison_ && comparison_->ok() ? pairs_of(comparison_->transfers)
+                                                     : std::vector<PairDifference>());
+  by_polygon_->show(focus_.map(), comparison_, receiver_to_show());
   for (const Choice* choice : {&first_, &other_}) {
     choice->figures->clear();
   }

@@ -13,8 +13,10 @@ class QBoxLayout;
 class QComboBox;
 class QLabel;
 class QPushButton;
+class QAction;
 class QStackedWidget;
 class QSpinBox;
+class QTableView;
 class QTimer;
 
 namespace transillum::viewer {
@@ -22,9 +24,12 @@ namespace transillum::viewer {
 class DifferencePicture;
 class HemicubeView;
 class MapCanvas;
+class PairPicture;
+class PairTable;
 
 /// Two engines on the direction in focus, side by side: map, processor time and transfers of each,
-/// and a map of where they differ. The maps share one view.
+/// maps of where they differ, by patch and by polygon, and the pairs of patches in which they do.
+/// The maps share one view.
 class CompareView : public QWidget {
   Q_OBJECT
 
@@ -36,6 +41,11 @@ class CompareView : public QWidget {
   void clear();
   /// Whether the comparison shown is of the direction in focus and the chosen engines.
   bool up_to_date() const;
+  /// Gives the panel most of the window, and takes it back.
+  QAction* large() const { return large_; }
+
+ signals:
+  void enlarged(bool large);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -62,7 +72,13 @@ class CompareView : public QWidget {
   EngineComparer::Request current_request() const;
   void send_request();
   void show_maps();
-  void go_to_worst();
+  void make_large_action();
+  QWidget* make_words();
+  QTableView* make_list();
+  void show_pair(int row);
+  /// Selects the receiver and goes to the step where it meets the source.
+  void go_to(PatchId receiver, PatchId source);
+  PatchId receiver_to_show() const;
   void show_comparison(std::shared_ptr<const EngineComparison> comparison);
 
   Focus& focus_;
@@ -77,6 +93,10 @@ class CompareView : public QWidget {
   QLabel* text_;
   QPushButton* worst_;
   DifferencePicture* difference_;
+  PairPicture* by_polygon_;
+  PairTable* pairs_;
+  QTableView* list_;
+  QAction* large_;
   QTimer* request_timer_;
 };
 

@@ -1,13 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "map/difference_picture.h"
 
-#include <QPainter>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
+#include "map/color_legend.h"
 #include "transillum/at.h"
-#include "widgets/theme.h"
 
 namespace transillum::viewer {
 
@@ -19,28 +18,6 @@ QColor color_of_share(double share) {
   return {channel(0xff, 0xc0), channel(0xff, 0x1a), channel(0xff, 0x1a)};
 }
 
-/// A color bar with its range.
-class Legend : public QWidget {
- public:
-  Legend() { setFixedHeight(fontMetrics().height() + 12); }
-
- protected:
-  void paintEvent(QPaintEvent*) override {
-    QPainter painter(this);
-    painter.fillRect(rect(), theme::scene_background);
-    const QRect bar(10, (height() - 12) / 2, width() / 3, 12);
-    QLinearGradient gradient(bar.topLeft(), bar.topRight());
-    gradient.setColorAt(0, color_of_share(0));
-    gradient.setColorAt(1, color_of_share(DifferencePicture::full_color_at));
-    painter.setPen(theme::on_dark_dim);
-    painter.fillRect(bar, gradient);
-    painter.drawRect(bar);
-    painter.setPen(theme::on_dark);
-    painter.drawText(rect().adjusted(bar.right() + 8, 0, -4, 0), Qt::AlignVCenter | Qt::AlignLeft,
-                     tr("0 to %1 % difference").arg(100 * DifferencePicture::full_color_at));
-  }
-};
-
 }  // namespace
 
 DifferencePicture::DifferencePicture(Selection& selection, QWidget* parent) : QWidget(parent) {
@@ -51,7 +28,8 @@ DifferencePicture::DifferencePicture(Selection& selection, QWidget* parent) : QW
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(canvas_, 1);
-  layout->addWidget(new Legend);
+  layout->addWidget(new ColorLegend([](double t) { return color_of_share(t * full_color_at); },
+                                    tr("0 to %1 % of a patch").arg(100 * full_color_at)));
 }
 
 void DifferencePicture::show(const std::shared_ptr<const RecordedMap>& map,

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "map/pixel_view.h"
+#include "state/callout_place.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/callout_painter.h"
@@ -149,10 +150,10 @@ void MapCanvas::repaint_map() {
   // now and then is better than none. A change that the user made cancels them.
   const bool cancels = content_.choice != sent_.picture.choice ||
                        (content_.step_shown && content_.map != sent_.picture.map);
-  sent_ = {
-      {content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
-       content_.choice, pixels(), content_.patch_colors, transform(), size(), devicePixelRatioF()},
-      sent_.number + 1};
+  sent_ = {{content_.map, content_.step, content_.phase, content_.step_shown, content_.labels,
+            content_.choice, pixels(), content_.patch_colors, transform(), size(),
+            devicePixelRatioF(), content_.receiver},
+           sent_.number + 1};
   painter_.request(sent_, cancels ? CurrentJob::cancel : CurrentJob::finish);
 }
 
@@ -199,8 +200,22 @@ PatchId MapCanvas::patch_at(const QPointF& position) const {
   }
   const MapRecord& record = picture_->request.map->record();
   const std::int32_t row =
-      row_at(record, picture_->rows, picture_->request.transform.to_meters(position));
+      viewer::row_at(record, picture_->rows, picture_->request.transform.to_meters(position));
   return row == MapRecord::no_row ? no_patch : at(record.rows, row).patch;
+}
+
+std::int32_t MapCanvas::row_at(const QPointF& position) const {
+  if (!picture_ || picture_->pixels) {
+    return MapRecord::no_row;
+  }
+  return viewer::row_at(picture_->request.map->record(), picture_->rows,
+                        picture_->request.transform.to_meters(position));
+}
+
+void MapCanvas::mark_row(std::int32_t row) {
+  marked_map_ = picture_ ? picture_->request.map : nullptr;
+  marked_row_ = row;
+  update();
 }
 
 std::optional<Vec2> MapCanvas::point_at(const QPointF& position) const {
@@ -244,6 +259,8 @@ void MapCanvas::paintEvent(QPaintEvent*) {
   draw_sketch(painter, now);
   draw_callouts(painter, now);
   draw_probe(painter, now);
+  draw_marked_row(painter, now);
+  draw_caption(painter);
   draw_scale_bar(painter, now.scale);
   draw_axes(painter);
   draw_legend(painter);
@@ -358,35 +375,14 @@ void MapCanvas::mark_callout(QPainter& painter, const MapTransform& shown,
 
 std::optional<QPointF> MapCanvas::place_of(const Callout& callout,
                                            const MapTransform& shown) const {
-  const MapRecord& record = picture_->request.map->record();
-  switch (callout.anchor) {
-    case Callout::Anchor::point:
-      return shown.to_pixels(record.frame.project(callout.point));
-    case Callout::Anchor::direction:
-      return QPointF(width() / 2.0, 26 * theme::scale());
-    case Callout::Anchor::map:
-      return QPointF(8, height() / 2.0);
-    default:
-      break;
+  if (callout.anchor == Callout::Anchor::direction) {
+    return QPointF(width() / 2.0, 26 * theme::scale());
   }
-  const bool inside = callout.anchor == Callout::Anchor::inside && content_.step >= 0;
-  const auto rows =
-      inside ? picture_->request.map->history.inside_at(content_.step) : picture_->rows;
-  double largest = 0;
-  std::optional<QPointF> place;
-  for (const std::int32_t r : rows) {
-    const MapRecord::Row& row = at(record.rows, r);
-    if ((inside || row.patch == callout.patch) && record.area(row) > largest) {
-      largest = record.area(row);
-      QPointF sum;
-      const auto corners = record.outline(row);
-      for (const Vec2& p : corners) {
-        sum += shown.to_pixels(p);
-      }
-      place = sum / static_cast<double>(corners.size());
-    }
+  if (callout.anchor == Callout::Anchor::map) {
+    return QPointF(8, height() / 2.0);
   }
-  return place;
+  const auto place = place_in_map(callout, *picture_->request.map, picture_->rows, content_.step);
+  return place ? std::optional(shown.to_pixels(*place)) : std::nullopt;
 }
 
 void MapCanvas::draw_probe(QPainter& painter, const MapTransform& shown) const {
@@ -416,6 +412,31 @@ void draw_text(QPainter& painter, const QPointF& baseline, const QString& text) 
 }
 
 }  // namespace
+
+void MapCanvas::draw_marked_row(QPainter& painter, const MapTransform& shown) const {
+  if (marked_row_ == MapRecord::no_row || marked_map_ != picture_->request.map) {
+    return;
+  }
+  const QPolygonF outline =
+      row_polygon(marked_map_->record(), marked_map_->row(marked_row_), shown);
+  painter.setBrush(Qt::NoBrush);
+  for (const QPen& pen :
+       {QPen(Qt::black, 4 * theme::scale()), QPen(theme::on_dark, 2 * theme::scale())}) {
+    painter.setPen(pen);
+    painter.drawPolygon(outline);
+  }
+  for (int k = 0; k < outline.size(); ++k) {
+    draw_text(painter, outline[k] + QPointF(4, -4), QString::number(k + 1));
+  }
+}
+
+void MapCanvas::draw_caption(QPainter& painter) const {
+  if (content_.caption.isEmpty()) {
+    return;
+  }
+  painter.setPen(theme::on_dark);
+  draw_text(painter, QPointF(12, 8 + painter.fontMetrics().ascent()), content_.caption);
+}
 
 void MapCanvas::draw_scale_bar(QPainter& painter, double scale) const {
   // The largest length of 1, 2 or 5 times a power of ten within a quarter of the width.

@@ -40,6 +40,8 @@ class MapCanvas : public QWidget {
     MapEngineChoice choice;
     std::optional<Vec2> probe;  ///< marked by crosshairs, meters on the plane
     std::shared_ptr<const std::vector<Color8>> patch_colors;
+    QString caption = {};         ///< at the top
+    PatchId receiver = no_patch;  ///< draw what this patch sees along the direction, instead of V
   };
   void show_map(Content content);
   void clear();
@@ -49,6 +51,7 @@ class MapCanvas : public QWidget {
   void show_sketch(const MapSketch& sketch);
   /// Names what the callouts point at, until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
+  const std::vector<Callout>& callouts() const { return callouts_; }
   /// Shows the whole map.
   void fit();
   /// Zoom and shift, independent of the size of the canvas, so that canvases can share them.
@@ -67,10 +70,20 @@ class MapCanvas : public QWidget {
   bool up_to_date() const { return painted_ == sent_.number; }
   /// The patch drawn at a point in logical pixels; no_patch if none.
   PatchId patch_at(const QPointF& position) const;
+  /// The row of the record whose polygon is drawn at a point; MapRecord::no_row if none, or if V
+  /// is not drawn exactly.
+  std::int32_t row_at(const QPointF& position) const;
+  /// Outlines the polygon of a row of the map shown, and numbers its corners; MapRecord::no_row:
+  /// none.
+  void mark_row(std::int32_t row);
   /// The point on the plane, meters, at a point in logical pixels; nullopt without a picture.
   std::optional<Vec2> point_at(const QPointF& position) const;
   /// The other engine's map that is drawn; null if V is drawn exactly.
   std::shared_ptr<const PixelView> pixels() const { return picture_ ? picture_->pixels : nullptr; }
+  /// The map drawn; null without a picture.
+  std::shared_ptr<const RecordedMap> map_shown() const {
+    return picture_ ? picture_->request.map : nullptr;
+  }
   /// Number of polygons drawn.
   std::size_t polygon_count() const { return picture_ ? picture_->rows.size() : 0; }
 
@@ -105,6 +118,8 @@ class MapCanvas : public QWidget {
   void mark_callout(QPainter& painter, const MapTransform& shown, const Callout& callout) const;
   std::optional<QPointF> place_of(const Callout& callout, const MapTransform& shown) const;
   void draw_probe(QPainter& painter, const MapTransform& shown) const;
+  void draw_marked_row(QPainter& painter, const MapTransform& shown) const;
+  void draw_caption(QPainter& painter) const;
   void draw_scale_bar(QPainter& painter, double scale) const;
   void draw_axes(QPainter& painter) const;
   void draw_legend(QPainter& painter) const;
@@ -112,6 +127,8 @@ class MapCanvas : public QWidget {
   Selection& selection_;
   Content content_;
   std::optional<MapRegion> region_;
+  std::shared_ptr<const RecordedMap> marked_map_;  ///< that of marked_row_
+  std::int32_t marked_row_ = MapRecord::no_row;
   MapSketch sketch_;
   std::vector<Callout> callouts_;
   double zoom_ = 1;  // relative to the scale that fits

@@ -181,8 +181,22 @@ class MapPainting {
     }
   }
 
+  std::vector<std::int32_t> rows_seen_by(PatchId receiver) const {
+    std::vector<std::int32_t> rows;
+    for (const std::int32_t k : history_.steps_of(receiver)) {
+      if (history_.step(k).patch == receiver && history_.step(k).front_facing) {
+        const auto inside = history_.inside_at(k);
+        rows.insert(rows.end(), inside.begin(), inside.end());
+      }
+    }
+    return rows;
+  }
+
   std::vector<std::int32_t> drawn_rows() const {
     const MapRecord& record = history_.record();
+    if (request_.receiver != no_patch) {
+      return rows_seen_by(request_.receiver);
+    }
     if (step_row_ == MapRecord::no_row || request_.phase == Phase::after) {
       return record.map_after(request_.step);
     }

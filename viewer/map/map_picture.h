@@ -61,6 +61,7 @@ struct MapPictureRequest {
   MapTransform transform;  ///< to logical pixels
   QSizeF size;             ///< logical
   double pixel_ratio = 1;
+  PatchId receiver = no_patch;  ///< draw what it sees; no_patch: V
 };
 
 struct MapPicture {

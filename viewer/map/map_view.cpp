@@ -1,7 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The panel of the visibility map: title, canvas or hemicube, phase buttons and engine menu. It
-// follows Focus (direction, step, phase) and ColorChoice.
+// The panel of the visibility map: title, one canvas, two (before and after the step) or a
+// hemicube, phase buttons and engine menu. It follows Focus (direction, step, phase) and
+// ColorChoice.
 #include "map/map_view.h"
 
 #include <QButtonGroup>
@@ -18,7 +19,9 @@
 #include "map/engine_menu.h"
 #include "map/hemicube_view.h"
 #include "map/map_canvas.h"
+#include "map/phase_pair.h"
 #include "map/pixel_view.h"
+#include "map/row_text.h"
 #include "support/number_text.h"
 #include "widgets/theme.h"
 
@@ -54,13 +57,18 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   // Long text is cut off rather than widening the window.
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   step_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  canvas_ = new MapCanvas(selection);
-  canvas_->setObjectName("map_canvas");
-
-  const auto* pointer = new PointerLabel(
-      colors, *canvas_, [this](const QPoint& position) { return canvas_->patch_at(position); });
-  connect(pointer, &PointerLabel::form_factors_requested, &colors,
-          &ColorChoice::form_factors_requested);
+  before_ = make_canvas(selection, "map_canvas_before");
+  canvas_ = make_canvas(selection, "map_canvas");
+  before_->hide();
+  canvases_ = new QWidget;
+  auto* side_by_side = new QHBoxLayout(canvases_);
+  side_by_side->setContentsMargins(0, 0, 0, 0);
+  side_by_side->setSpacing(2);
+  side_by_side->addWidget(before_, 1);
+  side_by_side->addWidget(canvas_, 1);
+  connect(before_, &MapCanvas::view_changed, this, [this] { canvas_->set_view(before_->view()); });
+  connect(canvas_, &MapCanvas::view_changed, this, [this] { before_->set_view(canvas_->view()); });
+  pair_ = new PhasePair(*this);
 
   auto* text = new QVBoxLayout;
   text->setContentsMargins(10, 6, 10, 6);
@@ -74,7 +82,7 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   hemicube_ = new HemicubeView(selection);
   hemicube_->setObjectName("hemicube_view");
   pictures_ = new QStackedWidget;
-  pictures_->addWidget(canvas_);
+  pictures_->addWidget(canvases_);
   pictures_->addWidget(hemicube_);
   layout->addWidget(pictures_, 1);
   layout->addWidget(make_controls());
@@ -85,18 +93,39 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
   connect(&focus_, &Focus::moved, this, &MapView::show_position);
   connect(&focus_, &Focus::target_changed, this, &MapView::show_title);
   connect(&focus_, &Focus::probed, this, &MapView::show_position);
-  connect(canvas_, &MapCanvas::painted, this, &MapView::show_title);
+  connect(pair_, &PhasePair::changed, this, &MapView::show_position);
   connect(hemicube_, &HemicubeView::shown, this, &MapView::show_title);
-  canvas_->setContextMenuPolicy(Qt::CustomContextMenu);
-  connect(canvas_, &QWidget::customContextMenuRequested, this, &MapView::show_context_menu);
-  connect(canvas_, &MapCanvas::clicked, this,
-          [this](const QPointF& position) { focus_.set_probe(canvas_->point_at(position)); });
   connect(&colors_, &ColorChoice::changed, this, &MapView::show_position);
   show_title();
 }
 
-void MapView::show_context_menu(const QPoint& position) {
-  const auto point = canvas_->point_at(position);
+MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
+  auto* canvas = new MapCanvas(selection);
+  canvas->setObjectName(QString::fromLatin1(name));
+  auto* pointer = new PointerLabel(
+      colors_, *canvas, [canvas](const QPoint& position) { return canvas->patch_at(position); });
+  connect(pointer, &PointerLabel::form_factors_requested, &colors_,
+          &ColorChoice::form_factors_requested);
+  pointer->set_details([this, canvas](const QPoint& position) {
+    const std::int32_t row = canvas->row_at(position);
+    return row == MapRecord::no_row ? QString() : row_text(*canvas->map_shown(), row);
+  });
+  connect(&focus_, &Focus::moved, pointer, &PointerLabel::point_again);
+  connect(pointer, &PointerLabel::rested, canvas,
+          [canvas](const QPoint& position) { canvas->mark_row(canvas->row_at(position)); });
+  connect(pointer, &PointerLabel::left, canvas, [canvas] { canvas->mark_row(MapRecord::no_row); });
+  connect(canvas, &MapCanvas::painted, this, &MapView::show_title);
+  canvas->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(canvas, &QWidget::customContextMenuRequested, this,
+          [this, canvas](const QPoint& position) { show_context_menu(*canvas, position); });
+  connect(canvas, &MapCanvas::clicked, this, [this, canvas](const QPointF& position) {
+    focus_.set_probe(canvas->point_at(position));
+  });
+  return canvas;
+}
+
+void MapView::show_context_menu(const MapCanvas& canvas, const QPoint& position) {
+  const auto point = canvas.point_at(position);
   if (!point || !focus_.map()) {
     return;
   }
@@ -114,7 +143,7 @@ void MapView::show_context_menu(const QPoint& position) {
   add_run(tr("Run back to the previous fragment that covers this point"), StepOrder::backward);
   menu->addAction(tr("List the patches along the line through this point"), this,
                   [this, point] { focus_.set_probe(point); });
-  menu->popup(canvas_->mapToGlobal(position));
+  menu->popup(canvas.mapToGlobal(position));
 }
 
 QWidget* MapView::make_controls() {
@@ -136,6 +165,7 @@ QWidget* MapView::make_controls() {
                            tr("Show the parts of V inside and outside the fragment")));
   row->addWidget(add_phase(Phase::after, "phase_after", tr("After"),
                            tr("Show V after the step, with the fragment inserted")));
+  row->addWidget(pair_->button());
   row->addStretch(1);
   engine_menu_ = new EngineMenu;
   row->addWidget(engine_menu_);
@@ -174,6 +204,7 @@ void MapView::clear() {
   snapshot_ = nullptr;
   recolor_timer_->stop();
   canvas_->clear();
+  before_->clear();
   hemicube_->clear();
   show_title();
 }
@@ -183,16 +214,30 @@ void MapView::set_labels_shown(bool shown) { labels_->setChecked(shown); }
 bool MapView::labels_shown() const { return labels_->isChecked(); }
 
 bool MapView::up_to_date() const {
-  const bool painted = shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date();
+  const bool painted =
+      shows_hemicube() ? hemicube_->up_to_date() : canvas_->up_to_date() && before_->up_to_date();
   return painted && !recolor_timer_->isActive();
 }
 
 bool MapView::shows_hemicube() const { return engine_menu_->choice().engine == Engine::hemicube; }
 
+bool MapView::shows_pair() const {
+  return pair_->choice() != PhasePair::Choice::off && !engine_menu_->choice().engine &&
+         focus_.map() && !focus_.following() && focus_.position().step >= 0;
+}
+
+Phase MapView::shown_phase() const {
+  if (!shows_pair()) {
+    return focus_.phase();
+  }
+  return pair_->before() ? Phase::before : Phase::after;
+}
+
 void MapView::show_position() {
   const auto map = focus_.map();
   if (!map) {
     canvas_->clear();
+    before_->clear();
     show_title();
     return;
   }
@@ -201,7 +246,7 @@ void MapView::show_position() {
   }
   recolor_timer_->stop();
   auto patch_colors = std::make_shared<std::vector<Color8>>(colors_.patch_colors());
-  pictures_->setCurrentWidget(shows_hemicube() ? static_cast<QWidget*>(hemicube_) : canvas_);
+  pictures_->setCurrentWidget(shows_hemicube() ? static_cast<QWidget*>(hemicube_) : canvases_);
   if (shows_hemicube()) {
     hemicube_->show_scene({map->loaded, engine_menu_->choice().resolution,
                            engine_menu_->choice().differences, std::move(patch_colors)});
@@ -209,16 +254,36 @@ void MapView::show_position() {
     return;
   }
   hemicube_->clear();
-  canvas_->show_map({map, focus_.position().step, focus_.phase(), !focus_.following(),
-                     labels_->isChecked(), engine_menu_->choice(), focus_.probe(),
-                     std::move(patch_colors)});
+  MapCanvas::Content content{map,
+                             focus_.position().step,
+                             shown_phase(),
+                             !focus_.following(),
+                             labels_->isChecked(),
+                             engine_menu_->choice(),
+                             focus_.probe(),
+                             std::move(patch_colors)};
+  if (shows_pair()) {
+    content.caption = pair_->before() ? tr("before") : tr("after");
+  }
+  canvas_->show_map(content);
+  const bool two = shows_pair() && pair_->choice() == PhasePair::Choice::side_by_side;
+  if (two) {
+    content.phase = Phase::before;
+    content.caption = tr("before");
+    before_->show_map(std::move(content));
+    before_->set_view(canvas_->view());
+  } else {
+    before_->clear();
+  }
+  before_->setVisible(two);
 }
 
 void MapView::show_title() {
   const auto map = focus_.map();
   for (QAbstractButton* button : phases_->buttons()) {
-    button->setEnabled(map && !engine_menu_->choice().engine);
+    button->setEnabled(map && !engine_menu_->choice().engine && !shows_pair());
   }
+  pair_->button()->setEnabled(map && !engine_menu_->choice().engine);
   zoom_->setEnabled(map && !shows_hemicube());
   labels_->setEnabled(!shows_hemicube());
   phases_->button(static_cast<int>(focus_.phase()))->setChecked(true);
@@ -244,7 +309,7 @@ void MapView::show_title() {
     step_text_->setText(pixel_text());
     return;
   }
-  const bool split = focus_.phase() == Phase::split && focus_.position().step >= 0;
+  const bool split = shown_phase() == Phase::split && focus_.position().step >= 0;
   if (split && !focus_.following()) {
     step_text_->setText(QStringLiteral("%1 &nbsp; %2 &nbsp; %3")
                             .arg(legend_entry(theme::processed.darker(120), tr("fragment")),
@@ -252,7 +317,7 @@ void MapView::show_title() {
                                  legend_entry(theme::outside, tr("outside list"))));
     return;
   }
-  const std::int32_t after = focus_.position().step + (focus_.phase() == Phase::before ? 0 : 1);
+  const std::int32_t after = focus_.position().step + (shown_phase() == Phase::before ? 0 : 1);
   step_text_->setText(tr("V after %1 of %2 steps: %3 polygons")
                           .arg(count_text(after), count_text(map->history.step_count()),
                                count_text(static_cast<std::int64_t>(canvas_->polygon_count()))));

@@ -20,6 +20,7 @@ namespace transillum::viewer {
 class HemicubeView;
 class MapCanvas;
 class EngineMenu;
+class PhasePair;
 
 /// The visibility map V of the direction in focus, and how the current step changes it.
 class MapView : public QWidget {
@@ -38,14 +39,20 @@ class MapView : public QWidget {
 
   bool up_to_date() const;
   MapCanvas* canvas() const { return canvas_; }
+  PhasePair* pair() const { return pair_; }
 
  private:
   QWidget* make_controls();
-  void show_context_menu(const QPoint& position);
+  MapCanvas* make_canvas(Selection& selection, const char* name);
+  void show_context_menu(const MapCanvas& canvas, const QPoint& position);
   void show_position();
   void show_title();
   QString pixel_text() const;
   bool shows_hemicube() const;
+  /// Whether both phases of the step are shown, at once or in turn.
+  bool shows_pair() const;
+  /// In canvas_.
+  Phase shown_phase() const;
 
   Focus& focus_;
   const ColorChoice& colors_;
@@ -53,6 +60,9 @@ class MapView : public QWidget {
   QLabel* title_;
   QLabel* step_text_;
   MapCanvas* canvas_;
+  MapCanvas* before_;  ///< beside canvas_; hidden unless two phases are shown side by side
+  QWidget* canvases_;
+  PhasePair* pair_;
   HemicubeView* hemicube_;
   QStackedWidget* pictures_;
   QButtonGroup* phases_;

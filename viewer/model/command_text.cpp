@@ -83,7 +83,13 @@ void add_scene(Line& line, const std::string& scene, const RunOptions& options,
   const json read = to_json(RunOptions{{}, {}, input}).value("read", json::object());
   const json usual = {{"default-reflectance", ReadOptions().default_reflectance},
                       {"scale", ReadOptions().scale}};
-  line.add_differences(read, usual, {"changes", "turn-faces"});
+  line.add_differences(read, usual, {"changes", "turn-faces", "join", "photometric"});
+  if (input.read.join) {
+    line.add(*input.read.join ? "--join" : "--no-join");
+  }
+  if (input.read.photometric) {
+    line.add("--photometric");
+  }
   line.add_changes(input.changes);
   line.add_changes(changes);
   if (input.orient) {
@@ -122,10 +128,14 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
 }
 
 std::string map_command(const std::string& scene, const RunOptions& options,
-                        const std::vector<MaterialChange>& changes, const Vec3& omega) {
+                        const std::vector<MaterialChange>& changes, const Vec3& omega,
+                        std::optional<std::int32_t> steps) {
   Line line("transillum map");
   add_scene(line, scene, options, changes);
   line.add("direction", fmt::format("{},{},{}", omega.x, omega.y, omega.z));
+  if (steps) {
+    line.add("step", fmt::format("{}", *steps));
+  }
   return line.text();
 }
 

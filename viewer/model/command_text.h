@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,9 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
                           const std::vector<MaterialChange>& changes);
 /// The same for the visibility map of one direction.
 /// @param omega the direction, written with all digits
+/// @param steps of the direction that are done; unset: all
 std::string map_command(const std::string& scene, const RunOptions& options,
-                        const std::vector<MaterialChange>& changes, const Vec3& omega);
+                        const std::vector<MaterialChange>& changes, const Vec3& omega,
+                        std::optional<std::int32_t> steps = {});
 
 }  // namespace transillum::viewer

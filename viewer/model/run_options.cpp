@@ -44,6 +44,10 @@ SceneInput input_from(const json& value, const std::string& where) {
     object.read("max-reflectance", input.read.max_reflectance.emplace());
   }
   object.read("scale", input.read.scale);
+  if (object.find("join")) {
+    object.read("join", input.read.join.emplace());
+  }
+  object.read("photometric", input.read.photometric);
   object.read("turn-faces", input.orient);
   input.changes = material_changes_from_json(object, "changes");
   object.done();
@@ -60,6 +64,8 @@ json to_json(const SceneInput& input) {
   return {{"default-reflectance", read.default_reflectance},
           {"max-reflectance", read.max_reflectance ? json(*read.max_reflectance) : json()},
           {"scale", read.scale},
+          {"join", read.join ? json(*read.join) : json()},
+          {"photometric", read.photometric},
           {"turn-faces", input.orient},
           {"changes", viewer::to_json(input.changes)}};
 }

@@ -25,6 +25,7 @@ struct SceneInput {
   friend bool operator==(const SceneInput& a, const SceneInput& b) {
     return a.read.default_reflectance == b.read.default_reflectance &&
            a.read.max_reflectance == b.read.max_reflectance && a.read.scale == b.read.scale &&
+           a.read.join == b.read.join && a.read.photometric == b.read.photometric &&
            a.changes == b.changes && a.orient == b.orient && a.patches == b.patches;
   }
 };

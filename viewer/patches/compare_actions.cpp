@@ -27,11 +27,11 @@ bool is_text_input(const QWidget* widget) {
 
 CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent)
     : QObject(parent), colors_(colors), window_(window) {
-  keep_ = new QAction(tr("Keep this run as A"), this);
+  keep_ = new QAction(tr("Keep this run"), this);
   keep_->setObjectName("keep_run");
   keep_->setShortcut(Qt::Key_K);
   keep_->setToolTip(
-      tr("Keep this result as A, to compare later runs with the same number of patches"));
+      tr("Keep this result in the list of kept runs; it becomes A, to compare others with (K)"));
   show_ = new QAction(tr("Show A (hold key A)"), this);
   show_->setObjectName("show_kept_run");
   show_->setCheckable(true);
@@ -39,19 +39,15 @@ CompareActions::CompareActions(ColorChoice& colors, const QWidget* window, QObje
   difference_->setObjectName("show_difference");
   difference_->setShortcut(QKeySequence(QStringLiteral("Shift+K")));
   difference_->setCheckable(true);
-  connect(keep_, &QAction::triggered, this, [this] {
-    colors_.keep_run();
-    if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
-      main->statusBar()->showMessage(
-          tr("Kept as A: hold key A to show it; Shift+K colors by the difference"), 6000);
-    }
-  });
+  difference_->setToolTip(tr("Color each patch by the difference of the runs (Shift+K)"));
+  connect(keep_, &QAction::triggered, this, &CompareActions::keep_run);
   connect(show_, &QAction::triggered, &colors_, &ColorChoice::show_kept_run);
   connect(difference_, &QAction::triggered, this, [this](bool checked) {
     colors_.set_quantity(checked ? Quantity::difference : Quantity::radiosity);
   });
   connect(&colors_, &ColorChoice::changed, this, &CompareActions::show_state);
   connect(&colors_, &ColorChoice::fitted, this, &CompareActions::show_state);
+  connect(&colors_.kept_runs(), &KeptRuns::changed, this, &CompareActions::show_state);
   qApp->installEventFilter(this);
   show_state();
 }
@@ -62,11 +58,23 @@ void CompareActions::add_to(QMenu& menu) const {
   }
 }
 
+void CompareActions::keep_run() {
+  if (!colors_.keep_run()) {
+    emit failed(tr("The kept runs would take more than %1 GB of memory: remove some of them first.")
+                    .arg(1e-9 * static_cast<double>(KeptRuns::most_bytes)));
+  } else if (const auto* main = qobject_cast<const QMainWindow*>(window_)) {
+    main->statusBar()->showMessage(
+        tr("Kept as A, %1: hold key A to show it; Shift+K colors by the difference")
+            .arg(colors_.kept_runs().all().back().name),
+        6000);
+  }
+}
+
 void CompareActions::show_state() {
   keep_->setEnabled(colors_.snapshot() != nullptr);
-  show_->setEnabled(colors_.kept_run() != nullptr);
+  show_->setEnabled(colors_.run_a() != nullptr);
   show_->setChecked(colors_.shows_kept_run());
-  difference_->setEnabled(colors_.kept_run() != nullptr);
+  difference_->setEnabled(colors_.run_a() != nullptr || difference_->isChecked());
   difference_->setChecked(colors_.quantity() == Quantity::difference);
 }
 

@@ -10,7 +10,7 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Keeps a run as A; shows A while a key is held down, or the difference of the newest run from A.
+/// Keeps the newest run as A; shows A while a key is held down, or the difference from it.
 class CompareActions : public QObject {
   Q_OBJECT
 
@@ -19,11 +19,17 @@ class CompareActions : public QObject {
   CompareActions(ColorChoice& colors, const QWidget* window, QObject* parent = nullptr);
 
   void add_to(QMenu& menu) const;
+  QAction* keep() const { return keep_; }
+  QAction* difference() const { return difference_; }
+
+ signals:
+  void failed(const QString& message);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void keep_run();
   void show_state();
 
   ColorChoice& colors_;

@@ -36,6 +36,10 @@ bool CalloutLayer::eventFilter(QObject* watched, QEvent* event) {
 
 void CalloutLayer::paintEvent(QPaintEvent*) {
   QPainter painter(this);
+  draw(painter);
+}
+
+void CalloutLayer::draw(QPainter& painter) const {
   std::vector<QRectF> taken;
   for (const Placed& callout : callouts_) {
     draw_callout(painter, callout.anchor, callout.text, rect().adjusted(2, 2, -2, -2), taken);

@@ -22,6 +22,8 @@ class CalloutLayer : public QWidget {
   /// Redraws if they have changed.
   void show_callouts(std::vector<Placed> callouts);
   const std::vector<Placed>& callouts() const { return callouts_; }
+  /// Draws them into a picture of the widget below, in its logical pixels.
+  void draw(QPainter& painter) const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -50,15 +50,21 @@ ClipControls::ClipControls(QWidget* parent) : QWidget(parent) {
   connect(other_side_, &QCheckBox::toggled, this, &ClipControls::changed);
 }
 
-std::optional<ClipChoice> ClipControls::choice() const {
+std::optional<ClipPlane> ClipControls::choice() const {
   const int axis = axis_->currentIndex();
   if (axis == 0) {
     return std::nullopt;
   }
-  const double side = other_side_->isChecked() ? -1 : 1;
-  const double share = static_cast<double>(place_->value()) / steps;
-  return ClipChoice{{axis == 1 ? side : 0, axis == 2 ? side : 0, axis == 3 ? side : 0},
-                    side > 0 ? share : 1 - share};
+  return ClipPlane{static_cast<ClipPlane::Axis>(axis - 1),
+                   static_cast<double>(place_->value()) / steps, other_side_->isChecked()};
+}
+
+void ClipControls::set_choice(const std::optional<ClipPlane>& clip) {
+  if (clip) {
+    place_->setValue(qRound(clip->place * steps));
+    other_side_->setChecked(clip->other_side);
+  }
+  axis_->setCurrentIndex(clip ? static_cast<int>(clip->axis) + 1 : 0);
 }
 
 void ClipControls::next_axis() {

@@ -4,19 +4,13 @@
 #include <QWidget>
 #include <optional>
 
-#include "transillum/vec3.h"
+#include "state/clip_plane.h"
 
 class QCheckBox;
 class QComboBox;
 class QSlider;
 
 namespace transillum::viewer {
-
-/// A plane that cuts the picture of a scene open.
-struct ClipChoice {
-  Vec3 normal;       ///< unit vector; what lies on this side is shown
-  double share = 0;  ///< how far along the normal, in [0, 1] of the scene's extent
-};
 
 /// Controls of the clipping plane: its axis, its place and the side shown.
 class ClipControls : public QWidget {
@@ -26,7 +20,8 @@ class ClipControls : public QWidget {
   explicit ClipControls(QWidget* parent = nullptr);
 
   /// None: off.
-  std::optional<ClipChoice> choice() const;
+  std::optional<ClipPlane> choice() const;
+  void set_choice(const std::optional<ClipPlane>& clip);
   /// Switches from off to x, y, z and back to off.
   void next_axis();
 

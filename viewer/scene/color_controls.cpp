@@ -69,8 +69,6 @@ ColorControls::ColorControls(ColorChoice& colors, QWidget* parent)
   grid_->setContentsMargins(10, 5, 10, 5);
   grid_->setHorizontalSpacing(spacing);
   grid_->setVerticalSpacing(4);
-  grid_->addWidget(quantity_row_, 0, 0);
-  grid_->addWidget(tools_, 0, 2);
   arrange();
 
   connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
@@ -148,23 +146,30 @@ void ColorControls::arrange() {
   const int spare =
       exposure_label_->sizeHint().width() + exposure_slider_->sizeHint().width() + 2 * spacing;
   const int page = pages_->sizeHint().width() - (exposure_slider_->isHidden() ? 0 : spare);
-  setMinimumWidth(std::max(quantity_row_->minimumSizeHint().width() + spacing + tools, page) +
-                  margins.left() + margins.right());
+  const int quantity = quantity_row_->minimumSizeHint().width();
+  setMinimumWidth(std::max({quantity, tools, page}) + margins.left() + margins.right());
 
   const int others = quantity_row_->sizeHint().width() + tools + 2 * spacing;
   const bool one_row = others + page <= room;
   const bool whole = page + spare + (one_row ? others : 0) <= room;
   exposure_label_->setVisible(whole);
   exposure_slider_->setVisible(whole);
-  const int rows = one_row ? 1 : 2;
+  const int rows = one_row ? 1 : quantity + spacing + tools <= room ? 2 : 3;
   if (rows == rows_) {
     return;
   }
   rows_ = rows;
+  if (rows < 3) {
+    grid_->addWidget(quantity_row_, 0, 0);
+    grid_->addWidget(tools_, 0, 2);
+  } else {
+    grid_->addWidget(quantity_row_, 0, 0, 1, 3);
+    grid_->addWidget(tools_, 1, 0, 1, 3, Qt::AlignLeft);
+  }
   if (one_row) {
     grid_->addWidget(pages_, 0, 1, Qt::AlignLeft);
   } else {
-    grid_->addWidget(pages_, 1, 0, 1, 3, Qt::AlignLeft);
+    grid_->addWidget(pages_, rows - 1, 0, 1, 3, Qt::AlignLeft);
   }
 }
 

@@ -18,7 +18,7 @@ namespace transillum::viewer {
 class ShowMenu;
 
 /// The strip above the 3-D view: the quantity shown as color, its color scale, and the Show menu.
-/// One row, or two if the window is narrow.
+/// One row, or two or three where it is narrow.
 class ColorControls : public QWidget {
   Q_OBJECT
 
@@ -49,7 +49,7 @@ class ColorControls : public QWidget {
   QWidget* make_true_color_page();
   QWidget* make_map_page();
   void fill_quantities();
-  /// Chooses one or two rows by the width.
+  /// Chooses the number of rows by the width.
   void arrange();
   void show_choice();
 

@@ -43,7 +43,8 @@ class Lines {
 
 }  // namespace
 
-vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift) {
+vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift,
+                                            const std::vector<bool>& hidden) {
   std::vector<int> fragments(static_cast<std::size_t>(scene.patch_count()));
   for (const BspTree::Fragment& f : tree.fragments()) {
     ++at(fragments, f.patch);
@@ -55,7 +56,7 @@ vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& t
   Lines lines;
   for (const BspTree::Fragment& f : tree.fragments()) {
     // A non-convex patch has several pieces without being cut.
-    if (at(fragments, f.patch) == at(pieces, f.patch)) {
+    if (at(fragments, f.patch) == at(pieces, f.patch) || at(hidden, f.patch)) {
       continue;
     }
     const auto corners = tree.corners(f);
@@ -70,9 +71,13 @@ vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& t
   return lines.data();
 }
 
-vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene) {
+vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<bool>& hidden) {
   Lines lines;
-  for (const Patch& patch : scene.patches()) {
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    if (at(hidden, i)) {
+      continue;
+    }
+    const Patch& patch = scene.patch(i);
     lines.add(patch.center, patch.center + 0.5 * std::sqrt(patch.area) * patch.normal);
   }
   return lines.data();
@@ -104,10 +109,30 @@ void SceneOverlays::show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPol
   loaded_ = std::move(loaded);
   surface_ = surface;
   lift_ = lift;
+  hidden_.assign(loaded_->scene->patches().size(), false);
   for (const Kind kind : {Kind::fragments, Kind::normals, Kind::back_sides}) {
     overlay(kind).made = false;
     update(kind);
   }
+}
+
+void SceneOverlays::leave_out(const std::vector<bool>& hidden) {
+  if (hidden == hidden_) {
+    return;
+  }
+  hidden_ = hidden;
+  for (const Kind kind : {Kind::fragments, Kind::normals}) {
+    overlay(kind).made = false;
+    update(kind);
+  }
+}
+
+std::vector<vtkActor*> SceneOverlays::actors() const {
+  std::vector<vtkActor*> actors;
+  for (const Overlay& overlay : overlays_) {
+    actors.push_back(overlay.actor);
+  }
+  return actors;
 }
 
 void SceneOverlays::set_shown(Kind kind, bool shown) {
@@ -132,10 +157,10 @@ void SceneOverlays::update(Kind kind) {
   auto* mapper = vtkPolyDataMapper::SafeDownCast(changed.actor->GetMapper());
   switch (kind) {
     case Kind::fragments:
-      mapper->SetInputData(fragment_lines(*loaded_->scene, *loaded_->tree, lift_));
+      mapper->SetInputData(fragment_lines(*loaded_->scene, *loaded_->tree, lift_, hidden_));
       break;
     case Kind::normals:
-      mapper->SetInputData(normal_lines(*loaded_->scene));
+      mapper->SetInputData(normal_lines(*loaded_->scene, hidden_));
       break;
     case Kind::back_sides:
       mapper->SetInputData(surface_);

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "model/snapshot.h"
 #include "transillum/at.h"
@@ -15,9 +16,12 @@
 namespace transillum::viewer {
 
 /// The edges of the fragments of all patches that `tree` cuts, `lift` meters in front of them.
-vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift);
+/// @param hidden  patches left out, one per patch
+vtkSmartPointer<vtkPolyData> fragment_lines(const Scene& scene, const BspTree& tree, double lift,
+                                            const std::vector<bool>& hidden);
 /// A line from the center of each patch along its normal, half as long as the patch is wide.
-vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene);
+/// @param hidden  patches left out, one per patch
+vtkSmartPointer<vtkPolyData> normal_lines(const Scene& scene, const std::vector<bool>& hidden);
 
 /// Geometry drawn in addition to the colored patches; computed when it is first shown.
 class SceneOverlays {
@@ -29,8 +33,12 @@ class SceneOverlays {
   /// @param surface the scene's polygons, to draw their back sides
   /// @param lift meters by which lines are drawn in front of their patches
   void show_scene(std::shared_ptr<const LoadedScene> loaded, vtkPolyData* surface, double lift);
+  /// Leaves the lines of patches out; back sides follow `surface`.
+  /// @param hidden  one per patch
+  void leave_out(const std::vector<bool>& hidden);
   void set_shown(Kind kind, bool shown);
   void set_line_width(double pixels);
+  std::vector<vtkActor*> actors() const;
 
  private:
   void update(Kind kind);
@@ -46,6 +54,7 @@ class SceneOverlays {
   std::shared_ptr<const LoadedScene> loaded_;
   vtkSmartPointer<vtkPolyData> surface_;
   double lift_ = 0;
+  std::vector<bool> hidden_;
 };
 
 }  // namespace transillum::viewer

@@ -21,6 +21,7 @@
 
 #include <QApplication>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -158,6 +159,7 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   show_selection();
   reset_view();
   overlays_->show_scene(loaded_, mesh_->surface(), 5e-4 * radius_);
+  overlays_->leave_out(hidden_.flags());
 }
 
 void SceneView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
@@ -232,24 +234,26 @@ void SceneView::leave_out_hidden() {
   if (smooth_mesh_) {
     smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
   }
+  overlays_->leave_out(hidden_.flags());
   recolor();
   render();
 }
 
-void SceneView::set_clip(const std::optional<ClipChoice>& clip) {
+void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
   clip_ = clip;
   if (clip_ && loaded_) {
+    using Axis = ClipPlane::Axis;
     const Bounds bounds = loaded_->scene->bounds();
-    const Vec3 extent = bounds.high - bounds.low;
-    const Vec3& n = clip_->normal;
-    // From the end of the scene that lies against the normal.
-    const double width =
-        std::abs(n.x) * extent.x + std::abs(n.y) * extent.y + std::abs(n.z) * extent.z;
-    const Vec3 place = bounds.center() + (clip_->share - 0.5) * width * n;
-    clip_plane_->SetNormal(n.x, n.y, n.z);
+    const Vec3 place = bounds.low + clip_->place * (bounds.high - bounds.low);
+    const double side = clip_->other_side ? -1 : 1;
+    clip_plane_->SetNormal(clip_->axis == Axis::x ? side : 0, clip_->axis == Axis::y ? side : 0,
+                           clip_->axis == Axis::z ? side : 0);
     clip_plane_->SetOrigin(place.x, place.y, place.z);
   }
-  for (vtkActor* actor : {surface_.Get(), halo_.Get(), outline_.Get(), feature_edges_->actor()}) {
+  std::vector<vtkActor*> actors = overlays_->actors();
+  actors.insert(actors.end(),
+                {surface_.Get(), halo_.Get(), outline_.Get(), feature_edges_->actor()});
+  for (vtkActor* actor : actors) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     if (clip_ && loaded_) {
       actor->GetMapper()->AddClippingPlane(clip_plane_);
@@ -430,13 +434,15 @@ void SceneView::show_direction() {
                     focus_point_ + dot(center - focus_point_, omega) * omega, radius_);
     return;
   }
-  const bool any = snapshot_ && norm(snapshot_->progress.last_direction) > 0.5;
-  if (!any || !direction_shown_) {
+  // Before the first step it is the direction of the map, else the last one of the run.
+  const Vec3 omega = !snapshot_   ? Vec3{}
+                     : stepping() ? focus_.map()->record().frame.omega
+                                  : snapshot_->progress.last_direction;
+  if (norm(omega) < 0.5 || !direction_shown_) {
     glyph_->hide();
     return;
   }
   // Just outside the scene, or outside the part of interest of a large enclosure.
-  const Vec3& omega = snapshot_->progress.last_direction;
   double reach = 0;
   for (const Vec3& p : loaded_->scene->points()) {
     reach = std::max(reach, std::abs(dot(p - focus_point_, omega)));
@@ -543,7 +549,14 @@ QImage SceneView::picture(int scale) const {
     return {};
   }
   // VTK stores the bottom row first.
-  return QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
+  QImage image = QImage(bytes, size[0], size[1], 3 * size[0], QImage::Format_RGB888).mirrored();
+  if (!callout_layer_->callouts().empty()) {
+    QPainter painter(&image);
+    painter.setFont(callout_layer_->font());
+    painter.scale(1.0 * image.width() / canvas_->width(), 1.0 * image.height() / canvas_->height());
+    callout_layer_->draw(painter);
+  }
+  return image;
 }
 
 PatchId SceneView::patch_at(const QPoint& position) const {

@@ -20,7 +20,6 @@
 
 #include "colors/color_choice.h"
 #include "model/snapshot.h"
-#include "scene/clip_controls.h"
 #include "scene/direction_glyph.h"
 #include "scene/feature_edges.h"
 #include "scene/path_glyph.h"
@@ -31,6 +30,7 @@
 #include "scene/turn_preview.h"
 #include "state/callout.h"
 #include "state/camera_views.h"
+#include "state/clip_plane.h"
 #include "state/focus.h"
 #include "state/hidden_patches.h"
 #include "state/initial_view.h"
@@ -80,6 +80,8 @@ class SceneView : public QWidget {
   void view_from_side(Side side);
   /// Names what the callouts point at, until the next call.
   void show_callouts(const std::vector<Callout>& callouts);
+  /// The point in the scene that a callout is at, m; empty where what it names is not shown.
+  std::optional<Vec3> anchor_of(const Callout& callout) const;
   /// The camera; set_view_point() keeps the radius of the scene's part of interest.
   ViewPoint view_point() const;
   void set_view_point(const ViewPoint& view);
@@ -87,14 +89,14 @@ class SceneView : public QWidget {
   /// stays upright.
   void set_turntable(bool turntable);
   /// Cuts the picture open along a plane; none: not.
-  void set_clip(const std::optional<ClipChoice>& clip);
+  void set_clip(const std::optional<ClipPlane>& clip);
   bool turntable() const { return turntable_; }
   /// Turns the camera about the vertical of the scene, and above or below it, degrees.
   void turn(double azimuth, double elevation);
   /// The edges drawn where the colors do not show the shape.
   const FeatureEdges& feature_edges() const { return *feature_edges_; }
 
-  /// The picture shown, with `scale` times as many pixels per side.
+  /// The picture shown, with its callouts, with `scale` times as many pixels per side.
   QImage picture(int scale) const;
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
@@ -119,7 +121,6 @@ class SceneView : public QWidget {
   Vec3 vertical() const;
   void follow_camera();
   void place_callouts();
-  std::optional<Vec3> anchor_of(const Callout& callout) const;
   void render();
 
   const Focus& focus_;
@@ -148,7 +149,7 @@ class SceneView : public QWidget {
   QVTKOpenGLNativeWidget* canvas_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  std::optional<ClipChoice> clip_;
+  std::optional<ClipPlane> clip_;
   vtkNew<vtkPlane> clip_plane_;
   vtkSmartPointer<vtkActor> surface_;
   vtkSmartPointer<vtkActor> halo_, outline_;

@@ -14,7 +14,7 @@ namespace transillum::viewer {
 
 namespace {
 
-using Kind = Breakpoint::Kind;
+using Kind = Condition::Kind;
 
 // Names in settings and session files.
 constexpr std::pair<Kind, const char*> kind_names[] = {
@@ -51,28 +51,39 @@ bool involves(const MapHistory& history, std::int32_t k, PatchId patch) {
 
 }  // namespace
 
-bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t k) {
+bool holds(const Condition& condition, const MapHistory& history, std::int32_t k) {
   const MapHistory::Step& step = history.step(k);
-  switch (breakpoint.kind) {
+  switch (condition.kind) {
     case Kind::patch:
-      return involves(history, k, breakpoint.patch);
+      return involves(history, k, condition.patch);
     case Kind::cut:
-      return involves(history, k, breakpoint.patch) && cuts(history, k, breakpoint.patch);
+      return involves(history, k, condition.patch) && cuts(history, k, condition.patch);
     case Kind::pair:
-      return exchanges_with(history, k, breakpoint.patch, breakpoint.other);
+      return exchanges_with(history, k, condition.patch, condition.other);
     case Kind::small_fragment:
-      return step.row != MapRecord::no_row && step.smallest < breakpoint.value;
+      return step.row != MapRecord::no_row && step.smallest < condition.value;
     case Kind::open_receiver:
-      return step.front_facing && step.open_share() > breakpoint.value;
+      return step.front_facing && step.open_share() > condition.value;
     case Kind::large_map: {
       const double before = k > 0 ? history.step(k - 1).map_size : 0;
-      return before <= breakpoint.value && step.map_size > breakpoint.value;
+      return before <= condition.value && step.map_size > condition.value;
     }
   }
   return false;
 }
 
-QString text_of(const Breakpoint& b) {
+bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t k) {
+  bool all = holds(breakpoint.condition, history, k);
+  for (const auto& [alternative, condition] : breakpoint.further) {
+    if (alternative && all) {
+      return true;
+    }
+    all = (alternative || all) && holds(condition, history, k);
+  }
+  return all;
+}
+
+QString text_of(const Condition& b) {
   switch (b.kind) {
     case Kind::patch:
       return Breakpoints::tr("Patch %1 takes part").arg(b.patch);
@@ -88,6 +99,19 @@ QString text_of(const Breakpoint& b) {
       return Breakpoints::tr("V grows beyond %1 polygons").arg(number_text(b.value));
   }
   return {};
+}
+
+QString text_of(const Breakpoint& b) {
+  QString text = text_of(b.condition);
+  for (const auto& [alternative, condition] : b.further) {
+    QString more = text_of(condition);
+    if (!more.startsWith(QLatin1String("V "))) {
+      more[0] = more[0].toLower();
+    }
+    text += (alternative ? Breakpoints::tr(", or %1") : Breakpoints::tr(" and %1")).arg(more);
+  }
+  return b.stop_at == 1 ? text
+                        : Breakpoints::tr("%1 (stop at hit %2)").arg(text, count_text(b.stop_at));
 }
 
 const char* name_of(Kind kind) {
@@ -115,6 +139,15 @@ void Breakpoints::change(const QString& what, std::vector<Breakpoint> list) {
               [this](const std::vector<Breakpoint>& other) { set_list(other); });
 }
 
+void Breakpoints::change(const QString& what, std::size_t k, const Breakpoint& changed) {
+  if (changed == list_[k]) {
+    return;
+  }
+  auto list = list_;
+  list[k] = changed;
+  change(what.arg(text_of(changed)), std::move(list));
+}
+
 void Breakpoints::add(const Breakpoint& breakpoint) {
   auto list = list_;
   list.push_back(breakpoint);
@@ -128,14 +161,29 @@ void Breakpoints::remove(std::size_t k) {
 }
 
 void Breakpoints::set_enabled(std::size_t k, bool enabled) {
-  if (list_[k].enabled == enabled) {
-    return;
+  Breakpoint changed = list_[k];
+  changed.enabled = enabled;
+  change(enabled ? tr("enable breakpoint: %1") : tr("disable breakpoint: %1"), k, changed);
+}
+
+void Breakpoints::join(std::size_t k, const Breakpoint::Further& further) {
+  Breakpoint changed = list_[k];
+  changed.further.push_back(further);
+  change(tr("change breakpoint: %1"), k, changed);
+}
+
+void Breakpoints::remove_last_condition(std::size_t k) {
+  Breakpoint changed = list_[k];
+  if (!changed.further.empty()) {
+    changed.further.pop_back();
+    change(tr("change breakpoint: %1"), k, changed);
   }
-  auto list = list_;
-  list[k].enabled = enabled;
-  change(
-      (enabled ? tr("enable breakpoint: %1") : tr("disable breakpoint: %1")).arg(text_of(list_[k])),
-      std::move(list));
+}
+
+void Breakpoints::set_stop_at(std::size_t k, int hit) {
+  Breakpoint changed = list_[k];
+  changed.stop_at = hit;
+  change(tr("change breakpoint: %1"), k, changed);
 }
 
 bool Breakpoints::any_enabled() const {
@@ -147,6 +195,57 @@ StepFinder Breakpoints::finder() const {
     return std::any_of(list.begin(), list.end(),
                        [&](const Breakpoint& b) { return b.enabled && holds(b, history, k); });
   });
+}
+
+namespace {
+
+/// Counts the hits of one run, which begins after a step and visits whole directions from then on.
+class HitCounter {
+ public:
+  HitCounter(std::vector<Breakpoint> list, std::shared_ptr<HitCounts> hits)
+      : list_(std::move(list)), hits_(std::move(hits)) {
+    hits_->assign(list_.size(), 0);
+  }
+
+  std::int32_t operator()(const MapHistory& history, std::int32_t from, StepOrder order) {
+    const std::int32_t by = order == StepOrder::forward ? 1 : -1;
+    std::int32_t end = by > 0 ? history.step_count() : -1;
+    const Vec3& omega = history.record().frame.omega;
+    if (!begin_) {
+      begin_ = {omega, from};
+    } else if (omega == begin_->first) {
+      // Back in the first direction: what is beyond the beginning has been counted.
+      end = by > 0 ? std::min(end, begin_->second + 1) : std::max(end, begin_->second - 1);
+    }
+    for (std::int32_t k = from + by; by > 0 ? k < end : k > end; k += by) {
+      if (count(history, k)) {
+        return k;
+      }
+    }
+    return MapHistory::none;
+  }
+
+ private:
+  /// Whether a breakpoint stops the run at step k.
+  bool count(const MapHistory& history, std::int32_t k) {
+    bool stops = false;
+    for (std::size_t b = 0; b < list_.size(); ++b) {
+      if (list_[b].enabled && holds(list_[b], history, k)) {
+        stops = ++(*hits_)[b] == list_[b].stop_at || stops;
+      }
+    }
+    return stops;
+  }
+
+  std::vector<Breakpoint> list_;
+  std::shared_ptr<HitCounts> hits_;
+  std::optional<std::pair<Vec3, std::int32_t>> begin_;  ///< direction and step
+};
+
+}  // namespace
+
+StepFinder Breakpoints::run_finder(std::shared_ptr<HitCounts> hits) const {
+  return HitCounter(list_, std::move(hits));
 }
 
 std::vector<std::int32_t> Breakpoints::steps_in(const MapHistory& history) const {
@@ -177,6 +276,61 @@ void Breakpoints::set_list_of(const std::string& scene, std::vector<Breakpoint> 
   }
 }
 
+namespace {
+
+void write(QSettings& settings, const Condition& condition) {
+  settings.setValue("kind", name_of(condition.kind));
+  settings.setValue("patch", condition.patch);
+  settings.setValue("other", condition.other);
+  settings.setValue("value", condition.value);
+}
+
+/// nullopt: of a later version.
+std::optional<Condition> read_condition(const QSettings& settings) {
+  const auto kind = breakpoint_kind(settings.value("kind").toString().toStdString());
+  if (!kind) {
+    return std::nullopt;
+  }
+  return Condition{*kind, settings.value("patch").toInt(), settings.value("other").toInt(),
+                   settings.value("value").toDouble()};
+}
+
+void write(QSettings& settings, const Breakpoint& b) {
+  write(settings, b.condition);
+  settings.setValue("enabled", b.enabled);
+  settings.setValue("stop-at", b.stop_at);
+  settings.beginWriteArray("further");
+  for (std::size_t k = 0; k < b.further.size(); ++k) {
+    settings.setArrayIndex(static_cast<int>(k));
+    settings.setValue("alternative", b.further[k].alternative);
+    write(settings, b.further[k].condition);
+  }
+  settings.endArray();
+}
+
+std::optional<Breakpoint> read_breakpoint(QSettings& settings) {
+  const auto first = read_condition(settings);
+  if (!first) {
+    return std::nullopt;
+  }
+  Breakpoint breakpoint{*first, settings.value("enabled", true).toBool(), {}, 1};
+  breakpoint.stop_at = std::clamp(settings.value("stop-at", 1).toInt(), 1, Breakpoint::most_hits);
+  const int count = settings.beginReadArray("further");
+  bool known = true;
+  for (int k = 0; k < count; ++k) {
+    settings.setArrayIndex(k);
+    const auto condition = read_condition(settings);
+    known = known && condition;
+    if (condition) {
+      breakpoint.further.push_back({settings.value("alternative").toBool(), *condition});
+    }
+  }
+  settings.endArray();
+  return known ? std::optional(breakpoint) : std::nullopt;
+}
+
+}  // namespace
+
 void Breakpoints::save(QSettings& settings) const {
   auto lists = other_lists_;
   lists[scene_] = list_;
@@ -188,11 +342,7 @@ void Breakpoints::save(QSettings& settings) const {
     for (const Breakpoint& b : list) {
       settings.setArrayIndex(index++);
       settings.setValue("scene", QString::fromStdString(scene));
-      settings.setValue("kind", name_of(b.kind));
-      settings.setValue("patch", b.patch);
-      settings.setValue("other", b.other);
-      settings.setValue("value", b.value);
-      settings.setValue("enabled", b.enabled);
+      write(settings, b);
     }
   }
   settings.endArray();
@@ -203,14 +353,11 @@ void Breakpoints::load(QSettings& settings) {
   const int count = settings.beginReadArray("breakpoints");
   for (int k = 0; k < count; ++k) {
     settings.setArrayIndex(k);
-    const auto kind = breakpoint_kind(settings.value("kind").toString().toStdString());
     const std::string scene = settings.value("scene").toString().toStdString();
-    if (!kind || scene.empty()) {
-      continue;
+    const auto breakpoint = read_breakpoint(settings);
+    if (breakpoint && !scene.empty()) {
+      other_lists_[scene].push_back(*breakpoint);
     }
-    other_lists_[scene].push_back(
-        {*kind, settings.value("patch").toInt(), settings.value("other").toInt(),
-         settings.value("value").toDouble(), settings.value("enabled", true).toBool()});
   }
   settings.endArray();
   set_list(std::move(other_lists_[scene_]));

@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QString>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,8 @@ class QUndoStack;
 
 namespace transillum::viewer {
 
-/// A condition on a step; a run through the steps stops where it holds.
-struct Breakpoint {
+/// A condition on a step.
+struct Condition {
   enum class Kind {
     patch,           ///< the step processes, cuts or covers a polygon of `patch`
     cut,             ///< it cuts a fragment of `patch`
@@ -28,16 +29,42 @@ struct Breakpoint {
   Kind kind = Kind::patch;
   PatchId patch = 0, other = 0;
   double value = 0;
+
+  friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+/// Conditions joined by "and" and "or"; a run through the steps stops where they hold. "And" binds
+/// more strongly than "or".
+struct Breakpoint {
+  using Kind = Condition::Kind;
+  /// A further condition, and how it is joined to those before it.
+  struct Further {
+    bool alternative = false;  ///< by "or"
+    Condition condition;
+
+    friend bool operator==(const Further&, const Further&) = default;
+  };
+  static constexpr int most_hits = 1'000'000'000;
+
+  Condition condition;
   bool enabled = true;
+  std::vector<Further> further = {};
+  int stop_at = 1;  ///< stops at this hit, counted from where the run begins; 1 to most_hits
 
   friend bool operator==(const Breakpoint&, const Breakpoint&) = default;
 };
 
+bool holds(const Condition& condition, const MapHistory& history, std::int32_t step);
 bool holds(const Breakpoint& breakpoint, const MapHistory& history, std::int32_t step);
+QString text_of(const Condition& condition);
+/// The conditions and, unless it is 1, the hit to stop at.
 QString text_of(const Breakpoint& breakpoint);
 /// The name of a kind in files and settings.
-const char* name_of(Breakpoint::Kind kind);
-std::optional<Breakpoint::Kind> breakpoint_kind(const std::string& name);
+const char* name_of(Condition::Kind kind);
+std::optional<Condition::Kind> breakpoint_kind(const std::string& name);
+
+/// Per breakpoint of the list: number of steps of a run at which it held.
+using HitCounts = std::vector<std::int64_t>;
 
 /// The list of breakpoints of the open scene: patches of another scene have the same numbers. Those
 /// of all scenes are saved in the settings between runs of the program.
@@ -59,10 +86,19 @@ class Breakpoints : public QObject {
   void add(const Breakpoint& breakpoint);
   void remove(std::size_t k);
   void set_enabled(std::size_t k, bool enabled);
+  /// Joins a condition to those of breakpoint k.
+  void join(std::size_t k, const Breakpoint::Further& further);
+  /// Removes the last condition of breakpoint k, unless it is the only one.
+  void remove_last_condition(std::size_t k);
+  void set_stop_at(std::size_t k, int hit);
   bool any_enabled() const;
 
   /// Finds the nearest step where an enabled breakpoint holds.
   StepFinder finder() const;
+  /// For one run: finds where an enabled breakpoint is hit for the time at which it stops. A step
+  /// is counted once, even if the search comes back to its direction.
+  /// @param hits  receives the counts of the run so far; the finder keeps it
+  StepFinder run_finder(std::shared_ptr<HitCounts> hits) const;
   /// All steps of a direction where one holds, ascending.
   std::vector<std::int32_t> steps_in(const MapHistory& history) const;
 
@@ -75,6 +111,7 @@ class Breakpoints : public QObject {
 
  private:
   void change(const QString& what, std::vector<Breakpoint> list);
+  void change(const QString& what, std::size_t k, const Breakpoint& changed);
 
   std::string scene_;
   std::vector<Breakpoint> list_;

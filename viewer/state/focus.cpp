@@ -98,6 +98,19 @@ bool Focus::step_by(std::int32_t steps) {
     return false;
   }
   const std::int32_t last = map_->history.step_count() - 1;
+  if (filter_.on()) {
+    const std::int32_t now = position_.step;
+    const auto passes = [filter = filter_](const MapHistory& history, std::int32_t k) {
+      return filter.passes_at(history, k);
+    };
+    if (steps > 0) {
+      seek_from(std::min(now + steps - 1, last), find_where(passes), StepOrder::forward);
+    } else {
+      seek_from(std::clamp(now + steps + 1, 0, std::max(now, 0)), find_where(passes),
+                StepOrder::backward);
+    }
+    return true;
+  }
   RunPosition to = position_;
   // After the last step comes the empty map of the next direction; before an empty map, the last
   // step of the previous direction.
@@ -147,12 +160,28 @@ void Focus::phase_by(int phases) {
     return;
   }
   const Phase now = std::exchange(phase_, phases > 0 ? Phase::before : Phase::after);
+  phase_unless_found_ = now;
   if (!step_by(phases > 0 ? 1 : -1)) {
     phase_ = now;
   }
+  if (!seeking()) {
+    phase_unless_found_.reset();
+  }
+}
+
+void Focus::set_filter(const EventFilter& filter) {
+  if (filter == filter_) {
+    return;
+  }
+  filter_ = filter;
+  emit filtered();
 }
 
 void Focus::seek(StepFinder finder, StepOrder order) {
+  seek_from(position_.step, std::move(finder), order);
+}
+
+void Focus::seek_from(std::int32_t from, StepFinder finder, StepOrder order) {
   if (!map_) {
     return;
   }
@@ -163,7 +192,6 @@ void Focus::seek(StepFinder finder, StepOrder order) {
   const bool same_directions = !renews_ && passes_of(0) == passes_;
   seek_total_ = seek_left_ = (same_directions ? 1 : std::int64_t{iterations_}) * passes_ + 1;
   target_ = position_;
-  const std::int32_t from = position_.step;
   const std::int32_t step = finder_(map_->history, from, order_);
   if (step != MapHistory::none) {
     position_.step = target_.step = step;
@@ -180,7 +208,7 @@ void Focus::continue_seek() {
   const RunPosition next = moved_by(target_, by, -1);
   if (--seek_left_ <= 0 || next == target_) {
     target_ = position_;
-    end_seek();
+    lose();
     emit seek_ended(false);
     return;
   }
@@ -189,7 +217,15 @@ void Focus::continue_seek() {
   });
 }
 
+void Focus::lose() {
+  if (phase_unless_found_) {
+    phase_ = *phase_unless_found_;
+  }
+  end_seek();
+}
+
 void Focus::end_seek() {
+  phase_unless_found_.reset();
   seek_left_ = 0;
   under_way_ = false;
   emit target_changed();
@@ -200,7 +236,7 @@ void Focus::stop() {
   const bool sought = seeking();
   const auto searched = static_cast<int>(seek_total_ - seek_left_);
   target_ = position_;
-  end_seek();
+  lose();
   if (sought) {
     emit seek_stopped(searched);
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/recorded_map.h"
+#include "state/event_filter.h"
 #include "state/step_finder.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
@@ -77,6 +78,9 @@ class Focus : public QObject {
   /// The point of the plane whose line along omega is inspected; cleared with its direction.
   const std::optional<Vec2>& probe() const { return probe_; }
   void set_probe(const std::optional<Vec2>& probe);
+  /// Which events are listed; while it is on(), step_by() skips steps without one.
+  const EventFilter& filter() const { return filter_; }
+  void set_filter(const EventFilter& filter);
 
   // Each of these functions, except follow(), ends following. Values out of range are clamped.
 
@@ -85,7 +89,8 @@ class Focus : public QObject {
   void go_to_step(std::int32_t step);
   /// To the first step of a direction that `finder` finds; before the first step if it finds none.
   void go_to_first(int iteration, int direction, StepFinder finder);
-  /// At most to an end of the direction; from there to the next direction.
+  /// At most to an end of the direction; from there to the next direction. With a filter, to the
+  /// nearest step from there on that has an event which passes, as seek() does.
   /// @return false at an end of the run
   bool step_by(std::int32_t steps);
   /// The same step of another direction or iteration.
@@ -114,6 +119,7 @@ class Focus : public QObject {
   void seek_ended(bool found);
   void seek_stopped(int searched);  ///< number of directions searched without success
   void probed();
+  void filtered();  ///< filter()
 
  private:
   /// Selects the step of a recorded direction; MapHistory::none: continue with another direction.
@@ -127,7 +133,10 @@ class Focus : public QObject {
   void go_to_newest();
   void arrive(std::int32_t step);
   void continue_seek();
+  void seek_from(std::int32_t step, StepFinder finder, StepOrder order);
   void end_seek();
+  /// Ends a search without success.
+  void lose();
   void end_following();
 
   int passes_ = 0, iterations_ = 1;
@@ -136,7 +145,9 @@ class Focus : public QObject {
   RunPosition position_, target_, newest_;
   std::shared_ptr<const RecordedMap> map_;
   Phase phase_ = Phase::after;
+  std::optional<Phase> phase_unless_found_;  ///< comes back if a search ends without success
   std::optional<Vec2> probe_;
+  EventFilter filter_;
   bool following_ = true;
   bool under_way_ = false;
   Arrival arrival_;

@@ -22,6 +22,7 @@ void FocusFeed::clear() {
   snapshot_ = nullptr;
   recorder_.clear();
   focus_.begin_run(0);
+  focus_.set_filter({});  // its areas and its patch are of the old scene
 }
 
 void FocusFeed::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {

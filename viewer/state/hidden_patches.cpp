@@ -10,8 +10,11 @@
 
 namespace transillum::viewer {
 
-void HiddenPatches::reset(PatchId patches) {
+void HiddenPatches::reset(PatchId patches, std::span<const PatchId> hidden) {
   flags_.assign(static_cast<std::size_t>(patches), false);
+  for (const PatchId patch : hidden) {
+    at(flags_, patch) = true;
+  }
   emit changed();
 }
 

@@ -22,8 +22,9 @@ class HiddenPatches : public QObject {
 
   /// Changes can be undone there, except reset(); null: no undo.
   void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
-  /// Shows all patches of a new scene.
-  void reset(PatchId patches);
+  /// Begins with a new scene, or a saved state.
+  /// @param hidden  its hidden patches, each below `patches`
+  void reset(PatchId patches, std::span<const PatchId> hidden = {});
   /// One per patch.
   const std::vector<bool>& flags() const { return flags_; }
   bool hidden(PatchId patch) const;

@@ -18,6 +18,7 @@ struct StepEvent {
     back_shown,    ///< above faces (along -omega) the back of below
     back_to_back,  ///< neither faces the other
   };
+  static constexpr int kind_count = 6;
   std::int32_t step = 0;
   Kind kind = Kind::inserted;
   PatchId below = no_patch;  ///< patch of the polygon that the step processes

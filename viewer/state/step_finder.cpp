@@ -18,6 +18,17 @@ StepFinder find_where(std::function<bool(const MapHistory&, std::int32_t)> holds
   };
 }
 
+StepFinder find_of(StepFinder finder, std::function<bool(const MapHistory&, std::int32_t)> holds) {
+  return [finder = std::move(finder), holds = std::move(holds)](
+             const MapHistory& history, std::int32_t from, StepOrder order) {
+    std::int32_t k = finder(history, from, order);
+    while (k != MapHistory::none && !holds(history, k)) {
+      k = finder(history, k, order);
+    }
+    return k;
+  };
+}
+
 StepFinder find_events_of(PatchId patch) {
   return [patch](const MapHistory& history, std::int32_t from, StepOrder order) {
     return order == StepOrder::forward ? history.next_step_of(patch, from)
@@ -32,21 +43,13 @@ StepFinder find_exchanges() {
 }
 
 StepFinder find_exchanges_of(PatchId patch) {
-  return [patch](const MapHistory& history, std::int32_t from, StepOrder order) {
-    const auto exchanges = [&](std::int32_t k) {
-      const auto inside = history.inside_at(k);
-      const bool own = history.step(k).patch == patch;
-      return std::any_of(inside.begin(), inside.end(), [&](std::int32_t r) {
-        return (own || history.row(r).patch == patch) && history.exchanges(r);
-      });
-    };
-    const StepFinder next = find_events_of(patch);
-    std::int32_t k = next(history, from, order);
-    while (k != MapHistory::none && !exchanges(k)) {
-      k = next(history, k, order);
-    }
-    return k;
-  };
+  return find_of(find_events_of(patch), [patch](const MapHistory& history, std::int32_t k) {
+    const auto inside = history.inside_at(k);
+    const bool own = history.step(k).patch == patch;
+    return std::any_of(inside.begin(), inside.end(), [&](std::int32_t r) {
+      return (own || history.row(r).patch == patch) && history.exchanges(r);
+    });
+  });
 }
 
 StepFinder find_changes_at(const Vec2& p) {

@@ -21,6 +21,9 @@ StepFinder find_exchanges_of(PatchId patch);
 StepFinder find_exchanges();
 /// Finds steps whose polygon covers point `p` of the plane.
 StepFinder find_changes_at(const Vec2& p);
+/// Finds the steps of `finder` for which `holds` returns true.
+StepFinder find_of(StepFinder finder,
+                   std::function<bool(const MapHistory& history, std::int32_t step)> holds);
 /// Finds steps for which `holds` returns true; tests each step.
 StepFinder find_where(std::function<bool(const MapHistory& history, std::int32_t step)> holds);
 

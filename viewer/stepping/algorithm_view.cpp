@@ -77,6 +77,10 @@ AlgorithmView::AlgorithmView(const Focus& focus, const Selection& selection, QWi
       layout->addWidget(part);
     }
   }
+  hidden_note_ = heading(tr("The answer to the page's question reveals the values (Ctrl+Return)."));
+  hidden_note_->setObjectName("values_hidden");
+  hidden_note_->setWordWrap(true);
+  layout->addWidget(hidden_note_);
   layout->addStretch(1);
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this, &AlgorithmView::show_kind);
   connect(&focus_, &Focus::moved, this, &AlgorithmView::show_position);
@@ -190,13 +194,19 @@ void AlgorithmView::set_kind(MapKind kind) {
 }
 
 void AlgorithmView::show_kind() {
-  for (QWidget* part : local_parts_) {
-    part->setVisible(kind() == MapKind::local);
+  for (const MapKind shown : {MapKind::local, MapKind::global}) {
+    // The code, and its values.
+    const auto& parts = shown == MapKind::local ? local_parts_ : global_parts_;
+    parts.front()->setVisible(kind() == shown);
+    parts.back()->setVisible(kind() == shown && !values_hidden_);
   }
-  for (QWidget* part : global_parts_) {
-    part->setVisible(kind() == MapKind::global);
-  }
+  hidden_note_->setVisible(values_hidden_);
   show_position();
+}
+
+void AlgorithmView::set_values_hidden(bool hidden) {
+  values_hidden_ = hidden;
+  show_kind();
 }
 
 void AlgorithmView::point_at(const QString& symbol) {

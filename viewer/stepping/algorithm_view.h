@@ -28,6 +28,8 @@ class AlgorithmView : public QWidget {
   /// Marks the lines with a symbol, given by its letter; empty: none.
   void point_at(const QString& symbol);
   void set_kind(MapKind kind);
+  /// Hides the values of the step, while a question asks for one of them.
+  void set_values_hidden(bool hidden);
   void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
 
  signals:
@@ -49,6 +51,8 @@ class AlgorithmView : public QWidget {
   std::vector<QLabel*> lines_;  ///< as algorithm_code()
   QString pointed_;             ///< a symbol
   QComboBox* kind_;
+  QLabel* hidden_note_;
+  bool values_hidden_ = false;
   std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the local or the global map
   ValueGrid *values_, *region_values_;
   QLabel *position_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;

@@ -19,13 +19,14 @@
 #include <QVBoxLayout>
 #include <limits>
 
+#include "support/number_text.h"
 #include "transillum/at.h"
 
 namespace transillum::viewer {
 
 namespace {
 
-using Kind = Breakpoint::Kind;
+using Kind = Condition::Kind;
 
 struct Choice {
   Kind kind;
@@ -71,9 +72,14 @@ BreakpointPanel::BreakpointPanel(Focus& focus, Selection& selection, Breakpoints
   layout->addWidget(hint_, 1, Qt::AlignTop);
   layout->addWidget(list_, 1);
   layout->addWidget(make_new_row());
+  layout->addLayout(make_join_row());
 
-  connect(&breakpoints_, &Breakpoints::changed, this, &BreakpointPanel::show_list);
+  connect(&breakpoints_, &Breakpoints::changed, this, [this] {
+    hits_.reset();
+    show_list();
+  });
   connect(&focus_, &Focus::moved, this, &BreakpointPanel::show_state);
+  connect(&focus_, &Focus::target_changed, this, &BreakpointPanel::mark_current);
   connect(&selection_, &Selection::changed, this, [this](PatchId patch) {
     if (patch != no_patch) {
       patch_->setValue(patch);
@@ -98,6 +104,7 @@ void BreakpointPanel::make_list() {
   list_->setObjectName("breakpoint_list");
   list_->setFrameShape(QFrame::NoFrame);
   list_->setMinimumHeight(48);
+  list_->setWordWrap(true);
   list_->setToolTip(tr("Right-click a breakpoint to run to it, even if it is disabled"));
   connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
     breakpoints_.set_enabled(static_cast<std::size_t>(list_->row(item)),
@@ -153,20 +160,15 @@ QWidget* BreakpointPanel::make_new_row() {
   positive->setLocale(QLocale::c());
   value_->setValidator(positive);
   unit_ = new QLabel;
-  add_ = new QToolButton;
-  add_->setText(tr("Add"));
-  add_->setObjectName("add_breakpoint");
-
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(8, 0, 8, 6);
+  layout->setContentsMargins(8, 0, 8, 0);
   layout->setSpacing(4);
   layout->addWidget(kind_, 2);
   for (QWidget* input : std::initializer_list<QWidget*>{patch_, other_, value_}) {
     layout->addWidget(input, 1);
   }
   layout->addWidget(unit_);
-  layout->addWidget(add_);
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           &BreakpointPanel::show_inputs);
   connect(value_, &QLineEdit::textChanged, this, &BreakpointPanel::show_state);
@@ -175,7 +177,47 @@ QWidget* BreakpointPanel::make_new_row() {
     connect(box->findChild<QLineEdit*>(), &QLineEdit::returnPressed, this,
             &BreakpointPanel::add_new);
   }
+  return row;
+}
+
+QLayout* BreakpointPanel::make_join_row() {
+  const auto button = [](const char* name, const QString& text, const QString& tip) {
+    auto* result = new QToolButton;
+    result->setText(text);
+    result->setToolTip(tip);
+    result->setObjectName(QString::fromLatin1(name));
+    return result;
+  };
+  add_ = button("add_breakpoint", tr("Add"), tr("Add a breakpoint with this condition (Return)"));
+  and_ = button("and_condition", tr("And"),
+                tr("Let the breakpoint chosen in the list stop only where this holds too;\n"
+                   "“and” binds more strongly than “or”"));
+  or_ = button("or_condition", tr("Or"),
+               tr("Let the breakpoint chosen in the list stop also where this holds"));
+  stop_at_ = new QSpinBox;
+  stop_at_->setObjectName("breakpoint_stop_at");
+  stop_at_->setRange(1, Breakpoint::most_hits);
+  stop_at_->setKeyboardTracking(false);
+  stop_at_->setToolTip(
+      tr("The hit of the breakpoint chosen in the list at which a run stops, counted from where "
+         "the run begins.\nThe list tells how often the last run hit each breakpoint."));
+  auto* label = new QLabel(tr("Stop at &hit"));
+  label->setBuddy(stop_at_);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 0, 8, 6);
+  row->setSpacing(4);
+  for (QToolButton* each : {add_, and_, or_}) {
+    row->addWidget(each);
+  }
+  row->addStretch(1);
+  row->addWidget(label);
+  row->addWidget(stop_at_);
   connect(add_, &QToolButton::clicked, this, &BreakpointPanel::add_new);
+  connect(and_, &QToolButton::clicked, this, [this] { join_new(false); });
+  connect(or_, &QToolButton::clicked, this, [this] { join_new(true); });
+  connect(stop_at_, qOverload<int>(&QSpinBox::valueChanged), this, [this](int hit) {
+    breakpoints_.set_stop_at(static_cast<std::size_t>(list_->currentRow()), hit);
+  });
   return row;
 }
 
@@ -200,6 +242,10 @@ void BreakpointPanel::show_run_menu(const QPoint& position) {
                   [this, finder] { focus_.seek(finder, StepOrder::backward); });
   menu->addAction(tr("Run forward to the next step where this is true"), this,
                   [this, finder] { focus_.seek(finder, StepOrder::forward); });
+  const auto k = static_cast<std::size_t>(row);
+  menu->addAction(tr("Remove its last condition"), this,
+                  [this, k] { breakpoints_.remove_last_condition(k); })
+      ->setEnabled(!breakpoints_.list()[k].further.empty());
   menu->popup(list_->viewport()->mapToGlobal(position));
 }
 
@@ -221,7 +267,7 @@ void BreakpointPanel::show_list() {
     const int row = list_->currentRow();
     list_->clear();
     for (const Breakpoint& breakpoint : breakpoints_.list()) {
-      auto* item = new QListWidgetItem(text_of(breakpoint), list_);
+      auto* item = new QListWidgetItem(list_);
       item->setCheckState(breakpoint.enabled ? Qt::Checked : Qt::Unchecked);
     }
     list_->setCurrentRow(std::min(row, list_->count() - 1));
@@ -240,9 +286,26 @@ void BreakpointPanel::show_state() {
   }
   run_on_->setEnabled(can_run);
   run_back_->setEnabled(can_run);
-  remove_->setEnabled(list_->currentRow() >= 0);
+  const int row = list_->currentRow();
+  for (QWidget* control : std::initializer_list<QWidget*>{remove_, stop_at_}) {
+    control->setEnabled(row >= 0);
+  }
+  const QSignalBlocker quiet(stop_at_);
+  stop_at_->setValue(row >= 0 ? at(breakpoints_.list(), row).stop_at : 1);
   mark_current();
   add_->setEnabled(choices[kind_->currentIndex()].unit == nullptr || value_->hasAcceptableInput());
+  for (QToolButton* join : {and_, or_}) {
+    join->setEnabled(add_->isEnabled() && row >= 0);
+  }
+}
+
+QString BreakpointPanel::text_of_row(int row) const {
+  const QString text = text_of(at(breakpoints_.list(), row));
+  if (!hits_ || !at(breakpoints_.list(), row).enabled) {
+    return text;
+  }
+  const std::int64_t hits = at(*hits_, row);
+  return hits == 1 ? tr("%1: 1 hit").arg(text) : tr("%1: %2 hits").arg(text, count_text(hits));
 }
 
 void BreakpointPanel::mark_current() {
@@ -254,20 +317,28 @@ void BreakpointPanel::mark_current() {
     const bool here =
         map && !focus_.following() && step >= 0 && holds(breakpoint, map->history, step);
     QListWidgetItem* item = list_->item(row);
-    item->setText(here ? tr("%1: true here").arg(text_of(breakpoint)) : text_of(breakpoint));
+    item->setText(here ? tr("%1, true here").arg(text_of_row(row)) : text_of_row(row));
     QFont font = list_->font();
     font.setBold(here);
     item->setFont(font);
   }
 }
 
-void BreakpointPanel::add_new() {
-  if (!add_->isEnabled()) {
-    return;
-  }
+Condition BreakpointPanel::entered() const {
   const Choice& choice = choices[kind_->currentIndex()];
-  breakpoints_.add({choice.kind, patch_->value(), other_->value(),
-                    choice.unit != nullptr ? value_->text().toDouble() : 0, true});
+  return {choice.kind, patch_->value(), other_->value(),
+          choice.unit != nullptr ? value_->text().toDouble() : 0};
+}
+
+void BreakpointPanel::add_new() {
+  if (add_->isEnabled()) {
+    breakpoints_.add({entered()});
+    list_->setCurrentRow(list_->count() - 1);  // "And" and "Or" join conditions to it
+  }
+}
+
+void BreakpointPanel::join_new(bool alternative) {
+  breakpoints_.join(static_cast<std::size_t>(list_->currentRow()), {alternative, entered()});
 }
 
 void BreakpointPanel::remove_current() {
@@ -276,6 +347,9 @@ void BreakpointPanel::remove_current() {
   }
 }
 
-void BreakpointPanel::run(StepOrder order) { focus_.seek(breakpoints_.finder(), order); }
+void BreakpointPanel::run(StepOrder order) {
+  hits_ = std::make_shared<HitCounts>();
+  focus_.seek(breakpoints_.run_finder(hits_), order);
+}
 
 }  // namespace transillum::viewer

@@ -19,8 +19,8 @@ class QToolButton;
 
 namespace transillum::viewer {
 
-/// The list of breakpoints, a row to add one, and actions that run to the next and the previous
-/// one.
+/// The list of breakpoints, with how often the last run hit each; rows to add one or a condition
+/// of one; and actions that run to the next and the previous one.
 class BreakpointPanel : public QWidget {
   Q_OBJECT
 
@@ -35,12 +35,16 @@ class BreakpointPanel : public QWidget {
   void make_list();
   QLayout* make_buttons();
   QWidget* make_new_row();
+  QLayout* make_join_row();
   void show_list();
   void show_run_menu(const QPoint& position);
   void show_inputs();
   void show_state();
   void mark_current();
+  QString text_of_row(int row) const;
+  Condition entered() const;
   void add_new();
+  void join_new(bool alternative);
   void remove_current();
   void run(StepOrder order);
 
@@ -53,7 +57,9 @@ class BreakpointPanel : public QWidget {
   QLineEdit* value_;
   QLabel* unit_;
   QLabel* hint_;
-  QToolButton *add_, *remove_;
+  QToolButton *add_, *and_, *or_, *remove_;
+  QSpinBox* stop_at_;
+  std::shared_ptr<HitCounts> hits_;  ///< of the last run; null: the list has changed since
   QAction *run_on_, *run_back_;
 };
 

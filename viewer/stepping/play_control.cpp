@@ -26,6 +26,11 @@ PlayControl::PlayControl(Focus& focus, QObject* parent)
   action_->setToolTip(tr("Play polygons, directions or iterations as an animation (L)"));
   connect(action_, &QAction::toggled, this, &PlayControl::toggle);
   connect(&timer_, &QTimer::timeout, this, &PlayControl::show_next);
+  connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
+    if (!found) {
+      action_->setChecked(false);  // no further step passes the filter of events
+    }
+  });
   make_menu();
   set_speed(per_second_);
 }
@@ -88,7 +93,7 @@ void PlayControl::toggle(bool on) {
 }
 
 void PlayControl::show_next() {
-  if (!focus_.arrived()) {
+  if (!focus_.arrived() || !may_go_on_()) {
     return;
   }
   if (!advance()) {

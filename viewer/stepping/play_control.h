@@ -3,7 +3,9 @@
 
 #include <QObject>
 #include <QTimer>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "state/focus.h"
 
@@ -34,6 +36,9 @@ class PlayControl : public QObject {
   void set_by(By by);
   /// @param per_second pictures, above 0
   void set_speed(double per_second);
+  double speed() const { return per_second_; }
+  /// Waits with the next picture while `may_go_on` says false.
+  void set_gate(std::function<bool()> may_go_on) { may_go_on_ = std::move(may_go_on); }
 
  signals:
   /// The camera is to turn about the vertical.
@@ -50,6 +55,7 @@ class PlayControl : public QObject {
   Focus& focus_;
   By by_ = By::polygons;
   double per_second_ = 5;
+  std::function<bool()> may_go_on_ = [] { return true; };
   QTimer timer_;
   QAction* action_;
   QAction* turns_;

@@ -7,6 +7,7 @@
 #include <QAction>
 #include <QKeySequence>
 #include <QMenu>
+#include <utility>
 
 namespace transillum::viewer {
 
@@ -102,8 +103,22 @@ int sign(StepOrder order) { return order == StepOrder::forward ? 1 : -1; }
 
 void StepActions::step(StepOrder order) { focus_.step_by(sign(order)); }
 void StepActions::phase(StepOrder order) { focus_.phase_by(sign(order)); }
-void StepActions::event(StepOrder order) { focus_.seek(find_events_of(selection_.patch()), order); }
-void StepActions::exchange(StepOrder order) { focus_.seek(find_exchanges(), order); }
+void StepActions::event(StepOrder order) {
+  seek(find_events_of(selection_.patch()), selection_.patch(), order);
+}
+void StepActions::exchange(StepOrder order) { seek(find_exchanges(), no_patch, order); }
+
+/// Skips steps none of whose events, of the patch if one is given, passes the filter.
+void StepActions::seek(StepFinder finder, PatchId patch, StepOrder order) {
+  const EventFilter& filter = focus_.filter();
+  if (filter.on()) {
+    finder = find_of(std::move(finder), [filter, patch](const MapHistory& history, std::int32_t k) {
+      return filter.passes_at(history, k, patch);
+    });
+  }
+  focus_.seek(std::move(finder), order);
+}
+
 void StepActions::direction(StepOrder order) { focus_.direction_by(sign(order)); }
 void StepActions::iteration(StepOrder order) { focus_.iteration_by(sign(order)); }
 

@@ -35,6 +35,7 @@ class StepActions : public QObject {
   void phase(StepOrder order);
   void event(StepOrder order);
   void exchange(StepOrder order);
+  void seek(StepFinder finder, PatchId patch, StepOrder order);
   void direction(StepOrder order);
   void iteration(StepOrder order);
   void show_state();

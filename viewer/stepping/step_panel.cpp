@@ -10,7 +10,9 @@
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
+#include "stepping/event_filter_row.h"
 #include "stepping/event_table.h"
 #include "support/number_text.h"
 #include "widgets/figure_table.h"
@@ -19,6 +21,7 @@ namespace transillum::viewer {
 
 StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
     : QWidget(parent), focus_(focus), selection_(selection), tabs_(new QTabWidget) {
+  tabs_->setObjectName("event_tabs");
   tabs_->setDocumentMode(true);
   step_ = add_tab(tr("This step"), "step_events");
   patch_ = add_tab(tr("Selected patch"), "patch_events");
@@ -31,6 +34,8 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tabs_);
+  filter_ = new EventFilterRow(focus_);
+  layout->addWidget(filter_);
   connect(tabs_, &QTabWidget::currentChanged, this, &StepPanel::show_events);
   connect(&focus_, &Focus::moved, this, &StepPanel::show_events);
   connect(&focus_, &Focus::probed, this, [this] {
@@ -40,6 +45,10 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
     show_events();
   });
   connect(&selection_, &Selection::changed, this, &StepPanel::show_events);
+  connect(&focus_, &Focus::filtered, this, [this] {
+    listed_map_ = nullptr;
+    show_events();
+  });
   show_events();
 }
 
@@ -86,16 +95,27 @@ void StepPanel::show_events() {
   }
 }
 
+void StepPanel::list(const Tab& tab, const QString& text, std::vector<StepEvent> events) {
+  const std::size_t all = events.size();
+  std::erase_if(events, [this](const StepEvent& event) { return !focus_.filter().passes(event); });
+  const std::size_t hidden = all - events.size();
+  tab.text->setText(hidden == 0 ? text
+                                : tr("%1 The filter hides %2 of %3 events.")
+                                      .arg(text, count_text(static_cast<std::int64_t>(hidden)),
+                                           count_text(static_cast<std::int64_t>(all))));
+  tab.table->set_events(std::move(events));
+}
+
 void StepPanel::show_step_tab() {
   const auto map = focus_.map();
   std::vector<StepEvent> events;
   if (map) {
     events = events_of_step(map->history, focus_.position().step);
   }
-  step_.text->setText(events.empty() ? tr("No events before the first step.")
-                                     : tr("Events of step %1. Click one to select its patch.")
-                                           .arg(count_text(focus_.position().step + 1)));
-  step_.table->set_events(std::move(events));
+  const QString text = events.empty() ? tr("No events before the first step.")
+                                      : tr("Events of step %1. Click one to select its patch.")
+                                            .arg(count_text(focus_.position().step + 1));
+  list(step_, text, std::move(events));
 }
 
 void StepPanel::show_patch_tab() {
@@ -108,13 +128,13 @@ void StepPanel::show_patch_tab() {
     if (map) {
       events = events_of_patch(map->history, patch);
     }
-    patch_.text->setText(
+    const QString text =
         patch == no_patch
             ? tr("Select a patch to list its events along this direction.")
             : tr("Events of direction %1 for patch %2. Double-click one to go to its step.")
                   .arg(count_text(map ? map->direction + 1 : 0))
-                  .arg(patch));
-    patch_.table->set_events(std::move(events));
+                  .arg(patch);
+    list(patch_, text, std::move(events));
   }
   patch_.table->set_current_step(focus_.position().step);
   const int row = patch_.table->row_of_step(focus_.position().step);
@@ -132,14 +152,14 @@ void StepPanel::show_line_tab() {
   const auto exchanges = std::count_if(events.begin(), events.end(), [](const StepEvent& event) {
     return event.kind == StepEvent::Kind::exchange;
   });
-  line_.text->setText(
+  const QString text =
       !focus_.probe() ? tr("Click the map to list the patches along a line parallel to ω.")
       : events.empty()
           ? tr("The line hits no patch.")
           : tr("Patches along the line, the nearest to the source first; %1 of them receive light "
                "there. Areas: of the fragment at the point, and of the whole pair.")
-                .arg(exchanges));
-  line_.table->set_events(std::move(events));
+                .arg(exchanges);
+  list(line_, text, std::move(events));
   line_.table->set_current_step(focus_.position().step);
 }
 

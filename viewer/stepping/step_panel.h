@@ -13,6 +13,7 @@ class QTableView;
 
 namespace transillum::viewer {
 
+class EventFilterRow;
 class EventTable;
 
 /// Tables of events: of the current step, of the selected patch, and along one line parallel to
@@ -22,6 +23,8 @@ class StepPanel : public QWidget {
 
  public:
   StepPanel(Focus& focus, Selection& selection, QWidget* parent = nullptr);
+
+  EventFilterRow* filter() const { return filter_; }
 
  private:
   /// One tab: a table with a line of text above it.
@@ -35,11 +38,14 @@ class StepPanel : public QWidget {
   void show_step_tab();
   void show_patch_tab();
   void show_line_tab();
+  /// Lists the events that pass the filter, below `text`, which says if there are others.
+  void list(const Tab& tab, const QString& text, std::vector<StepEvent> events);
 
   Focus& focus_;
   Selection& selection_;
   QTabWidget* tabs_;
   Tab step_, patch_, line_;
+  EventFilterRow* filter_;
   std::shared_ptr<const RecordedMap> listed_map_;  ///< listed in patch_
   PatchId listed_patch_ = no_patch;
 };

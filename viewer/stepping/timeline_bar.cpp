@@ -1,17 +1,19 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// The timeline: step buttons, a text on the current step, and the lanes. Input: Focus and
-// snapshots.
+// The timeline: step buttons, a text on the current step, the lanes, and the chart of what is
+// watched. Input: Focus, Watches and snapshots.
 #include "stepping/timeline_bar.h"
 
 #include <QAction>
 #include <QHBoxLayout>
+#include <QMenu>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "stepping/play_control.h"
 #include "stepping/step_actions.h"
 #include "stepping/timeline_lanes.h"
+#include "stepping/watch_chart.h"
 #include "support/number_text.h"
 #include "widgets/elided.h"
 #include "widgets/theme.h"
@@ -30,8 +32,8 @@ QToolButton* button_of(QAction* action) {
 
 }  // namespace
 
-TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
-                         QWidget* parent)
+TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
+                         const StepActions& actions, QWidget* parent)
     : QWidget(parent), focus_(focus), play_(new PlayControl(focus, this)) {
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 4, 8, 0);
@@ -46,6 +48,12 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   stop_->setToolTip(tr("Stop the search (Esc)"));
   stop_->setObjectName("stop_seeking");
   connect(stop_, &QToolButton::clicked, &focus_, &Focus::stop);
+  filter_ = new QToolButton;
+  filter_->setObjectName("filter_shown");
+  filter_->setToolTip(tr("Only steps with these events are stepped to; click to show all"));
+  filter_->setIcon(theme::icon(theme::Icon::close));
+  filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  connect(filter_, &QToolButton::clicked, this, [this] { focus_.set_filter({}); });
   auto* play = button_of(play_->action());
   play->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   play->setMenu(play_->menu());
@@ -56,15 +64,26 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
   row->addSpacing(10);
   row->addWidget(text_, 1);
   row->addWidget(stop_);
-  row->addWidget(newest);
+  row->addWidget(filter_);
   lanes_ = new TimelineLanes(focus, selection);
   lanes_->setObjectName("timeline_lanes");
+  watched_ = new WatchChart(focus, selection, watches, *lanes_);
+  watched_->setObjectName("watch_chart");
+  auto* watch = new QToolButton;
+  watch->setText(tr("Watch"));
+  watch->setToolTip(tr("Draw an area, the closure defect or the size of V over the steps"));
+  watch->setAutoRaise(true);
+  watch->setPopupMode(QToolButton::InstantPopup);
+  watch->setMenu(watched_->menu());
+  row->addWidget(watch);
+  row->addWidget(newest);
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
   layout->addLayout(row);
   layout->addWidget(lanes_, 1);
+  layout->addWidget(watched_);
   connect(&focus_, &Focus::moved, this, &TimelineBar::show_position);
   connect(&focus_, &Focus::target_changed, this, &TimelineBar::show_position);
   connect(&focus_, &Focus::seek_ended, this, [this](bool found) {
@@ -76,7 +95,16 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, const StepActions& 
     text_->set_clauses(
         {tr("Search stopped: nothing found in %1 directions").arg(count_text(searched))});
   });
+  connect(&focus_, &Focus::filtered, this, &TimelineBar::show_filter);
   show_position();
+  show_filter();
+}
+
+QMenu* TimelineBar::watch_menu() const { return watched_->menu(); }
+
+void TimelineBar::show_filter() {
+  filter_->setVisible(focus_.filter().on());
+  filter_->setText(tr("Only %1").arg(text_of(focus_.filter())));
 }
 
 void TimelineBar::show_snapshot(const SolverSnapshot& snapshot) {

@@ -7,7 +7,9 @@
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "state/selection.h"
+#include "state/watches.h"
 
+class QMenu;
 class QToolButton;
 
 namespace transillum::viewer {
@@ -16,27 +18,33 @@ class ClauseLabel;
 class PlayControl;
 class StepActions;
 class TimelineLanes;
+class WatchChart;
 
 /// The position in the run that the window shows, and the controls to change it.
 class TimelineBar : public QWidget {
   Q_OBJECT
 
  public:
-  TimelineBar(Focus& focus, Selection& selection, const StepActions& actions,
+  TimelineBar(Focus& focus, Selection& selection, Watches& watches, const StepActions& actions,
               QWidget* parent = nullptr);
 
   void show_snapshot(const SolverSnapshot& snapshot);
   TimelineLanes* lanes() const { return lanes_; }
   PlayControl* play() const { return play_; }
+  /// Of what can be watched.
+  QMenu* watch_menu() const;
 
  private:
   void show_position();
+  void show_filter();
 
   Focus& focus_;
   PlayControl* play_;
   ClauseLabel* text_;
   QToolButton* stop_;
+  QToolButton* filter_;
   TimelineLanes* lanes_;
+  WatchChart* watched_;
 };
 
 }  // namespace transillum::viewer

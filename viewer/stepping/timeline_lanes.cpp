@@ -54,6 +54,7 @@ TimelineLanes::TimelineLanes(Focus& focus, Selection& selection, QWidget* parent
     update();
   });
   connect(&focus_, &Focus::target_changed, this, qOverload<>(&QWidget::update));
+  connect(&focus_, &Focus::filtered, this, &TimelineLanes::count_columns);
   connect(&selection_, &Selection::changed, this, &TimelineLanes::count_columns);
 }
 
@@ -138,7 +139,11 @@ void TimelineLanes::count_columns() {
     const double x = position(lane, step + 1, history.step_count() + 1) - lane.left();
     return columns_[std::min(static_cast<std::size_t>(x), columns_.size() - 1)];
   };
+  const EventFilter& filter = focus_.filter();
   for (std::int32_t k = 0; k < history.step_count(); ++k) {
+    if (filter.on() && !filter.passes_at(history, k)) {
+      continue;
+    }
     column(k).cuts += history.step(k).cut;
     column(k).exchanges += history.step(k).exchanges;
   }

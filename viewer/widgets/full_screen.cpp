@@ -46,6 +46,7 @@ void FullScreen::show_only(const QList<QWidget*>& views) {
   if (active_) {
     show_all();
   }
+  emit beginning();
   active_ = true;
   action_->setChecked(true);
   state_ = window_.saveState();
@@ -83,6 +84,7 @@ void FullScreen::show_all() {
     widget->show();
   }
   window_.restoreState(state_);
+  emit ended();
 }
 
 }  // namespace transillum::viewer

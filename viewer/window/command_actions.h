@@ -10,7 +10,7 @@ class QMenu;
 
 namespace transillum::viewer {
 
-/// Copies the shown solve, or the shown map, as a line for a shell.
+/// Copies the shown solve, the map of the direction, or V at the step as a line for a shell.
 class CommandActions : public QObject {
   Q_OBJECT
 
@@ -22,11 +22,12 @@ class CommandActions : public QObject {
 
  private:
   void copy_solve();
-  void copy_map();
+  void copy_map(std::optional<std::int32_t> steps);
+  void copy_step();
   RunOptions options() const;
 
   WindowParts parts_;
-  QAction *solve_, *map_;
+  QAction *solve_, *map_, *step_;
 };
 
 }  // namespace transillum::viewer

@@ -124,6 +124,12 @@ void add_scene_options(CLI::App& app, CommandLine& line) {
          "--units", [&read](const std::string& name) { read.scale = length_unit_from_name(name); },
          with_choices(length_unit_names(), "unit of the scene's coordinates (default: m)"))
       ->excludes(scale);
+  app.add_flag_function(
+      "--join,!--no-join", [&read](std::int64_t count) { read.join = count > 0; },
+      "join faces of one plane, material and group that share edges (default: only for "
+      "glTF and STL)");
+  app.add_flag("--photometric", read.photometric,
+               "glTF: emissive colors are luminances in cd/m² instead of radiances");
   app.add_option_function<std::string>(
          "--orient", [&line](const std::string& choice) { line.input.orient = choice == "auto"; },
          "keep | auto: turn faces so that what is seen is the lit side (default: keep)")
@@ -208,7 +214,7 @@ ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ost
                "transillum-viewer");
   app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
   app.add_option("SCENE", line.scene,
-                 "an .obj file or a built-in scene, solved at once (default: sphere-flake); or a "
+                 "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
                  "result (.vtp), a session or a lesson (.json)");
   add_solve_options(app, line, names);
   add_scene_options(app, line);

@@ -21,7 +21,7 @@ namespace transillum::viewer {
 namespace {
 
 // To be raised when docks are added, removed or renamed: older saved layouts then become invalid.
-constexpr int layout_version = 8;
+constexpr int layout_version = 9;
 
 struct Widths {
   int left, right;
@@ -115,6 +115,7 @@ void DockLayouts::arrange(Layout layout) {
   for (const Dock& dock : docks_) {
     place(dock, layout, shown, heights);
   }
+  place_others(shown);
   window_.resizeDocks(shown, heights, Qt::Vertical);
   follow_type();
   enlarged_ = false;
@@ -128,13 +129,27 @@ void DockLayouts::arrange(Layout layout) {
   });
 }
 
+// Docks without a place in this layout open as tabs of the side of their place in another one:
+// beside the others, they would make the window higher than small screens.
+void DockLayouts::place_others(const QList<QDockWidget*>& shown) {
+  for (const Dock& dock : docks_) {
+    if (!dock.widget->isHidden() || dock.places.empty()) {
+      continue;
+    }
+    const auto beside = std::find_if(shown.rbegin(), shown.rend(), [&](QDockWidget* other) {
+      return window_.dockWidgetArea(other) == dock.places.front().area;
+    });
+    window_.addDockWidget(dock.places.front().area, dock.widget);
+    if (beside != shown.rend()) {
+      window_.tabifyDockWidget(*beside, dock.widget);
+    }
+    dock.widget->hide();
+  }
+}
+
 /// @param shown, heights what is in front in the layout so far
 void DockLayouts::place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown,
                         QList<int>& heights) {
-  // A dock without a place in this layout opens at its place in another one.
-  if (!dock.places.empty()) {
-    window_.addDockWidget(dock.places.front().area, dock.widget);
-  }
   dock.widget->hide();
   for (const Place& place : dock.places) {
     if (place.layout != layout) {

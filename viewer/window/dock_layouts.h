@@ -78,6 +78,7 @@ class DockLayouts : public QObject {
     QDockWidget* widget;
     std::vector<Place> places;
   };
+  void place_others(const QList<QDockWidget*>& shown);
   void place(const Dock& dock, Layout layout, QList<QDockWidget*>& shown, QList<int>& heights);
 
   QMainWindow& window_;

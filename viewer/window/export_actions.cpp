@@ -3,8 +3,6 @@
 
 #include <QAction>
 #include <QBuffer>
-#include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QMainWindow>
@@ -14,9 +12,12 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "map/map_canvas.h"
+#include "map/map_view.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/convergence_view.h"
+#include "state/callout_place.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/map_files.h"
@@ -33,16 +34,6 @@ void write_whole(const QString& path, const QByteArray& bytes) {
   if (!file.open(QIODevice::WriteOnly) || file.write(bytes) < 0 || !file.commit()) {
     throw std::runtime_error((path + ": " + file.errorString()).toStdString());
   }
-}
-
-void write_png(const QString& path, const QImage& image) {
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  if (image.isNull() || !image.save(&buffer, "PNG")) {
-    throw std::runtime_error(path.toStdString() + ": there is no picture to write");
-  }
-  write_whole(path, bytes);
 }
 
 VisibilityMap map_at(const RecordedMap& map, std::int32_t step) {
@@ -74,16 +65,17 @@ SceneDescription description_of(const Scene& scene, const PatchMaterials& materi
   return description;
 }
 
-/// Number of the last frame of an earlier recording, which is continued; 0 where there is none.
-int last_frame_in(const QString& folder) {
-  int last = 0;
-  for (const QString& name : QDir(folder).entryList({QStringLiteral("frame_*.png")})) {
-    last = std::max(last, name.mid(6, name.size() - 10).toInt());
-  }
-  return last;
-}
-
 }  // namespace
+
+void write_png(const QString& path, const QImage& image) {
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  if (image.isNull() || !image.save(&buffer, "PNG")) {
+    throw std::runtime_error(path.toStdString() + ": there is no picture to write");
+  }
+  write_whole(path, bytes);
+}
 
 ExportActions::ExportActions(const WindowParts& parts)
     : QObject(&parts.window),
@@ -106,19 +98,6 @@ ExportActions::ExportActions(const WindowParts& parts)
   add("export_charts", tr("Convergence charts…"), tr("As vectors (SVG) or PNG"), &E::choose_charts);
   add("export_figures", tr("Convergence figures…"), tr("The data of the charts as CSV"),
       &E::choose_figures);
-  add("export_frames", tr("Record frames…"),
-      tr("Write each new picture of the scene as a PNG, during the solve and at each step, until "
-         "switched off"),
-      &E::toggle_frames);
-  record_ = actions_.back();
-  record_->setCheckable(true);
-  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &ExportActions::write_frame);
-  // While the newest direction is followed, snapshots already write the frames.
-  connect(&parts_.focus, &Focus::moved, this, [this] {
-    if (!parts_.focus.following()) {
-      write_frame();
-    }
-  });
   save_scene_ = new QAction(tr("Save scene…"), this);
   save_scene_->setObjectName("save_scene");
   save_scene_->setToolTip(
@@ -224,6 +203,12 @@ void ExportActions::write_map_picture(const QString& path) const {
   check_map_path(path.toStdString());
   MapPictureOptions options;
   options.patch_colors = parts_.colors.patch_colors();
+  const std::vector<std::int32_t> rows = focus.map()->record().map_after(step);
+  for (const Callout& callout : parts_.map.canvas()->callouts()) {
+    if (const auto place = place_in_map(callout, *focus.map(), rows, focus.position().step)) {
+      options.labels.push_back({callout.text, *place});
+    }
+  }
   write_map(path.toStdString(), *focus.map()->loaded->scene, map_at(*focus.map(), step), options);
 }
 
@@ -254,32 +239,6 @@ void ExportActions::write_chart_figures(const QString& path) const {
       out << '\n';
     }
   });
-}
-
-void ExportActions::begin_frames(const QString& folder) {
-  folder_ = folder;
-  frames_ = last_frame_in(folder);
-  record_->setChecked(true);
-  write_frame();
-}
-
-void ExportActions::end_frames() {
-  folder_.clear();
-  record_->setChecked(false);
-}
-
-void ExportActions::write_frame() {
-  if (folder_.isEmpty()) {
-    return;
-  }
-  try {
-    const QString name = QStringLiteral("frame_%1.png").arg(frames_ + 1, 5, 10, QLatin1Char('0'));
-    write_scene(QDir(folder_).filePath(name), 1);
-    ++frames_;
-  } catch (const std::exception& error) {
-    end_frames();
-    parts_.notifier.show_failure(QString::fromStdString(error.what()));
-  }
 }
 
 QString ExportActions::name_with(const char* ending) const {
@@ -338,20 +297,6 @@ void ExportActions::choose_charts() {
 void ExportActions::choose_figures() {
   write_chosen(tr("Convergence figures"), tr("Tables (*.csv)"), name_with("-convergence.csv"),
                [this](const QString& path) { write_chart_figures(path); });
-}
-
-void ExportActions::toggle_frames() {
-  if (!record_->isChecked()) {
-    end_frames();
-    return;
-  }
-  const QString folder =
-      QFileDialog::getExistingDirectory(&parts_.window, tr("Folder for the frames"));
-  if (folder.isEmpty()) {
-    record_->setChecked(false);
-  } else {
-    begin_frames(folder);
-  }
 }
 
 }  // namespace transillum::viewer

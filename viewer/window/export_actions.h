@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <QImage>
 #include <QObject>
 #include <QString>
 #include <functional>
@@ -15,9 +16,11 @@ class QWidget;
 
 namespace transillum::viewer {
 
-/// Exports from the window: pictures, vector graphics, results, figures, recorded frames. All files
-/// are written whole or not at all; the functions throw std::runtime_error where one cannot be
-/// written.
+/// Writes a picture whole or not at all. @throws std::runtime_error
+void write_png(const QString& path, const QImage& image);
+
+/// Exports from the window: pictures, vector graphics, results, figures. All files are written
+/// whole or not at all; the functions throw std::runtime_error where one cannot be written.
 class ExportActions : public QObject {
   Q_OBJECT
 
@@ -45,10 +48,6 @@ class ExportActions : public QObject {
   void write_charts(const QString& path) const;
   /// What the charts draw: chart,x,change,quadrature_error.
   void write_chart_figures(const QString& path) const;
-  /// From now on, each new picture of the scene becomes the next frame_00001.png of `folder`.
-  void begin_frames(const QString& folder);
-  void end_frames();
-  int frames() const { return frames_; }
 
  private:
   void add(const char* name, const QString& text, const QString& tip,
@@ -59,8 +58,6 @@ class ExportActions : public QObject {
   void choose_map();
   void choose_charts();
   void choose_figures();
-  void toggle_frames();
-  void write_frame();
   /// A file name made of the open scene's.
   QString name_with(const char* ending) const;
   template <class Write>
@@ -69,9 +66,7 @@ class ExportActions : public QObject {
 
   WindowParts parts_;
   QList<QAction*> actions_;
-  QAction *record_, *save_scene_;
-  QString folder_;
-  int frames_ = 0;
+  QAction* save_scene_;
   bool writing_ = false;
 
   struct FileToWrite {

@@ -28,6 +28,7 @@
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
 #include "window/window_session.h"
+#include "window/work_guard.h"
 
 namespace transillum::viewer {
 
@@ -57,7 +58,11 @@ FileActions::FileActions(const WindowParts& parts, ViewStateApplier& applier,
 
   connect(open_, &QAction::triggered, this, &FileActions::choose);
   connect(save_session_, &QAction::triggered, this, &FileActions::choose_session);
-  connect(reload_, &QAction::triggered, &applier_, &ViewStateApplier::reload);
+  connect(reload_, &QAction::triggered, this, [this] {
+    if (parts_.guard.may_lose(&parts_.window, tr("Reload"))) {
+      applier_.reload();
+    }
+  });
   connect(watch_, &QAction::toggled, this, &FileActions::watch_scene);
   connect(recent_menu_, &QMenu::aboutToShow, this, &FileActions::fill_recent);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] {
@@ -104,10 +109,17 @@ void FileActions::add_to(QMenu& menu) const {
 }
 
 void FileActions::choose() {
+  QStringList endings, formats;
+  for (const SceneFormat& format : scene_formats()) {
+    const QString pattern = "*" + QString::fromStdString(format.ending);
+    endings += pattern;
+    formats += QString("%1 (%2)").arg(QString::fromStdString(format.name), pattern);
+  }
   const QString path = QFileDialog::getOpenFileName(
       &parts_.window, tr("Open"), {},
-      tr("Scenes, results, sessions, lessons (*.obj *.vtp *.json);;Wavefront OBJ (*.obj);;Results "
-         "(*.vtp);;Sessions and lessons (*.json);;All files (*)"));
+      tr("Scenes, results, sessions, lessons (%1 *.vtp *.json)").arg(endings.join(' ')) + ";;" +
+          formats.join(";;") +
+          tr(";;Results (*.vtp);;Sessions and lessons (*.json);;All files (*)"));
   if (!path.isEmpty()) {
     try_open(path);
   }
@@ -137,6 +149,9 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
 }
 
 void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input) {
+  if (!parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+    return;
+  }
   applier_.leave_lesson();
   RunOptions options = parts_.settings.options();
   options.input = input;
@@ -191,8 +206,11 @@ void FileActions::open_lesson(const std::string& which, int page) {
 
 void FileActions::open_session(const QString& path) {
   const std::string name = path.toStdString();
-  session_.restore(
-      session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString()));
+  const Session session =
+      session_from_text(read_json_file(name), name, QFileInfo(path).path().toStdString());
+  if (parts_.guard.may_lose(&parts_.window, tr("Open"))) {
+    session_.restore(session);
+  }
 }
 
 void FileActions::choose_session() {

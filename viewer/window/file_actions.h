@@ -42,7 +42,8 @@ class FileActions : public QObject {
   /// open() for files that the user has chosen or dropped: errors go to the banner.
   void try_open(const QString& path);
   /// Opens a file or a built-in scene with the default camera and exposure and without anything
-  /// that a lesson has set, and follows the newest direction.
+  /// that a lesson has set, and follows the newest direction. Asks before long work is lost, as all
+  /// of these do.
   void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
                   const SceneInput& input = {});
   /// Shows a page of a lesson.

@@ -12,6 +12,7 @@
 #include "patches/material_panel.h"
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
+#include "patches/run_panel.h"
 #include "patches/selection_actions.h"
 #include "patches/warning_list.h"
 #include "widgets/scrolling.h"
@@ -33,6 +34,10 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
   selecting_ = new SelectionActions(selection, hidden, this);
   hidden.set_undo_stack(&relighting_.edits().undo_stack());
   compare_ = new CompareActions(colors, window, this);
+  connect(compare_, &CompareActions::failed, this, &InspectionPanels::failed);
+  runs_ = new RunPanel(colors, selection, *compare_->keep(), *compare_->difference());
+  connect(runs_, &RunPanel::patch_chosen, this, &InspectionPanels::face_chosen);
+  colors.kept_runs().set_undo_stack(&relighting_.edits().undo_stack());
   connect(&colors, &ColorChoice::form_factors_requested, &runner,
           &SolveRunner::include_form_factors);
   connect(&relighting_, &Relighting::form_factors_requested, &runner,
@@ -64,6 +69,11 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,
                                        {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
+}
+
+void InspectionPanels::add_runs_to(DockLayouts& docks) {
+  docks.add(tr("Kept runs"), "runs_dock", runs_,
+            {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
 }
 
 void InspectionPanels::add_warnings_to(DockLayouts& docks) {

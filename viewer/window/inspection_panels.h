@@ -21,11 +21,12 @@ class DockLayouts;
 class MaterialPanel;
 class PatchTablePanel;
 class PathPanel;
+class RunPanel;
 class SelectionActions;
 class WarningList;
 class SolveRunner;
 
-/// The panels that inspect a scene: tables of patches, materials to change, a kept run to compare
+/// The panels that inspect a scene: tables of patches, materials to change, kept runs to compare
 /// with; with their docks and menus.
 class InspectionPanels : public QObject {
   Q_OBJECT
@@ -36,6 +37,7 @@ class InspectionPanels : public QObject {
 
   void add_materials_to(DockLayouts& docks);
   void add_tables_to(DockLayouts& docks);
+  void add_runs_to(DockLayouts& docks);
   void add_warnings_to(DockLayouts& docks);
   /// Adds the menus Edit and Compare.
   void add_to(QMenuBar& bar);
@@ -49,7 +51,7 @@ class InspectionPanels : public QObject {
 
  signals:
   void failed(const QString& message);
-  /// As WarningList::face_chosen().
+  /// As WarningList::face_chosen() and RunPanel::patch_chosen().
   void face_chosen();
   /// As PathPanel::paths_shown().
   void paths_shown(std::shared_ptr<const transillum::LightPaths> paths, int emphasized);
@@ -61,6 +63,7 @@ class InspectionPanels : public QObject {
   PathPanel* paths_;
   WarningList* warnings_;
   CompareActions* compare_;
+  RunPanel* runs_;
   SelectionActions* selecting_;
   QDockWidget* table_dock_ = nullptr;
 };

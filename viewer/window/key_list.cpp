@@ -43,6 +43,7 @@ KeyGroup pointer_group() {
                       "list the patches on its line; right-click: run to a point")},
        {tr("Timeline"), tr("drag: go to a step; Shift+drag: step by step; arrow keys: one step, "
                            "with Ctrl one direction")},
+       {tr("Kept runs"), tr("F2 or double-click: rename; Del: remove")},
        {tr("Directions"), tr("drag: rotate the sphere; click: go to a direction")}}};
 }
 

@@ -11,7 +11,6 @@
 #include <QSaveFile>
 #include <utility>
 
-#include "lessons/figure_values.h"
 #include "lessons/lesson_panel.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
@@ -35,19 +34,16 @@ LessonExport::LessonExport(const WindowParts& parts, std::function<bool()> settl
       parts_(parts),
       settled_(std::move(settled)),
       action_(new QAction(tr("Export the lesson…"), this)),
-      worker_(
-          [this](const Job& job, const Cancellation& cancellation) { solve(job, cancellation); },
-          [this](const Job& job, const QString& message) {
-            QMetaObject::invokeMethod(
-                this,
-                [this, number = job.number, message] {
-                  if (number == number_ && busy()) {
-                    end();
-                    parts_.notifier.show_failure(message);
-                  }
-                },
-                Qt::QueuedConnection);
-          }) {
+      solver_(*this, [this](const QuestionRequest&, const std::shared_ptr<const Solved>& solved,
+                            const QString& error) {
+        if (solved) {
+          pages_.back().solved = *solved;
+          show_next();
+          return;
+        }
+        end();
+        parts_.notifier.show_failure(error);
+      }) {
   action_->setObjectName("lesson_export");
   action_->setToolTip(tr("Write text, pictures and maps of all pages as one HTML file"));
   poll_.setInterval(poll_ms);
@@ -124,20 +120,7 @@ void LessonExport::take_page() {
     show_next();
     return;
   }
-  worker_.request({parts_.scene.loaded(), *question, ++number_});
-}
-
-void LessonExport::solve(const Job& job, const Cancellation& cancellation) {
-  FigureValues figures(job.loaded, cancellation);
-  QMetaObject::invokeMethod(
-      this,
-      [this, number = job.number, solved = solve_question(job.question, figures)] {
-        if (number == number_ && busy()) {
-          pages_.back().solved = solved;
-          show_next();
-        }
-      },
-      Qt::QueuedConnection);
+  solver_.request({parts_.scene.loaded(), *question});
 }
 
 void LessonExport::finish() {
@@ -154,8 +137,7 @@ void LessonExport::finish() {
 }
 
 void LessonExport::end() {
-  ++number_;
-  worker_.clear();
+  solver_.clear();
   poll_.stop();
   pages_.clear();
   path_.clear();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lessons/lesson_html.h"
-#include "support/request_worker.h"
+#include "lessons/question_solver.h"
 #include "window/window_parts.h"
 
 class QAction;
@@ -31,17 +31,10 @@ class LessonExport : public QObject {
   bool busy() const { return !path_.isEmpty(); }
 
  private:
-  struct Job {
-    std::shared_ptr<const LoadedScene> loaded;
-    Question question;
-    int number = 0;
-  };
-
   void choose();
   void show_next();
   void take_when_settled();
   void take_page();
-  void solve(const Job& job, const Cancellation& cancellation);
   void finish();
   void end();
 
@@ -52,10 +45,9 @@ class LessonExport : public QObject {
   QProgressDialog* progress_ = nullptr;
   QString path_;  ///< empty: idle
   int lesson_ = 0, page_before_ = 0;
-  int number_ = 0;  ///< of the newest job
-  int quiet_ = 0;   ///< consecutive times that the window was found settled
+  int quiet_ = 0;  ///< consecutive times that the window was found settled
   std::vector<ShownPage> pages_;
-  RequestWorker<Job> worker_;
+  QuestionSolver solver_;
 };
 
 }  // namespace transillum::viewer

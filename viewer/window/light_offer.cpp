@@ -14,6 +14,7 @@
 #include "widgets/banner.h"
 #include "window/dock_layouts.h"
 #include "window/view_state_applier.h"
+#include "window/work_guard.h"
 
 namespace transillum::viewer {
 
@@ -94,6 +95,9 @@ void LightOffer::make_emit(const std::string& target) {
   const auto snapshot = parts_.scene.snapshot();
   if (snapshot && !snapshot->form_factors_fit && parts_.scene.loaded()->description) {
     // Form factors that exceed the memory limit light nothing: a new solve does.
+    if (!parts_.guard.may_lose(&parts_.window, tr("Make it emit"))) {
+      return;
+    }
     RunOptions options{parts_.settings.solve_options(), parts_.scene.options(),
                        parts_.scene.input()};
     options.input.changes.push_back({target, {}, white});

@@ -25,6 +25,7 @@
 #include "map/compare_view.h"
 #include "map/map_canvas.h"
 #include "map/map_view.h"
+#include "map/phase_pair.h"
 #include "patches/patch_inspector.h"
 #include "scene/color_controls.h"
 #include "scene/error_view.h"
@@ -39,6 +40,7 @@
 #include "solve/study_dialog.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
+#include "stepping/event_filter_row.h"
 #include "stepping/play_control.h"
 #include "stepping/step_actions.h"
 #include "stepping/step_panel.h"
@@ -54,6 +56,7 @@
 #include "window/command_actions.h"
 #include "window/export_actions.h"
 #include "window/file_actions.h"
+#include "window/frame_recorder.h"
 #include "window/help_dialogs.h"
 #include "window/inspection_panels.h"
 #include "window/key_list.h"
@@ -62,6 +65,7 @@
 #include "window/loading_notice.h"
 #include "window/notifier.h"
 #include "window/orientation_offer.h"
+#include "window/projector_mode.h"
 #include "window/recovery.h"
 #include "window/setting_list.h"
 #include "window/solve_control.h"
@@ -112,6 +116,7 @@ WindowParts MainWindow::parts() {
           state_.selection,
           state_.colors,
           state_.breakpoints,
+          state_.watches,
           docks_,
           *page_,
           *map_view_,
@@ -120,7 +125,8 @@ WindowParts MainWindow::parts() {
           *settings_,
           *lesson_panel_,
           *notes_,
-          *notifier_};
+          *notifier_,
+          work_guard_};
 }
 
 void MainWindow::make_views() {
@@ -140,6 +146,7 @@ void MainWindow::make_views() {
   received_view_ = new ReceivedView(state_.focus, state_.selection, state_.visibility);
   compare_view_ = new CompareView(state_.focus, state_.selection, state_.colors);
   algorithm_ = new AlgorithmView(state_.focus, state_.selection);
+  step_panel_ = new StepPanel(state_.focus, state_.selection);
   breakpoint_panel_ = new BreakpointPanel(state_.focus, state_.selection, state_.breakpoints);
   lesson_panel_ = new LessonPanel(built_in_lessons(), state_.selection, state_.focus,
                                   state_.relighting.edits());
@@ -154,7 +161,7 @@ void MainWindow::make_views() {
   notes_ = new QPlainTextEdit;
   notes_->setObjectName("notes");
   notes_->setPlaceholderText(tr("Your notes. Saved with the session."));
-  timeline_ = new TimelineBar(state_.focus, state_.selection, *step_actions_);
+  timeline_ = new TimelineBar(state_.focus, state_.selection, state_.watches, *step_actions_);
   timeline_->lanes()->set_marks(
       [this](const MapHistory& history) { return state_.breakpoints.steps_in(history); });
   inspection_ = new InspectionPanels(state_.relighting, state_.selection, page_->hidden(),
@@ -170,10 +177,13 @@ void MainWindow::make_whole_window_actions() {
   const WindowParts parts = this->parts();
   solve_actions_ = new SolveActions(this);
   applier_ = new ViewStateApplier(parts);
-  new SolveControl(parts, *solve_actions_, *applier_, work_guard_);
+  new SolveControl(parts, *solve_actions_, *applier_);
   session_ = new WindowSession(parts, *applier_);
   files_ = new FileActions(parts, *applier_, *session_);
   exports_ = new ExportActions(parts);
+  recorder_ = new FrameRecorder(parts, *timeline_->play());
+  timeline_->play()->menu()->addSeparator();
+  timeline_->play()->menu()->addAction(recorder_->animation_action());
   new LoadingNotice(parts);
   if (remember_) {
     recovery_ = new Recovery(parts, *session_, Recovery::usual_folder());
@@ -184,12 +194,16 @@ void MainWindow::make_whole_window_actions() {
   connect(lesson_panel_, &LessonPanel::page_shown, applier_, &ViewStateApplier::show_page);
   connect(lesson_panel_, &LessonPanel::option_chosen, applier_, &ViewStateApplier::set_option);
   connect(lesson_panel_, &LessonPanel::open_clicked, files_, &FileActions::choose_lesson);
+  lesson_panel_->set_guard([this] {
+    return applier_->in_lesson() || work_guard_.may_lose(this, tr("Begin the lesson"));
+  });
   connect(page_, &ScenePage::lesson_clicked, this, [this] { lesson_panel_->show_page(0, 0); });
   connect(page_, &ScenePage::open_clicked, files_->open_action(), &QAction::trigger);
   connect(page_, &ScenePage::built_in_clicked, files_,
           [this](const QString& name) { files_->open_scene(name); });
   QUndoStack& undo_stack = state_.relighting.edits().undo_stack();
   state_.breakpoints.set_undo_stack(&undo_stack);
+  state_.watches.set_undo_stack(&undo_stack);
   page_->bookmarks().set_undo_stack(&undo_stack);
   lesson_panel_->question().set_undo_stack(&undo_stack);
 }
@@ -210,7 +224,8 @@ void MainWindow::make_docks() {
   docks_.add(tr("Error"), "error_dock", error_view_, {{teach, right, 400, true}});
   inspection_->add_tables_to(docks_);
   docks_.add(tr("Compare engines"), "compare_dock", scrollable(compare_view_),
-             {{inspect, right, 450, true}});
+             {{inspect, right, 450, true}, {debug, right, 480, true}});
+  inspection_->add_runs_to(docks_);
   docks_.add(tr("Algorithm"), "algorithm_dock", scrollable(algorithm_),
              {{teach, right, 420}, {debug, left, 560}});
   docks_.add(tr("Breakpoints"), "breakpoint_dock", breakpoint_panel_, {{debug, left, 170}});
@@ -218,7 +233,7 @@ void MainWindow::make_docks() {
              {{teach, right, 420, true}, {inspect, right, 400}});
   docks_.add(tr("Directions"), "direction_dock", direction_view_,
              {{teach, right, 420, true}, {inspect, right, 400, true}});
-  docks_.add(tr("Events"), "event_dock", new StepPanel(state_.focus, state_.selection),
+  docks_.add(tr("Events"), "event_dock", step_panel_,
              {{teach, right, 420, true}, {debug, right, 260}});
   docks_.add(tr("BSP tree"), "tree_dock", new TreeView(state_.focus, state_.selection),
              {{teach, right, 420, true}, {debug, right, 260, true}});
@@ -240,6 +255,10 @@ void MainWindow::connect_views() {
           &SceneView::fit_selected);
   connect(notifier_, &Notifier::list_requested, this,
           [this] { docks_.bring_to_front("warnings"); });
+  connect(step_panel_->filter(), &EventFilterRow::requested, this,
+          [this] { docks_.bring_to_front("event"); });
+  connect(compare_view_, &CompareView::enlarged, this,
+          [this](bool large) { docks_.enlarge(large ? "compare" : ""); });
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   connect(lesson_panel_, &LessonPanel::errors_wanted, error_view_, &ErrorView::set_runs);
   connect(lesson_panel_, &LessonPanel::callouts_shown, map_view_->canvas(),
@@ -247,82 +266,25 @@ void MainWindow::connect_views() {
   connect(lesson_panel_, &LessonPanel::callouts_shown, page_->scene_view(),
           &SceneView::show_callouts);
   connect(lesson_panel_, &LessonPanel::symbol_pointed, algorithm_, &AlgorithmView::point_at);
+  connect(lesson_panel_, &LessonPanel::values_hidden, algorithm_,
+          &AlgorithmView::set_values_hidden);
   connect(lesson_panel_, &LessonPanel::enlarged, &docks_, &DockLayouts::enlarge);
   connect(lesson_panel_, &LessonPanel::sketched, map_view_->canvas(), &MapCanvas::show_sketch);
   connect(&state_.breakpoints, &Breakpoints::changed, timeline_->lanes(),
           &TimelineLanes::count_columns);
   connect(&state_.runner, &SolveRunner::load_progressed, progress_, &ProgressLine::show_loading);
   connect(&state_.runner, &SolveRunner::state_changed, progress_, &ProgressLine::show_state);
+  projector_ = new ProjectorMode(parts(), full_screen_, appearance_, *timeline_);
   connect(&appearance_, &AppearanceActions::changed, this, [this] {
     state_.scene.show_again();
     map_view_->update();
     lesson_panel_->refresh();
-    if (appearance_.projects() != projecting_) {
-      project(appearance_.projects());
-    }
+    projector_->follow_appearance();
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
   connect(timeline_->play(), &PlayControl::turned, page_->scene_view(),
           [this](double degrees) { page_->scene_view()->turn(degrees, 0); });
-  connect(&full_screen_, &FullScreen::left, this, [this] { appearance_.set_projects(false); });
-  connect(lesson_panel_, &LessonPanel::page_shown, this, [this] {
-    if (projecting_ && views_to_project() != projected_) {
-      project(true);
-    }
-  });
-}
-
-/// What projector mode shows: the page of the lesson, if there is one, the view that the page says
-/// is large, or the scene, and the timeline.
-QList<QWidget*> MainWindow::views_to_project() {
-  const auto dock = [this](const std::string& panel) -> QWidget* {
-    return findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
-  };
-  QList<QWidget*> views{dock("timeline")};
-  if (lesson_panel_->lesson() < 0) {
-    return views << centralWidget();
-  }
-  const auto& pages = at(lesson_panel_->lessons(), lesson_panel_->lesson()).pages;
-  QWidget* large = dock(at(pages, lesson_panel_->page()).large);
-  return views << dock("lesson") << (large ? large : centralWidget());
-}
-
-void MainWindow::project(bool on) {
-  projecting_ = on;
-  timeline_->lanes()->set_thin(on);
-  timeline_->setMaximumHeight(QWIDGETSIZE_MAX);
-  docks_.hold(false);
-  full_screen_.show_all();
-  projected_.clear();
-  if (!on) {
-    return;
-  }
-  projected_ = views_to_project();
-  docks_.hold(true);
-  full_screen_.show_only(projected_);
-  for (QWidget* view : projected_) {
-    view->show();
-  }
-  // Once the window has its new size.
-  QTimer::singleShot(0, this, [this] {
-    if (!projecting_) {
-      return;
-    }
-    constexpr double page_share = 0.4;
-    auto* page = findChild<QDockWidget*>(QStringLiteral("lesson_dock"));
-    const int page_width = static_cast<int>(page_share * width());
-    QList<QDockWidget*> docks{page};
-    QList<int> widths{page_width};
-    if (auto* large = qobject_cast<QDockWidget*>(projected_.value(2))) {
-      docks << large;
-      widths << width() - page_width;
-    }
-    resizeDocks(docks, widths, Qt::Horizontal);
-    const int height = timeline_->minimumSizeHint().height();
-    timeline_->setMaximumHeight(height);
-    resizeDocks({findChild<QDockWidget*>(QStringLiteral("timeline_dock"))}, {height}, Qt::Vertical);
-  });
 }
 
 void MainWindow::show_title_and_warnings(const LoadedScene& loaded) {
@@ -348,7 +310,7 @@ void MainWindow::connect_scene() {
     settings_->set_scene_fixed(loaded->stored != nullptr);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
-    show_breakpoints_of_scene();
+    show_debugging_of_scene();
     state_.selection.select(no_patch);
     state_.focus_feed.clear();
     inspection_->show_scene(*loaded);
@@ -394,12 +356,16 @@ void MainWindow::connect_scene() {
   send_to(&state_.focus_feed);
 }
 
-void MainWindow::show_breakpoints_of_scene() {
+/// Breakpoints and watches.
+void MainWindow::show_debugging_of_scene() {
   if (applier_->in_lesson()) {
     state_.breakpoints.set_scene({});
     state_.breakpoints.set_list({});
+    state_.watches.set_scene({});
+    state_.watches.set_list({});
   } else {
     state_.breakpoints.set_scene(state_.scene.spec());
+    state_.watches.set_scene(state_.scene.spec());
   }
 }
 
@@ -430,8 +396,12 @@ void MainWindow::make_menus() {
   step_actions_->add_to(*step);
   step->addSeparator();
   step->addAction(timeline_->play()->action());
+  step->addAction(map_view_->pair()->action());
   step->addSeparator();
   breakpoint_panel_->add_to(*step);
+  step->addSeparator();
+  step_panel_->filter()->add_to(*step);
+  step->addMenu(timeline_->watch_menu());
 
   QMenu* lesson = menuBar()->addMenu(tr("&Lesson"));
   lesson_panel_->add_to(*lesson);
@@ -452,7 +422,9 @@ void MainWindow::make_file_menu() {
   file->addAction(page_->scenes_action());
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
-  exports_->add_to(*file->addMenu(tr("Export")));
+  QMenu* exporting = file->addMenu(tr("Export"));
+  exports_->add_to(*exporting);
+  recorder_->add_to(*exporting);
   (new CommandActions(parts()))->add_to(*file);
   file->addSeparator();
   file->addAction(tr("Quit"), this, &QWidget::close, QKeySequence(QStringLiteral("Ctrl+Q")));
@@ -464,6 +436,7 @@ void MainWindow::make_view_menu() {
   view->addSeparator();
   appearance_.add_to(*view);
   view->addAction(full_screen_.action());
+  view->addAction(compare_view_->large());
   view->addSeparator();
   view->addMenu(page_->camera_menu());
   view->addAction(tr("Show or hide the direction"), page_->color_controls(),
@@ -584,7 +557,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
     return;
   }
   event->acceptProposedAction();
-  files_->try_open(file);
+  // Later: the program from which it was dragged waits, and opening may ask a question.
+  QMetaObject::invokeMethod(
+      files_, [this, file] { files_->try_open(file); }, Qt::QueuedConnection);
 }
 
 QString MainWindow::close_without_questions() {
@@ -610,7 +585,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return;
   }
-  docks_.hold(false);
   full_screen_.show_all();
   if (remember_) {
     save_layout();

@@ -20,15 +20,18 @@ class DirectionView;
 class ErrorView;
 class ExportActions;
 class FileActions;
+class FrameRecorder;
 class InspectionPanels;
 class LessonExport;
 class PatchInspector;
 class ProgressLine;
+class ProjectorMode;
 class ReceivedView;
 class Recovery;
 class SolveActions;
 class SolveSummary;
 class StepActions;
+class StepPanel;
 class StudyDialog;
 class TimelineBar;
 class ViewStateApplier;
@@ -68,10 +71,8 @@ class MainWindow : public QMainWindow {
   void make_docks();
   void connect_views();
   void connect_scene();
-  void show_breakpoints_of_scene();
+  void show_debugging_of_scene();
   void connect_failures();
-  QList<QWidget*> views_to_project();
-  void project(bool on);
   void show_title_and_warnings(const LoadedScene& loaded);
   void make_menus();
   void make_file_menu();
@@ -85,11 +86,10 @@ class MainWindow : public QMainWindow {
 
   SharedState& state_;
   const bool remember_;
-  bool projecting_ = false;
-  QList<QWidget*> projected_;
   bool asks_ = true;  ///< about unsaved notes, when the window closes
   DockLayouts docks_{*this};
   FullScreen full_screen_{*this};
+  ProjectorMode* projector_;
   AppearanceActions appearance_{this};
   WorkGuard work_guard_{state_.scene};
 
@@ -108,6 +108,7 @@ class MainWindow : public QMainWindow {
   TimelineBar* timeline_;
   AlgorithmView* algorithm_;
   BreakpointPanel* breakpoint_panel_;
+  StepPanel* step_panel_;
   LessonPanel* lesson_panel_;
   QPlainTextEdit* notes_;
   InspectionPanels* inspection_;
@@ -121,6 +122,7 @@ class MainWindow : public QMainWindow {
   WindowSession* session_;
   FileActions* files_;
   ExportActions* exports_;
+  FrameRecorder* recorder_;
   Recovery* recovery_ = nullptr;  ///< null: nothing is remembered
   LessonExport* lesson_export_;
 };

@@ -15,6 +15,7 @@
 #include "widgets/banner.h"
 #include "window/notifier.h"
 #include "window/view_state_applier.h"
+#include "window/work_guard.h"
 
 namespace transillum::viewer {
 
@@ -121,6 +122,9 @@ void OrientationOffer::preview(const PlanRequest& request, const OrientationPlan
 }
 
 void OrientationOffer::turn() {
+  if (!parts_.guard.may_lose(&parts_.window, tr("Turn them"))) {
+    return;
+  }
   RunOptions options{parts_.settings.solve_options(), parts_.scene.options(), parts_.scene.input()};
   options.input.orient = true;
   applier_.open_again(options);

@@ -21,6 +21,7 @@
 #include "widgets/banner.h"
 #include "window/notifier.h"
 #include "window/window_session.h"
+#include "window/work_guard.h"
 
 namespace transillum::viewer {
 
@@ -113,6 +114,9 @@ void Recovery::offer() {
 }
 
 void Recovery::restore() {
+  if (!parts_.guard.may_lose(&parts_.window, tr("Go on"))) {
+    return;
+  }
   parts_.page.recovery_bar()->dismiss();
   try {
     const std::string name = offered_.toStdString();

@@ -34,8 +34,8 @@ QString forecast_text(std::int64_t patches) {
 }  // namespace
 
 SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
-                           ViewStateApplier& applier, const WorkGuard& guard)
-    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier), guard_(guard) {
+                           ViewStateApplier& applier)
+    : QObject(&parts.window), parts_(parts), actions_(actions), applier_(applier) {
   SolveRunner& runner = parts_.runner;
   connect(&actions_, &SolveActions::run, this, &SolveControl::run);
   connect(&actions_, &SolveActions::pause, &runner, &SolveRunner::pause);
@@ -45,7 +45,11 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
   connect(&runner, &SolveRunner::state_changed, this, &SolveControl::show_state);
   connect(&parts_.scene, &OpenScene::snapshot_ready, this,
           [this] { actions_.show_state(parts_.runner.state(), parts_.scene.at_start()); });
-  connect(&parts_.settings, &SettingsPanel::restart_clicked, this, &SolveControl::solve_again);
+  connect(&parts_.settings, &SettingsPanel::restart_clicked, this, [this] {
+    if (may_solve_again()) {
+      solve_again();
+    }
+  });
   connect(&parts_.settings, &SettingsPanel::forecast_wanted, this,
           [this](const SceneOptions& options) {
             if (parts_.scene.loaded() && parts_.scene.loaded()->description) {
@@ -65,9 +69,13 @@ SolveControl::SolveControl(const WindowParts& parts, SolveActions& actions,
 
 void SolveControl::start_over() {
   if (parts_.runner.state() == RunState::loading ||
-      guard_.may_lose(&parts_.window, tr("Start over"))) {
+      parts_.guard.may_lose(&parts_.window, tr("Start over"))) {
     parts_.runner.stop();
   }
+}
+
+bool SolveControl::may_solve_again() const {
+  return parts_.guard.may_lose(&parts_.window, tr("Solve again"));
 }
 
 void SolveControl::run() {
@@ -129,6 +137,9 @@ bool SolveControl::may_refine(std::int64_t patches) {
 }
 
 void SolveControl::solve_with_replicas() {
+  if (!may_solve_again()) {
+    return;
+  }
   constexpr int replicas = 8;
   SolveOptions solve = parts_.settings.solve_options();
   solve.directions = std::max(solve.directions, replicas);

@@ -11,7 +11,6 @@ namespace transillum::viewer {
 
 class SolveActions;
 class ViewStateApplier;
-class WorkGuard;
 
 /// Connects the actions and settings of a solve with the runner: run, pause, step, start over, and
 /// solving again with changed settings. Says how many patches other settings would make, and asks
@@ -21,13 +20,14 @@ class SolveControl : public QObject {
 
  public:
   /// The references must outlive this object.
-  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier,
-               const WorkGuard& guard);
+  SolveControl(const WindowParts& parts, SolveActions& actions, ViewStateApplier& applier);
 
  private:
   void run();
   /// Solves with the settings of the panel; reads the scene again where its options differ.
   void solve_again();
+  /// Asks about long work. Whether the solve may be thrown away.
+  bool may_solve_again() const;
   void solve_with_replicas();
   void show_forecast(const SceneOptions& options, std::int64_t patches);
   /// Asks about a scene of very many patches. Whether to make it.
@@ -39,7 +39,6 @@ class SolveControl : public QObject {
   WindowParts parts_;
   SolveActions& actions_;
   ViewStateApplier& applier_;
-  const WorkGuard& guard_;
   bool awaits_forecast_ = false;  ///< to open the scene again
   PatchForecast forecast_;
 };

@@ -122,6 +122,7 @@ void ViewStateApplier::apply_appearance(const ViewState& state) {
     show.overlay(overlay)->setChecked(
         std::count(state.overlays.begin(), state.overlays.end(), overlay) > 0);
   }
+  show.clip()->set_choice(state.clip);
   parts_.algorithm.set_kind(state.algorithm);
   parts_.map.set_labels_shown(state.labels);
 }
@@ -143,6 +144,8 @@ void ViewStateApplier::open_again(const RunOptions& options) {
   requested_.options = options;
   requested_.solve = {Goal::Kind::finished};
   requested_.selection = no_patch;
+  requested_.also_selected.clear();
+  requested_.hidden.clear();
   requested_.focus.reset();
   open_requested();
 }
@@ -297,12 +300,30 @@ void ViewStateApplier::apply_view() {
 
 void ViewStateApplier::apply_selection() {
   const PatchId patches = parts_.scene.snapshot()->loaded->scene->patch_count();
-  parts_.selection.select(requested_.selection < patches ? requested_.selection : no_patch);
-  if (requested_.selection >= patches) {
-    parts_.notifier.show_failure(tr("select: there is no patch %1; the scene has 0 to %2")
-                                     .arg(requested_.selection)
-                                     .arg(patches - 1));
+  const auto check = [&](const QString& key, PatchId largest) {
+    if (largest >= patches) {
+      parts_.notifier.show_failure(tr("%1: there is no patch %2; the scene has 0 to %3")
+                                       .arg(key)
+                                       .arg(largest)
+                                       .arg(patches - 1));
+    }
+  };
+  const auto last_of = [](const std::vector<PatchRange>& ranges) {
+    return ranges.empty() ? no_patch : ranges.back().last;
+  };
+  const PatchId patch = requested_.selection < patches ? requested_.selection : no_patch;
+  parts_.selection.select(patch);
+  if (patch != no_patch && !requested_.also_selected.empty()) {
+    std::vector<PatchId> all = patches_in(requested_.also_selected, patches);
+    if (!std::binary_search(all.begin(), all.end(), patch)) {
+      all.insert(std::lower_bound(all.begin(), all.end(), patch), patch);
+    }
+    parts_.selection.select_all(std::move(all));
   }
+  parts_.page.hidden().reset(patches, patches_in(requested_.hidden, patches));
+  check(QStringLiteral("select"), requested_.selection);
+  check(QStringLiteral("also-selected"), last_of(requested_.also_selected));
+  check(QStringLiteral("hidden"), last_of(requested_.hidden));
 }
 
 void ViewStateApplier::apply_focus() {
@@ -362,11 +383,25 @@ ViewState ViewStateApplier::state() const {
     state.focus = FocusChoice{position.iteration, position.direction, position.step, focus.phase()};
   }
   state.materials = parts_.relighting.edits().changes();
-  state.selection = parts_.selection.patch();
+  read_patches(state);
   state.camera = parts_.page.scene_view()->view_point();
   state.outlines = parts_.page.color_controls()->outlines();
   state.layout = parts_.docks.current();
   return state;
+}
+
+void ViewStateApplier::read_patches(ViewState& state) const {
+  state.selection = parts_.selection.patch();
+  std::vector<PatchId> others = parts_.selection.patches();
+  others.erase(std::remove(others.begin(), others.end(), state.selection), others.end());
+  state.also_selected = ranges_of(others);
+  std::vector<PatchId> hidden;
+  for (PatchId i = 0; i < parts_.scene.loaded()->scene->patch_count(); ++i) {
+    if (parts_.page.hidden().hidden(i)) {
+      hidden.push_back(i);
+    }
+  }
+  state.hidden = ranges_of(hidden);
 }
 
 ViewState ViewStateApplier::appearance() const {
@@ -392,6 +427,7 @@ ViewState ViewStateApplier::appearance() const {
       state.overlays.push_back(overlay);
     }
   }
+  state.clip = show.clip()->choice();
   state.algorithm = parts_.algorithm.kind();
   state.direction_shown = parts_.page.color_controls()->direction();
   state.labels = parts_.map.labels_shown();

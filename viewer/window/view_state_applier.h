@@ -55,6 +55,7 @@ class ViewStateApplier : public QObject {
   /// Colors, overlays, labels.
   void apply_appearance(const ViewState& state);
   ViewState appearance() const;
+  void read_patches(ViewState& state) const;
   void restore_appearance();
   void start_run();
   void open_requested();

@@ -9,6 +9,7 @@
 #include "state/focus.h"
 #include "state/focus_feed.h"
 #include "state/selection.h"
+#include "state/watches.h"
 #include "window/open_scene.h"
 
 class QMainWindow;
@@ -24,6 +25,7 @@ class MapView;
 class Notifier;
 class ScenePage;
 class SettingsPanel;
+class WorkGuard;
 
 /// What the views follow and change. It outlives every widget of the window.
 struct SharedState {
@@ -35,6 +37,7 @@ struct SharedState {
   Focus focus;
   FocusFeed focus_feed{focus};
   Breakpoints breakpoints;
+  Watches watches;
   PerDirectionVisibility visibility;
 };
 
@@ -49,6 +52,7 @@ struct WindowParts {
   Selection& selection;
   ColorChoice& colors;
   Breakpoints& breakpoints;
+  Watches& watches;
   DockLayouts& docks;
   ScenePage& page;
   MapView& map;
@@ -58,6 +62,7 @@ struct WindowParts {
   LessonPanel& lessons;
   QPlainTextEdit& notes;
   Notifier& notifier;
+  const WorkGuard& guard;
 };
 
 }  // namespace transillum::viewer

@@ -16,8 +16,12 @@ WindowSession::WindowSession(const WindowParts& parts, ViewStateApplier& applier
     : QObject(&parts.window), parts_(parts), applier_(applier) {}
 
 Session WindowSession::current() const {
-  return {applier_.state(), parts_.breakpoints.list(), parts_.page.bookmarks().all(),
-          parts_.notes.toPlainText().toStdString(), parts_.docks.state()};
+  return {applier_.state(),
+          parts_.breakpoints.list(),
+          parts_.page.bookmarks().all(),
+          parts_.notes.toPlainText().toStdString(),
+          parts_.docks.state(),
+          parts_.watches.list()};
 }
 
 void WindowSession::restore(const Session& session) {
@@ -31,7 +35,9 @@ void WindowSession::restore(const Session& session) {
     }
   }
   const std::string& scene = session.state.scene;
-  parts_.breakpoints.set_list_of(scene.empty() ? parts_.scene.spec() : scene, session.breakpoints);
+  const std::string& shown = scene.empty() ? parts_.scene.spec() : scene;
+  parts_.breakpoints.set_list_of(shown, session.breakpoints);
+  parts_.watches.set_list_of(shown, session.watches);
   parts_.page.bookmarks().set(session.saved_views);
   parts_.relighting.edits().undo_stack().clear();
   parts_.notes.setPlainText(QString::fromStdString(session.notes));

@@ -1,0 +1,33 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <memory>
+
+#include "lessons/figure_values.h"
+#include "lessons/question.h"
+#include "model/snapshot.h"
+#include "support/newest_result.h"
+
+namespace transillum::viewer {
+
+/// A question about the scene of its page.
+struct QuestionRequest {
+  std::shared_ptr<const LoadedScene> loaded;
+  Question question;
+};
+
+/// Computes what is right, on a thread of its own.
+class QuestionSolver : public NewestResult<QuestionRequest, Solved> {
+ public:
+  /// @param owner, deliver  as for NewestResult
+  QuestionSolver(QObject& owner, Deliver deliver)
+      : NewestResult(
+            owner,
+            [](const QuestionRequest& request, const Cancellation& cancellation) {
+              FigureValues figures(request.loaded, cancellation);
+              return solve_question(request.question, figures);
+            },
+            std::move(deliver)) {}
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,89 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "map/pair_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "support/number_text.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+double value_of(const PairDifference& pair, int column) {
+  return column == PairTable::of_first   ? pair.first
+         : column == PairTable::of_other ? pair.other
+                                         : pair.other - pair.first;
+}
+
+}  // namespace
+
+void PairTable::set_pairs(std::vector<PairDifference> pairs) {
+  beginResetModel();
+  pairs_ = std::move(pairs);
+  double area = 0, difference = 0;
+  for (const PairDifference& pair : pairs_) {
+    area = std::max({area, pair.first, pair.other});
+    difference = std::max(difference, std::abs(pair.other - pair.first));
+  }
+  area_format_ = ColumnFormat(area);
+  difference_format_ = ColumnFormat(difference);
+  endResetModel();
+}
+
+int PairTable::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(pairs_.size());
+}
+
+int PairTable::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : column_count;
+}
+
+QVariant PairTable::data(const QModelIndex& index, int role) const {
+  const PairDifference& pair = this->pair(index.row());
+  const int column = index.column();
+  const bool number = column == of_first || column == of_other || column == of_difference;
+  switch (role) {
+    case Qt::DisplayRole:
+      return column == of_receiver     ? QString::number(pair.receiver)
+             : column == of_source     ? QString::number(pair.source)
+             : column == of_difference ? difference_format_.text(value_of(pair, column))
+                                       : area_format_.text(value_of(pair, column));
+    case Qt::TextAlignmentRole:
+      return QVariant(Qt::AlignRight | Qt::AlignVCenter);
+    case Qt::ToolTipRole:
+      return number ? QVariant(number_text(value_of(pair, column))) : QVariant();
+    default:
+      return {};
+  }
+}
+
+QVariant PairTable::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) {
+    return {};
+  }
+  if (role == Qt::ToolTipRole) {
+    return section == of_difference ? tr("What the second engine assigns beyond the first")
+           : section == of_first    ? tr("A(i, j, ω) by the first engine")
+           : section == of_other    ? tr("A(i, j, ω) by the second engine")
+                                    : QVariant();
+  }
+  if (role != Qt::DisplayRole) {
+    return {};
+  }
+  switch (section) {
+    case of_receiver:
+      return tr("i");
+    case of_source:
+      return tr("j");
+    case of_first:
+      return area_format_.header(tr("First, m²"));
+    case of_other:
+      return area_format_.header(tr("Second, m²"));
+    default:
+      return difference_format_.header(tr("Difference, m²"));
+  }
+}
+
+}  // namespace transillum::viewer

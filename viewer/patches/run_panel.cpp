@@ -1,0 +1,269 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Kept runs". It shows the list of KeptRuns and changes it; the difference itself is
+// shown in color by ColorChoice, as one of its quantities.
+#include "patches/run_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QShortcut>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "model/command_text.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/elided.h"
+#include "widgets/engine_text.h"
+#include "widgets/figure_table.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int name_column = 0, column_count = 6;
+
+QString settings_tip(const KeptRun& run) {
+  const SolverSnapshot& snapshot = *run.snapshot;
+  const Scene& scene = *snapshot.loaded->scene;
+  const RunOptions options{snapshot.options, scene.options(), {}};
+  return snapshot.of_file
+             ? RunPanel::tr("Values of the file %1").arg(QString::fromStdString(scene.name()))
+             : RunPanel::tr("Settings: %1")
+                   .arg(QString::fromStdString(solve_command(scene.name(), options, {})));
+}
+
+QStringList texts_of(const KeptRun& run) {
+  const SolverSnapshot& snapshot = *run.snapshot;
+  const SolveOptions& options = snapshot.options;
+  const bool by_directions = !snapshot.of_file && takes_directions(options.engine);
+  const QString none = QStringLiteral("–");
+  return {run.name,
+          by_directions ? QString::number(options.directions) : none,
+          by_directions ? QString::fromStdString(at(
+                              sampling_names(), static_cast<std::size_t>(options.used_sampling())))
+                        : none,
+          snapshot.of_file ? RunPanel::tr("a file") : engine_label(options.engine),
+          QString::number(snapshot.progress.iteration),
+          QLocale::c().toString(run.kept, QStringLiteral("yyyy-MM-dd HH:mm"))};
+}
+
+void set_choosable(const QComboBox& box, int index, const QString& reason) {
+  QStandardItem* item = qobject_cast<QStandardItemModel*>(box.model())->item(index);
+  item->setEnabled(reason.isEmpty());
+  item->setToolTip(reason);
+}
+
+QComboBox* make_choice(const char* name, const QString& tip) {
+  auto* box = new ElidedComboBox;
+  box->setObjectName(QString::fromLatin1(name));
+  box->setToolTip(tip);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(8);
+  return box;
+}
+
+}  // namespace
+
+RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
+                   QWidget* parent)
+    : QWidget(parent), colors_(colors), runs_(colors.kept_runs()), selection_(selection) {
+  make_table();
+  hint_ = new QLabel;
+  hint_->setObjectName("run_hint");
+  hint_->setWordWrap(true);
+  hint_->setContentsMargins(10, 0, 10, 4);
+  hint_->setForegroundRole(QPalette::PlaceholderText);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addLayout(make_buttons(keep, difference));
+  layout->addWidget(table_, 1);
+  layout->addWidget(hint_);
+  layout->addLayout(make_choices());
+  layout->addLayout(make_figures());
+  connect(&runs_, &KeptRuns::changed, this, &RunPanel::show_list);
+  connect(&runs_, &KeptRuns::compared_changed, this, &RunPanel::show_choices);
+  connect(&colors_, &ColorChoice::fitted, this, &RunPanel::show_difference);
+  connect(&colors_, &ColorChoice::changed, this, &RunPanel::show_difference);
+  show_list();
+}
+
+void RunPanel::make_table() {
+  table_ = new QTableWidget(0, column_count);
+  table_->setObjectName("run_table");
+  table_->setHorizontalHeaderLabels(
+      {tr("Name"), tr("M"), tr("Sampling"), tr("Engine"), tr("Iterations"), tr("Kept")});
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  table_->horizontalHeader()->setStretchLastSection(true);
+  set_up_figure_table(*table_, {QStringLiteral("Name of a run"), QStringLiteral("8888"),
+                                QStringLiteral("antipodal"), QStringLiteral("Z-buffer"),
+                                QStringLiteral("88"), QStringLiteral("8888-88-88 88:88")});
+  connect(table_, &QTableWidget::itemChanged, this,
+          [this](const QTableWidgetItem* item) { rename(*item); });
+  connect(table_, &QTableWidget::itemSelectionChanged, this, &RunPanel::show_hint);
+  auto* delete_key = new QShortcut(QKeySequence::Delete, table_);
+  delete_key->setContext(Qt::WidgetShortcut);
+  connect(delete_key, &QShortcut::activated, this, &RunPanel::remove_current);
+}
+
+QLayout* RunPanel::make_buttons(QAction& keep, QAction& difference) {
+  remove_ = new QToolButton;
+  remove_->setText(tr("Remove"));
+  remove_->setObjectName("remove_run");
+  remove_->setToolTip(tr("Remove the run chosen in the list (Del); Undo brings it back"));
+  connect(remove_, &QToolButton::clicked, this, &RunPanel::remove_current);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 4, 8, 0);
+  for (QAction* action : {&keep, &difference}) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    row->addWidget(button);
+  }
+  row->addStretch(1);
+  row->addWidget(remove_);
+  return row;
+}
+
+QLayout* RunPanel::make_choices() {
+  second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
+  first_ = make_choice("run_a", tr("Run A: subtracted, and shown while the key A is held"));
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(10, 2, 8, 2);
+  row->addWidget(second_, 1);
+  row->addWidget(new QLabel(tr("minus A:")));
+  row->addWidget(first_, 1);
+  connect(first_, qOverload<int>(&QComboBox::activated), &runs_, &KeptRuns::set_first);
+  connect(second_, qOverload<int>(&QComboBox::activated), this,
+          [this](int index) { runs_.set_second(index - 1); });
+  return row;
+}
+
+QLayout* RunPanel::make_figures() {
+  figures_ = new QLabel;
+  figures_->setObjectName("run_difference");
+  figures_->setWordWrap(true);
+  figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  figures_->setToolTip(
+      tr("RMS of the difference of B over RMS of B of A, over patches and colors; and the largest\n"
+         "magnitude of the difference in a color"));
+  go_ = new QToolButton;
+  go_->setText(tr("Go to the patch"));
+  go_->setObjectName("go_to_difference");
+  go_->setToolTip(tr("Select the patch with the largest difference, and turn the scene to it"));
+  connect(go_, &QToolButton::clicked, this, &RunPanel::go_to_worst);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(10, 2, 8, 6);
+  row->addWidget(figures_, 1);
+  row->addWidget(go_);
+  return row;
+}
+
+void RunPanel::show_list() {
+  {
+    const QSignalBlocker quiet(table_);
+    const int current = table_->currentRow();
+    table_->setRowCount(static_cast<int>(runs_.all().size()));
+    for (int row = 0; row < table_->rowCount(); ++row) {
+      const KeptRun& run = at(runs_.all(), row);
+      const QString& reason = runs_.reason_against(static_cast<std::size_t>(row));
+      const QStringList texts = texts_of(run);
+      for (int column = 0; column < column_count; ++column) {
+        auto* item = new QTableWidgetItem(texts[column]);
+        const Qt::ItemFlags read_only = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+        item->setFlags(column == name_column ? read_only | Qt::ItemIsEditable : read_only);
+        item->setToolTip(reason.isEmpty() ? settings_tip(run)
+                                          : settings_tip(run) + QLatin1Char('\n') + reason);
+        if (!reason.isEmpty()) {
+          item->setForeground(palette().placeholderText());
+        }
+        table_->setItem(row, column, item);
+      }
+    }
+    table_->setCurrentCell(std::min(current, table_->rowCount() - 1), name_column);
+  }
+  show_hint();
+  show_choices();
+}
+
+void RunPanel::show_hint() {
+  const int row = table_->currentRow();
+  remove_->setEnabled(row >= 0);
+  hint_->setText(table_->rowCount() == 0 ? tr("No runs are kept. Keep one (K), change the "
+                                              "settings, and solve again.")
+                 : row >= 0              ? runs_.reason_against(static_cast<std::size_t>(row))
+                                         : QString());
+  hint_->setVisible(!hint_->text().isEmpty());
+}
+
+void RunPanel::show_choices() {
+  first_->clear();
+  second_->clear();
+  second_->addItem(tr("Current run"));
+  for (std::size_t k = 0; k < runs_.all().size(); ++k) {
+    for (QComboBox* box : {first_, second_}) {
+      box->addItem(runs_.all()[k].name);
+      set_choosable(*box, box->count() - 1, runs_.reason_against(k));
+    }
+  }
+  first_->setCurrentIndex(runs_.first());
+  second_->setCurrentIndex(runs_.second() + 1);
+  first_->setEnabled(runs_.first() >= 0);
+  second_->setEnabled(runs_.first() >= 0);
+  show_difference();
+}
+
+void RunPanel::show_difference() {
+  const auto a = colors_.run_a(), b = colors_.run_b();
+  worst_ = no_patch;
+  if (!a || !b) {
+    figures_->clear();
+  } else {
+    const RunDifference difference = difference_of(b->radiosity, a->radiosity);
+    worst_ = difference.worst;
+    figures_->setText(worst_ == no_patch ? tr("No difference: both have the same B.")
+                                         : tr("RMS %1 %, largest %2 W/m² at patch %3")
+                                               .arg(number_text(100 * difference.rms),
+                                                    number_text(difference.largest))
+                                               .arg(worst_));
+  }
+  go_->setEnabled(worst_ != no_patch);
+}
+
+void RunPanel::rename(const QTableWidgetItem& item) {
+  if (item.column() != name_column) {
+    return;
+  }
+  const auto k = static_cast<std::size_t>(item.row());
+  const QString name = item.text().trimmed();
+  if (name.isEmpty()) {
+    // Later: the table still edits the item.
+    QMetaObject::invokeMethod(this, &RunPanel::show_list, Qt::QueuedConnection);
+    return;
+  }
+  QMetaObject::invokeMethod(
+      this, [this, k, name] { runs_.rename(k, name); }, Qt::QueuedConnection);
+}
+
+void RunPanel::remove_current() {
+  if (table_->currentRow() >= 0) {
+    runs_.remove(static_cast<std::size_t>(table_->currentRow()));
+  }
+}
+
+void RunPanel::go_to_worst() {
+  selection_.select(worst_);
+  emit patch_chosen();
+}
+
+}  // namespace transillum::viewer

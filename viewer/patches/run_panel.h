@@ -1,0 +1,56 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+
+#include "colors/color_choice.h"
+#include "state/selection.h"
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QLayout;
+class QTableWidget;
+class QTableWidgetItem;
+class QToolButton;
+
+namespace transillum::viewer {
+
+/// The list of kept runs, to name and remove them; which two are compared, and by how much they
+/// differ.
+class RunPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// @param keep, difference  actions of the menu, also buttons here
+  RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAction& difference,
+           QWidget* parent = nullptr);
+
+ signals:
+  /// The patch of the largest difference has been selected.
+  void patch_chosen();
+
+ private:
+  void make_table();
+  QLayout* make_buttons(QAction& keep, QAction& difference);
+  QLayout* make_choices();
+  QLayout* make_figures();
+  void show_list();
+  void show_choices();
+  void show_difference();
+  void show_hint();
+  void rename(const QTableWidgetItem& item);
+  void remove_current();
+  void go_to_worst();
+
+  ColorChoice& colors_;
+  KeptRuns& runs_;
+  Selection& selection_;
+  QTableWidget* table_;
+  QLabel *hint_, *figures_;
+  QComboBox *first_, *second_;
+  QToolButton *remove_, *go_;
+  PatchId worst_ = no_patch;
+};
+
+}  // namespace transillum::viewer

@@ -1,0 +1,93 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QDateTime>
+#include <QObject>
+#include <QString>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "model/snapshot.h"
+
+class QUndoStack;
+
+namespace transillum::viewer {
+
+/// A run that was kept to be compared with others.
+struct KeptRun {
+  QString name;
+  QDateTime kept;  ///< local time
+  /// Has B, H, sums of form factors, the error estimate and the last change of B, but no form
+  /// factors and no directions; of `loaded` only the scene.
+  std::shared_ptr<const SolverSnapshot> snapshot;
+};
+
+/// How B of one run differs from A of another.
+struct RunDifference {
+  double rms = 0;            ///< RMS of B - A over RMS of A, over patches and channels
+  double largest = 0;        ///< largest magnitude of B - A in a channel, W/m²
+  PatchId worst = no_patch;  ///< the first patch that has it; no_patch where nothing differs
+};
+/// @param b, a  W/m², one per patch, of the same patches
+RunDifference difference_of(const std::vector<Rgb>& b, const std::vector<Rgb>& a);
+
+/// The runs that the user has kept, with names, and the two of them that are compared: A, and a
+/// kept run B or the current one. Only runs of the patches of the open scene can be compared.
+///
+/// Threads: the main thread only.
+class KeptRuns : public QObject {
+  Q_OBJECT
+
+ public:
+  /// No more is kept: bytes of all kept runs together.
+  static constexpr std::int64_t most_bytes = 1'000'000'000;
+
+  using QObject::QObject;
+
+  const std::vector<KeptRun>& all() const { return runs_; }
+  /// Changes of the list can be undone there; null: no undo.
+  void set_undo_stack(QUndoStack* undo) { undo_ = undo; }
+  /// Keeps a run as "Run N", which becomes A.
+  /// @returns false where it would exceed `bytes`
+  bool keep(const SolverSnapshot& snapshot, std::int64_t bytes = most_bytes);
+  /// An empty name changes nothing.
+  void rename(std::size_t k, const QString& name);
+  void remove(std::size_t k);
+
+  /// The scene whose patches the compared runs must have. Emits only changed(), although A and B
+  /// may be others.
+  void set_scene(std::shared_ptr<const Scene> scene);
+  /// Why run k cannot be compared with one of the scene, for the user; empty: it can.
+  const QString& reason_against(std::size_t k) const;
+
+  /// Index of A, -1 where no run can be compared; of B, -1 for the current run.
+  int first() const;
+  int second() const;
+  /// Ignored where the run cannot be compared.
+  void set_first(int k);
+  void set_second(int k);
+  /// The run at such an index; null for -1.
+  std::shared_ptr<const SolverSnapshot> run(int k) const;
+
+ signals:
+  /// The list, its names or its reasons.
+  void changed();
+  /// Another run is A or B.
+  void compared_changed();
+
+ private:
+  void change(const QString& what, std::vector<KeptRun> runs);
+  void set(std::vector<KeptRun> runs);
+  void find_reasons();
+  int comparable_index(const std::shared_ptr<const SolverSnapshot>& run) const;
+
+  std::vector<KeptRun> runs_;
+  std::vector<QString> reasons_;  ///< one per run
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const SolverSnapshot> first_, second_;  ///< as chosen; may have been removed
+  int kept_ = 0;                                          ///< the number of runs ever kept
+  QUndoStack* undo_ = nullptr;
+};
+
+}  // namespace transillum::viewer

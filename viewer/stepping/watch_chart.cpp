@@ -1,0 +1,238 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The chart below the timeline. What is watched comes from Watches, the values from the map in
+// Focus. Lines go through the smallest and largest value of each pixel column.
+#include "stepping/watch_chart.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "stepping/timeline_lanes.h"
+#include "support/number_text.h"
+#include "widgets/theme.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int plot_height = 52;
+constexpr double least_defect = 1e-17;  ///< bottom of the logarithmic scale of closure defects
+
+QIcon icon_of(const QColor& color) {
+  QPixmap pixmap(24, 24);
+  pixmap.fill(color);
+  return QIcon(pixmap);
+}
+
+}  // namespace
+
+WatchChart::WatchChart(Focus& focus, Selection& selection, Watches& watches,
+                       const TimelineLanes& lanes, QWidget* parent)
+    : QWidget(parent),
+      focus_(focus),
+      selection_(selection),
+      watches_(watches),
+      lanes_(lanes),
+      menu_(std::make_unique<QMenu>()),
+      buttons_(new QHBoxLayout) {
+  setToolTip(
+      tr("Watched figures over the steps of the direction, each on its own scale from 0 to "
+         "its largest value (closure defects: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
+         "to go to a step."));
+  buttons_->setContentsMargins(8, 0, 8, 0);
+  buttons_->setSpacing(4);
+  buttons_->addStretch(1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addLayout(buttons_);
+  layout->addStretch(1);
+  make_menu();
+  connect(&watches_, &Watches::changed, this, &WatchChart::show_list);
+  connect(&focus_, &Focus::moved, this, [this] {
+    if (focus_.map() != computed_) {
+      compute();
+    }
+    show_values();
+  });
+  show_list();
+}
+
+WatchChart::~WatchChart() = default;
+
+void WatchChart::make_menu() {
+  menu_->setTitle(tr("Watch"));
+  const auto add = [this](const char* name, const QString& text, Watch::Kind kind) {
+    auto* action = new QAction(text, this);
+    menu_->addAction(action);
+    connect(action, &QAction::triggered, this, [this, kind] {
+      watches_.add({kind, kind == Watch::Kind::patch_area ? selection_.patch() : no_patch});
+    });
+    action->setObjectName(QString::fromLatin1(name));
+    choices_.push_back(action);
+  };
+  add("watch_area", tr("Area of the selected patch in V"), Watch::Kind::patch_area);
+  add("watch_defect", tr("Closure defect of the receiver"), Watch::Kind::closure_defect);
+  add("watch_size", tr("Number of polygons of V"), Watch::Kind::map_size);
+  const auto show_state = [this] {
+    const bool room = watches_.list().size() < Watches::most;
+    for (QAction* choice : choices_) {
+      choice->setEnabled(room);
+    }
+    choices_.front()->setEnabled(room && selection_.patch() != no_patch);
+  };
+  connect(&selection_, &Selection::changed, this, show_state);
+  connect(&watches_, &Watches::changed, this, show_state);
+  show_state();
+}
+
+QColor WatchChart::color_of(std::size_t k) {
+  // Okabe and Ito's colors, which color-blind viewers can tell apart.
+  constexpr std::array<QRgb, Watches::most> colors{0xff0072b2, 0xffe69f00, 0xff009e73,
+                                                   0xffcc79a7, 0xff56b4e9, 0xffd55e00};
+  return QColor(colors[k % colors.size()]);
+}
+
+void WatchChart::show_list() {
+  for (const Series& series : series_) {
+    delete series.button;
+  }
+  series_.clear();
+  for (const Watch& watch : watches_.list()) {
+    const std::size_t k = series_.size();
+    auto* button = new QToolButton;
+    button->setObjectName(QStringLiteral("watch_%1").arg(k));
+    button->setIcon(icon_of(color_of(k)));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setAutoRaise(true);
+    button->setMinimumWidth(24);  // without room, the text is cut off; the tool tip has it
+    // Later: the button is deleted with its list.
+    connect(
+        button, &QToolButton::clicked, this, [this, k] { watches_.remove(k); },
+        Qt::QueuedConnection);
+    buttons_->insertWidget(static_cast<int>(k), button);
+    series_.push_back({watch, {}, 0, button});
+  }
+  setVisible(!series_.empty());
+  compute();
+  show_values();
+}
+
+void WatchChart::compute() {
+  computed_ = focus_.map();
+  for (Series& series : series_) {
+    series.values = computed_ ? values_of(series.watch, computed_->history) : std::vector<double>();
+    series.largest = 0;
+    for (const double value : series.values) {
+      series.largest = std::fmax(series.largest, value);  // not a number: none
+    }
+  }
+}
+
+void WatchChart::show_values() {
+  const auto step = static_cast<std::size_t>(focus_.position().step + 1);
+  for (const Series& series : series_) {
+    QString text = text_of(series.watch);
+    if (step < series.values.size()) {
+      const double value = series.values[step];
+      text = tr("%1: %2, at most %3")
+                 .arg(text, std::isnan(value) ? QStringLiteral("–") : number_text(value),
+                      number_text(series.largest));
+    }
+    series.button->setText(text);
+    series.button->setToolTip(tr("%1. Click to remove.").arg(text));
+  }
+  update();
+}
+
+QSize WatchChart::minimumSizeHint() const {
+  return {300, layout()->minimumSize().height() + theme::scaled(plot_height)};
+}
+
+QRectF WatchChart::plot() const {
+  const QRectF lane = lanes_.rect_of(TimelineLanes::Lane::steps);
+  const double top = buttons_->geometry().bottom() + 4;
+  return {lane.left(), top, lane.width(), std::max(height() - top - 5, 1.0)};
+}
+
+double WatchChart::height_of(std::size_t k, double value) const {
+  const Series& series = series_[k];
+  const double decades = -std::log10(least_defect);
+  const double share = series.watch.kind == Watch::Kind::closure_defect
+                           ? 1 + std::log10(std::max(value, least_defect)) / decades
+                       : series.largest > 0 ? value / series.largest
+                                            : 0;
+  return plot().bottom() - std::clamp(share, 0.0, 1.0) * plot().height();
+}
+
+void WatchChart::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  const QRectF frame = plot();
+  painter.fillRect(frame, theme::hover);
+  painter.setPen(theme::ink_dim);
+  painter.drawText(QRectF(10, frame.top(), frame.left() - 18, 22), Qt::AlignVCenter | Qt::AlignLeft,
+                   tr("Watched"));
+  if (!computed_) {
+    return;
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+  const int count = computed_->history.step_count() + 1;
+  const double x = TimelineLanes::position(frame, focus_.position().step + 1, count);
+  painter.setPen(QPen(theme::accent, 2));
+  painter.drawLine(QPointF(x, frame.top()), QPointF(x, frame.bottom()));
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    draw(painter, k);
+  }
+}
+
+void WatchChart::draw(QPainter& painter, std::size_t k) const {
+  const std::vector<double>& values = series_[k].values;
+  const QRectF frame = plot();
+  QPolygonF line;
+  double column = -1;  // of the last two points
+  for (std::size_t step = 0; step < values.size(); ++step) {
+    if (std::isnan(values[step])) {
+      continue;
+    }
+    const QPointF point(
+        TimelineLanes::position(frame, static_cast<int>(step), static_cast<int>(values.size())),
+        height_of(k, values[step]));
+    if (std::floor(point.x()) == column) {
+      QPointF &high = line[line.size() - 2], &low = line.last();
+      high.setY(std::min(high.y(), point.y()));
+      low.setY(std::max(low.y(), point.y()));
+      continue;
+    }
+    column = std::floor(point.x());
+    line << point << point;
+  }
+  painter.setPen(QPen(color_of(k), 1.6 * theme::scale()));
+  painter.drawPolyline(line);
+}
+
+void WatchChart::go_to(double x) {
+  if (computed_) {
+    focus_.go_to_step(TimelineLanes::index(plot(), x, computed_->history.step_count() + 1) - 1);
+  }
+}
+
+void WatchChart::mousePressEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) {
+    go_to(event->localPos().x());
+  }
+}
+
+void WatchChart::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() & Qt::LeftButton) {
+    go_to(event->localPos().x());
+  }
+}
+
+}  // namespace transillum::viewer

@@ -1,0 +1,73 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "state/focus.h"
+#include "state/selection.h"
+#include "state/watches.h"
+
+class QAction;
+class QHBoxLayout;
+class QMenu;
+class QToolButton;
+
+namespace transillum::viewer {
+
+class TimelineLanes;
+
+/// Lines of the watched figures over the steps of the direction, below the lane of steps, each on
+/// its own scale. Above them a button for each, which tells the value and removes it. Hidden
+/// without any.
+class WatchChart : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// @param lanes above it, as wide
+  WatchChart(Focus& focus, Selection& selection, Watches& watches, const TimelineLanes& lanes,
+             QWidget* parent = nullptr);
+  ~WatchChart() override;
+
+  /// A menu of what can be watched.
+  QMenu* menu() const { return menu_.get(); }
+  /// The plot, and the height in it of a value of watch k.
+  QRectF plot() const;
+  double height_of(std::size_t k, double value) const;
+  static QColor color_of(std::size_t k);
+
+  QSize minimumSizeHint() const override;
+  QSize sizeHint() const override { return minimumSizeHint(); }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+
+ private:
+  struct Series {
+    Watch watch;
+    std::vector<double> values;
+    double largest = 0;  ///< of the values
+    QToolButton* button;
+  };
+  void make_menu();
+  void show_list();
+  void compute();
+  void show_values();
+  void draw(QPainter& painter, std::size_t k) const;
+  void go_to(double x);
+
+  Focus& focus_;
+  Selection& selection_;
+  Watches& watches_;
+  const TimelineLanes& lanes_;
+  std::unique_ptr<QMenu> menu_;
+  std::vector<QAction*> choices_;
+  QHBoxLayout* buttons_;
+  std::vector<Series> series_;
+  std::shared_ptr<const RecordedMap> computed_;  ///< the map that series_ is of
+};
+
+}  // namespace transillum::viewer
