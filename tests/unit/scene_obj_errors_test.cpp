@@ -160,9 +160,9 @@ TEST(ObjFile, MissingIsReported) {
 
 TEST(ObjFile, OtherFormatIsReported) {
   const test::TemporaryFolder folder;
-  const std::string file = folder.write("s.stl", "solid\n");
-  EXPECT_EQ(test::refusal([&] { load_scene(file); }),
-            file + ": not a scene file; scene files end in .obj");
+  const std::string file = folder.write("s.step", "solid\n");
+  EXPECT_THAT(test::refusal([&] { load_scene(file); }),
+              HasSubstr(file + ": not a scene file; scene files end in .obj, "));
 }
 
 TEST(ObjFile, FolderIsReported) {

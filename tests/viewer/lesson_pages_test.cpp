@@ -126,6 +126,24 @@ struct Statement {
   QString text;
 };
 
+// "from A to B", the patches of the Cornell box that are parts of its blocks: those inside the
+// room.
+QString patches_of_the_blocks(const Scene& scene) {
+  const Bounds& room = scene.bounds();
+  std::vector<PatchId> blocks;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const Vec3 c = scene.patch(i).center;
+    const double margin = std::min({c.x - room.low.x, room.high.x - c.x, c.y - room.low.y,
+                                    room.high.y - c.y, c.z - room.low.z, room.high.z - c.z});
+    if (margin > 1e-6) {
+      blocks.push_back(i);
+    }
+  }
+  const bool contiguous = blocks.back() - blocks.front() + 1 == std::ssize(blocks);
+  return contiguous ? QString("patches %1 to %2").arg(blocks.front()).arg(blocks.back())
+                    : QString("more than one range of patches");
+}
+
 void add_first_lessons(std::vector<Statement>& all) {
   const Shown room(1, 1), sum(1, 4), again(1, 5), map(2, 5), order(4, 1);
   const SolveStatistics run = again.solution().statistics;
@@ -139,6 +157,7 @@ void add_first_lessons(std::vector<Statement>& all) {
       {1, 5, QString("settles near %1").arg(two_digits(run.iteration_records.back().contraction))});
   all.push_back({1, 5, QString("After %1 iterations").arg(run.iterations)});
   all.push_back({2, 5, QString("all %1 directions and their opposites").arg(map.samples.size())});
+  all.push_back({3, 6, patches_of_the_blocks(*Shown(3, 6).scene)});
   all.push_back({4, 1, QString(": %1 patches").arg(order.scene->patch_count())});
   all.push_back(
       {4, 1,
@@ -189,7 +208,10 @@ void add_sampling_lesson(std::vector<Statement>& all) {
     return percent(radiosity_error(shown.solution().radiosity, reference).rms);
   };
   const QString of_random = error(random);
-  all.push_back({6, 1, "RMS error of *B* is " + of_random});
+  all.push_back({6, 1,
+                 QString("RMS error of *B* is %1 (with *M* = %2)")
+                     .arg(of_random)
+                     .arg(random.samples.size())});
   all.push_back({6, 2, QString("falls from %1 to %2").arg(of_random, error(Shown(6, 2)))});
   all.push_back({6, 3, "RMS error of *B* is " + error(spiral)});
   all.push_back({6, 5, "RMS error of *B* is " + error(Shown(6, 5))});
@@ -286,6 +308,7 @@ void add_flatland_lesson(std::vector<Statement>& all) {
            .arg(box.high.x - box.low.x)
            .arg(from(3, " to "), from(4, " to "), from(5, " to "), from(10, " to "),
                 from(6, " to "))});
+  all.push_back({8, 5, QString("*A*(floor) is %1 m").arg(scene.patch(0).area)});
   all.push_back({8, 4,
                  QString("[%1] dark, [%2] lamp, [%3] dark")
                      .arg(from(3, ", "), from(4, ", "), from(5, ", "))});

@@ -9,10 +9,10 @@ namespace transillum {
 
 /// What two engines find of one pair of patches.
 struct PairDifference {
-  PatchId receiver;
-  PatchId source;
-  double first;  ///< A(receiver, source, omega), m², by the first; 0: none
-  double other;  ///< by the other
+  PatchId receiver;  ///< what sees the source along omega
+  PatchId source;    ///< what is seen
+  double first;      ///< A(receiver, source, omega), m², by the first; 0: none
+  double other;      ///< by the other
 };
 
 /// The differences between two engines' transfers along one direction.
