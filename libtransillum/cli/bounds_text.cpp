@@ -11,7 +11,7 @@
 namespace transillum::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string count_text(double m) {
   return m < 1e6 ? fmt::format("{:.0f}", m) : fmt::format("{:.2e}", m);
@@ -132,11 +132,11 @@ std::string run_text(const BoundsReport& report) {
 }
 
 template <class Number>
-Json json_of(const std::optional<Number>& number) {
-  return number ? Json(*number) : Json();
+OrderedJson json_of(const std::optional<Number>& number) {
+  return number ? OrderedJson(*number) : OrderedJson();
 }
 
-Json json_of(const BoundsRow& r) {
+OrderedJson json_of(const BoundsRow& r) {
   return {{"rho", r.rho},
           {"converges",
            {{"paper", json_of(r.paper_contract)},
@@ -152,7 +152,7 @@ Json json_of(const BoundsRow& r) {
             {"estimated", json_of(r.estimated_heterogeneous)}}}};
 }
 
-Json json_of(const BoundsPrediction& p) {
+OrderedJson json_of(const BoundsPrediction& p) {
   return {{"rho", p.rho},
           {"eps", {{"bound", p.eps_bound}, {"actual", p.eps}}},
           {"contraction", {{"bound", p.contraction_bound}, {"actual", p.contraction}}},
@@ -180,7 +180,7 @@ std::string text_of(const BoundsReport& report) {
 
 void write_bounds_report(const std::string& path, const BoundsReport& report) {
   const BoundsOptions& options = report.options;
-  Json json;
+  OrderedJson json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["accuracy"] = options.accuracy;
   json["size_ratio"] = report.size_ratio;
@@ -188,12 +188,12 @@ void write_bounds_report(const std::string& path, const BoundsReport& report) {
   json["directions"] = options.directions;
   json["sampling"] = name_of(options.sets.sampling);
   json["two_way"] = options.sets.two_way;
-  json["tables"] = Json::array();
+  json["tables"] = OrderedJson::array();
   for (const BoundsRow& r : report.rows) {
     json["tables"].push_back(json_of(r));
   }
-  json["prediction"] = report.prediction ? json_of(*report.prediction) : Json();
-  json["scene"] = Json();
+  json["prediction"] = report.prediction ? json_of(*report.prediction) : OrderedJson();
+  json["scene"] = OrderedJson();
   if (report.measures) {
     const SceneMeasures& m = *report.measures;
     json["scene"] = {{"name", options.scene->name()},
@@ -203,14 +203,14 @@ void write_bounds_report(const std::string& path, const BoundsReport& report) {
                      {"smallest_area", m.smallest_area},
                      {"size_ratio", m.size_ratio}};
   }
-  json["run"] = Json();
+  json["run"] = OrderedJson();
   if (report.run) {
     json["run"] = {{"scene", report.run->scene},
                    {"passes", report.run->passes},
                    {"rms_error", report.run->error},
                    {"estimated_passes", report.run->estimated_passes}};
   }
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
   write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
 }
 

@@ -16,7 +16,7 @@
 namespace transillum::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Number of normals that represent all directions if there is no scene.
 constexpr int spread_normal_count = 2048;
@@ -40,9 +40,9 @@ std::string errors_text(const DirectionStatistics& s, const std::vector<double>&
   return text;
 }
 
-Json errors_json(const DirectionStatistics& s, const std::vector<double>& errors) {
+OrderedJson errors_json(const DirectionStatistics& s, const std::vector<double>& errors) {
   const QuadratureErrors summary = summary_of(errors);
-  Json json{{"rms", summary.rms}, {"max", summary.max}};
+  OrderedJson json{{"rms", summary.rms}, {"max", summary.max}};
   if (s.scene) {
     json["patches"] = errors;
   }
@@ -97,12 +97,12 @@ std::string text_of(const DirectionStatistics& s) {
 }
 
 void write_direction_statistics(const std::string& path, const DirectionStatistics& s) {
-  Json json;
+  OrderedJson json;
   json["program"] = "transillum " TRANSILLUM_VERSION;
   json["directions"] = s.set.directions;
   json["sampling"] = name_of(s.set.used_sampling());
   json["seed"] = s.set.seed;
-  json["rotation"] = s.set.rotation ? Json(*s.set.rotation) : Json();
+  json["rotation"] = s.set.rotation ? OrderedJson(*s.set.rotation) : OrderedJson();
   json["star_discrepancy"] = {{"value", s.star},
                               {"two_way", s.star_two_way},
                               {"bound", star_discrepancy_bound(s.set.directions)}};
@@ -110,12 +110,12 @@ void write_direction_statistics(const std::string& path, const DirectionStatisti
                              {"exact", s.cap.exact},
                              {"two_way", s.cap_two_way.value},
                              {"two_way_exact", s.cap_two_way.exact}};
-  json["scene"] = s.scene ? Json(s.scene->name()) : Json();
+  json["scene"] = s.scene ? OrderedJson(s.scene->name()) : OrderedJson();
   json["eps"] = {{"normals", s.one_way.size()},
                  {"bound", quadrature_error_bound(s.set.directions)},
                  {"one_way", errors_json(s, s.one_way)},
                  {"two_way", errors_json(s, s.two_way)}};
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const std::string text = json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
   write_file_whole(path, [&](std::ostream& out) { out << text << '\n'; });
 }
 
