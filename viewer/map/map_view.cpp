@@ -318,9 +318,11 @@ void MapView::show_title() {
     return;
   }
   const std::int32_t after = focus_.position().step + (shown_phase() == Phase::before ? 0 : 1);
-  step_text_->setText(tr("V after %1 of %2 steps: %3 polygons")
-                          .arg(count_text(after), count_text(map->history.step_count()),
-                               count_text(static_cast<std::int64_t>(canvas_->polygon_count()))));
+  const auto polygons = static_cast<std::int64_t>(canvas_->polygon_count());
+  step_text_->setText(
+      (polygons == 1 ? tr("V after %1 of %2 steps: %3 polygon")
+                     : tr("V after %1 of %2 steps: %3 polygons"))
+          .arg(count_text(after), count_text(map->history.step_count()), count_text(polygons)));
 }
 
 QString MapView::pixel_text() const {
