@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t most_rows = 20'000;
 constexpr double map_width = 560;  // user units of the SVG
 
-const char* const style = R"(
+const char* const style_sheet = R"(
 :root { color-scheme: light dark; }
 body { font: 17px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 0 auto; padding: 1rem; }
 section { border-top: 1px solid #8888; margin-top: 2rem; padding-top: .5rem; }
@@ -244,7 +244,7 @@ QByteArray lesson_html(const QString& title, const std::vector<ShownPage>& pages
                      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
                      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
                      "<title>%1</title><style>%2</style></head><body>\n<h1>%1</h1>\n")
-                     .arg(title.toHtmlEscaped(), QString::fromLatin1(style));
+                     .arg(title.toHtmlEscaped(), QString::fromLatin1(style_sheet));
   for (const ShownPage& shown : pages) {
     html += QStringLiteral("<section><h2>%1</h2>\n")
                 .arg(QString::fromStdString(shown.page.title).toHtmlEscaped());

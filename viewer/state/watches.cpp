@@ -12,13 +12,11 @@ namespace transillum::viewer {
 
 namespace {
 
-using Kind = Watch::Kind;
-
 // Names in session files.
-constexpr std::pair<Kind, const char*> kind_names[] = {
-    {Kind::patch_area, "patch-area"},
-    {Kind::closure_defect, "closure-defect"},
-    {Kind::map_size, "map-size"},
+constexpr std::pair<Watch::Kind, const char*> kind_names[] = {
+    {Watch::Kind::patch_area, "patch-area"},
+    {Watch::Kind::closure_defect, "closure-defect"},
+    {Watch::Kind::map_size, "map-size"},
 };
 
 std::vector<double> areas_of(PatchId patch, const MapHistory& history) {
@@ -39,14 +37,14 @@ std::vector<double> areas_of(PatchId patch, const MapHistory& history) {
 }  // namespace
 
 std::vector<double> values_of(const Watch& watch, const MapHistory& history) {
-  if (watch.kind == Kind::patch_area) {
+  if (watch.kind == Watch::Kind::patch_area) {
     return areas_of(watch.patch, history);
   }
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> values{watch.kind == Kind::map_size ? 0 : none};
+  std::vector<double> values{watch.kind == Watch::Kind::map_size ? 0 : none};
   for (std::int32_t k = 0; k < history.step_count(); ++k) {
     const MapHistory::Step& step = history.step(k);
-    if (watch.kind == Kind::map_size) {
+    if (watch.kind == Watch::Kind::map_size) {
       values.push_back(step.map_size);
     } else {
       values.push_back(step.front_facing ? step.open_share() : none);
@@ -57,23 +55,23 @@ std::vector<double> values_of(const Watch& watch, const MapHistory& history) {
 
 QString text_of(const Watch& watch) {
   switch (watch.kind) {
-    case Kind::patch_area:
+    case Watch::Kind::patch_area:
       return Watches::tr("Area of patch %1 in V, m²").arg(watch.patch);
-    case Kind::closure_defect:
+    case Watch::Kind::closure_defect:
       return Watches::tr("Closure defect");
-    case Kind::map_size:
+    case Watch::Kind::map_size:
       return Watches::tr("Polygons of V");
   }
   return {};
 }
 
-const char* name_of(Kind kind) {
+const char* name_of(Watch::Kind kind) {
   return std::find_if(std::begin(kind_names), std::end(kind_names),
                       [kind](const auto& name) { return name.first == kind; })
       ->second;
 }
 
-std::optional<Kind> watch_kind(const std::string& name) {
+std::optional<Watch::Kind> watch_kind(const std::string& name) {
   for (const auto& [kind, known] : kind_names) {
     if (name == known) {
       return kind;
