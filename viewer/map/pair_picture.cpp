@@ -13,7 +13,7 @@ namespace transillum::viewer {
 
 namespace {
 
-Color8 color_of_share(double share) {
+Color8 color8_of_share(double share) {
   return color_of(ColorMap::diverging, 0.5 + share / (2 * PairPicture::full_color_at));
 }
 
@@ -29,7 +29,7 @@ PairPicture::PairPicture(Selection& selection, QWidget* parent) : QWidget(parent
   layout->addWidget(canvas_, 1);
   layout->addWidget(new ColorLegend(
       [](double t) {
-        const Color8 c = color_of_share((2 * t - 1) * full_color_at);
+        const Color8 c = color8_of_share((2 * t - 1) * full_color_at);
         return QColor(c[0], c[1], c[2]);
       },
       tr("−%1 to %1 % of a pair").arg(100 * full_color_at)));
@@ -55,7 +55,7 @@ void PairPicture::show(const std::shared_ptr<const RecordedMap>& map,
     }
   }
   auto colors = std::make_shared<std::vector<Color8>>();
-  std::transform(shares_.begin(), shares_.end(), std::back_inserter(*colors), color_of_share);
+  std::transform(shares_.begin(), shares_.end(), std::back_inserter(*colors), color8_of_share);
   MapCanvas::Content content;
   content.map = map;
   content.receiver = receiver;
