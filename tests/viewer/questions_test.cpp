@@ -447,6 +447,14 @@ class QuestionsTest : public QObject {
     QVERIFY(!view->result() && button->text() == "Measure the errors");
   }
 
+  void errors_can_be_measured_once_there_is_a_run() {
+    Class room;
+    auto* button = room.window->findChild<QPushButton*>("measure_errors");
+    QVERIFY(!button->isEnabled());
+    room.window->open("flatland");
+    QTRY_VERIFY(button->isEnabled());
+  }
+
   void mistakes_name_the_key_data() {
     QTest::addColumn<QString>("question");
     QTest::addColumn<QString>("expected");

@@ -140,7 +140,11 @@ ErrorRuns ErrorView::usual_runs() const {
 }
 
 void ErrorView::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  const bool first = !snapshot_;
   snapshot_ = std::move(snapshot);
+  if (first) {
+    place_button();
+  }
   if (running_scene_ && running_scene_ != snapshot_->loaded) {
     drop();
   }
