@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QMimeData>
@@ -16,6 +17,7 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QUrl>
+#include <QVBoxLayout>
 #include <set>
 
 #include "lessons/lesson_panel.h"
@@ -409,6 +411,40 @@ class WindowTest : public QObject {
     if (projects) {
       window->findChild<QAction*>("projector")->trigger();
     }
+  }
+
+  // The strip that holds them follows the number of their rows, also where the width changes while
+  // the page is hidden or a bar appears above.
+  void color_controls_get_the_height_of_their_rows() {
+    QWidget page;
+    auto* column = new QVBoxLayout(&page);
+    column->setContentsMargins(0, 0, 0, 0);
+    auto* strip = new QLabel("a bar");
+    column->addWidget(strip);
+    auto* outer = new QWidget;
+    auto* inner = new QVBoxLayout(outer);
+    const auto window = make_window();
+    auto* controls = new ColorControls(window->colors);
+    inner->addWidget(controls);
+    inner->addWidget(new QWidget, 1);
+    column->addWidget(outer, 1);
+    window->colors.set_mode(ColorMode::luminance);
+    page.resize(900, 400);
+    page.show();
+    std::size_t heights = 0;
+    int last = 0;
+    for (const int width : {900, 640, 900, 560, 620, 700, 500, 640, 660, 680, 560, 900, 480}) {
+      for (const bool hidden : {false, true}) {
+        outer->setVisible(!hidden);
+        strip->setVisible(!strip->isVisible());
+        page.resize(width, 400);
+        outer->show();
+        QTRY_COMPARE(controls->height(), controls->sizeHint().height());
+        heights += controls->height() != last ? 1 : 0;
+        last = controls->height();
+      }
+    }
+    QVERIFY(heights > 2);
   }
 
   void a_panel_behind_others_does_no_work() {

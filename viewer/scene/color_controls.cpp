@@ -171,6 +171,8 @@ void ColorControls::arrange() {
   } else {
     grid_->addWidget(pages_, rows - 1, 0, 1, 3, Qt::AlignLeft);
   }
+  // Within a resize the layout above does not notice that the height changes.
+  QMetaObject::invokeMethod(this, &QWidget::updateGeometry, Qt::QueuedConnection);
 }
 
 QWidget* ColorControls::make_true_color_page() {
