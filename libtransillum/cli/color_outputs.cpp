@@ -34,12 +34,26 @@ void add_color_outputs(CLI::App& command, ColorOutputs& colors) {
           throw InputError("--exposure: \"" + text + "\" is not greater than 0");
         }
       });
+  command.add_flag("--light-map", colors.display.light_map,
+                   "colors in .glb and .gltf files as a picture with texture coordinates, a square "
+                   "of it per patch, instead of a color per corner");
   command
       .add_option(
           "--series", colors.series,
           "the result after each iteration: files STEM-0001.vtp and so on, and this list of "
           "them for ParaView")
       ->type_name("STEM.pvd");
+  add_parsed_option(
+      command, "--series-every", "N",
+      "iteration (default), direction, or a number of directions: --series has the estimate after "
+      "that many directions of an iteration too",
+      [&colors](const std::string& text) {
+        colors.series_every =
+            text == "iteration" ? 0
+            : text == "direction"
+                ? 1
+                : static_cast<int>(parse_whole_number("--series-every", text, 1, 1 << 30));
+      });
 }
 
 void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors) {
@@ -52,6 +66,9 @@ void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
                          const std::vector<std::string>& out, const SolveOptions& options) {
   refuse_unless(is_any_of(out, {".ply", ".glb", ".gltf"}), command, "--exposure",
                 "used only with a .ply, .glb or .gltf file");
+  refuse_unless(is_any_of(out, {".glb", ".gltf"}), command, "--light-map",
+                "used only with a .glb or .gltf file");
+  refuse_unless(!colors.series.empty(), command, "--series-every", "used only with --series");
   const bool sky_has_zenith = options.sky.set() && options.sky.model != SkyModel::uniform;
   refuse_unless(sky_has_zenith || is_any_of(out, {".glb", ".gltf"}), command, "--up",
                 "used only with --sky and --sky-model cie-overcast, or a .glb or .gltf file");

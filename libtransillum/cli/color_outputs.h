@@ -13,14 +13,15 @@ namespace transillum::cli {
 /// Results for programs that show them.
 struct ColorOutputs {
   DisplayOptions display;
-  std::string series;  ///< --series
+  std::string series;    ///< --series
+  int series_every = 0;  ///< --series-every: a number of directions; 0: iterations
 };
 
-/// --exposure, --series
+/// --exposure, --light-map, --series, --series-every
 void add_color_outputs(CLI::App& command, ColorOutputs& colors);
 /// Takes --up, which the sky has, for the display too.
 void set_up_of_display(const CLI::App& command, const Sky& sky, ColorOutputs& colors);
-/// Refuses --exposure, --up and --series where no output or solve uses them.
+/// Refuses these options and --up where no output or solve uses them.
 /// @throws InputError
 void check_color_outputs(const CLI::App& command, const ColorOutputs& colors,
                          const std::vector<std::string>& out, const SolveOptions& options);

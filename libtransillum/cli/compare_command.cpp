@@ -47,6 +47,9 @@ std::string place_text(const Scene& scene, const RadiosityDifference& difference
 std::string comparison_text(const Scene& scene, const ResultComparison& comparison) {
   const RadiosityDifference& whole = comparison.whole;
   std::string text = report_row("patches", fmt::format("{}", scene.patch_count()));
+  if (!comparison.sky_difference.empty()) {
+    text += report_row("skies differ", comparison.sky_difference);
+  }
   text += report_row("RMS", fmt::format("{:.4g} of the RMS of B", whole.rms));
   text += report_row("largest", fmt::format("{:.4g} of the largest B", whole.largest));
   if (whole.worst != no_patch) {

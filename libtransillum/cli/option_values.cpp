@@ -191,26 +191,16 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
 
 void add_sky_options(CLI::App& command, Sky& sky) {
   add_parsed_option(
-      command, "--sky", "E[,E,E]",
-      "what escapes from an open scene meets a sky: what an unobstructed patch turned upward "
-      "receives from it, in W/m2 (default: no sky)",
+      command, "--sky", "E[,E,E]", help_of("sky", "no sky"),
       [&sky](const std::string& text) { sky.exitance = parse_exitance("--sky", text); });
-  add_parsed_option(
-      command, "--sky-model", "NAME",
-      fmt::format("{} (default {}); uniform: the same from everywhere, also from below; "
-                  "cie-overcast: three times as bright at the zenith as at the horizon, nothing "
-                  "from below",
-                  fmt::join(sky_model_names(), " | "), name_of(sky.model)),
-      [&sky](const std::string& text) { sky.model = sky_model_from_name(text); });
+  add_parsed_option(command, "--sky-model", "NAME",
+                    choice_help("sky-model", sky_model_names(), name_of(sky.model)),
+                    [&sky](const std::string& text) { sky.model = sky_model_from_name(text); });
   add_parsed_option(
       command, "--up", "X,Y,Z",
       "the zenith of the sky cie-overcast (default 0,0,1); the direction that becomes "
       "up, +y, in .glb and .gltf files (default 0,1,0: coordinates stay)",
       [&sky](const std::string& text) { sky.up = parse_direction("--up", text); });
-}
-
-void check_sky_options(const CLI::App& command, const Sky& sky) {
-  refuse_unless(sky.set(), command, "--sky-model", "used only with --sky");
 }
 
 void add_direction_option(CLI::App& command, Vec3& direction) {

@@ -71,9 +71,6 @@ void refuse_unused(const CLI::App& command, const std::vector<SolveOptions>& sol
 void add_direction_option(CLI::App& command, Vec3& direction);
 /// --sky, --sky-model and --up
 void add_sky_options(CLI::App& command, Sky& sky);
-/// Refuses --sky-model without a sky.
-/// @throws InputError
-void check_sky_options(const CLI::App& command, const Sky& sky);
 /// --engine, --lines, --resolution, --points, --order and --random-lines
 void add_engine_options(CLI::App& command, Engine& engine, EngineOptions& options);
 /// The same without --engine.

@@ -61,6 +61,7 @@ struct SolveJob {
   ProgressDisplay& display;
   bool form_factors = false;       ///< wanted in the solution, if they are kept
   ResultSeries* series = nullptr;  ///< gets the result after every iteration
+  int series_every = 0;            ///< and after so many directions; 0: not
 };
 
 std::vector<std::string> checked_outputs(const SolveCall& call) {
@@ -120,7 +121,6 @@ SolveOptions solve_options(const SolveCall& call) {
   }
   options.validate();
   refuse_unused(*call.command, {options});
-  check_sky_options(*call.command, options.sky);
   check_color_outputs(*call.command, call.colors, call.out, options);
   return options;
 }
@@ -168,10 +168,14 @@ void advance(RadiositySolver& solver, const SolveJob& job) {
   while (unfinished) {
     unfinished = solver.advance(until, [&](const RadiositySolver& watched) {
       show_progress(job.display, watched);
-      return true;
+      const int direction = watched.progress().direction;
+      return job.series_every == 0 || direction == 0 || direction % job.series_every != 0;
     });
     if (job.series != nullptr) {
-      job.series->add(solver.solution(), solver.progress().iteration);
+      const SolveProgress progress = solver.progress();
+      const double share =
+          progress.direction == 0 ? 0.0 : progress.direction / static_cast<double>(progress.passes);
+      job.series->add(solver.solution(), progress.iteration + share);
     }
   }
 }
@@ -322,8 +326,13 @@ int run(const SolveCall& call) {
   if (!call.colors.series.empty()) {
     series.emplace(call.colors.series);
   }
-  const SolveJob job{
-      scene, options, cancellation, display, call.by.has_value(), series ? &*series : nullptr};
+  const SolveJob job{scene,
+                     options,
+                     cancellation,
+                     display,
+                     call.by.has_value(),
+                     series ? &*series : nullptr,
+                     call.colors.series_every};
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job)
                                                          : solve_without_directions(job);

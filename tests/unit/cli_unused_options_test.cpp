@@ -159,7 +159,7 @@ TEST(CliUnusedOptions, TheTableNamesSettings) {
   for (const Setting& setting : settings()) {
     count += why_unused(setting.name, {}).empty() ? 0 : 1;
   }
-  EXPECT_EQ(count, 13U);
+  EXPECT_EQ(count, 14U);
 }
 
 }  // namespace

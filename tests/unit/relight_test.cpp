@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transillum/adjoint.h"
 #include "transillum/at.h"
 #include "transillum/engine.h"
+#include "transillum/light_paths.h"
 #include "transillum/material_changes.h"
 #include "transillum/radiosity.h"
 
@@ -60,6 +62,61 @@ void expect_same(const std::vector<Rgb>& a, const std::vector<Rgb>& b, double to
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_LE(max_abs(a[i] - b[i]), tolerance * (1 + max_abs(b[i]))) << i;
   }
+}
+
+/// What comes from a sky depends on the geometry only.
+TEST(Relight, KeepsTheLightOfASky) {
+  const SceneDescription description = describe_scene("cornell-box:open=1");
+  SceneDescription changed = description;
+  changed.materials = other(description.materials);
+  const SolveOptions options{
+      .directions = 100,
+      .tolerance = tight,
+      .sky = {.exitance = {1, 2, 3}, .model = SkyModel::cie_overcast, .up = {0, 0, 1}}};
+  const auto solution_of = [&](const SceneDescription& of) {
+    RadiositySolver solver(std::make_shared<const Scene>(of), options);
+    solver.advance(RadiositySolver::Until::finished);
+    Solution solution = solver.solution();
+    solution.form_factors = std::make_shared<const FormFactors>(solver.form_factors());
+    return solution;
+  };
+  const Solution before = solution_of(description), after = solution_of(changed);
+  ASSERT_GT(max_abs(before.sky_irradiance.front()), 0);
+  const RelightResult relit =
+      relight(*before.scene, *before.form_factors, changed.materials,
+              {.tolerance = tight, .sky_irradiance = before.sky_irradiance});
+  expect_same(relit.radiosity, after.radiosity, 1e-10);
+  expect_same(relit.irradiance, after.irradiance, 1e-10);
+  // Light paths begin where the sky's light arrives first, and sum to B.
+  const LightPaths paths =
+      find_light_paths(*before.scene, *before.form_factors, 3, changed.materials,
+                       {.tolerance = tight, .sky_irradiance = before.sky_irradiance});
+  Rgb sum = paths.cut_off;
+  for (const LightPath& path : paths.paths) {
+    sum += path.contribution;
+  }
+  expect_same({sum}, {after.radiosity[3]}, 1e-10);
+  // So do the contributions of the adjoint.
+  const Adjoint adjoint = solve_adjoint(*before.scene, *before.form_factors, 3, changed.materials,
+                                        {.tolerance = tight});
+  Rgb contributions;
+  for (PatchId j = 0; j < before.scene->patch_count(); ++j) {
+    const Material& material = at(changed.materials, before.scene->patch(j).material);
+    contributions += before.scene->patch(j).area *
+                     (at(adjoint.per_watt, j) *
+                      (material.exitance + material.reflectance * at(before.sky_irradiance, j)));
+  }
+  expect_same({contributions}, {after.radiosity[3]}, 1e-10);
+  const std::vector<Rgb> dark(before.sky_irradiance.size(), Rgb{-1, 0, 0});
+  EXPECT_THAT(([&] {
+                relight(*before.scene, *before.form_factors, changed.materials,
+                        {.sky_irradiance = dark});
+              }),
+              ThrowsMessage<InputError>(HasSubstr("the light of the sky on patch 0 is -1 0 0")));
+  const std::vector<Rgb> short_sky(1);
+  EXPECT_THROW(relight(*before.scene, *before.form_factors, changed.materials,
+                       {.sky_irradiance = short_sky}),
+               InputError);
 }
 
 TEST(Relight, EqualsASolveWithTheOtherMaterials) {

@@ -57,6 +57,25 @@ TEST(ResultComparison, FindsTheKnownDifferences) {
   EXPECT_EQ(comparison.groups[2].difference.worst, no_patch);
 }
 
+TEST(ResultComparison, NamesDifferentSkies) {
+  const std::vector<Rgb> b(3, Rgb{1, 1, 1});
+  Solution one = result(b), other = result(b);
+  EXPECT_EQ(compare_results(one, other).sky_difference, "");
+  other.sky = {.exitance = {1, 2, 3}, .model = SkyModel::cie_overcast};
+  EXPECT_EQ(compare_results(one, other).sky_difference,
+            "one has none, and the other has a sky of 1 2 3 W/m2, cie-overcast, up 0 0 1");
+  one.sky = other.sky;
+  EXPECT_EQ(compare_results(one, other).sky_difference, "");
+  // The direction of a uniform sky means nothing.
+  one.sky.model = other.sky.model = SkyModel::uniform;
+  other.sky.up = {0, 1, 0};
+  EXPECT_EQ(compare_results(one, other).sky_difference, "");
+  // Files of older versions do not say which sky it was.
+  one.sky = {};
+  one.sky_irradiance.resize(3);
+  EXPECT_EQ(compare_results(one, other).sky_difference, "");
+}
+
 TEST(ResultComparison, EqualResultsDoNotDiffer) {
   const Solution dark = result({{}, {}, {}}), bright = result({{1, 1, 1}, {}, {}});
   EXPECT_EQ(compare_results(dark, dark).whole.rms, 0);

@@ -3,12 +3,14 @@
 // Radiosity for other programs: colors and triangles of glTF files, colors of PLY files, series for
 // ParaView.
 #include <gmock/gmock.h>
+#include <png.h>
 
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "io/results/srgb.h"
 #include "program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"
@@ -52,7 +54,9 @@ struct Glb {
     std::vector<Number> list(view["byteLength"].get<std::size_t>() / sizeof(Number));
     std::memcpy(list.data(), buffer.data() + view["byteOffset"].get<std::size_t>(),
                 list.size() * sizeof(Number));
-    const std::size_t components = accessor["type"] == "SCALAR" ? 1 : 3;
+    const std::size_t components = accessor["type"] == "SCALAR" ? 1
+                                   : accessor["type"] == "VEC2" ? 2
+                                                                : 3;
     EXPECT_EQ(list.size(), components * accessor["count"].get<std::size_t>());
     return list;
   }
@@ -93,6 +97,33 @@ std::vector<Shown> shown_by(const Glb& glb) {
   }
   return list;
 }
+
+/// The picture of a light map.
+class Picture {
+ public:
+  explicit Picture(const Glb& glb) {
+    const json& of_image =
+        glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<std::size_t>()];
+    const std::size_t begin = of_image["byteOffset"], length = of_image["byteLength"];
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_NE(png_image_begin_read_from_memory(&image, glb.buffer.data() + begin, length), 0);
+    image.format = PNG_FORMAT_RGB;
+    width = image.width;
+    height = image.height;
+    bytes_.resize(PNG_IMAGE_SIZE(image));
+    EXPECT_NE(png_image_finish_read(&image, nullptr, bytes_.data(), 0, nullptr), 0);
+  }
+  std::array<int, 3> texel(std::size_t x, std::size_t y) const {
+    const std::size_t first = 3 * (y * width + x);
+    return {bytes_.at(first), bytes_.at(first + 1), bytes_.at(first + 2)};
+  }
+
+  std::size_t width = 0, height = 0;
+
+ private:
+  std::vector<unsigned char> bytes_;
+};
 
 class ResultExports : public ::testing::Test {
  protected:
@@ -152,6 +183,63 @@ TEST_F(ResultExports, TheDocumentIsUnlitGltf) {
               ::testing::StartsWith("data:application/octet-stream;base64,"));
   text["buffers"][0].erase("uri");
   EXPECT_EQ(text, document);
+}
+
+/// All texels that linear filtering reads, also in the first reduction, have the patch's color.
+TEST_F(ResultExports, LightMapsShowThePatchesWithoutBleeding) {
+  const double exposure = automatic_exposure(solution_);
+  const Glb glb = exported({.light_map = true});
+  EXPECT_EQ(glb.document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+  const Picture picture(glb);
+  const json& part = glb.document["meshes"][0]["primitives"][0];
+  EXPECT_FALSE(part["attributes"].contains("COLOR_0"));
+  const auto uv = glb.values<float>(
+      glb.document["accessors"][part["attributes"]["TEXCOORD_0"].get<std::size_t>()]);
+  std::size_t corner = 0;
+  for (const Piece& piece : solution_.scene->pieces()) {
+    const Rgb color = exposure * at(solution_.radiosity, piece.patch);
+    const std::array<int, 3> expected{srgb_byte(color.r), srgb_byte(color.g), srgb_byte(color.b)};
+    for (std::size_t k = 0; k < solution_.scene->corners(piece).size(); ++k, ++corner) {
+      const double x = uv.at(2 * corner) * static_cast<double>(picture.width);
+      const double y = uv.at(2 * corner + 1) * static_cast<double>(picture.height);
+      for (const double dx : {-1 + 1e-3, 1 - 1e-3}) {
+        for (const double dy : {-1 + 1e-3, 1 - 1e-3}) {
+          EXPECT_EQ(
+              picture.texel(static_cast<std::size_t>(x + dx), static_cast<std::size_t>(y + dy)),
+              expected)
+              << piece.patch;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(2 * corner, uv.size());
+}
+
+/// The corners of a patch have distinct coordinates with the same orientation, and those of
+/// different patches do not overlap.
+TEST_F(ResultExports, LightMapsHaveCoordinatesOfTheirOwn) {
+  solution_ = solve(load_scene("cornell-box", {.max_patch_area = 0.02}), {.directions = 8});
+  const Glb glb = exported({.light_map = true});
+  const json& part = glb.document["meshes"][0]["primitives"][0];
+  const auto accessor = [&](const json& index) {
+    return glb.document["accessors"][index.get<std::size_t>()];
+  };
+  const auto uv = glb.values<float>(accessor(part["attributes"]["TEXCOORD_0"]));
+  const auto indices = glb.values<std::uint32_t>(accessor(part["indices"]));
+  double area = 0;
+  for (std::size_t k = 0; k < indices.size(); k += 3) {
+    const auto point = [&](std::size_t c) {
+      return Vec3{uv.at(2 * std::size_t{indices[k + c]}),
+                  1 - uv.at(2 * std::size_t{indices[k + c]} + 1), 0};
+    };
+    const double twice = cross(point(1) - point(0), point(2) - point(0)).z;
+    EXPECT_GT(twice, 0) << k;
+    area += twice / 2;
+  }
+  const Picture picture(glb);
+  const double square = 4.0 / static_cast<double>(picture.width * picture.height);  // 2 by 2 texels
+  EXPECT_LE(area, square * solution_.scene->patch_count() * (1 + 1e-3));
+  EXPECT_GE(area, 0.5 * square * solution_.scene->patch_count() * (1 - 1e-3));
 }
 
 TEST_F(ResultExports, GroupsAreNodes) {
@@ -255,6 +343,29 @@ TEST(CliExports, WritesColorsAndSeries) {
   EXPECT_THAT(refused({"--exposure", "0", "--out", "r.ply"}), HasSubstr("not greater than 0"));
   EXPECT_THAT(refused({"--up", "0,0,1"}), HasSubstr("--up"));
   EXPECT_THAT(refused({"--series", "s.vtp"}), HasSubstr("must end in .pvd"));
+  EXPECT_THAT(refused({"--series-every", "2"}), HasSubstr("used only with --series"));
+  EXPECT_THAT(refused({"--series", "s.pvd", "--series-every", "0"}), HasSubstr("--series-every"));
+  EXPECT_THAT(refused({"--light-map", "--out", "r.ply"}), HasSubstr("used only with a .glb"));
+}
+
+/// The estimate after every five of sixteen directions, and after each of two iterations.
+TEST(CliExports, WritesASeriesOverDirections) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return run_program(arguments, {}, {}, folder.path().string()).status;
+  };
+  ASSERT_EQ(run({"solve", "cornell-box", "-m", "16", "-q", "--scheme", "semi-iterative",
+                 "--iterations", "2", "--burn-in", "0", "--series", "s.pvd", "--series-every", "5",
+                 "--out", "whole.vtp"}),
+            0);
+  const std::string list = read_file(folder / "s.pvd");
+  for (const char* time : {"0.3125", "0.625", "0.9375", "1", "1.3125", "1.625", "1.9375", "2"}) {
+    EXPECT_THAT(list, HasSubstr("timestep=\"" + std::string(time) + "\""));
+  }
+  EXPECT_EQ(folder.names().size(), 10U);
+  EXPECT_EQ(read_result(folder / "s-0008.vtp").radiosity,
+            read_result(folder / "whole.vtp").radiosity);
+  EXPECT_FALSE(read_result(folder / "s-0002.vtp").complete);
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ void expect_same(const Solution& read, const Solution& written) {
   EXPECT_EQ(read.form_factor_sums, written.form_factor_sums);
   EXPECT_EQ(read.sky_shares, written.sky_shares);
   EXPECT_EQ(read.sky_irradiance, written.sky_irradiance);
+  EXPECT_EQ(read.sky, written.sky);
   EXPECT_EQ(read.complete, written.complete);
   EXPECT_EQ(read.error.standard_error, written.error.standard_error);
   EXPECT_EQ(read.error.rms, written.error.rms);
@@ -157,8 +158,10 @@ TEST_F(ResultReader, ReadsGroupsAndTheLightOfTheSky) {
   description.face_group.assign(description.face_count(), no_group);
   description.face_group.front() = 0;
   description.face_group.back() = 1;
-  solution_ = solve(std::make_shared<const Scene>(description),
-                    {.directions = 16, .sky = {.exitance = {1, 2, 3}}});
+  solution_ =
+      solve(std::make_shared<const Scene>(description),
+            {.directions = 16,
+             .sky = {.exitance = {1, 2, 3}, .model = SkyModel::cie_overcast, .up = {0, 1, 0}}});
   ASSERT_FALSE(solution_.sky_irradiance.empty());
   write_result(path_, solution_);
   expect_same(read_result(path_), solution_);
@@ -173,6 +176,11 @@ TEST_F(ResultReader, ReadsGroupsAndTheLightOfTheSky) {
   expect_refused("patch 1 is of group -2");
   set("sky", -0.5);
   expect_refused("sky of patch 1 is -0.5");
+  write_result(path_, solution_);
+  change([&](vtkPolyData& mesh) {
+    mesh.GetFieldData()->GetArray("sky_exitance")->SetComponent(0, 1, -2);
+  });
+  expect_refused("sky: an exitance of -2");
   set("F_sum", std::numeric_limits<double>::infinity());
   expect_refused("F_sum of patch 1 is inf");
 }
@@ -348,14 +356,14 @@ TEST_F(ResultReader, CanBeCanceled) {
   EXPECT_THROW(read_result(path_, canceled), Canceled);
 }
 
-TEST(CliResult, IsNotASceneToSolve) {
+TEST(CliResult, DamagedOnesAreNamed) {
   const ProgramResult result = run_program({"solve", "r.vtp"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("r.vtp: no such file"));
   const TemporaryFolder folder;
   write_text(folder / "r.vtp", "");
   EXPECT_THAT(run_program({"info", folder / "r.vtp"}).err,
-              HasSubstr("is a result file (open it in transillum-viewer)"));
+              HasSubstr("r.vtp: is not a VTK file of polygons (.vtp), or is damaged"));
 }
 
 }  // namespace

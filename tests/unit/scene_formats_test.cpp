@@ -360,10 +360,11 @@ TEST(SceneFormats, RadianceRefusesCommandsAndWhatIsBroken) {
 TEST(SceneFormats, AreFoundByTheEndingInAnyCaseAndListedWhenItIsUnknown) {
   expect_cube(read("CUBE.STL", text_stl()));
   EXPECT_TRUE(is_scene_file("a.Glb"));
-  EXPECT_FALSE(is_scene_file("a.vtp"));
+  EXPECT_TRUE(is_scene_file("a.vtp"));
+  EXPECT_FALSE(is_scene_file("a.csv"));
   EXPECT_EQ(refusal_of("a.step", "x"),
             "a.step: not a scene file; scene files end in .obj, .gltf, .glb, .ply, .stl, .off, "
-            ".rad, .vs3");
+            ".rad, .vs3, .vtp, .vtk");
 }
 
 }  // namespace

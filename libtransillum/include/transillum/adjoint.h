@@ -25,7 +25,8 @@ struct AdjointOptions {
 struct Adjoint {
   /// dB_i / dPhi_j: by how much the radiosity of the receiver i rises with the power that patch j
   /// emits, 1/m², one per patch j. So patch j contributes `per_watt[j]` A_j E_j to B_i, and the
-  /// contributions of all patches sum to B_i.
+  /// contributions of all patches sum to B_i. A sky adds those of what patches reflect of it:
+  /// `per_watt[j]` A_j rho_j H_j,sky.
   std::vector<Rgb> per_watt;
   int iterations = 0;  ///< applications of the transposed matrix
 };

@@ -55,6 +55,9 @@ struct DisplayOptions {
   /// .glb, .gltf: the direction, a unit vector, that becomes their up, +y; unset: +y, coordinates
   /// stay.
   std::optional<Vec3> up = std::nullopt;
+  /// .glb, .gltf: colors as a picture (8 bits, sRGB) with texture coordinates, a square of it per
+  /// patch, instead of a color per corner.
+  bool light_map = false;
 
   /// @throws InputError naming the value and its range.
   void validate() const;
@@ -98,7 +101,8 @@ class ResultSeries {
 /// Writes a solution as CSV, as write_result() does to a file.
 void write_result_csv(std::ostream& out, const Solution& solution);
 
-/// Whether `path` ends in .vtp, the format that read_result() reads.
+/// Whether `path` ends in .vtp, the format that read_result() reads, and is not a scene: a file
+/// without an array B. Reads the file's beginning.
 bool is_result_file(const std::filesystem::path& path);
 /// Reads a solution written by write_result() to a .vtp file: the same patches with the same E,
 /// rho, B and H, bit for bit, and the same Patch::face. Statistics and error estimate contain what

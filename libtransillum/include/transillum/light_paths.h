@@ -20,6 +20,9 @@ struct LightPathOptions {
   std::span<const Rgb> start = {};
   /// Index into the materials given for each patch; empty: Patch::material.
   std::span<const std::int32_t> patch_materials = {};
+  /// What each patch receives from a sky, as for relight(): it counts as if the patches that it
+  /// meets first emitted what they reflect of it, so such a path begins there. Empty: no sky.
+  std::span<const Rgb> sky_irradiance = {};
   int threads = 0;  ///< of the solve; 0: all cores; the result does not depend on it
 };
 

@@ -338,6 +338,7 @@ struct Solution {
   std::vector<double> sky_shares = {};
   /// RadiositySolver::sky_irradiance(); part of `irradiance`; empty: there is no sky
   std::vector<Rgb> sky_irradiance = {};
+  Sky sky = {};  ///< SolveOptions::sky
   /// Of solves with given form factors; null: RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;
 };

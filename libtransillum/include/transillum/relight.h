@@ -23,6 +23,9 @@ struct RelightOptions {
   /// Index into the materials given for each patch, so that the faces of one material may have
   /// different ones, as change_materials() makes them; empty: Patch::material.
   std::span<const std::int32_t> patch_materials = {};
+  /// What each patch receives from a sky, W/m², one per patch (Solution::sky_irradiance): it
+  /// depends on the geometry only. Empty: no sky.
+  std::span<const Rgb> sky_irradiance = {};
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 

@@ -34,6 +34,7 @@ struct ResultComparison {
   RadiosityDifference whole;            ///< over all patches
   std::vector<GroupDifference> groups;  ///< by Scene::groups() of the first, then the patches of
                                         ///< none; groups without patches are left out
+  std::string sky_difference = {};      ///< transillum::sky_difference()
 };
 
 /// The first difference of two scenes in number, corners, E or rho of their patches, as "patch 3
@@ -41,7 +42,12 @@ struct ResultComparison {
 /// bit. Names, materials and groups may differ.
 std::string scene_difference(const Scene& one, const Scene& other);
 
-/// Compares the B of two results of the same scene.
+/// How the skies of two solves differ, as "one has a sky of 1 1 1 W/m2, uniform, and the other has
+/// none"; empty where they are the same. A result of unknown sky (from a file of an older version)
+/// is the same as any other.
+std::string sky_difference(const Solution& one, const Solution& other);
+
+/// Compares the B of two results of the same scene. Skies may differ.
 /// @param first the reference of relative differences.
 /// @param second the other one.
 /// @throws InputError with scene_difference() where the scenes differ.

@@ -1,8 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Results as glTF 2.0, for Blender and viewers on the web: triangles with a linear color per corner
-// (COLOR_0) and a material without lighting (KHR_materials_unlit), a node per group. Input: the
-// convex pieces of the patches.
+// (COLOR_0), or with a light map and its coordinates (TEXCOORD_0), and a material without lighting
+// (KHR_materials_unlit), a node per group. Input: the convex pieces of the patches.
 #include <fmt/format.h>
 #include <vtkBase64Utilities.h>
 
@@ -11,8 +11,10 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
+#include "io/results/light_map.h"
 #include "io/results/result_writers.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
@@ -24,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 // Constants of the format (glTF 2.0, sections 3.6 and 5).
 constexpr int type_float = 5126, type_uint = 5125, array_buffer = 34962, index_buffer = 34963;
+constexpr int filter_linear = 9729, clamp_to_edge = 33071;
 constexpr std::size_t largest_buffer = std::size_t{1} << 31;
 
 /// Three floats.
@@ -31,7 +34,8 @@ using Triple = std::array<float, 3>;
 
 /// The triangles of a group.
 struct Triangles {
-  std::vector<Triple> positions, colors;
+  std::vector<Triple> positions, colors;             ///< colors: empty with a light map
+  std::vector<std::array<float, 2>> texture_points;  ///< in the light map
   std::vector<std::uint32_t> indices;
 };
 
@@ -48,8 +52,9 @@ Triple color_of(const Rgb& b, double exposure) {
 }
 
 /// Triangles by group, with coordinates relative to `origin`: floats have few digits.
+/// @param light_map null: colors of corners
 std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double exposure,
-                                               const Vec3& origin) {
+                                               const LightMap* light_map, const Vec3& origin) {
   const Scene& scene = *solution.scene;
   std::map<std::int32_t, Triangles> groups;
   for (const Piece& piece : scene.pieces()) {
@@ -57,9 +62,15 @@ std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double 
     const auto corners = scene.corners(piece);
     const auto first = static_cast<std::uint32_t>(group.positions.size());
     const Triple color = color_of(at(solution.radiosity, piece.patch), exposure);
+    const LightMap::Chart chart =
+        light_map != nullptr ? light_map->chart(piece.patch) : LightMap::Chart();
     for (const PointId corner : corners) {
       group.positions.push_back(triple(scene.point(corner) - origin));
-      group.colors.push_back(color);
+      if (light_map != nullptr) {
+        group.texture_points.push_back(light_map->coordinates(chart, scene.point(corner)));
+      } else {
+        group.colors.push_back(color);
+      }
     }
     for (std::uint32_t k = 1; k + 1 < corners.size(); ++k) {
       group.indices.insert(group.indices.end(), {first, first + k, first + k + 1});
@@ -101,8 +112,16 @@ class GltfDocument {
          {"pbrMetallicRoughness",
           {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
          {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
-    for (const auto& [group, triangles] : triangles_of(solution, exposure, origin)) {
+    std::optional<LightMap> light_map;
+    if (display.light_map) {
+      light_map.emplace(solution, exposure);
+    }
+    for (const auto& [group, triangles] :
+         triangles_of(solution, exposure, light_map ? &*light_map : nullptr, origin)) {
       add_mesh(group == no_group ? scene.name() : at(scene.groups(), group), triangles, origin);
+    }
+    if (light_map) {
+      add_texture(light_map->png());
     }
   }
 
@@ -129,18 +148,40 @@ class GltfDocument {
     const int position = add_accessor(triangles.positions, type_float, "VEC3", array_buffer);
     json_["accessors"].back()["min"] = low;
     json_["accessors"].back()["max"] = high;
-    const int color = add_accessor(triangles.colors, type_float, "VEC3", array_buffer);
+    Json attributes = {{"POSITION", position}};
+    if (triangles.texture_points.empty()) {
+      attributes["COLOR_0"] = add_accessor(triangles.colors, type_float, "VEC3", array_buffer);
+    } else {
+      attributes["TEXCOORD_0"] =
+          add_accessor(triangles.texture_points, type_float, "VEC2", array_buffer);
+    }
     const int indices = add_accessor(triangles.indices, type_uint, "SCALAR", index_buffer);
-    json_["meshes"].push_back({{"name", name},
-                               {"primitives",
-                                {{{"attributes", {{"POSITION", position}, {"COLOR_0", color}}},
-                                  {"indices", indices},
-                                  {"material", 0}}}}});
+    json_["meshes"].push_back(
+        {{"name", name},
+         {"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", 0}}}}});
     Json& nodes = json_["nodes"];
     nodes[0]["children"].push_back(nodes.size());
     nodes.push_back({{"name", name},
                      {"mesh", json_["meshes"].size() - 1},
                      {"translation", {origin.x, origin.y, origin.z}}});
+  }
+
+  /// The picture of a texture, without reductions: they would mix the colors of patches.
+  void add_texture(const std::string& png) {
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", png.size()}});
+    json_["images"] = {{{"name", "light map"},
+                        {"mimeType", "image/png"},
+                        {"bufferView", json_["bufferViews"].size() - 1}}};
+    json_["samplers"] = {{{"magFilter", filter_linear},
+                          {"minFilter", filter_linear},
+                          {"wrapS", clamp_to_edge},
+                          {"wrapT", clamp_to_edge}}};
+    json_["textures"] = {{{"sampler", 0}, {"source", 0}}};
+    json_["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0},
+                                                                         {"texCoord", 0}};
+    buffer_ += png;
+    buffer_.append((4 - buffer_.size() % 4) % 4, '\0');
   }
 
   template <class Value>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <span>
@@ -16,7 +17,7 @@
 #include "io/clean_text.h"
 #include "io/file_ending.h"
 #include "io/results/result_figures.h"
-#include "io/results/vtp_file.h"
+#include "scene/read/vtp_file.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
@@ -31,6 +32,9 @@ class ResultReader {
       : file_(path, cancellation), cancellation_(cancellation) {}
 
   Solution read() {
+    if (file_.polygons() != file_.cells()) {
+      file_.fail("must contain polygons only");
+    }
     Solution solution;
     visit_figures(solution, [this](const char* name, auto& value) { read_figure(name, value); });
     solution.scene = make_scene();
@@ -42,6 +46,7 @@ class ResultReader {
     if (file_.has("CellData", "H_sky")) {
       solution.sky_irradiance = colors("H_sky");
     }
+    solution.sky = read_sky();
     if (solution.error.replicas > 0) {
       solution.error.standard_error = colors("standard_error");
     }
@@ -66,6 +71,26 @@ class ResultReader {
       }
     }
     value = static_cast<Number>(number);
+  }
+
+  /// The sky of the solve; none where the file does not say.
+  Sky read_sky() const {
+    Sky sky;
+    if (!file_.has("FieldData", "sky_exitance")) {
+      return sky;
+    }
+    const std::vector<double> e = file_.numbers("FieldData", "sky_exitance", 3, 1);
+    const std::vector<double> up = file_.numbers("FieldData", "sky_up", 3, 1);
+    const std::vector<std::string> model = strings("sky_model");
+    sky.exitance = {e[0], e[1], e[2]};
+    sky.up = {up[0], up[1], up[2]};
+    try {
+      sky.model = sky_model_from_name(model.empty() ? "" : model.front());
+      sky.validate();
+    } catch (const InputError& error) {
+      file_.fail(error.what());
+    }
+    return sky;
   }
 
   void read_steps(std::vector<IterationRecord>& steps) const {
@@ -281,9 +306,36 @@ class ResultReader {
   const Cancellation& cancellation_;
 };
 
+/// Whether a file that can be read says before its appended data that it has no array B.
+bool is_scene_of_vtk(const std::filesystem::path& path) {
+  constexpr std::size_t stride = 1 << 16;
+  const std::string name = "Name=\"B\"", end = "<AppendedData";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return false;
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text;
+  for (std::vector<char> block(stride); in;) {
+    in.read(block.data(), static_cast<std::streamsize>(stride));
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    const std::size_t data = text.find(end);
+    if (text.find(name) < data) {
+      return false;
+    }
+    if (data != std::string::npos) {
+      return true;
+    }
+    text.erase(0, text.size() - std::min(text.size(), end.size()));
+  }
+  return in.eof();
+}
+
 }  // namespace
 
-bool is_result_file(const std::filesystem::path& path) { return lower_case_ending(path) == ".vtp"; }
+bool is_result_file(const std::filesystem::path& path) {
+  return lower_case_ending(path) == ".vtp" && !is_scene_of_vtk(path);
+}
 
 Solution read_result(const std::filesystem::path& path, const Cancellation& cancellation) {
   return ResultReader(path, cancellation).read();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/results/result_writers.h"
+#include "io/results/srgb.h"
 #include "io/text_buffer.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
@@ -52,14 +53,6 @@ void add_light_and_names(TextBuffer& text, const Solution& solution, PatchId i) 
   const std::int32_t group = scene.patch(i).group;
   text.add(",{},{}", group == no_group ? std::string() : csv_cell(at(scene.groups(), group)),
            csv_cell(scene.material(i).name));
-}
-
-/// A linear value as sRGB, 0 to 255.
-int srgb_byte(double linear) {
-  const double value = std::clamp(linear, 0.0, 1.0);
-  const double encoded =
-      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255 * encoded));
 }
 
 std::size_t corner_count(const Scene& scene) {

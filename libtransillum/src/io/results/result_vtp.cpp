@@ -82,6 +82,20 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_integers(fields, "group", count, [&](PatchId i) { return scene.patch(i).group; });
 }
 
+/// The sky, where there is one.
+void add_sky(vtkFieldData& fields, const Sky& sky) {
+  if (!sky.set()) {
+    return;
+  }
+  add_colors(fields, "sky_exitance", 1, [&](PatchId) { return sky.exitance; });
+  add_field(fields, "sky_model", name_of(sky.model));
+  vtkNew<vtkDoubleArray> up;
+  up->SetName("sky_up");
+  up->SetNumberOfComponents(3);
+  up->InsertNextTuple3(sky.up.x, sky.up.y, sky.up.z);
+  fields.AddArray(up);
+}
+
 template <class List, class NameOf>
 void add_names(vtkFieldData& fields, const char* name, const List& list, NameOf name_of) {
   vtkNew<vtkStringArray> array;
@@ -101,6 +115,7 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
   add_names(fields, "groups", scene.groups(), [](const std::string& group) { return group; });
   add_field(fields, "two_sided", scene.options().two_sided ? 1.0 : 0.0);
   add_field(fields, "max_patch_area", scene.options().max_patch_area);
+  add_sky(fields, solution.sky);
   visit_figures(solution, [&](const char* name, const auto& value) {
     add_field(fields, name, static_cast<double>(value));
   });

@@ -19,7 +19,8 @@ void write_result_vtp(std::ostream& out, const Solution& solution);
 /// ASCII PLY, doubles; one polygon per patch with its own corners, colored by B, and its face,
 /// patch, area, E, rho, B.
 void write_result_ply(std::ostream& out, const Solution& solution, const DisplayOptions& display);
-/// Binary glTF 2.0: triangles with COLOR_0 from B and an unlit material; a node per group.
+/// Binary glTF 2.0: triangles with COLOR_0, or TEXCOORD_0 and a light map, from B and an unlit
+/// material; a node per group.
 void write_result_glb(std::ostream& out, const Solution& solution, const DisplayOptions& display);
 /// The same as JSON, with the buffer in a data URI.
 void write_result_gltf(std::ostream& out, const Solution& solution, const DisplayOptions& display);

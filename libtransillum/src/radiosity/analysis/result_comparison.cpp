@@ -107,6 +107,39 @@ std::string scene_difference(const Scene& one, const Scene& other) {
   return {};
 }
 
+namespace {
+
+bool knows_sky(const Solution& solution) {
+  return solution.sky.set() || solution.sky_irradiance.empty();
+}
+
+/// Whether two skies give the same light.
+bool are_same(const Sky& one, const Sky& other) {
+  return one.exitance == other.exitance &&
+         (!one.set() ||
+          (one.model == other.model && (one.model == SkyModel::uniform || one.up == other.up)));
+}
+
+std::string text_of(const Sky& sky) {
+  if (!sky.set()) {
+    return "none";
+  }
+  std::string text = fmt::format("a sky of {} W/m2, {}", text_of(sky.exitance), name_of(sky.model));
+  if (sky.model != SkyModel::uniform) {
+    text += fmt::format(", up {} {} {}", sky.up.x, sky.up.y, sky.up.z);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string sky_difference(const Solution& one, const Solution& other) {
+  if (!knows_sky(one) || !knows_sky(other) || are_same(one.sky, other.sky)) {
+    return {};
+  }
+  return fmt::format("one has {}, and the other has {}", text_of(one.sky), text_of(other.sky));
+}
+
 ResultComparison compare_results(const Solution& first, const Solution& second) {
   const Scene& scene = *first.scene;
   if (const std::string difference = scene_difference(scene, *second.scene); !difference.empty()) {
@@ -125,7 +158,7 @@ ResultComparison compare_results(const Solution& first, const Solution& second) 
     whole.add(i, a, b);
     parts[group == no_group ? groups : static_cast<std::size_t>(group)].add(i, a, b);
   }
-  ResultComparison comparison{whole.result(), {}};
+  ResultComparison comparison{whole.result(), {}, sky_difference(first, second)};
   for (std::size_t g = 0; g < parts.size(); ++g) {
     if (parts[g].patches() > 0) {
       comparison.groups.push_back({g == groups ? no_group : static_cast<std::int32_t>(g),

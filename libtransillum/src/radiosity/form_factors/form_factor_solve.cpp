@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // Jacobi iteration with a given matrix F, for hemicubes, relighting and solve_radiosity().
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "radiosity/error_bounds.h"
 #include "radiosity/form_factors/jacobi.h"
 #include "transillum/at.h"
+#include "transillum/errors.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
@@ -64,6 +67,26 @@ void JacobiIteration::shoot_first(const DirectLight& shot, const Cancellation& c
   for_each_row(cancellation, [&](std::size_t i) {
     correction_[i] = shot.irradiance[i] - gather(form_factors_, i, shot.exitance);
   });
+}
+
+void JacobiIteration::add_sky(std::span<const Rgb> irradiance) {
+  if (irradiance.empty()) {
+    return;
+  }
+  if (irradiance.size() != b.size()) {
+    throw InputError(
+        "the light of the sky belongs to another scene: the number of patches differs");
+  }
+  correction_.resize(b.size());
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Rgb& light = irradiance[i];
+    if (!is_finite(Vec3{light.r, light.g, light.b}) || std::min({light.r, light.g, light.b}) < 0) {
+      throw InputError(
+          fmt::format("the light of the sky on patch {} is {} {} {}, not finite and at least 0", i,
+                      light.r, light.g, light.b));
+    }
+    correction_[i] += light;
+  }
 }
 
 void JacobiIteration::run(int limit, double tolerance, const Cancellation& cancellation) {

@@ -34,6 +34,9 @@ struct JacobiIteration {
   ///   B_i = E_i + rho_i (H_i of the shot + sum_j F_ij (B_j - E_j shot)).
   /// @throws Canceled
   void shoot_first(const DirectLight& shot, const Cancellation& cancellation);
+  /// From now on adds to H what each patch receives from a sky; empty: nothing.
+  /// @throws InputError where there is not one value >= 0 per patch
+  void add_sky(std::span<const Rgb> irradiance);
   /// Iterates up to `limit` iterations in total, or until no patch changes by more than
   /// `tolerance` of the largest B.
   /// @throws Canceled; NotConvergent where B exceeds the range of numbers
@@ -53,7 +56,7 @@ struct JacobiIteration {
   const FormFactors& form_factors_;
   std::span<const Material> materials_;
   std::span<const std::int32_t> patch_materials_;
-  std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by the first shot; empty without one
+  std::vector<Rgb> correction_;  ///< of sum_j F_ij B_j by first shot and sky; may be empty
   int threads_;
 };
 

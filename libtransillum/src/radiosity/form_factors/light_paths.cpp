@@ -84,6 +84,13 @@ class Search {
   const Material& material(PatchId k) const {
     return material_of_patch(scene_, materials_, options_.patch_materials, k);
   }
+  /// What it emits, and reflects of the sky.
+  Rgb emission(PatchId k) const {
+    const Material& of_patch = material(k);
+    return options_.sky_irradiance.empty()
+               ? of_patch.exitance
+               : of_patch.exitance + of_patch.reflectance * at(options_.sky_irradiance, k);
+  }
   /// Paths that carry no more need not be found.
   double threshold() const {
     const bool full = std::ssize(found_) == options_.count;
@@ -106,14 +113,14 @@ class Search {
   /// The path that starts at the node.
   void finish(std::int64_t index) {
     const Node& node = at(nodes_, index);
-    const Rgb light = node.weight * material(node.patch).exitance;
+    const Rgb light = node.weight * emission(node.patch);
     if (luminance(light) <= threshold()) {
       result_.cut_off += light;
       return;
     }
     if (std::ssize(found_) == options_.count) {
       const Node& weakest = at(nodes_, found_.top().second);
-      result_.cut_off += weakest.weight * material(weakest.patch).exitance;
+      result_.cut_off += weakest.weight * emission(weakest.patch);
       found_.pop();
     }
     found_.emplace(luminance(light), index);
@@ -129,7 +136,7 @@ class Search {
   LightPaths collect() {
     for (; !found_.empty(); found_.pop()) {
       const Node& first = at(nodes_, found_.top().second);
-      LightPath path{{}, first.weight * material(first.patch).exitance};
+      LightPath path{{}, first.weight * emission(first.patch)};
       for (std::int64_t k = found_.top().second; k >= 0; k = at(nodes_, k).toward) {
         path.patches.push_back(at(nodes_, k).patch);
       }
@@ -164,6 +171,7 @@ LightPaths find_light_paths(const Scene& scene, const FormFactors& form_factors,
   if (!options.start.empty()) {
     solve.b.assign(options.start.begin(), options.start.end());
   }
+  solve.add_sky(options.sky_irradiance);
   solve.run_to(options.tolerance, cancellation);
   return Search(scene, form_factors, materials, options, solve.b).run(receiver, cancellation);
 }

@@ -30,6 +30,7 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
     iteration.shoot_first(with_materials(*options.shot, scene, materials, options.patch_materials),
                           cancellation);
   }
+  iteration.add_sky(options.sky_irradiance);
   if (!options.start.empty()) {
     iteration.b.assign(options.start.begin(), options.start.end());
   }

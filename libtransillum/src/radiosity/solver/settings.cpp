@@ -39,7 +39,8 @@ std::vector<Setting> engine_settings(const SolveOptions& solve, const EngineOpti
        "cube, even",
        fmt::format("{}, hemicube 64", EngineOptions::default_resolution)},
       {"points", "a number",
-       "engine pairs: number of points along a patch as large as its distance from the other, where "
+       "engine pairs: number of points along a patch as large as its distance from the other, "
+       "where "
        "something is between",
        fmt::to_string(EngineOptions::default_points), false},
       {"lines", "a number", "engine rays: lines per patch and direction",
@@ -95,6 +96,21 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
   };
 }
 
+std::vector<Setting> sky_settings(const Sky& sky) {
+  return {
+      {"sky", "W/m2, one number or three; 0: none",
+       "what escapes from an open scene meets a sky: what an unobstructed patch turned upward "
+       "receives from it, in W/m2",
+       "none", false},
+      {"sky-model", "a name",
+       "uniform: the same from everywhere, also from below; cie-overcast: three times as bright at "
+       "the zenith as at the horizon, nothing from below",
+       name_of(sky.model), false},
+      {"up", "a direction x,y,z", "the zenith of the sky cie-overcast",
+       fmt::format("{},{},{}", sky.up.x, sky.up.y, sky.up.z), false},
+  };
+}
+
 std::vector<Setting> scene_settings(const SceneOptions& scene) {
   return {
       {"two-sided", "yes or no",
@@ -120,8 +136,9 @@ const std::vector<Setting>& settings() {
   static const std::vector<Setting> all = [] {
     const SolveOptions solve;
     std::vector<Setting> list = direction_settings(solve);
-    for (const auto& group : {engine_settings(solve, EngineOptions()), iteration_settings(solve),
-                              scene_settings(SceneOptions()), machine_settings()}) {
+    for (const auto& group :
+         {engine_settings(solve, EngineOptions()), iteration_settings(solve),
+          sky_settings(solve.sky), scene_settings(SceneOptions()), machine_settings()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;

@@ -165,6 +165,7 @@ std::vector<double> RadiositySolver::back_seen_shares() const {
 Solution RadiositySolver::solution() const {
   Solution solution;
   solution.scene = shared_scene();
+  solution.sky = options().sky;
   solution.radiosity = impl_->passes_done() > 0 ? running_estimate() : radiosity();
   solution.irradiance = irradiance();
   if (impl_->statistics.areas().passes > 0) {

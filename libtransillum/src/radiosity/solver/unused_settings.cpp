@@ -60,6 +60,8 @@ constexpr Use uses[] = {
      "used only with engine rays"},
     {"order", [](const SolveOptions& solve) { return solve.engine == Engine::painter; },
      "used only with engine painter"},
+    {"sky-model", [](const SolveOptions& solve) { return solve.sky.set(); },
+     "used only with a sky"},
     {"burn-in", [](const SolveOptions& solve) { return solve.scheme == Scheme::semi_iterative; },
      "used only with scheme semi-iterative"},
 };

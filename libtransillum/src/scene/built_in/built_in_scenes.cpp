@@ -89,10 +89,6 @@ SceneDescription read_file(const std::string& spec, const ReadOptions& read,
   if (!std::filesystem::exists(spec, ignored)) {
     throw InputError(spec + ": no such file");
   }
-  if (file_ending(spec) == ".vtp") {
-    throw InputError(fmt::format("{}: is a result file (open it in transillum-viewer); {}", spec,
-                                 endings_text()));
-  }
   if (!is_scene_file(spec)) {
     throw InputError(fmt::format("{}: not a scene file; {}", spec, endings_text()));
   }

@@ -15,6 +15,8 @@
 #include "scene/read/radiance_reader.h"
 #include "scene/read/stl_reader.h"
 #include "scene/read/view3d_reader.h"
+#include "scene/read/vtk_reader.h"
+#include "scene/read/vtp_reader.h"
 
 namespace transillum {
 namespace {
@@ -39,6 +41,8 @@ constexpr Format formats[] = {
     {".off", "Object File Format", read_off},
     {".rad", "Radiance", read_radiance},
     {".vs3", "View3D", read_view3d},
+    {".vtp", "VTK PolyData", read_vtp},
+    {".vtk", "legacy VTK PolyData", read_vtk},
 };
 
 const Format* format_of(const std::string& path) {
