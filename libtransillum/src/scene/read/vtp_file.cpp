@@ -24,7 +24,6 @@
 namespace transillum {
 namespace {
 
-constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
 constexpr std::size_t max_arrays = 256, max_string_bytes = 16 << 20;
 /// Upper bound of deflate's compression ratio.
 constexpr std::size_t max_compression = 1032;
@@ -319,10 +318,9 @@ class VtpFile::HeaderParser {
   bool is_vtk_ = false, stopped_ = false, complete_ = false, is_raw_ = false;
 };
 
-VtpFile::VtpFile(const std::filesystem::path& path, const Cancellation& cancellation)
-    : name_(path.string()),
-      cancellation_(cancellation),
-      text_(read_binary_file(path, largest_file)) {
+VtpFile::VtpFile(const std::filesystem::path& path, const Cancellation& cancellation,
+                 std::uintmax_t limit)
+    : name_(path.string()), cancellation_(cancellation), text_(read_binary_file(path, limit)) {
   HeaderParser parser(*this);
   const std::size_t tag_end = parser.read();
   data_begin_ = std::min(text_.find('_', tag_end), text_.size() - 1) + 1;

@@ -28,10 +28,16 @@ class VtpFile {
     std::size_t components = 1;
   };
 
+  /// Largest file of a result, bytes.
+  static constexpr std::uintmax_t largest_result = std::uintmax_t{4} << 30;
+
+  /// @param limit most bytes of the file
   /// @throws also Canceled
-  VtpFile(const std::filesystem::path& path, const Cancellation& cancellation);
+  VtpFile(const std::filesystem::path& path, const Cancellation& cancellation,
+          std::uintmax_t limit = largest_result);
 
   const std::string& name() const { return name_; }
+  std::size_t bytes() const { return text_.size(); }
   std::size_t points() const { return points_; }
   std::size_t polygons() const { return polygons_; }
   std::size_t strips() const { return strips_; }

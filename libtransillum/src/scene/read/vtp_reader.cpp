@@ -5,12 +5,16 @@
 
 #include <new>
 
+#include "base/text_file.h"
 #include "scene/read/vtk_polygons.h"
 #include "scene/read/vtp_file.h"
 #include "transillum/errors.h"
 
 namespace transillum {
 namespace {
+
+/// Most corners per byte of the file, which is packed.
+constexpr std::size_t largest_ratio = 16;
 
 VtkCells cells_of(const VtpFile& file, const char* section, std::size_t count) {
   VtkCells cells;
@@ -19,9 +23,9 @@ VtkCells cells_of(const VtpFile& file, const char* section, std::size_t count) {
   }
   cells.ends = file.whole_numbers(section, "offsets", count);
   const std::int64_t size = cells.ends.back();
-  if (size < 0 || size > (std::int64_t{1} << 31)) {
-    file.fail(fmt::format("{} end at {}, which is not in the range 0 to {}", section, size,
-                          std::int64_t{1} << 31));
+  const auto most = static_cast<std::int64_t>(largest_ratio * file.bytes());
+  if (size < 0 || size > most) {
+    file.fail(fmt::format("{} end at {}, which is not in the range 0 to {}", section, size, most));
   }
   cells.points = file.whole_numbers(section, "connectivity", static_cast<std::size_t>(size));
   return cells;
@@ -51,7 +55,7 @@ std::vector<std::string> names_of(const VtpFile& file, const std::string& name) 
 SceneDescription read_vtp(const std::filesystem::path& path, const ReadOptions& options,
                           const Cancellation& cancellation) {
   try {
-    const VtpFile file(path, cancellation);
+    const VtpFile file(path, cancellation, largest_scene_file);
     VtkPolygons polygons;
     polygons.name = file.name();
     polygons.points = file.numbers("Points", "Points", 3, file.points());
