@@ -168,8 +168,9 @@ void advance(RadiositySolver& solver, const SolveJob& job) {
   while (unfinished) {
     unfinished = solver.advance(until, [&](const RadiositySolver& watched) {
       show_progress(job.display, watched);
-      const int direction = watched.progress().direction;
-      return job.series_every == 0 || direction == 0 || direction % job.series_every != 0;
+      const SolveProgress now = watched.progress();
+      const bool between = now.direction > 0 && now.direction < now.passes;
+      return job.series_every == 0 || !between || now.direction % job.series_every != 0;
     });
     if (job.series != nullptr) {
       const SolveProgress progress = solver.progress();
