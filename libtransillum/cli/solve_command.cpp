@@ -160,6 +160,15 @@ FirstShot shoot_first(const SolveJob& job) {
   return shot;
 }
 
+/// Adds the result so far to a series: after an iteration, or within one the estimate by its
+/// directions so far.
+void add_to_series(ResultSeries& series, const RadiositySolver& solver) {
+  const SolveProgress progress = solver.progress();
+  const double share =
+      progress.direction > 0 ? progress.direction / static_cast<double>(progress.passes) : 0.0;
+  series.add(solver.solution(), progress.iteration + share);
+}
+
 /// Advances a solver until it has finished.
 void advance(RadiositySolver& solver, const SolveJob& job) {
   const auto until =
@@ -170,13 +179,14 @@ void advance(RadiositySolver& solver, const SolveJob& job) {
       show_progress(job.display, watched);
       const SolveProgress now = watched.progress();
       const bool between = now.direction > 0 && now.direction < now.passes;
-      return job.series_every == 0 || !between || now.direction % job.series_every != 0;
+      // Here, not after a pause: other threads may finish more passes before it.
+      if (job.series_every > 0 && between && now.direction % job.series_every == 0) {
+        add_to_series(*job.series, watched);
+      }
+      return true;
     });
     if (job.series != nullptr) {
-      const SolveProgress progress = solver.progress();
-      const double share =
-          progress.direction == 0 ? 0.0 : progress.direction / static_cast<double>(progress.passes);
-      job.series->add(solver.solution(), progress.iteration + share);
+      add_to_series(*job.series, solver);
     }
   }
 }

@@ -182,7 +182,7 @@ class VtkReader {
     const std::size_t left = bytes_.size() - position_;
     const std::size_t least = is_binary_ ? type.size : 1;
     if (components > 0 && count > left / least / components + 1) {
-      fail(fmt::format("{} times {} numbers do not fit into the file", count, components));
+      fail(fmt::format("{} entries of {} numbers do not fit into the file", count, components));
     }
     return is_binary_ ? binary_numbers(type, count * components)
                       : numbers_in_text(count * components);
@@ -256,7 +256,7 @@ class VtkReader {
   /// followed by them.
   VtkCells read_cells() {
     const std::size_t cells = count(1), size = count(2);
-    const std::size_t begin = position_;
+    const std::size_t begin = position_, header_begin = line_begin_;
     if (next_line() && keyword_ == "offsets") {
       VtkCells read;
       read.ends = whole_numbers(type(1), cells);
@@ -271,6 +271,7 @@ class VtkReader {
       return read;
     }
     position_ = begin;
+    line_begin_ = header_begin;
     const std::vector<std::int64_t> list = whole_numbers(types[6], size);
     VtkCells read;
     for (std::size_t at = 0; at < list.size();) {
@@ -352,9 +353,10 @@ class VtkReader {
     const bool is_scalars = keyword_ == "scalars", is_color = keyword_ == "color_scalars";
     const Type& kind = is_color ? types[0] : keyword_ == "texture_coordinates" ? type(3) : type(2);
     if (is_scalars) {
-      const std::size_t begin = position_;
+      const std::size_t begin = position_, header_begin = line_begin_;
       if (!next_line() || keyword_ != "lookup_table") {
         position_ = begin;
+        line_begin_ = header_begin;
       }
     }
     VtkArray array{name, components, is_color || &kind == types, {}};
