@@ -7,6 +7,9 @@
 namespace transillum::viewer {
 
 bool has_light(const SolverSnapshot& snapshot) {
+  if (snapshot.options.sky.set()) {
+    return true;
+  }
   for (PatchId i = 0; i < snapshot.loaded->scene->patch_count(); ++i) {
     if (max_abs(material_of(snapshot, i).exitance) > 0) {
       return true;

@@ -145,6 +145,13 @@ constexpr QuantityTraits all_traits[] = {
      .meaning =
          QT_TRANSLATE_NOOP("Quantity", "Sum over j of F_ij for each patch i; 1 in a closed scene"),
      .section = "6.1"},
+    {.quantity = Quantity::sky_share,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Share of sky"),
+     .symbol = "sky",
+     .meaning = QT_TRANSLATE_NOOP("Quantity",
+                                  "Share of the light leaving each patch that meets no other patch "
+                                  "and escapes; where no backs are seen, 1 − Σ F"),
+     .section = "6.8"},
     {.quantity = Quantity::origin,
      .name = QT_TRANSLATE_NOOP("Quantity", "What lights the selection"),
      .symbol = "B_i from j",
@@ -263,6 +270,11 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       return form_factors_of(snapshot, selected, quantity == Quantity::form_factor_from);
     case Quantity::form_factor_sum:
       return {grays(snapshot.form_factor_sums), {}};
+    case Quantity::sky_share:
+      if (snapshot.sky_shares.empty()) {
+        return {{}, tr("The file does not have the share of sky.")};
+      }
+      return {grays(snapshot.sky_shares), {}};
     case Quantity::origin:
     case Quantity::response:
       return by_response(quantity, snapshot, selected, response);

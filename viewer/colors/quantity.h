@@ -18,6 +18,7 @@ enum class Quantity {
   form_factor_from,
   form_factor_to,
   form_factor_sum,
+  sky_share,
   origin,
   response,
   fragments,

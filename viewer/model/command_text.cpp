@@ -103,6 +103,19 @@ void add_scene(Line& line, const std::string& scene, const RunOptions& options,
   }
 }
 
+void add_sky(Line& line, const Sky& sky) {
+  if (!sky.set()) {
+    return;
+  }
+  const Rgb& e = sky.exitance;
+  line.add("sky", e.r == e.g && e.g == e.b ? fmt::format("{}", e.r)
+                                           : fmt::format("{},{},{}", e.r, e.g, e.b));
+  if (sky.model != Sky().model) {
+    line.add("sky-model", name_of(sky.model));
+    line.add("up", fmt::format("{},{},{}", sky.up.x, sky.up.y, sky.up.z));
+  }
+}
+
 }  // namespace
 
 std::string solve_command(const std::string& scene, const RunOptions& options,
@@ -110,7 +123,8 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   Line line("transillum solve");
   add_scene(line, scene, options, changes);
   const SolveOptions& solve = options.solve;
-  std::vector<std::string> others{"read", "two-way", "two-sided", "max-patch-area"};
+  std::vector<std::string> others{"read", "two-way",   "two-sided", "max-patch-area",
+                                  "sky",  "sky-model", "up"};
   if (solve.goal.set()) {
     // Chosen by the goal.
     others.insert(others.end(), {"directions", "replicas", "tolerance"});
@@ -121,6 +135,7 @@ std::string solve_command(const std::string& scene, const RunOptions& options,
   if (!solve.two_way) {
     line.add("--one-way");
   }
+  add_sky(line, solve.sky);
   if (solve.engine_options.order != EngineOptions().order) {
     line.add("order", "newell");
   }

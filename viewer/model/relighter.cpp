@@ -28,6 +28,7 @@ void Relighter::work(const Task& task, const Cancellation& cancellation) {
   RelightOptions options;
   options.tolerance = request.tolerance;
   options.start = request.start;
+  options.sky_irradiance = request.sky;
   options.shot = request.shot.get();
   options.patch_materials = request.materials->of_patch;
   deliver(task,

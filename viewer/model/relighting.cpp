@@ -73,7 +73,7 @@ void Relighting::request_light() {
   }
   used_ = snapshot_->form_factors;
   relighter_.request({snapshot_->loaded->scene, used_, snapshot_->shot, edits_.materials(),
-                      light_ ? light_->radiosity : snapshot_->radiosity,
+                      light_ ? light_->radiosity : snapshot_->radiosity, snapshot_->sky_irradiance,
                       snapshot_->options.tolerance});
 }
 

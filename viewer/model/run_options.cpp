@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "model/run_options.h"
 
+#include <cmath>
+
 #include "model/material_json.h"
 #include "support/json_object.h"
 #include "transillum/first_shot.h"
@@ -34,6 +36,25 @@ void read_named(JsonObject& object, const char* key, Value& value, FromName from
   } catch (const InputError& error) {
     object.fail_at(key, error.what());
   }
+}
+
+void read_sky(JsonObject& object, Sky& sky) {
+  if (const json* exitance = object.find("sky")) {
+    const Vec3 value =
+        exitance->is_number()
+            ? Vec3{exitance->get<double>(), exitance->get<double>(), exitance->get<double>()}
+            : vec3_from_json(*exitance, object.where("sky"));
+    sky.exitance = {value.x, value.y, value.z};
+  }
+  read_named(object, "sky-model", sky.model, sky_model_from_name);
+  Vec3 up = sky.up;
+  object.read("up", up);
+  const double length = norm(up);
+  if (!(length > 0) || !std::isfinite(length)) {
+    object.fail_at("up", "must be a direction, not all 0");
+  }
+  // A unit vector keeps its bits.
+  sky.up = std::abs(length - 1) < 1e-12 ? up : normalized(up);
 }
 
 SceneInput input_from(const json& value, const std::string& where) {
@@ -109,6 +130,7 @@ RunOptions run_options_from_json(const json& value, const std::string& where) {
   object.read("seconds", solve.goal.seconds);
   object.read("iterations", solve.iterations, 0, 1'000'000);
   object.read("tolerance", solve.tolerance);
+  read_sky(object, solve.sky);
   object.read("two-sided", options.scene.two_sided);
   object.read("max-patch-area", options.scene.max_patch_area);
   if (!(options.scene.max_patch_area >= 0)) {
@@ -145,6 +167,9 @@ json to_json(const RunOptions& options) {
                  {"seconds", solve.goal.seconds},
                  {"iterations", solve.iterations},
                  {"tolerance", solve.tolerance},
+                 {"sky", {solve.sky.exitance.r, solve.sky.exitance.g, solve.sky.exitance.b}},
+                 {"sky-model", name_of(solve.sky.model)},
+                 {"up", to_json(solve.sky.up)},
                  {"two-sided", options.scene.two_sided},
                  {"max-patch-area", options.scene.max_patch_area}};
   if (!(options.input == SceneInput{})) {

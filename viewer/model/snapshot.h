@@ -79,7 +79,9 @@ struct SolverSnapshot {
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
   /// exceeded.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
-  std::vector<double> form_factor_sums;   ///< one per patch
+  std::vector<double> form_factor_sums;   ///< one per patch; 0 before the first pass
+  std::vector<double> sky_shares;         ///< Solution::sky_shares; 0 before the first pass
+  std::vector<Rgb> sky_irradiance;        ///< Solution::sky_irradiance; empty without a sky
   std::vector<double> estimate_changes;   ///< of the newest iteration with passes, one per pass
   std::vector<double> quadrature_errors;  ///< epsilon after each pass
   ErrorEstimate error;                    ///< from replicas; empty without

@@ -590,6 +590,8 @@ void SolveRunner::post_snapshot() {
   snapshot->form_factors_fit = form_factors_fit_;
   snapshot->kept_radiosity = kept_radiosity_;
   snapshot->form_factor_sums = solver_->form_factor_sums();
+  snapshot->sky_shares = solver_->sky_shares();
+  snapshot->sky_irradiance = solver_->sky_irradiance();
   snapshot->estimate_changes = solver_->estimate_changes();
   snapshot->quadrature_errors = solver_->quadrature_errors();
   snapshot->error = solver_->error_estimate();
@@ -624,6 +626,11 @@ void SolveRunner::use_stored_result(SolverSnapshot& snapshot) const {
   }
   snapshot.radiosity = stored->radiosity;
   snapshot.irradiance = stored->irradiance;
+  if (!stored->form_factor_sums.empty()) {
+    snapshot.form_factor_sums = stored->form_factor_sums;
+  }
+  snapshot.sky_shares = stored->sky_shares;
+  snapshot.sky_irradiance = stored->sky_irradiance;
   snapshot.error = stored->error;
   snapshot.statistics = stored->statistics;
 }

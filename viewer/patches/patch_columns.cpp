@@ -99,6 +99,7 @@ PatchRows rows_of_all(const SolverSnapshot& snapshot) {
   add(tr("Face"), tr("Its face in the file, counted from 0"), "face", Kind::integer,
       [&](PatchId i) { return scene.patch(i).face; });
   add_quantity(Quantity::form_factor_sum, "F_sum");
+  add_quantity(Quantity::sky_share, "sky");
   const std::vector<int> fragments = fragment_counts(*snapshot.loaded);
   add(tr("Fragments"), tr("Number of fragments after the BSP tree"), "fragments", Kind::integer,
       [&](PatchId i) { return at(fragments, i); });

@@ -32,6 +32,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   radiosity_ = add_quantity(Quantity::radiosity, "patch_radiosity");
   irradiance_ = add_quantity(Quantity::irradiance, "patch_irradiance");
   form_factor_sum_ = add_quantity(Quantity::form_factor_sum, "patch_form_factor_sum");
+  sky_share_ = add_quantity(Quantity::sky_share, "patch_sky_share");
   swatch_ = new QLabel;
   swatch_->setFixedHeight(10);
   swatch_->setToolTip(tr("Color of the patch in the scene view"));
@@ -141,6 +142,9 @@ void PatchInspector::show_patch() {
   irradiance_->setText(irradiance.values.empty() ? QStringLiteral("–")
                                                  : rgb_text(at(irradiance.values, patch)));
   form_factor_sum_->setText(QString::number(at(snapshot_->form_factor_sums, patch), 'f', 6));
+  sky_share_->setText(snapshot_->sky_shares.empty()
+                          ? QStringLiteral("–")
+                          : QString::number(at(snapshot_->sky_shares, patch), 'f', 6));
   const Color8 c = at(colors_.patch_colors(), patch);
   swatch_->setStyleSheet(
       QStringLiteral("background: %1; border: 1px solid #9aa2ac; border-radius: 2px;")

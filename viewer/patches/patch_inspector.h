@@ -37,7 +37,7 @@ class PatchInspector : public QWidget {
   ValueGrid *sums_, *values_;
   QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< of several patches
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
-      *radiosity_, *irradiance_, *form_factor_sum_, *swatch_;
+      *radiosity_, *irradiance_, *form_factor_sum_, *sky_share_, *swatch_;
 };
 
 }  // namespace transillum::viewer

@@ -30,6 +30,8 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   light_bar_->setObjectName("light_bar");
   orientation_bar_ = new Banner;
   orientation_bar_->setObjectName("orientation_bar");
+  reading_bar_ = new Banner;
+  reading_bar_->setObjectName("reading_bar");
   color_controls_ = new ColorControls(colors);
   scene_view_ = new SceneView(focus, selection, colors, hidden_);
   scene_view_->setObjectName("scene_view");
@@ -85,6 +87,7 @@ QWidget* ScenePage::make_scene(Selection& selection, ColorChoice& colors) {
   auto* scene_layout = new QVBoxLayout(scene);
   scene_layout->setContentsMargins(0, 0, 0, 0);
   scene_layout->setSpacing(0);
+  scene_layout->addWidget(reading_bar_);
   scene_layout->addWidget(light_bar_);
   scene_layout->addWidget(orientation_bar_);
   scene_layout->addWidget(color_controls_);

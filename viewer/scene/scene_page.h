@@ -37,6 +37,8 @@ class ScenePage : public QWidget {
   /// Below banner(): what the window offers for the open scene.
   Banner* light_bar() const { return light_bar_; }
   Banner* orientation_bar() const { return orientation_bar_; }
+  /// How the file of the open scene was read, where that was remembered.
+  Banner* reading_bar() const { return reading_bar_; }
   ColorControls* color_controls() const { return color_controls_; }
   SceneView* scene_view() const { return scene_view_; }
   QMenu* camera_menu() const { return camera_->menu(); }
@@ -61,7 +63,7 @@ class ScenePage : public QWidget {
   CameraBookmarks bookmarks_;
   HiddenPatches hidden_;
   CameraMenu* camera_;
-  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_;
+  Banner *recovery_bar_, *loading_bar_, *banner_, *light_bar_, *orientation_bar_, *reading_bar_;
   QStackedWidget* pages_;
   WelcomePage* welcome_;
   QAction* scenes_;

@@ -6,6 +6,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QDoubleValidator>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -16,10 +17,12 @@
 #include <QRegularExpression>
 #include <QRegularExpressionValidator>
 #include <QSignalBlocker>
+#include <QSlider>
 #include <QSpinBox>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "model/run_options.h"
@@ -29,6 +32,17 @@
 namespace transillum::viewer {
 
 namespace {
+
+// The slider's position is the square root of the sky's share of this.
+constexpr int sky_steps = 200;
+constexpr double sky_of_slider = 100;  // W/m²
+
+struct Axis {
+  const char* name;
+  Vec3 direction;
+};
+constexpr Axis axes[] = {{"+z", {0, 0, 1}},  {"+y", {0, 1, 0}},  {"+x", {1, 0, 0}},
+                         {"−z", {0, 0, -1}}, {"−y", {0, -1, 0}}, {"−x", {-1, 0, 0}}};
 
 bool same(const SceneOptions& a, const SceneOptions& b) {
   return a.two_sided == b.two_sided && a.max_patch_area == b.max_patch_area;
@@ -57,6 +71,7 @@ SettingsPanel::SettingsPanel(QWidget* parent) : QWidget(parent) {
   add_engine_rows(*form);
   add_estimator_rows(*form);
   add_stop_row(*form);
+  add_sky_rows(*form);
   connect_solve_rows();
   add_scene_rows(*form);
   restart_ = new QPushButton(tr("Solve again"));
@@ -193,9 +208,137 @@ void SettingsPanel::add_stop_row(QFormLayout& form) {
   form.addRow(tr("Stop at"), stop_row);
 }
 
+void SettingsPanel::add_sky_rows(QFormLayout& form) {
+  sky_slider_ = new QSlider(Qt::Horizontal);
+  sky_slider_->setObjectName("sky_slider");
+  sky_slider_->setRange(0, sky_steps);
+  sky_slider_->setMinimumWidth(60);
+  sky_value_ = new QDoubleSpinBox;
+  sky_value_->setObjectName("sky");
+  sky_value_->setRange(0, 1e9);
+  sky_value_->setDecimals(4);
+  sky_value_->setSpecialValueText(tr("None"));
+  sky_value_->setKeyboardTracking(false);
+  sky_value_->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  row->addWidget(sky_slider_, 3);
+  row->addWidget(sky_value_, 2);
+  auto* column = new QVBoxLayout;
+  column->setSpacing(2);
+  column->addLayout(row);
+  sky_note_ = new QLabel;
+  sky_note_->setObjectName("sky_note");
+  sky_note_->setForegroundRole(QPalette::PlaceholderText);
+  sky_note_->setWordWrap(true);
+  sky_note_->hide();
+  column->addWidget(sky_note_);
+  form.addRow(tr("Sky, W/m²"), column);
+  sky_model_ = new QComboBox;
+  sky_model_->setObjectName("sky_model");
+  // In the order of SkyModel.
+  sky_model_->addItems({tr("Uniform"), tr("CIE overcast")});
+  sky_model_->setToolTip(tr(
+      "Uniform: the same from everywhere, also from below\n"
+      "CIE overcast: three times as bright at the zenith as at the horizon, nothing from below"));
+  form.addRow(tr("Sky model"), sky_model_);
+  sky_up_ = new QComboBox;
+  sky_up_->setObjectName("sky_up");
+  for (const Axis& axis : axes) {
+    sky_up_->addItem(QString::fromUtf8(axis.name));
+  }
+  sky_up_->addItem(QString());  // another direction, of a session or a command line
+  sky_up_->setToolTip(tr("The direction of the zenith"));
+  sky_up_label_ = new QLabel(tr("Zenith"));
+  form.addRow(sky_up_label_, sky_up_);
+  connect(sky_slider_, &QSlider::valueChanged, this, [this](int step) {
+    const double share = 1.0 * step / sky_steps;
+    sky_value_->setValue(sky_of_slider * share * share);
+  });
+  connect(sky_value_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double value) {
+    const QSignalBlocker quiet(sky_slider_);
+    sky_slider_->setValue(
+        static_cast<int>(std::lround(sky_steps * std::sqrt(std::min(1.0, value / sky_of_slider)))));
+    show_state();
+  });
+}
+
+Sky SettingsPanel::sky() const {
+  if (!(sky_value_->value() > 0) || !takes_directions(engine_of(*engine_))) {
+    return {};
+  }
+  Sky sky = base_.sky;  // with all its digits, unless changed
+  if (sky_value_->value() !=
+      sky_value_->valueFromText(sky_value_->textFromValue(max_abs(base_.sky.exitance)))) {
+    sky.exitance = sky_value_->value() * sky_color_;
+  }
+  sky.model = static_cast<SkyModel>(sky_model_->currentIndex());
+  const int axis = sky_up_->currentIndex();
+  if (sky.model == SkyModel::uniform) {
+    sky.up = Sky().up;  // not read
+  } else if (axis >= 0 && axis < static_cast<int>(std::size(axes))) {
+    sky.up = axes[axis].direction;
+  }
+  return sky;
+}
+
+void SettingsPanel::set_sky(const Sky& sky) {
+  const double largest = max_abs(sky.exitance);
+  sky_color_ = largest > 0 ? (1 / largest) * sky.exitance : Rgb{1, 1, 1};
+  sky_value_->setValue(largest);
+  sky_model_->setCurrentIndex(static_cast<int>(sky.model));
+  if (sky.set() && sky.model != SkyModel::uniform) {
+    choose_up(sky.up);
+  }
+}
+
+void SettingsPanel::choose_up(const Vec3& up) {
+  int index = 0;
+  while (index < static_cast<int>(std::size(axes)) && !(axes[index].direction == up)) {
+    ++index;
+  }
+  if (index == static_cast<int>(std::size(axes))) {
+    sky_up_->setItemText(index, vector_text(up));
+    base_.sky.up = up;
+  }
+  sky_up_->setCurrentIndex(index);
+}
+
+void SettingsPanel::set_scene_up(const Vec3& up) {
+  if (!sky().set()) {
+    choose_up(up);
+  }
+}
+
+void SettingsPanel::show_escape(std::optional<double> share) {
+  constexpr double rounding = 1e-9;
+  closed_ = share && *share < rounding;
+  show_sky_state();
+}
+
+void SettingsPanel::show_sky_state() {
+  const bool takes = takes_directions(engine_of(*engine_));
+  const QString note = !takes    ? tr("Not with this engine")
+                       : closed_ ? tr("The scene is closed: no sky is seen")
+                                 : QString();
+  sky_note_->setText(note);
+  sky_note_->setVisible(!note.isEmpty());
+  const bool enabled = note.isEmpty();
+  for (QWidget* widget : {static_cast<QWidget*>(sky_slider_), static_cast<QWidget*>(sky_value_)}) {
+    widget->setEnabled(enabled);
+    widget->setToolTip(
+        tr("What an unobstructed patch turned upward receives from the sky; it "
+           "lights an open scene where no patch is met (0: no sky)"));
+  }
+  const bool any = enabled && sky_value_->value() > 0;
+  sky_model_->setEnabled(any);
+  sky_up_->setEnabled(any && sky_model_->currentIndex() != 0);
+  sky_up_label_->setEnabled(sky_up_->isEnabled());
+}
+
 void SettingsPanel::connect_solve_rows() {
-  for (QComboBox* box :
-       {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_, accuracy_of_}) {
+  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_,
+                         accuracy_of_, sky_model_, sky_up_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
@@ -279,6 +422,7 @@ SolveOptions SettingsPanel::solve_options() const {
   if (number && tolerance > 0) {
     options.tolerance = tolerance;
   }
+  options.sky = sky();
   return options;
 }
 
@@ -307,6 +451,7 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
   tolerance_->setText(exact_text(solve.tolerance));
+  set_sky(solve.sky);
   two_sided_->setChecked(scene.two_sided);
   max_patch_area_->setText(scene.max_patch_area > 0 ? exact_text(scene.max_patch_area) : QString());
   show_state();
@@ -375,6 +520,7 @@ void SettingsPanel::show_state() {
   replicas_->setToolTip(chosen ? tr("Chosen by the accuracy") : tip("replicas"));
   const Engine engine = engine_of(*engine_);
   engine_->setToolTip(engine_sentence(engine));
+  show_sky_state();
   show_row(order_label_, order_, engine == Engine::painter);
   show_row(resolution_label_, resolution_, takes_resolution(engine));
   const bool rays = engine == Engine::rays;

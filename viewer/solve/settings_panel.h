@@ -3,15 +3,19 @@
 
 #include <QWidget>
 
+#include <optional>
+
 #include "model/run_options.h"
 #include "transillum/radiosity.h"
 
 class QCheckBox;
 class QComboBox;
+class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QSlider;
 class QSpinBox;
 class QStackedWidget;
 
@@ -32,6 +36,11 @@ class SettingsPanel : public QWidget {
   void set_in_effect(const SolveOptions& solve, const SceneOptions& scene);
   bool differ_from_effect() const;
   void set_restart_enabled(bool enabled);
+  /// The share of the light of all patches that escapes from the open scene; unset: not known yet.
+  /// Where none does, no sky is seen, and its controls are disabled.
+  void show_escape(std::optional<double> share);
+  /// The vertical of a new scene: the zenith that is proposed for a sky that needs one.
+  void set_scene_up(const Vec3& up);
   /// Whether the patches are those of a result file, so that the scene options cannot change.
   void set_scene_fixed(bool fixed);
   /// Shows what scene_options() would make of the scene, unless they have changed since.
@@ -49,6 +58,11 @@ class SettingsPanel : public QWidget {
   AccuracyGoal goal() const;
   void add_engine_rows(QFormLayout& form);
   void add_estimator_rows(QFormLayout& form);
+  void add_sky_rows(QFormLayout& form);
+  Sky sky() const;
+  void set_sky(const Sky& sky);
+  void choose_up(const Vec3& up);
+  void show_sky_state();
   void add_stop_row(QFormLayout& form);
   void connect_solve_rows();
   void add_scene_rows(QFormLayout& form);
@@ -75,6 +89,12 @@ class SettingsPanel : public QWidget {
   QComboBox* normalize_;
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
+  Rgb sky_color_{1, 1, 1};  ///< of the sky; its largest channel is 1
+  bool closed_ = false;     ///< no light escapes from the open scene
+  QSlider* sky_slider_;
+  QDoubleSpinBox* sky_value_;  ///< largest channel of the exitance
+  QComboBox *sky_model_, *sky_up_;
+  QLabel *sky_up_label_, *sky_note_;
   QLineEdit* tolerance_;
   QComboBox* scheme_ = nullptr;
   QSpinBox* replicas_ = nullptr;

@@ -32,6 +32,8 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
   kept->form_factor_sums = snapshot.form_factor_sums;
+  kept->sky_shares = snapshot.sky_shares;
+  kept->sky_irradiance = snapshot.sky_irradiance;
   kept->error = snapshot.error;
   // The last change of B needs the newest two.
   kept->kept_radiosity = snapshot.kept_radiosity;
@@ -58,8 +60,8 @@ std::int64_t bytes_of(const Scene& scene) {
 
 std::int64_t bytes_of(const SolverSnapshot& snapshot) {
   std::int64_t bytes = bytes_of(snapshot.radiosity) + bytes_of(snapshot.irradiance) +
-                       bytes_of(snapshot.form_factor_sums) +
-                       bytes_of(snapshot.error.standard_error);
+                       bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_shares) +
+                       bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {
     bytes += radiosity ? bytes_of(*radiosity) : 0;
   }

@@ -53,6 +53,30 @@ void add_goal_options(CLI::App& app, AccuracyGoal& goal, Names& names,
       ->capture_default_str();
 }
 
+void add_sky_options(CLI::App& app, Sky& sky) {
+  app.add_option_function<std::string>(
+         "--sky",
+         [&sky](const std::string& text) {
+           sky.exitance = *exitance_change("sky=" + text).exitance;
+         },
+         "what an unobstructed patch turned upward receives from a sky, in W/m² (default: no sky)")
+      ->type_name("E[,E,E]");
+  app.add_option_function<std::string>(
+         "--sky-model", [&sky](const std::string& name) { sky.model = sky_model_from_name(name); },
+         with_choices(sky_model_names(), "distribution of the sky's light (default: uniform)"))
+      ->needs("--sky");
+  app.add_option_function<std::vector<double>>(
+         "--up",
+         [&sky](const std::vector<double>& up) {
+           sky.up = normalized({up.at(0), up.at(1), up.at(2)});
+         },
+         "zenith of the sky cie-overcast (default: 0,0,1)")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->needs("--sky");
+}
+
 void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   SolveOptions& solve = line.solve_options;
   auto* directions =
@@ -87,6 +111,7 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
   app.add_option("--tolerance", solve.tolerance, description_of("tolerance"))
       ->capture_default_str()
       ->excludes(iterations);
+  add_sky_options(app, solve.sky);
   app.add_option("--memory", solve.memory, description_of("memory"))
       ->transform(CLI::AsSizeValue(false));
   app.add_option("--threads", solve.threads, description_of("threads"))

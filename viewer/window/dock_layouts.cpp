@@ -21,7 +21,7 @@ namespace transillum::viewer {
 namespace {
 
 // To be raised when docks are added, removed or renamed: older saved layouts then become invalid.
-constexpr int layout_version = 9;
+constexpr int layout_version = 10;
 
 struct Widths {
   int left, right;

@@ -14,15 +14,17 @@
 
 #include "map/map_canvas.h"
 #include "map/map_view.h"
+#include "model/snapshot_solution.h"
 #include "scene/scene_page.h"
 #include "scene/scene_view.h"
 #include "solve/convergence_view.h"
 #include "state/callout_place.h"
+#include "state/initial_view.h"
 #include "transillum/errors.h"
-#include "transillum/files.h"
 #include "transillum/map_files.h"
 #include "transillum/material_changes.h"
 #include "widgets/save_dialog.h"
+#include "window/color_export_dialog.h"
 #include "window/notifier.h"
 
 namespace transillum::viewer {
@@ -103,7 +105,13 @@ ExportActions::ExportActions(const WindowParts& parts)
   save_scene_->setToolTip(
       tr("Write the scene with its changed materials and turned faces as OBJ and MTL"));
   connect(save_scene_, &QAction::triggered, this, &ExportActions::choose_scene_file);
+  export_colors_ = new QAction(tr("Export for Blender or the web…"), this);
+  export_colors_->setObjectName("export_colors");
+  export_colors_->setToolTip(
+      tr("Write the colors shown, without lighting, as glTF or PLY; with a preview"));
+  connect(export_colors_, &QAction::triggered, this, &ExportActions::choose_colors);
   const auto enable = [this] {
+    export_colors_->setEnabled(parts_.scene.snapshot() != nullptr);
     save_scene_->setEnabled(parts_.scene.snapshot() != nullptr);
     for (QAction* action : actions_) {
       action->setEnabled(parts_.scene.snapshot() != nullptr);
@@ -144,13 +152,23 @@ void ExportActions::write_result(const QString& path) {
         "with them and solve that");
   }
   check_result_path(path.toStdString());
-  const bool complete = snapshot->of_file ? snapshot->loaded->stored->complete
-                                          : parts_.runner.state() == RunState::finished;
+  const bool complete = parts_.runner.state() == RunState::finished;
   write({path, [path, snapshot, complete] {
-           transillum::write_result(
-               path.toStdString(),
-               {snapshot->loaded->scene, snapshot->radiosity, snapshot->irradiance, snapshot->error,
-                snapshot->statistics, complete});
+           transillum::write_result(path.toStdString(), solution_of(*snapshot, complete));
+         }});
+}
+
+void ExportActions::write_colors(const QString& path, const DisplayOptions& display) {
+  const auto snapshot = parts_.scene.snapshot();
+  if (!snapshot) {
+    throw InputError("there is no result yet");
+  }
+  const std::string file = path.toStdString();
+  check_result_path(file);
+  check_distinct({file}, snapshot->loaded->scene->files());
+  display.validate();
+  write({path, [file, snapshot, display] {
+           transillum::write_result(file, solution_of(*snapshot), display);
          }});
 }
 
@@ -277,6 +295,18 @@ void ExportActions::choose_scene() {
 void ExportActions::choose_result() {
   write_chosen(tr("Result"), tr("Results (*.vtp *.csv *.ply *.obj)"), name_with(".vtp"),
                [this](const QString& path) { write_result(path); });
+}
+
+void ExportActions::choose_colors() {
+  const auto snapshot = parts_.scene.snapshot();
+  ColorExportDialog dialog(snapshot, parts_.page.scene_view()->view_point(),
+                           initial_view(*snapshot->loaded->scene, 1).up, &parts_.window);
+  if (dialog.exec() == QDialog::Accepted) {
+    const QString ending = dialog.ending();
+    write_chosen(tr("Export for Blender or the web"), tr("Colors (*%1)").arg(ending),
+                 name_with(ending.toLatin1()),
+                 [&](const QString& path) { write_colors(path, dialog.display()); });
+  }
 }
 
 void ExportActions::choose_scene_file() {

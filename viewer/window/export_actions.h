@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "support/request_worker.h"
+#include "transillum/files.h"
 #include "window/window_parts.h"
 
 class QAction;
@@ -34,12 +35,18 @@ class ExportActions : public QObject {
   /// worker thread; a failure there is shown in the window.
   /// @throws InputError where it is clear at once that it cannot be written
   void write_result(const QString& path);
+  /// The radiosity shown, with that of changed materials, as colors for other programs: .glb, .gltf
+  /// or .ply. Written as results are.
+  /// @throws InputError where it is clear at once that it cannot be written
+  void write_colors(const QString& path, const DisplayOptions& display);
   /// The open scene with the changes of materials and the faces turned, as OBJ with MTL, in meters.
   /// Written as results are.
   /// @throws InputError where it is clear at once that it cannot be written
   void write_scene_file(const QString& path);
   /// For the menu File.
   QAction* save_scene_action() const { return save_scene_; }
+  /// For the menu File.
+  QAction* color_action() const { return export_colors_; }
   /// Whether a result or a scene is still being written.
   bool writing() const { return writing_; }
   /// The map of the step in focus, as vectors (.svg) or by the other endings of write_map().
@@ -55,6 +62,7 @@ class ExportActions : public QObject {
   void choose_scene();
   void choose_result();
   void choose_scene_file();
+  void choose_colors();
   void choose_map();
   void choose_charts();
   void choose_figures();
@@ -66,7 +74,7 @@ class ExportActions : public QObject {
 
   WindowParts parts_;
   QList<QAction*> actions_;
-  QAction* save_scene_;
+  QAction *save_scene_, *export_colors_;
   bool writing_ = false;
 
   struct FileToWrite {

@@ -7,6 +7,7 @@
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QMenu>
+#include <QPushButton>
 #include <QSaveFile>
 #include <QSettings>
 #include <QStandardPaths>
@@ -17,15 +18,18 @@
 
 #include "lessons/lesson_panel.h"
 #include "lessons/session_file.h"
+#include "scene/scene_page.h"
 #include "solve/settings_panel.h"
 #include "support/failure_text.h"
 #include "transillum/at.h"
 #include "transillum/files.h"
 #include "transillum/json_text.h"
+#include "widgets/banner.h"
 #include "widgets/save_dialog.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
 #include "window/notifier.h"
+#include "window/reading_dialog.h"
 #include "window/view_state_applier.h"
 #include "window/window_session.h"
 #include "window/work_guard.h"
@@ -52,6 +56,7 @@ FileActions::FileActions(const WindowParts& parts, ViewStateApplier& applier,
                          WindowSession& session)
     : QObject(&parts.window), parts_(parts), applier_(applier), session_(session) {
   make_actions();
+  make_reading_bar();
   recent_menu_ = new QMenu(tr("Open recent"), &parts_.window);
   settle_.setSingleShot(true);
   settle_.setInterval(settle_ms);
@@ -88,6 +93,57 @@ void FileActions::make_actions() {
   watch_ = make_action(this, "watch", tr("Reload when the file changes"), {},
                        tr("Read the scene's file again whenever another program changes it"));
   watch_->setCheckable(true);
+  reading_ = make_action(this, "reading", tr("Units and orientation…"), {},
+                         tr("Read the scene's file in another unit, or with its faces turned or "
+                            "joined; remembered for the file"));
+  reading_->setEnabled(false);
+  connect(reading_, &QAction::triggered, this, &FileActions::choose_reading);
+}
+
+void FileActions::make_reading_bar() {
+  Banner* bar = parts_.page.reading_bar();
+  QPushButton* change = bar->add_button("change_reading", tr("Change…"));
+  QPushButton* usual = bar->add_button("usual_reading", tr("Read as usual"));
+  usual->setToolTip(tr("In meters, with faces as in the file; forgets what was chosen before"));
+  connect(change, &QPushButton::clicked, this, &FileActions::choose_reading);
+  connect(usual, &QPushButton::clicked, this, [this] {
+    SceneInput input;
+    input.changes = parts_.scene.input().changes;
+    read_again(input);
+  });
+}
+
+void FileActions::choose_reading() {
+  ReadingDialog dialog(QString::fromStdString(parts_.scene.spec()), parts_.scene.input(),
+                       &parts_.window);
+  if (dialog.exec() == QDialog::Accepted && !(dialog.input() == parts_.scene.input())) {
+    read_again(dialog.input());
+  }
+}
+
+void FileActions::read_again(const SceneInput& input) {
+  if (parts_.guard.may_lose(&parts_.window, tr("Reload"))) {
+    applier_.open_again({parts_.settings.solve_options(), parts_.scene.options(), input});
+  }
+}
+
+/// Says how the file was read where that was recalled, and remembers it for the next time.
+void FileActions::show_reading() {
+  const QString path = QFileInfo(QString::fromStdString(parts_.scene.spec())).absoluteFilePath();
+  const auto loaded = parts_.scene.loaded();
+  const bool from_file = loaded->description && !loaded->description->files.empty();
+  reading_->setEnabled(from_file);
+  const QString text = ReadingMemory::text_of(parts_.scene.input());
+  if (from_file && recalled_ == path && !text.isEmpty()) {
+    parts_.page.reading_bar()->show_message(
+        Banner::Kind::offer, tr("Read as chosen before for this file: %1.").arg(text));
+  } else {
+    parts_.page.reading_bar()->dismiss();
+  }
+  recalled_.clear();
+  if (from_file && !applier_.in_lesson()) {
+    reading_memory_.remember(path, parts_.scene.input());
+  }
 }
 
 void FileActions::on_scene_shown() {
@@ -95,6 +151,7 @@ void FileActions::on_scene_shown() {
   if (QFileInfo::exists(spec)) {
     remember(spec);
   }
+  show_reading();
   watch_scene();
   save_session_->setEnabled(true);
   reload_->setEnabled(true);
@@ -103,7 +160,7 @@ void FileActions::on_scene_shown() {
 void FileActions::add_to(QMenu& menu) const {
   menu.addAction(open_);
   menu.addMenu(recent_menu_);
-  for (QAction* action : {save_session_, reload_, watch_}) {
+  for (QAction* action : {save_session_, reload_, watch_, reading_}) {
     menu.addAction(action);
   }
 }
@@ -155,6 +212,15 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
   applier_.leave_lesson();
   RunOptions options = parts_.settings.options();
   options.input = input;
+  const QString path = QFileInfo(spec).absoluteFilePath();
+  recalled_.clear();
+  if (const auto before = reading_memory_.find(path);
+      before && ReadingMemory::reading_of(input) == SceneInput{} && QFileInfo::exists(spec)) {
+    options.input = *before;
+    options.input.changes = input.changes;
+    options.input.patches = input.patches;
+    recalled_ = path;
+  }
   if (parts_.scene.loaded() && spec.toStdString() != parts_.scene.spec()) {
     options.scene = {};  // those of the open scene
   }
@@ -290,10 +356,14 @@ void FileActions::reload_if_written() {
   applier_.reload();
 }
 
-void FileActions::save(QSettings& settings) const { settings.setValue("files/recent", recent_); }
+void FileActions::save(QSettings& settings) const {
+  settings.setValue("files/recent", recent_);
+  reading_memory_.save(settings);
+}
 
 void FileActions::load(const QSettings& settings) {
   recent_ = settings.value("files/recent").toStringList().mid(0, most_recent);
+  reading_memory_.load(settings);
 }
 
 }  // namespace transillum::viewer

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "window/reading_memory.h"
 #include "window/window_parts.h"
 
 class QAction;
@@ -35,7 +36,8 @@ class FileActions : public QObject {
 
   /// Opens a scene, a result, a session or a lesson, by its name and content.
   /// @param goal none: a scene is solved, a result only shown
-  /// @param input how a scene is read; ignored for results, sessions and lessons
+  /// @param input how a scene is read; ignored for results, sessions and lessons. By default as the
+  /// file was read before
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
   /// reported later by SolveRunner::failed
   void open(const QString& path, std::optional<Goal> goal = {}, const SceneInput& input = {});
@@ -63,6 +65,9 @@ class FileActions : public QObject {
   QString save_unasked();
 
   const QStringList& recent() const { return recent_; }
+  /// How scene files were read before. open() and open_scene() read a file so again unless they
+  /// are told otherwise.
+  ReadingMemory& reading() { return reading_memory_; }
   void save(QSettings& settings) const;
   void load(const QSettings& settings);
 
@@ -71,6 +76,11 @@ class FileActions : public QObject {
 
  private:
   void make_actions();
+  void make_reading_bar();
+  /// Asks how the open scene's file is read, and reads it so.
+  void choose_reading();
+  void read_again(const SceneInput& input);
+  void show_reading();
   void choose();
   void remember(const QString& path);
   void fill_recent();
@@ -81,7 +91,9 @@ class FileActions : public QObject {
   WindowParts parts_;
   ViewStateApplier& applier_;
   WindowSession& session_;
-  QAction *open_, *save_session_, *reload_, *watch_;
+  QAction *open_, *save_session_, *reload_, *watch_, *reading_;
+  ReadingMemory reading_memory_;
+  QString recalled_;  ///< the file that is opened as it was read before; empty: none
   QMenu* recent_menu_;
   QStringList recent_;
   QFileSystemWatcher watcher_;

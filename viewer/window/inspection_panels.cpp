@@ -10,6 +10,7 @@
 #include "model/solve_runner.h"
 #include "patches/compare_actions.h"
 #include "patches/material_panel.h"
+#include "patches/parts_panel.h"
 #include "patches/patch_table_panel.h"
 #include "patches/path_panel.h"
 #include "patches/run_panel.h"
@@ -27,6 +28,8 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
   materials_ = new MaterialPanel(relighting_, selection, colors);
   tables_ = new PatchTablePanel(selection);
   tables_->setObjectName("table_panel");
+  parts_ = new PartsPanel(relighting_, selection, hidden);
+  parts_->setObjectName("parts_panel");
   paths_ = new PathPanel(selection);
   paths_->setObjectName("path_panel");
   warnings_ = new WarningList(selection);
@@ -48,14 +51,21 @@ InspectionPanels::InspectionPanels(Relighting& relighting, Selection& selection,
   connect(paths_, &PathPanel::paths_shown, this, &InspectionPanels::paths_shown);
   connect(paths_, &PathPanel::failed, this, &InspectionPanels::failed);
   connect(tables_, &PatchTablePanel::failed, this, &InspectionPanels::failed);
+  connect(parts_, &PartsPanel::form_factors_requested, &runner, &SolveRunner::include_form_factors);
+  connect(parts_, &PartsPanel::failed, this, &InspectionPanels::failed);
+  connect(parts_, &PartsPanel::target_changed, this, [this](const std::string& target) {
+    materials_->show_target(target);
+    material_dock_->show();
+    material_dock_->raise();
+  });
   connect(&relighting_, &Relighting::failed, this, &InspectionPanels::failed);
 }
 
 void InspectionPanels::add_materials_to(DockLayouts& docks) {
-  const QDockWidget* dock = docks.add(tr("Materials"), "material_dock", scrollable(materials_),
-                                      {{Layout::inspect, Qt::LeftDockWidgetArea, 345, true}});
+  material_dock_ = docks.add(tr("Materials"), "material_dock", scrollable(materials_),
+                             {{Layout::inspect, Qt::LeftDockWidgetArea, 345, true}});
   // The signal is also sent for tabs behind others, whose isVisible() is always true.
-  connect(dock, &QDockWidget::visibilityChanged, this, [this](bool visible) {
+  connect(material_dock_, &QDockWidget::visibilityChanged, this, [this](bool visible) {
     if (visible) {
       emit relighting_.form_factors_requested();
     }
@@ -66,6 +76,9 @@ void InspectionPanels::add_tables_to(DockLayouts& docks) {
   table_dock_ = docks.add(tr("Patches"), "table_dock", tables_,
                           {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(table_dock_, &QDockWidget::visibilityChanged, tables_, &PatchTablePanel::set_watched);
+  const QDockWidget* parts = docks.add(tr("Groups"), "parts_dock", parts_,
+                                       {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
+  connect(parts, &QDockWidget::visibilityChanged, parts_, &PartsPanel::set_watched);
   const QDockWidget* paths = docks.add(tr("Light paths"), "paths_dock", paths_,
                                        {{Layout::inspect, Qt::RightDockWidgetArea, 450, true}});
   connect(paths, &QDockWidget::visibilityChanged, paths_, &PathPanel::set_watched);
@@ -111,15 +124,17 @@ void InspectionPanels::show_scene(const LoadedScene& loaded) {
   selecting_->show_scene(loaded.scene);
   warnings_->show_scene(loaded.scene);
   tables_->clear();
+  parts_->show_scene(loaded.scene);
   paths_->clear();
 }
 
 void InspectionPanels::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   materials_->show_state();
   paths_->show_snapshot(snapshot);
+  parts_->show_snapshot(snapshot);
   tables_->show_snapshot(std::move(snapshot));
 }
 
-bool InspectionPanels::busy() const { return paths_->busy(); }
+bool InspectionPanels::busy() const { return paths_->busy() || parts_->busy(); }
 
 }  // namespace transillum::viewer

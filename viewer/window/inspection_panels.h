@@ -19,6 +19,7 @@ namespace transillum::viewer {
 class CompareActions;
 class DockLayouts;
 class MaterialPanel;
+class PartsPanel;
 class PatchTablePanel;
 class PathPanel;
 class RunPanel;
@@ -60,12 +61,13 @@ class InspectionPanels : public QObject {
   Relighting& relighting_;
   MaterialPanel* materials_;
   PatchTablePanel* tables_;
+  PartsPanel* parts_;
   PathPanel* paths_;
   WarningList* warnings_;
   CompareActions* compare_;
   RunPanel* runs_;
   SelectionActions* selecting_;
-  QDockWidget* table_dock_ = nullptr;
+  QDockWidget *table_dock_ = nullptr, *material_dock_ = nullptr;
 };
 
 }  // namespace transillum::viewer

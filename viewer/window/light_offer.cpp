@@ -41,12 +41,15 @@ LightOffer::LightOffer(const WindowParts& parts, MaterialPanel& materials,
     }
   });
   connect(&parts_.relighting.edits(), &MaterialEdits::changed, this, &LightOffer::update);
+  connect(&parts_.scene, &OpenScene::snapshot_shown, this, &LightOffer::update);
   connect(&parts_.selection, &Selection::changed, this, &LightOffer::update);
 }
 
 void LightOffer::update() {
   Banner& bar = *parts_.page.light_bar();
-  if (closed_ || !parts_.scene.loaded() || parts_.relighting.edits().has_light()) {
+  const auto snapshot = parts_.scene.snapshot();
+  const bool sky = snapshot && snapshot->options.sky.set();
+  if (closed_ || sky || !parts_.scene.loaded() || parts_.relighting.edits().has_light()) {
     bar.dismiss();
     return;
   }

@@ -17,6 +17,7 @@
 #include <QTimer>
 #include <QToolBar>
 #include <exception>
+#include <optional>
 
 #include "directions/direction_view.h"
 #include "directions/received_view.h"
@@ -38,6 +39,7 @@
 #include "solve/solve_actions.h"
 #include "solve/solve_summary.h"
 #include "solve/study_dialog.h"
+#include "state/initial_view.h"
 #include "stepping/algorithm_view.h"
 #include "stepping/breakpoint_panel.h"
 #include "stepping/event_filter_row.h"
@@ -80,6 +82,12 @@ constexpr QSize usual_size(1600, 1000);
 // Title bar and borders are known only once the window is on the screen.
 constexpr QSize room_for_frame(16, 48);
 
+/// The share of light that escapes; unset before the first pass.
+std::optional<double> escape_of(const SolverSnapshot& snapshot) {
+  const bool any_pass = passes_done(snapshot.progress, snapshot.kept_passes) > 0;
+  return any_pass ? std::optional(snapshot.statistics.escaped) : std::nullopt;
+}
+
 QString dropped_file(const QMimeData& data) {
   const QList<QUrl> urls = data.urls();
   return urls.size() == 1 && urls.front().isLocalFile() ? urls.front().toLocalFile() : QString();
@@ -108,24 +116,15 @@ MainWindow::MainWindow(SharedState& state, bool remember, QWidget* parent)
 MainWindow::~MainWindow() = default;
 
 WindowParts MainWindow::parts() {
-  return {*this,
-          state_.runner,
-          state_.scene,
-          state_.relighting,
-          state_.focus,
-          state_.selection,
-          state_.colors,
-          state_.breakpoints,
-          state_.watches,
-          docks_,
-          *page_,
-          *map_view_,
-          *algorithm_,
-          *convergence_view_,
-          *settings_,
-          *lesson_panel_,
-          *notes_,
-          *notifier_,
+  return {*this,          state_.runner,
+          state_.scene,   state_.relighting,
+          state_.focus,   state_.selection,
+          state_.colors,  state_.breakpoints,
+          state_.watches, docks_,
+          *page_,         *map_view_,
+          *algorithm_,    *convergence_view_,
+          *settings_,     *lesson_panel_,
+          *notes_,        *notifier_,
           work_guard_};
 }
 
@@ -310,6 +309,8 @@ void MainWindow::connect_scene() {
     settings_->set_scene_fixed(loaded->stored != nullptr);
     // How faces become patches belongs to the scene.
     settings_->set_options(settings_->solve_options(), state_.scene.options());
+    settings_->set_scene_up(initial_view(*loaded->scene, 1).up);
+    settings_->show_escape({});
     show_debugging_of_scene();
     state_.selection.select(no_patch);
     state_.focus_feed.clear();
@@ -327,6 +328,7 @@ void MainWindow::connect_scene() {
   });
   connect(&state_.scene, &OpenScene::snapshot_ready, this, [this](const Snapshot& snapshot) {
     settings_->set_in_effect(snapshot->options, state_.scene.options());
+    settings_->show_escape(escape_of(*snapshot));
     study_->set_solve(snapshot->options);
     state_.colors.fit(snapshot);
   });
@@ -422,6 +424,7 @@ void MainWindow::make_file_menu() {
   file->addAction(page_->scenes_action());
   files_->add_to(*file);
   file->addAction(exports_->save_scene_action());
+  file->addAction(exports_->color_action());
   QMenu* exporting = file->addMenu(tr("Export"));
   exports_->add_to(*exporting);
   recorder_->add_to(*exporting);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ PartsBy parts_by_from_name(const std::string& name);
 /// Sums over the patches of a group, of a material or of all. Powers are in W, per channel.
 struct PartPower {
   std::string name = {};     ///< of the group or material; empty: the patches of no group
+  std::int32_t index = -1;   ///< in Scene::groups() or Scene::materials(); -1: no group, or all
   std::int64_t patches = 0;  ///< number
   double area = 0;           ///< m²
   Rgb emitted = {};          ///< sum A_i E_i
@@ -51,8 +53,13 @@ struct PowerTable {
 /// @param solution of a solve, or read from a file.
 /// @param by rows.
 /// @param form_factors of its scene; null: without exchanges.
+/// @param materials E and rho that the solution has, where they are not those of the scene
+/// (relight()); empty: those of the scene.
+/// @param patch_materials index into `materials` for each patch; read with `materials` only.
 /// @throws InputError where the form factors are of another number of patches.
 PowerTable power_table(const Solution& solution, PartsBy by,
-                       const FormFactors* form_factors = nullptr);
+                       const FormFactors* form_factors = nullptr,
+                       std::span<const Material> materials = {},
+                       std::span<const std::int32_t> patch_materials = {});
 
 }  // namespace transillum

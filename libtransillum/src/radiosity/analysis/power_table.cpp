@@ -14,6 +14,7 @@ namespace {
 /// Which part each patch is in.
 struct Division {
   std::vector<std::string> names;     ///< of the parts that have patches
+  std::vector<std::int32_t> indices;  ///< of the parts in the scene; -1: no group
   std::vector<std::size_t> of_patch;  ///< index in `names`
 };
 
@@ -33,6 +34,7 @@ Division divide(const Scene& scene, PartsBy by) {
   for (std::size_t k = 0; k <= named; ++k) {
     if (used[k]) {
       part[k] = division.names.size();
+      division.indices.push_back(k == named ? no_group : static_cast<std::int32_t>(k));
       division.names.push_back(k == named ? std::string()
                                : groups   ? scene.groups()[k]
                                           : scene.materials()[k].name);
@@ -54,15 +56,14 @@ void add(PartPower& to, const PartPower& part) {
   to.escaped += part.escaped;
 }
 
-PartPower power_of(const Solution& solution, PatchId i) {
-  const Scene& scene = *solution.scene;
-  const double area = scene.patch(i).area;
+PartPower power_of(const Solution& solution, PatchId i, const Material& material) {
+  const double area = solution.scene->patch(i).area;
   const Rgb h = at(solution.irradiance, i);
   PartPower power{.patches = 1,
                   .area = area,
-                  .emitted = area * scene.exitance(i),
+                  .emitted = area * material.exitance,
                   .received = area * h,
-                  .absorbed = area * ((Rgb{1, 1, 1} - scene.reflectance(i)) * h)};
+                  .absorbed = area * ((Rgb{1, 1, 1} - material.reflectance) * h)};
   if (!solution.sky_irradiance.empty()) {
     power.from_sky = area * at(solution.sky_irradiance, i);
   }
@@ -100,15 +101,19 @@ PartsBy parts_by_from_name(const std::string& name) {
   return choice_from_name<PartsBy>(parts_by_names(), "kind of parts", name);
 }
 
-PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors) {
+PowerTable power_table(const Solution& solution, PartsBy by, const FormFactors* form_factors,
+                       std::span<const Material> materials,
+                       std::span<const std::int32_t> patch_materials) {
   const Division division = divide(*solution.scene, by);
   PowerTable table;
   table.escape_known = !solution.sky_shares.empty();
-  for (const std::string& name : division.names) {
-    table.parts.push_back({.name = name});
+  for (std::size_t part = 0; part < division.names.size(); ++part) {
+    table.parts.push_back({.name = division.names[part], .index = division.indices[part]});
   }
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
-    add(table.parts[at(division.of_patch, i)], power_of(solution, i));
+    const Material& material =
+        materials.empty() ? solution.scene->material(i) : at(materials, at(patch_materials, i));
+    add(table.parts[at(division.of_patch, i)], power_of(solution, i, material));
   }
   table.total.name = "total";
   for (const PartPower& part : table.parts) {

@@ -1,0 +1,14 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include "model/snapshot.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::viewer {
+
+/// The solution that a snapshot shows, with the light of changed materials; its scene has the
+/// materials of before the changes. Copies all values: for a worker where there are many patches.
+/// @param complete  the solve has finished; of a result file, what the file says
+Solution solution_of(const SolverSnapshot& snapshot, bool complete = true);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,22 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QString>
+
+#include "patches/patch_columns.h"
+#include "transillum/power_table.h"
+
+namespace transillum::viewer {
+
+/// A part for the user: its name, or "(no group)".
+QString part_text(const PartPower& part);
+
+/// Contents of a PatchTable whose rows are the parts of a power table, by their position.
+/// @param received_known  false: without the columns of received light
+PatchRows rows_of_parts(const PowerTable& table, bool received_known);
+
+/// What parts exchange, the pairs that do, without those below rounding. Entry k of the rows is
+/// pair number `patches[k]` = receiver * number of parts + sender.
+PatchRows rows_of_exchanges(const PowerTable& table);
+
+}  // namespace transillum::viewer

@@ -1,0 +1,364 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The panel "Groups". Snapshots arrive often while a solve runs; their powers are added up a few
+// times a second at most, on the thread of PowerCounter, and only while the panel is visible.
+#include "patches/parts_panel.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QLabel>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTimer>
+#include <QToolButton>
+#include <QUndoStack>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "model/form_factor_views.h"
+#include "patches/part_columns.h"
+#include "patches/patch_table.h"
+#include "support/number_text.h"
+#include "transillum/at.h"
+#include "widgets/figure_table.h"
+
+namespace transillum::viewer {
+
+namespace {
+
+constexpr int refresh_interval_ms = 400;
+constexpr int power_column = 2;  // of the table of exchanges
+constexpr Rgb first_exitance{10, 10, 10}, first_reflectance{0.5, 0.5, 0.5};
+
+QString count_of(std::size_t number, const char* one, const char* several) {
+  return number == 1 ? PartsPanel::tr(one)
+                     : PartsPanel::tr(several).arg(count_text(static_cast<std::int64_t>(number)));
+}
+
+QString total_text(const PowerTable& table, PartsBy by, bool received_known) {
+  const QString kinds = by == PartsBy::group
+                            ? count_of(table.parts.size(), "1 group", "%1 groups")
+                            : count_of(table.parts.size(), "1 material", "%1 materials");
+  const QString base =
+      PartsPanel::tr("%1, %2, %3 m². Emitted %4 W")
+          .arg(kinds,
+               count_of(static_cast<std::size_t>(table.total.patches), "1 patch", "%1 patches"),
+               number_text(table.total.area), rgb_text(table.total.emitted));
+  return received_known
+             ? PartsPanel::tr("%1, received %2 W, absorbed %3 W (red, green, blue).")
+                   .arg(base, rgb_text(table.total.received), rgb_text(table.total.absorbed))
+             : base + PartsPanel::tr(
+                          " (red, green, blue). Received light is known "
+                          "after the first iteration.");
+}
+
+}  // namespace
+
+PartsPanel::PartsPanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
+                       QWidget* parent)
+    : QWidget(parent),
+      relighting_(relighting),
+      selection_(selection),
+      hidden_(hidden),
+      tabs_(new QTabWidget) {
+  tabs_->setDocumentMode(true);
+  tabs_->setObjectName("part_tabs");
+  QLayout* buttons = make_buttons();
+  groups_ = add_page(tr("Groups"), "group_table");
+  materials_ = add_page(tr("Materials"), "material_table");
+  exchanges_ = add_page(tr("Exchange"), "exchange_table");
+  exchanges_.view->sortByColumn(power_column, Qt::DescendingOrder);
+  refresh_timer_ = new QTimer(this);
+  refresh_timer_->setSingleShot(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(tabs_, 1);
+  layout->addLayout(buttons);
+  connect(refresh_timer_, &QTimer::timeout, this, &PartsPanel::refresh);
+  connect(tabs_, &QTabWidget::currentChanged, this, [this] {
+    refresh();
+    show_state();
+  });
+  connect(&counter_, &PowerCounter::counted, this, &PartsPanel::show_tables);
+  connect(&counter_, &PowerCounter::failed, this, &PartsPanel::failed);
+  connect(&relighting_.edits(), &MaterialEdits::changed, this, &PartsPanel::show_state);
+  connect(&selection_, &Selection::patches_changed, this, [this] {
+    if (!selects_) {
+      // A marked row means that its patches are selected.
+      groups_.view->clearSelection();
+      materials_.view->clearSelection();
+      show_state();
+    }
+  });
+  clear();
+}
+
+PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
+  const Page page{new PatchTable(this), new QTableView, new QLabel};
+  page.caption->setObjectName(QString::fromLatin1(name) + "_caption");
+  page.caption->setWordWrap(true);
+  page.caption->setContentsMargins(10, 4, 10, 4);
+  page.caption->setForegroundRole(QPalette::PlaceholderText);
+  page.view->setObjectName(QString::fromLatin1(name));
+  page.view->setModel(page.table);
+  page.view->setSelectionBehavior(QAbstractItemView::SelectRows);
+  page.view->setSelectionMode(QAbstractItemView::SingleSelection);
+  page.view->setTabKeyNavigation(false);
+  page.view->horizontalHeader()->setSortIndicator(-1, Qt::AscendingOrder);
+  page.view->setSortingEnabled(true);
+  page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
+  const bool pairs = qstrcmp(name, "exchange_table") == 0;
+  const QString name_width = QStringLiteral("Name of a group");
+  set_up_figure_table(*page.view,
+                      pairs ? QStringList{name_width, name_width} : QStringList{name_width});
+  auto* widget = new QWidget;
+  auto* layout = new QVBoxLayout(widget);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(page.caption);
+  layout->addWidget(page.view, 1);
+  tabs_->addTab(widget, title);
+  if (!pairs) {
+    page.view->addActions({select_, hide_, isolate_, emit_, reflect_});
+    connect(page.view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this, page](const QModelIndex& index) {
+              if (index.isValid() && page.view->hasFocus()) {
+                select_current();
+              }
+            });
+    connect(page.view, &QTableView::clicked, this, &PartsPanel::select_current);
+  }
+  return page;
+}
+
+QAction* PartsPanel::add_action(const char* name, const QString& text, const QString& tip,
+                                const char* key, void (PartsPanel::*what)()) {
+  auto* action = new QAction(text, this);
+  action->setObjectName(QString::fromLatin1(name));
+  action->setToolTip(tip);
+  if (key != nullptr) {
+    action->setShortcut(QKeySequence(QString::fromLatin1(key)));
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  }
+  addAction(action);
+  connect(action, &QAction::triggered, this, what);
+  return action;
+}
+
+QLayout* PartsPanel::make_buttons() {
+  select_ =
+      add_action("select_part", tr("Select its patches"), tr("Select all its patches (Return)"),
+                 "Return", &PartsPanel::select_current);
+  // H and I are keys of the window, which act on the selected patches: those of the marked row.
+  hide_ = add_action("hide_part", tr("Hide"),
+                     tr("Leave its patches out of the scene's picture (H); Shift+H shows all"),
+                     nullptr, &PartsPanel::hide_current);
+  isolate_ = add_action("isolate_part", tr("Isolate"),
+                        tr("Leave all others out of the scene's picture (I)"), nullptr,
+                        &PartsPanel::isolate_current);
+  emit_ = add_action("emit_part", tr("Make it emit"), {}, "E", &PartsPanel::make_emit);
+  reflect_ = add_action("reflect_part", tr("Make it reflect"), {}, "R", &PartsPanel::make_reflect);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 4, 8, 6);
+  for (QAction* action : {hide_, isolate_, emit_, reflect_}) {
+    auto* button = new QToolButton;
+    button->setObjectName(action->objectName() + "_button");
+    button->setDefaultAction(action);
+    row->addWidget(button);
+  }
+  row->addStretch(1);
+  return row;
+}
+
+void PartsPanel::clear() {
+  counter_.clear();
+  tables_ = nullptr;
+  for (const Page& page : {groups_, materials_, exchanges_}) {
+    page.table->set_contents({}, {});
+    page.caption->setText(scene_ ? tr("Adding up powers…")
+                                 : tr("Open a scene to list its groups and materials."));
+  }
+  show_state();
+}
+
+void PartsPanel::show_scene(std::shared_ptr<const Scene> scene) {
+  scene_ = std::move(scene);
+  snapshot_ = nullptr;
+  if (scene_->groups().empty() && tabs_->currentIndex() == 0) {
+    tabs_->setCurrentIndex(1);
+  }
+  clear();
+}
+
+void PartsPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  if (watched_ && !refresh_timer_->isActive()) {
+    refresh_timer_->start(tables_ ? refresh_interval_ms : 0);
+  }
+  show_state();
+}
+
+void PartsPanel::set_watched(bool watched) {
+  watched_ = watched;
+  refresh();
+}
+
+void PartsPanel::refresh() {
+  if (!watched_ || !snapshot_) {
+    return;
+  }
+  if (tabs_->currentIndex() == 2 && !snapshot_->form_factors) {
+    emit form_factors_requested();
+  }
+  if (!tables_ || tables_->snapshot != snapshot_) {
+    counter_.request(snapshot_);
+  }
+}
+
+void PartsPanel::show_tables(std::shared_ptr<const PowerTables> tables) {
+  if (!snapshot_ || tables->snapshot->loaded != snapshot_->loaded) {
+    return;
+  }
+  tables_ = std::move(tables);
+  show_parts(groups_, tables_->groups, PartsBy::group);
+  show_parts(materials_, tables_->materials, PartsBy::material);
+  show_exchanges();
+  show_state();
+}
+
+void PartsPanel::show_parts(const Page& page, const PowerTable& table, PartsBy by) {
+  PatchRows rows = rows_of_parts(table, tables_->received_known);
+  page.table->set_contents(std::move(rows.patches), std::move(rows.columns));
+  page.caption->setText(total_text(table, by, tables_->received_known));
+}
+
+void PartsPanel::show_exchanges() {
+  const bool by_groups = scene_ && !scene_->groups().empty();
+  const PowerTable& table = by_groups ? tables_->groups : tables_->materials;
+  PatchRows rows = rows_of_exchanges(table);
+  exchanges_.table->set_contents(std::move(rows.patches), std::move(rows.columns));
+  exchanges_.caption->setText(table.exchanged.empty() ? why_no_form_factors(*tables_->snapshot)
+                              : by_groups
+                                  ? tr("Light that goes from one group to another directly.")
+                                  : tr("Light that goes from one material to another "
+                                       "directly; the scene has no groups."));
+}
+
+PartsBy PartsPanel::current_kind() const {
+  return tabs_->currentIndex() == 0 ? PartsBy::group : PartsBy::material;
+}
+
+const PartPower* PartsPanel::current() const {
+  if (!tables_ || tabs_->currentIndex() == 2) {
+    return nullptr;
+  }
+  const bool groups = current_kind() == PartsBy::group;
+  const Page& page = groups ? groups_ : materials_;
+  const QModelIndex index = page.view->currentIndex();
+  if (!index.isValid()) {
+    return nullptr;
+  }
+  return &at((groups ? tables_->groups : tables_->materials).parts, page.table->patch(index.row()));
+}
+
+std::vector<PatchId> PartsPanel::patches_of(const PartPower& part) const {
+  const bool groups = current_kind() == PartsBy::group;
+  std::vector<PatchId> patches;
+  for (PatchId i = 0; i < scene_->patch_count(); ++i) {
+    const Patch& patch = scene_->patch(i);
+    if ((groups ? patch.group : patch.material) == part.index) {
+      patches.push_back(i);
+    }
+  }
+  return patches;
+}
+
+std::string PartsPanel::target_of(const PartPower& part) const {
+  return part.index < 0 ? std::string()
+                        : (current_kind() == PartsBy::group ? "group:" : "material:") + part.name;
+}
+
+void PartsPanel::select_current() {
+  if (const PartPower* part = current()) {
+    selects_ = true;
+    selection_.select_all(patches_of(*part));
+    selects_ = false;
+  }
+  show_state();
+}
+
+void PartsPanel::hide_current() {
+  if (const PartPower* part = current()) {
+    hidden_.hide(patches_of(*part));
+  }
+}
+
+void PartsPanel::isolate_current() {
+  if (const PartPower* part = current()) {
+    hidden_.isolate(patches_of(*part));
+  }
+}
+
+void PartsPanel::make_emit() {
+  const PartPower* part = current();
+  if (!part || target_of(*part).empty()) {
+    return;
+  }
+  const std::string target = target_of(*part);
+  relighting_.edits().begin_drag();
+  relighting_.edits().set_exitance(target, first_exitance);
+  emit target_changed(target);
+}
+
+void PartsPanel::make_reflect() {
+  const PartPower* part = current();
+  if (!part || target_of(*part).empty()) {
+    return;
+  }
+  const std::string target = target_of(*part);
+  const bool black = max_abs(relighting_.edits().values_of(target).reflectance) == 0;
+  MaterialEdits& edits = relighting_.edits();
+  edits.begin_drag();
+  edits.undo_stack().beginMacro(tr("make %1 reflect").arg(target_text(target)));
+  edits.set_exitance(target, {});
+  if (black) {
+    edits.set_reflectance(target, first_reflectance);
+  }
+  edits.undo_stack().endMacro();
+  emit target_changed(target);
+}
+
+void PartsPanel::show_state() {
+  const PartPower* part = current();
+  for (QAction* action : {select_, hide_, isolate_}) {
+    action->setEnabled(part != nullptr);
+  }
+  const bool fits = !snapshot_ || snapshot_->form_factors_fit;
+  const bool has_target = part && part->index >= 0;
+  bool all_emit = false, none_emits = true, black = false;
+  if (has_target && relighting_.edits().materials()) {
+    const PatchMaterials& materials = *relighting_.edits().materials();
+    const std::vector<PatchId> patches = patches_of(*part);
+    const auto emits = [&](PatchId i) { return max_abs(materials.of(i).exitance) > 0; };
+    all_emit = std::all_of(patches.begin(), patches.end(), emits);
+    none_emits = std::none_of(patches.begin(), patches.end(), emits);
+    black = max_abs(materials.of(patches.front()).reflectance) == 0;
+  }
+  emit_->setEnabled(has_target && fits && !all_emit);
+  reflect_->setEnabled(has_target && fits && (!none_emits || black));
+  const QString obstacle = part && !has_target ? tr("These patches are in no group")
+                           : !fits             ? tr("The form factors exceed the memory limit")
+                                               : QString();
+  emit_->setToolTip(!obstacle.isEmpty() ? obstacle
+                                        : tr("Give it an exitance of 10 W/m² (E); the sliders in "
+                                             "Materials change it"));
+  reflect_->setToolTip(!obstacle.isEmpty()
+                           ? obstacle
+                           : tr("Let it emit nothing (R); ρ stays, or becomes 0.5 where it is 0"));
+}
+
+}  // namespace transillum::viewer

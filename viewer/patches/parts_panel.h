@@ -1,0 +1,92 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/power_counter.h"
+#include "model/relighting.h"
+#include "state/hidden_patches.h"
+#include "state/selection.h"
+#include "transillum/power_table.h"
+
+class QAction;
+class QLabel;
+class QLayout;
+class QTableView;
+class QTabWidget;
+class QTimer;
+
+namespace transillum::viewer {
+
+class PatchTable;
+
+/// The groups and the materials of the scene with their powers, and what they exchange. A row
+/// selects its patches; actions hide or isolate them, and make them emit or reflect.
+class PartsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  PartsPanel(Relighting& relighting, Selection& selection, HiddenPatches& hidden,
+             QWidget* parent = nullptr);
+
+  void show_scene(std::shared_ptr<const Scene> scene);
+  void show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot);
+  /// While the panel is hidden, nothing is added up.
+  void set_watched(bool watched);
+  /// Whether the tables wait for sums.
+  bool busy() const { return counter_.busy(); }
+
+ signals:
+  void form_factors_requested();
+  void failed(const QString& message);
+  /// A target of MaterialEdits has been made to emit or to reflect.
+  void target_changed(const std::string& target);
+
+ private:
+  struct Page {
+    PatchTable* table;
+    QTableView* view;
+    QLabel* caption;
+  };
+  Page add_page(const QString& title, const char* name);
+  QLayout* make_buttons();
+  QAction* add_action(const char* name, const QString& text, const QString& tip, const char* key,
+                      void (PartsPanel::*what)());
+  void refresh();
+  void show_tables(std::shared_ptr<const PowerTables> tables);
+  void show_parts(const Page& page, const PowerTable& table, PartsBy by);
+  void show_exchanges();
+  void show_state();
+  void clear();
+
+  /// The part of the current row; null on the page of exchanges, or without a row.
+  const PartPower* current() const;
+  PartsBy current_kind() const;
+  std::vector<PatchId> patches_of(const PartPower& part) const;
+  /// The part's target of MaterialEdits; empty: the patches of no group.
+  std::string target_of(const PartPower& part) const;
+  void select_current();
+  void hide_current();
+  void isolate_current();
+  void make_emit();
+  void make_reflect();
+
+  Relighting& relighting_;
+  Selection& selection_;
+  HiddenPatches& hidden_;
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const SolverSnapshot> snapshot_;
+  std::shared_ptr<const PowerTables> tables_;
+  QTabWidget* tabs_;
+  Page groups_, materials_, exchanges_;
+  QAction *select_, *hide_, *isolate_, *emit_, *reflect_;
+  bool watched_ = false;
+  bool selects_ = false;   ///< while the panel itself changes the selection
+  QTimer* refresh_timer_;  ///< limits how often powers are added up
+  PowerCounter counter_;
+};
+
+}  // namespace transillum::viewer

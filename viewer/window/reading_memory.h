@@ -1,0 +1,44 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "model/run_options.h"
+
+class QSettings;
+
+namespace transillum::viewer {
+
+/// How scene files were read when they were last shown: units, orientation, joining of faces. Files
+/// read as usual are not listed.
+class ReadingMemory {
+ public:
+  /// Beyond this number, the file shown longest ago is forgotten.
+  static constexpr int most_files = 200;
+
+  /// What is remembered of an input: all but its changes of materials and its number of patches.
+  static SceneInput reading_of(const SceneInput& input);
+  /// A sentence part about what differs from usual, such as "1 unit = 0.01 m, faces turned"; empty:
+  /// nothing does.
+  static QString text_of(const SceneInput& input);
+
+  /// How the file was read; nothing: as usual, or never.
+  /// @param path  absolute, as by QFileInfo::absoluteFilePath()
+  std::optional<SceneInput> find(const QString& path) const;
+  /// Notes how a file has been read; it becomes the newest.
+  void remember(const QString& path, const SceneInput& input);
+  int size() const { return static_cast<int>(files_.size()); }
+
+  void save(QSettings& settings) const;
+  /// Entries that cannot be read are left out.
+  void load(const QSettings& settings);
+
+ private:
+  std::vector<std::pair<QString, SceneInput>> files_;  ///< the newest first
+};
+
+}  // namespace transillum::viewer
