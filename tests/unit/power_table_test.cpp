@@ -106,6 +106,23 @@ TEST(PowerTable, TheFurnaceAbsorbsWhatItEmits) {
   EXPECT_NEAR(table.total.escaped.r, 0, 1e-9 * table.total.area);
 }
 
+/// A part emits what its changed material says; `index` finds the part in the scene.
+TEST(PowerTable, TakesChangedMaterials) {
+  const Solved s = solved(grouped("cornell-box"), Normalization::none);
+  const Scene& scene = *s.solution.scene;
+  const std::vector<Material> materials{{"a", {0.25, 0.5, 0.75}, {1, 2, 3}}};
+  const std::vector<std::int32_t> all_the_same(scene.patches().size(), 0);
+  const PowerTable table =
+      power_table(s.solution, PartsBy::group, nullptr, materials, all_the_same);
+  EXPECT_NEAR(table.total.emitted.g, 2 * table.total.area, 1e-12 * table.total.area);
+  EXPECT_NEAR(table.total.absorbed.b, 0.25 * table.total.received.b,
+              1e-12 * table.total.received.b);
+  for (const PartPower& part : table.parts) {
+    EXPECT_EQ(part.name, part.index < 0 ? "" : at(scene.groups(), part.index));
+  }
+  EXPECT_EQ(table.total.index, -1);
+}
+
 TEST(PowerTable, KnowsWhatIsNotKnown) {
   Solved s = solved(load_scene("boards"), Normalization::none);
   s.solution.sky_shares.clear();

@@ -93,12 +93,6 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
        "stop when no patch changes by more than this fraction of the largest B; semi-iterative: "
        "when the estimated error of the mean, 95 % confidence, is at most that",
        fmt::to_string(solve.tolerance)},
-      {"sky", "a number or three",
-       "what an unobstructed patch turned upward receives from a sky, in W/m2; it is seen where no "
-       "patch is",
-       "none"},
-      {"sky-model", "a name", "how the light of the sky is distributed", name_of(solve.sky.model)},
-      {"up", "X,Y,Z", "the zenith of the sky cie-overcast", "0,0,1"},
   };
 }
 
