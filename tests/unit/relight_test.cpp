@@ -398,6 +398,29 @@ TEST(Relight, WithTheScenesOwnMaterialsEqualsTheSolve) {
   expect_same(relit.radiosity, s.radiosity, 1e-9);
 }
 
+/// What the sky gives does not depend on materials, so relighting with it equals a solve under it.
+TEST(Relight, KeepsTheLightOfTheSky) {
+  const auto scene = std::make_shared<const Scene>(describe_scene("boards"));
+  SolveOptions options{.directions = 64, .tolerance = tight};
+  options.sky.exitance = {3, 2, 1};
+  const auto changed = other(scene->materials());
+  RadiositySolver before(scene, options);
+  before.advance(RadiositySolver::Until::finished);
+  SceneDescription description = describe_scene("boards");
+  description.materials = changed;
+  RadiositySolver after(std::make_shared<const Scene>(description), options);
+  after.advance(RadiositySolver::Until::finished);
+  const std::vector<Rgb> sky = before.sky_irradiance();
+  const RelightResult relit =
+      relight(*scene, before.form_factors(), changed, {.tolerance = tight, .sky_irradiance = sky});
+  expect_same(relit.radiosity, after.radiosity(), 1e-9);
+  const std::vector<Rgb> short_list(1);
+  const auto ask = [&] {
+    relight(*scene, before.form_factors(), changed, {.sky_irradiance = short_list});
+  };
+  EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("number of patches differs")));
+}
+
 TEST(Relight, GivesTheSameBitsForAnyNumberOfThreads) {
   const Solved s = solved(describe_scene("rooms"), {.directions = 32});
   const auto materials = other(s.scene->materials());
