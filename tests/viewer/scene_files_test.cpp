@@ -109,7 +109,7 @@ class SceneFilesTest : public QObject {
     QVERIFY(opens(*window, path));
     QVERIFY(std::abs(width(*window) - 0.04) < 1e-12);
     QVERIFY(window->scene.input().orient);
-    QVERIFY2(bar->text().contains("lengths in cm, faces turned"), qPrintable(bar->text()));
+    QVERIFY2(bar->text().contains("lengths in centimeters, faces turned"), qPrintable(bar->text()));
     save_picture(*window, "reading-bar");
 
     const auto before = window->scene.loaded();
@@ -147,7 +147,7 @@ class SceneFilesTest : public QObject {
     QVERIFY(wait_for([&] { return window->scene.loaded() && window->settled(); }));
     QVERIFY(std::abs(width(*window) - 4 * 0.0254) < 1e-12);
     QCOMPARE(window->scene.input().read.join, std::optional(true));
-    QVERIFY(window->findChild<Banner*>("reading_bar")->text().contains("lengths in in"));
+    QVERIFY(window->findChild<Banner*>("reading_bar")->text().contains("lengths in inches"));
   }
 
   void only_so_many_files_are_remembered_and_damaged_ones_left_out() {

@@ -16,9 +16,13 @@ namespace {
 constexpr const char* files_key = "files/reading";
 
 QString length_text(double scale) {
-  for (const std::string& unit : length_unit_names()) {
-    if (scale == length_unit_from_name(unit)) {
-      return QObject::tr("lengths in %1").arg(QString::fromStdString(unit));
+  const std::pair<const char*, QString> units[] = {{"mm", QObject::tr("millimeters")},
+                                                   {"cm", QObject::tr("centimeters")},
+                                                   {"in", QObject::tr("inches")},
+                                                   {"ft", QObject::tr("feet")}};
+  for (const auto& [name, text] : units) {
+    if (scale == length_unit_from_name(name)) {
+      return QObject::tr("lengths in %1").arg(text);
     }
   }
   return QObject::tr("1 unit = %1 m").arg(number_text(scale));

@@ -22,8 +22,8 @@ class ReadingMemory {
 
   /// What is remembered of an input: all but its changes of materials and its number of patches.
   static SceneInput reading_of(const SceneInput& input);
-  /// A sentence part about what differs from usual, such as "1 unit = 0.01 m, faces turned"; empty:
-  /// nothing does.
+  /// A sentence part about what differs from usual, such as "lengths in centimeters, faces turned";
+  /// empty: nothing does.
   static QString text_of(const SceneInput& input);
 
   /// How the file was read; nothing: as usual, or never.
