@@ -24,6 +24,7 @@
 #include "patches/patch_table.h"
 #include "solved_window.h"
 #include "transillum/power_table.h"
+#include "window/view_state_applier.h"
 #include "window/window_session.h"
 
 using namespace transillum;
