@@ -99,8 +99,11 @@ Rgb TexturePixels::at_pixel(const Level& level, std::int64_t x, std::int64_t y, 
 
 Rgb TexturePixels::average(const std::array<TexturePoint, 3>& triangle, TextureWrap across,
                            TextureWrap down) const {
-  const auto [low_u, high_u] = std::minmax({triangle[0].u, triangle[1].u, triangle[2].u});
-  const auto [low_v, high_v] = std::minmax({triangle[0].v, triangle[1].v, triangle[2].v});
+  // Not structured bindings: clang 14 does not capture them.
+  const auto across_range = std::minmax({triangle[0].u, triangle[1].u, triangle[2].u});
+  const auto down_range = std::minmax({triangle[0].v, triangle[1].v, triangle[2].v});
+  const double low_u = across_range.first, high_u = across_range.second;
+  const double low_v = down_range.first, high_v = down_range.second;
   const bool inside = std::abs(low_u) < 1e6 && std::abs(high_u) < 1e6 && std::abs(low_v) < 1e6 &&
                       std::abs(high_v) < 1e6;
   const auto fits = [&](const Level& level) {
