@@ -180,7 +180,7 @@ TEST_F(FormFactorFiles, ArraysThatAreNoMatrixAreRefused) {
   archive("csr", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
   EXPECT_EQ(read_form_factors(path("x.npz")).form_factors.size(), 2U);
   archive("coo", {2, 2}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
-  EXPECT_THAT(refused("x.npz"), HasSubstr("a matrix of format \"coo\""));
+  EXPECT_THAT(refused("x.npz"), HasSubstr("a matrix of format `coo`"));
   archive("csr", {2, 3}, {0, 1, 2}, {1, 0}, {0.5, 0.25});
   EXPECT_THAT(refused("x.npz"), HasSubstr("not square"));
   archive("csr", {2, 2}, {0, 2, 1}, {1, 0}, {0.5, 0.25});

@@ -66,8 +66,8 @@ void read_head(MtxLines& lines) {
     lines.refuse("not a matrix in the form of Matrix Market");
   }
   if (words[2] != "coordinate" || words[3] != "real" || words[4] != "general") {
-    lines.refuse(fmt::format("a matrix `{:.12} {:.12} {:.15}`; `coordinate real general` is read",
-                             words[2], words[3], words[4]));
+    lines.refuse(fmt::format("a matrix {} {} {}; `coordinate real general` is read",
+                             in_quotes(words[2]), in_quotes(words[3]), in_quotes(words[4])));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "base/text_file.h"
 #include "io/factors/factor_formats.h"
 #include "io/factors/npy_array.h"
 #include "io/factors/zip_archive.h"
@@ -34,8 +35,8 @@ class NpzReader {
 
   PatchId patches() const {
     if (const std::string format = array("format").text(); format != "csr") {
-      refuse(fmt::format("a matrix of format \"{:.8}\"; compressed sparse rows (csr) are read",
-                         format));
+      refuse(fmt::format("a matrix of format {}; compressed sparse rows (csr) are read",
+                         in_quotes(format)));
     }
     const std::vector<std::int64_t> shape = array("shape").whole_numbers();
     constexpr std::int64_t most = std::numeric_limits<PatchId>::max() - 1;

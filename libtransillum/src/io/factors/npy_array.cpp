@@ -69,7 +69,7 @@ NpyArray::NpyArray(std::string name, std::string bytes)
   begin_ += length;
   if (width_ == 0 || size_ != (bytes_.size() - begin_) / width_ ||
       size_ * width_ != bytes_.size() - begin_) {
-    refuse(fmt::format("{} entries of type {} do not fill the array", size_, type_));
+    refuse(fmt::format("{} entries of type {} do not fill the array", size_, in_quotes(type_)));
   }
 }
 
