@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "colors/color_scale.h"
 #include "model/form_factor_views.h"
 #include "patches/part_columns.h"
 #include "patches/patch_table.h"
@@ -42,17 +43,18 @@ QString total_text(const PowerTable& table, PartsBy by, bool received_known) {
   const QString kinds = by == PartsBy::group
                             ? count_of(table.parts.size(), "1 group", "%1 groups")
                             : count_of(table.parts.size(), "1 material", "%1 materials");
-  const QString base =
-      PartsPanel::tr("%1, %2, %3 m². Emitted %4 W")
+  const QString size =
+      PartsPanel::tr("%1, %2, %3 m²")
           .arg(kinds,
                count_of(static_cast<std::size_t>(table.total.patches), "1 patch", "%1 patches"),
-               number_text(table.total.area), rgb_text(table.total.emitted));
+               number_text(table.total.area));
+  const auto watts = [](const Rgb& power) { return number_text(luminance(power)); };
   return received_known
-             ? PartsPanel::tr("%1, received %2 W, absorbed %3 W (red, green, blue).")
-                   .arg(base, rgb_text(table.total.received), rgb_text(table.total.absorbed))
-             : base + PartsPanel::tr(
-                          " (red, green, blue). Received light is known "
-                          "after the first iteration.");
+             ? PartsPanel::tr("%1: %2 W emitted, %3 W received, %4 W absorbed")
+                   .arg(size, watts(table.total.emitted), watts(table.total.received),
+                        watts(table.total.absorbed))
+             : PartsPanel::tr("%1: %2 W emitted; received light is known after an iteration")
+                   .arg(size, watts(table.total.emitted));
 }
 
 }  // namespace
@@ -112,9 +114,12 @@ PartsPanel::Page PartsPanel::add_page(const QString& title, const char* name) {
   page.view->setSortingEnabled(true);
   page.view->setContextMenuPolicy(Qt::ActionsContextMenu);
   const bool pairs = qstrcmp(name, "exchange_table") == 0;
-  const QString name_width = QStringLiteral("Name of a group");
-  set_up_figure_table(*page.view,
-                      pairs ? QStringList{name_width, name_width} : QStringList{name_width});
+  const QString name_width = QStringLiteral("Name of it");
+  set_up_figure_table(
+      *page.view, pairs ? QStringList{name_width, name_width}
+                        : QStringList{name_width, QStringLiteral("88888"), QStringLiteral("88.888"),
+                                      QStringLiteral("8.8888"), QStringLiteral("8.8888"),
+                                      QStringLiteral("8.8888")});
   auto* widget = new QWidget;
   auto* layout = new QVBoxLayout(widget);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -200,6 +205,10 @@ void PartsPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
     refresh_timer_->start(tables_ ? refresh_interval_ms : 0);
   }
   show_state();
+}
+
+bool PartsPanel::busy() const {
+  return counter_.busy() || (watched_ && refresh_timer_->isActive());
 }
 
 void PartsPanel::set_watched(bool watched) {

@@ -37,7 +37,7 @@ class PartsPanel : public QWidget {
   /// While the panel is hidden, nothing is added up.
   void set_watched(bool watched);
   /// Whether the tables wait for sums.
-  bool busy() const { return counter_.busy(); }
+  bool busy() const;
 
  signals:
   void form_factors_requested();

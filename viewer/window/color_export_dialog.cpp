@@ -123,6 +123,8 @@ void ColorExportDialog::make_fields(const Vec3& up) {
   automatic_->setToolTip(tr("98 % of the area that does not emit is below white"));
   note_ = new QLabel;
   note_->setObjectName("color_note_of_export");
+  note_->setWordWrap(true);
+  note_->setMinimumHeight(2 * note_->fontMetrics().lineSpacing());
   note_->setForegroundRole(QPalette::PlaceholderText);
   connect(format_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           &ColorExportDialog::show_state);
