@@ -17,11 +17,11 @@ namespace {
 
 using Kind = PatchColumn::Kind;
 
-QString tr(const char* text) { return QCoreApplication::translate("PartColumns", text); }
+QString part_text(const char* text) { return QCoreApplication::translate("PartColumns", text); }
 
 /// A column of names: values are positions in the sorted list, so that sorting sorts by name.
-PatchColumn name_column(const QString& title, const QString& tip, const char* csv_name,
-                        const QStringList& names) {
+PatchColumn column_of_names(const QString& title, const QString& tip, const char* csv_name,
+                            const QStringList& names) {
   PatchColumn column{title, tip, csv_name, Kind::text, {}};
   column.texts = names;
   std::sort(column.texts.begin(), column.texts.end(),
@@ -33,13 +33,14 @@ PatchColumn name_column(const QString& title, const QString& tip, const char* cs
 }
 
 QString with_luminance(const QString& meaning) {
-  return meaning + QLatin1Char('\n') + tr("Shown and sorted by luminance; point at a row for all");
+  return meaning + QLatin1Char('\n') +
+         part_text("Shown and sorted by luminance; point at a row for all");
 }
 
 }  // namespace
 
 QString part_text(const PartPower& part) {
-  return part.index < 0 ? tr("(no group)") : QString::fromStdString(part.name);
+  return part.index < 0 ? part_text("(no group)") : QString::fromStdString(part.name);
 }
 
 PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
@@ -49,7 +50,8 @@ PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
     rows.patches.push_back(static_cast<PatchId>(rows.patches.size()));
     names << part_text(part);
   }
-  rows.columns.push_back(name_column(tr("Name"), tr("Name in the scene's file"), "name", names));
+  rows.columns.push_back(
+      column_of_names(part_text("Name"), part_text("Name in the scene's file"), "name", names));
   const auto add_number = [&](const QString& title, const QString& tip, const char* csv_name,
                               Kind kind, auto member) {
     PatchColumn column{title, tip, csv_name, kind, {}};
@@ -66,21 +68,25 @@ PatchRows rows_of_parts(const PowerTable& table, bool received_known) {
     }
     rows.columns.push_back(std::move(column));
   };
-  add_number(tr("Patches"), tr("Number of patches"), "patches", Kind::integer, &PartPower::patches);
-  add_number(tr("Area, m²"), tr("Sum of the areas"), "area", Kind::number, &PartPower::area);
-  add_power(tr("Emitted, W"), tr("Power emitted: Σ A E"), "emitted", &PartPower::emitted);
+  add_number(part_text("Patches"), part_text("Number of patches"), "patches", Kind::integer,
+             &PartPower::patches);
+  add_number(part_text("Area, m²"), part_text("Sum of the areas"), "area", Kind::number,
+             &PartPower::area);
+  add_power(part_text("Emitted, W"), part_text("Power emitted: Σ A E"), "emitted",
+            &PartPower::emitted);
   if (received_known) {
-    add_power(tr("Received, W"), tr("Power received, from all sides: Σ A H"), "received",
-              &PartPower::received);
-    add_power(tr("Absorbed, W"), tr("Power absorbed: Σ A (1 − ρ) H"), "absorbed",
+    add_power(part_text("Received, W"), part_text("Power received, from all sides: Σ A H"),
+              "received", &PartPower::received);
+    add_power(part_text("Absorbed, W"), part_text("Power absorbed: Σ A (1 − ρ) H"), "absorbed",
               &PartPower::absorbed);
     if (max_abs(table.total.from_sky) > 0) {
-      add_power(tr("From sky, W"), tr("The part of the power received that comes from the sky"),
-                "from_sky", &PartPower::from_sky);
+      add_power(part_text("From sky, W"),
+                part_text("The part of the power received that comes from the sky"), "from_sky",
+                &PartPower::from_sky);
     }
     if (max_abs(table.total.escaped) > 0) {
-      add_power(tr("Escaped, W"), tr("Power that leaves it and meets no patch"), "escaped",
-                &PartPower::escaped);
+      add_power(part_text("Escaped, W"), part_text("Power that leaves it and meets no patch"),
+                "escaped", &PartPower::escaped);
     }
   }
   return rows;
@@ -97,14 +103,14 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
   }
   constexpr double rounding = 1e-13;  // of exchanges along an edge that both share
   QStringList senders, receivers;
-  PatchColumn power{tr("Power, W"),
-                    with_luminance(tr("Power that leaves one and reaches the other "
-                                      "directly: Σ A F B")),
+  PatchColumn power{part_text("Power, W"),
+                    with_luminance(part_text("Power that leaves one and reaches the other "
+                                             "directly: Σ A F B")),
                     "power",
                     Kind::channels,
                     {}};
-  PatchColumn share{tr("Share, %"),
-                    tr("Of what the receiver gets from all patches, by luminance"),
+  PatchColumn share{part_text("Share, %"),
+                    part_text("Of what the receiver gets from all patches, by luminance"),
                     "share_percent",
                     Kind::number,
                     {}};
@@ -125,8 +131,10 @@ PatchRows rows_of_exchanges(const PowerTable& table) {
       share.values.push_back({received > 0 ? 100 * luminance(from) / received : 0, 0, 0});
     }
   }
-  rows.columns.push_back(name_column(tr("From"), tr("What the light leaves"), "from", senders));
-  rows.columns.push_back(name_column(tr("To"), tr("What it reaches next"), "to", receivers));
+  rows.columns.push_back(
+      column_of_names(part_text("From"), part_text("What the light leaves"), "from", senders));
+  rows.columns.push_back(
+      column_of_names(part_text("To"), part_text("What it reaches next"), "to", receivers));
   rows.columns.push_back(std::move(power));
   rows.columns.push_back(std::move(share));
   return rows;

@@ -30,7 +30,7 @@ namespace transillum::viewer {
 
 namespace {
 
-constexpr int refresh_interval_ms = 400;
+constexpr int parts_interval_ms = 400;
 constexpr int power_column = 2;  // of the table of exchanges
 constexpr Rgb first_exitance{10, 10, 10}, first_reflectance{0.5, 0.5, 0.5};
 
@@ -202,7 +202,7 @@ void PartsPanel::show_scene(std::shared_ptr<const Scene> scene) {
 void PartsPanel::show_snapshot(std::shared_ptr<const SolverSnapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   if (watched_ && !refresh_timer_->isActive()) {
-    refresh_timer_->start(tables_ ? refresh_interval_ms : 0);
+    refresh_timer_->start(tables_ ? parts_interval_ms : 0);
   }
   show_state();
 }

@@ -101,13 +101,13 @@ std::vector<Setting> sky_settings(const Sky& sky) {
       {"sky", "W/m2, one number or three; 0: none",
        "what escapes from an open scene meets a sky: what an unobstructed patch turned upward "
        "receives from it, in W/m2",
-       "none", false},
+       "none"},
       {"sky-model", "a name",
        "uniform: the same from everywhere, also from below; cie-overcast: three times as bright at "
        "the zenith as at the horizon, nothing from below",
-       name_of(sky.model), false},
+       name_of(sky.model)},
       {"up", "a direction x,y,z", "the zenith of the sky cie-overcast",
-       fmt::format("{},{},{}", sky.up.x, sky.up.y, sky.up.z), false},
+       fmt::format("{},{},{}", sky.up.x, sky.up.y, sky.up.z)},
   };
 }
 
