@@ -157,10 +157,11 @@ void PathPanel::search() {
     show_caption();
     return;
   }
-  Request request{*std::move(light), count_->value(), {}};
+  Request request{*std::move(light), count_->value(), {}, {}};
   if (!(request == requested_) || (!paths_ && error_.isEmpty() && !finder_.busy())) {
     requested_ = request;
     request.start = snapshot_->radiosity;
+    request.sky = snapshot_->sky_irradiance;
     finder_.request(std::move(request));
   }
   show_caption();
@@ -171,6 +172,7 @@ LightPaths PathPanel::find(const Request& request, const Cancellation& cancellat
   LightPathOptions options;
   options.count = request.count;
   options.start = request.start;
+  options.sky_irradiance = request.sky;
   options.patch_materials = light.patch_materials();
   return find_light_paths(light.scene(), *light.form_factors, light.receiver, light.material_list(),
                           options, cancellation);

@@ -48,9 +48,11 @@ class PathPanel : public QWidget {
     LightRequest light;
     int count = 0;
     std::vector<Rgb> start;
+    std::vector<Rgb> sky;  ///< what each patch receives from a sky; empty: none
 
     friend bool operator==(const Request& a, const Request& b) {
-      return a.light == b.light && a.count == b.count;  // `start` changes only the time
+      // `start` changes only the time, and the sky's light belongs to the form factors.
+      return a.light == b.light && a.count == b.count;
     }
   };
   static LightPaths find(const Request& request, const Cancellation& cancellation);

@@ -16,11 +16,11 @@ namespace {
 constexpr const char* files_key = "files/reading";
 
 QString length_text(double scale) {
-  const std::pair<const char*, QString> units[] = {{"mm", QObject::tr("millimeters")},
-                                                   {"cm", QObject::tr("centimeters")},
-                                                   {"in", QObject::tr("inches")},
-                                                   {"ft", QObject::tr("feet")}};
-  for (const auto& [name, text] : units) {
+  const std::pair<const char*, QString> known_units[] = {{"mm", QObject::tr("millimeters")},
+                                                         {"cm", QObject::tr("centimeters")},
+                                                         {"in", QObject::tr("inches")},
+                                                         {"ft", QObject::tr("feet")}};
+  for (const auto& [name, text] : known_units) {
     if (scale == length_unit_from_name(name)) {
       return QObject::tr("lengths in %1").arg(text);
     }
