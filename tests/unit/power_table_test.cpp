@@ -170,7 +170,7 @@ TEST(CliSolveSky, ChecksItsOptions) {
   };
   EXPECT_THAT(refused({"--sky", "1,2"}), HasSubstr("--sky: \"1,2\" is not one or three numbers"));
   EXPECT_THAT(refused({"--sky", "-1"}), HasSubstr("--sky"));
-  EXPECT_THAT(refused({"--sky-model", "uniform"}), HasSubstr("used only with --sky"));
+  EXPECT_THAT(refused({"--sky-model", "uniform"}), HasSubstr("used only with a sky"));
   EXPECT_THAT(refused({"--sky", "1", "--sky-model", "blue"}), HasSubstr("model of the sky"));
   EXPECT_THAT(refused({"--sky", "1", "--up", "0,1,0"}), HasSubstr("cie-overcast"));
   EXPECT_THAT(run_program({"solve", "boards", "--sky", "1", "--engine", "pairs"}).err,

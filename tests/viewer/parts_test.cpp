@@ -23,6 +23,7 @@
 #include "open_scene.h"
 #include "patches/parts_panel.h"
 #include "patches/patch_table.h"
+#include "patches/path_panel.h"
 #include "solved_window.h"
 #include "transillum/power_table.h"
 #include "window/view_state_applier.h"
@@ -337,6 +338,28 @@ class PartsTest : public QObject {
       QVERIFY(max_abs(after->irradiance[i] - before->irradiance[i]) <
               1e-6 * max_abs(before->irradiance[i]));
     }
+  }
+
+  void light_paths_have_the_light_of_the_sky() {
+    SolveOptions options{.directions = 64, .tolerance = 1e-10};
+    options.sky.exitance = {5, 6, 7};
+    const Shown shown({}, options);
+    QVERIFY(shown.listed());
+    shown.window().runner.run();
+    QVERIFY(wait_for([&] { return shown.window().runner.state() == RunState::finished; }));
+    shown.window().selection.select(0);
+    shown.window().parts().docks.bring_to_front("paths");
+    auto* panel = shown.window().findChild<PathPanel*>("path_panel");
+    QVERIFY(wait_for([&] { return panel->paths() != nullptr; }));
+    const LightPaths& paths = *panel->paths();
+    const auto snapshot = shown.window().snapshot();
+    QVERIFY(max_abs(at(snapshot->radiosity, 0)) > 0);
+    QVERIFY(max_abs(paths.radiosity - at(snapshot->radiosity, 0)) <
+            1e-6 * max_abs(at(snapshot->radiosity, 0)));
+    // Some begin at a patch that emits nothing.
+    QVERIFY(std::any_of(paths.paths.begin(), paths.paths.end(), [&](const LightPath& path) {
+      return max_abs(snapshot->loaded->scene->exitance(path.patches.front())) == 0;
+    }));
   }
 
   void a_closed_scene_sees_no_sky() {
