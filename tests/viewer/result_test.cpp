@@ -102,7 +102,7 @@ class ResultTest : public QObject {
     const auto window = make_window();
     window->files().try_open(bad);
     QVERIFY(wait_for([&] { return !window->banner_text().isEmpty(); }));
-    QVERIFY(window->banner_text().startsWith(bad + ": "));
+    QVERIFY(window->banner_text().startsWith(bad + ":1: "));
   }
 
   void a_session_reopens_the_result_file() {
