@@ -12,10 +12,13 @@
 #include <QScrollBar>
 #include <QSettings>
 #include <QTextBrowser>
+#include <cmath>
 
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
+#include "stepping/event_table.h"
 #include "widgets/full_screen.h"
+#include "widgets/theme.h"
 #include "window/dock_layouts.h"
 #include "window/key_list.h"
 
@@ -191,6 +194,27 @@ class AppearanceTest : public QObject {
     QVERIFY2(lightness() < 80, qPrintable(QString::number(lightness())));
     solved.trigger("dark");
     QVERIFY(lightness() > 200);
+  }
+
+  // WCAG 2.1 asks for a contrast of 4.5 of text on its background.
+  void text_of_exchanges_can_be_read_in_both_modes() {
+    const auto luminance = [](const QColor& color) {
+      const auto linear = [](double v) {
+        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+      };
+      return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+             0.0722 * linear(color.blueF());
+    };
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      EventTable table;
+      table.set_events({{.kind = StepEvent::Kind::exchange}});
+      const auto ink = table.data(table.index(0, EventTable::of_kind), Qt::ForegroundRole);
+      const double of_text = luminance(ink.value<QColor>()), behind = luminance(theme::paper);
+      const double contrast =
+          (std::max(of_text, behind) + 0.05) / (std::min(of_text, behind) + 0.05);
+      QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
+    }
   }
 
   void one_view_fills_the_screen() {

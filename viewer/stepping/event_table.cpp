@@ -83,8 +83,7 @@ QVariant EventTable::data(const QModelIndex& index, int role) const {
       return QVariant(index.column() == of_kind ? Qt::AlignLeft | Qt::AlignVCenter
                                                 : Qt::AlignRight | Qt::AlignVCenter);
     case Qt::ForegroundRole:
-      return event.kind == StepEvent::Kind::exchange ? QVariant(theme::inside.darker(140))
-                                                     : QVariant();
+      return event.kind == StepEvent::Kind::exchange ? QVariant(theme::exchange_ink) : QVariant();
     case Qt::FontRole: {
       QFont font;
       font.setBold(event.step == current_step_);

@@ -19,9 +19,10 @@ struct Appearance {
 
 /// Colors that follow the appearance. Main thread only.
 inline QColor window, paper, ink, ink_dim, rule, accent, good;
-inline QColor warm;   ///< second curve of a chart
-inline QColor hover;  ///< under the pointer
-inline QColor title;  ///< behind a dock's title
+inline QColor warm;          ///< second curve of a chart
+inline QColor exchange_ink;  ///< text about light that is exchanged: `inside`, readable on `paper`
+inline QColor hover;         ///< under the pointer
+inline QColor title;         ///< behind a dock's title
 
 /// Colors that are the same in every appearance.
 inline const QColor on_yellow{0x1b, 0x21, 0x2a};  ///< text on `processed`
