@@ -84,7 +84,7 @@ RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAc
   hint_->setForegroundRole(QPalette::PlaceholderText);
   // A layout does not count further lines of wrapped text, and would lay the table over them.
   hint_->setMinimumHeight(2 * hint_->fontMetrics().lineSpacing() + 4);
-  table_->setMinimumHeight(60);
+  table_->setMinimumHeight(44);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
