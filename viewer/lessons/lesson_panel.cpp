@@ -118,6 +118,7 @@ void LessonPanel::make_page() {
   text_ = new PageText;
   text_->setObjectName("lesson_text");
   text_->setOpenLinks(false);
+  text_->setMinimumHeight(2 * text_->fontMetrics().lineSpacing() + 8);  // beside a long question
   connect(text_, &QTextBrowser::anchorClicked, this, [](const QUrl& link) {
     if (link.scheme().startsWith(QStringLiteral("http"))) {
       QDesktopServices::openUrl(link);
