@@ -482,13 +482,27 @@ void MainWindow::fill_built_in_menu(QMenu& menu) {
   }
 }
 
+void MainWindow::fit_into_screen(const QSize& wanted) {
+  resize(wanted.boundedTo(screen()->availableSize() - room_for_frame));
+}
+
 void MainWindow::restore_layout() {
   docks_.arrange(Layout::inspect);
   if (!remember_) {
     resize(usual_size);  // a screenshot has the same size on every screen
     return;
   }
-  resize(usual_size.boundedTo(screen()->availableSize() - room_for_frame));
+  fit_into_screen(usual_size);
+  // Panels that were laid out for the first time can have made the window larger.
+  connect(&state_.scene, &OpenScene::scene_shown, this, [this] {
+    QTimer::singleShot(0, this, [this] {
+      const QSize room = screen()->availableSize();
+      const bool fits = frameSize().boundedTo(room) == frameSize();
+      if (!fits && !isMaximized() && !isFullScreen()) {
+        fit_into_screen(size());
+      }
+    });
+  });
   QSettings settings;
   state_.breakpoints.load(settings);
   page_->turntable_action()->setChecked(settings.value("scene/turntable", false).toBool());

@@ -80,6 +80,8 @@ class MainWindow : public QMainWindow {
   void make_tool_bar();
   void fill_built_in_menu(QMenu& menu);
   void restore_layout();
+  /// Resizes the window to `wanted`, or less where the screen is smaller.
+  void fit_into_screen(const QSize& wanted);
   void save_layout();
   /// Asks about long work and unsaved notes. Whether the window may close.
   bool may_close();
