@@ -13,6 +13,7 @@
 #include <QMimeData>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QSlider>
 #include <QTemporaryDir>
@@ -372,6 +373,24 @@ class SessionFileTest : public QObject {
     QCOMPARE(session.notes, std::string("to be kept"));
     QVERIFY(QSettings().contains("window/state"));
     QVERIFY(QFile::remove(path));
+  }
+
+  // The panels of the first scene made the window of a small screen larger than the screen.
+  void a_window_larger_than_the_screen_fits_it_once_a_scene_is_open() {
+    const QTemporaryDir folder;
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder.path());
+    QCoreApplication::setOrganizationName("transillum");
+    SharedState state;
+    MainWindow window(state, true);
+    window.show();
+    const QSize screen = window.screen()->availableSize();
+    window.resize(screen + QSize(0, 60));
+    QCoreApplication::processEvents();
+    QCOMPARE(window.height(), screen.height() + 60);
+    state.scene.open("furnace", RunOptions{}, {Goal::Kind::iteration});
+    QVERIFY(wait_for([&] { return state.scene.snapshot() != nullptr; }));
+    QVERIFY(wait_for([&] { return window.height() <= screen.height(); }, 5000));
+    QFile::remove(window.close_without_questions());
   }
 
   void goes_on_where_a_killed_program_was_data() {
