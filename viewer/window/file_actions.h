@@ -65,8 +65,8 @@ class FileActions : public QObject {
   QString save_unasked();
 
   const QStringList& recent() const { return recent_; }
-  /// How scene files were read before. open() and open_scene() read a file so again unless they
-  /// are told otherwise.
+  /// How scene files were read before. open() and open_scene() read a file so again, except where
+  /// they get other options.
   ReadingMemory& reading() { return reading_memory_; }
   void save(QSettings& settings) const;
   void load(const QSettings& settings);
