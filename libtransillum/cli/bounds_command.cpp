@@ -30,9 +30,9 @@ struct BoundsCall {
 
 void check_options(const BoundsCall& call) {
   check_seed(*call.command, call.sequence);
-  for (const char* option : {"--two-sided", "--max-patch-area", "--patches",
-                             "--default-reflectance", "--max-reflectance", "--scale", "--units",
-                             "--join", "--photometric"}) {
+  for (const char* option :
+       {"--two-sided", "--max-patch-area", "--patches", "--default-reflectance",
+        "--max-reflectance", "--scale", "--units", "--join", "--photometric"}) {
     refuse_unless(!call.scene.spec.empty(), *call.command, option, "used only with a SCENE");
   }
   for (const char* option : {"--directions", "--tolerance"}) {

@@ -23,5 +23,6 @@ Run add_bounds_command(CLI::App& program);
 Run add_study_command(CLI::App& program);
 Run add_compare_command(CLI::App& program);
 Run add_info_command(CLI::App& program);
+Run add_merge_command(CLI::App& program);
 
 }  // namespace transillum::cli

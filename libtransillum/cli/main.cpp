@@ -76,7 +76,7 @@ struct Program {
     app.formatter(std::make_shared<HelpFormat>());
     for (auto add : {add_scene_command, add_solve_command, add_transfers_command, add_map_command,
                      add_factors_command, add_directions_command, add_bounds_command,
-                     add_study_command, add_compare_command, add_info_command}) {
+                     add_study_command, add_compare_command, add_info_command, add_merge_command}) {
       Run run = add(app);
       commands.emplace_back(app.get_subcommands({}).back(), std::move(run));
     }

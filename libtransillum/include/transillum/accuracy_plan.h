@@ -5,7 +5,11 @@
 // (decisions/0052-accuracy.md).
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
 #include <memory>
+#include <optional>
 
 #include "transillum/radiosity.h"
 
@@ -53,7 +57,20 @@ class AccuracyPlan {
   /// The stages so far and whether the last reached the goal.
   const AccuracyReport& report() const { return report_; }
 
+  /// Writes the state.
+  /// @param out binary; its errors are left to the caller.
+  void save(std::ostream& out) const;
+  /// Sets the state to one that save() wrote in the same version of the library, from a plan with
+  /// the same options and scene. To be called before next().
+  /// @param in binary.
+  /// @param size length of the state, bytes.
+  /// @throws std::runtime_error where it is damaged
+  void restore(std::istream& in, std::uint64_t size);
+
  private:
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self);
+
   Next grow(double factor, double seconds_per_pass, double seconds_left);
   double growth() const;
   bool is_stalled() const;
@@ -69,6 +86,15 @@ class AccuracyPlan {
 /// a goal.
 int expected_directions(const SolveOptions& options);
 
+/// A solve to an accuracy that is under way: the plan, and the solver of its stage.
+struct AccuracyRun {
+  AccuracyPlan plan;       ///< with the stages that are finished
+  RadiositySolver solver;  ///< of plan.stage()
+};
+/// Called as RadiositySolver::Observer, with the plan so far; and once more where the solve is
+/// canceled.
+using AccuracyObserver = std::function<bool(const RadiositySolver&, const AccuracyPlan&)>;
+
 /// Solves to `options.goal`.
 /// @param scene the scene.
 /// @param options with a goal.
@@ -77,13 +103,15 @@ int expected_directions(const SolveOptions& options);
 /// false ends the solve.
 /// @param cancellation checked throughout.
 /// @param seconds wall time spent before, which counts as used.
+/// @param run goes on with that instead of the first stage.
 /// @returns the last stage that was finished, with its report; complete unless canceled or ended by
 /// the observer. If that happens in the first stage: its estimate so far.
 /// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
 Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                            std::shared_ptr<const BspTree> tree = nullptr,
                            std::shared_ptr<const DirectLight> shot = nullptr,
-                           const RadiositySolver::Observer& observer = {},
-                           const Cancellation& cancellation = {}, double seconds = 0);
+                           const AccuracyObserver& observer = {},
+                           const Cancellation& cancellation = {}, double seconds = 0,
+                           std::optional<AccuracyRun> run = {});
 
 }  // namespace transillum

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -218,11 +219,13 @@ class RadiositySolver {
   /// @param cancellation checked here and in advance().
   /// @param shot direct light of the scene's small sources, if options.first_shot is set; computed
   /// here if null.
+  /// @param engine makes the passes, such as one that reads them from a file; options.engine if
+  /// null.
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   std::shared_ptr<const BspTree> tree = nullptr,
                   const Cancellation& cancellation = {},
-                  std::shared_ptr<const DirectLight> shot = nullptr);
+                  std::shared_ptr<const DirectLight> shot = nullptr, TransferEngine engine = {});
   ~RadiositySolver();
   /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver(RadiositySolver&&) noexcept;
@@ -281,6 +284,17 @@ class RadiositySolver {
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
+  /// Writes the state: all that passes and iterations have led to. An observer may call it.
+  /// @param out binary; its errors are left to the caller.
+  void save(std::ostream& out) const;
+  /// Sets the state to one that save() wrote in the same version of the library, from a solver with
+  /// the same scene and options; the number of threads may differ. The solve then continues to the
+  /// same bits. To be called before advance().
+  /// @param in binary.
+  /// @param size length of the state, bytes.
+  /// @throws std::runtime_error where it is damaged or of another scene; the solver may then only
+  /// be destroyed.
+  void restore(std::istream& in, std::uint64_t size);
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
   /// all iterations.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they

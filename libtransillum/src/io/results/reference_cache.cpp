@@ -6,21 +6,17 @@
 #include "transillum/reference_cache.h"
 
 #include <fmt/format.h>
-#include <vtksys/MD5.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <ostream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
+#include "io/content_hash.h"
 #include "transillum/files.h"
 #include "transillum/study.h"
 
@@ -29,70 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// MD5: detects accidental changes, not deliberate ones.
-class Hash {
- public:
-  Hash() : md5_(vtksysMD5_New(), vtksysMD5_Delete) { vtksysMD5_Initialize(md5_.get()); }
-
-  template <typename Value>
-  void add(const Value& value) {
-    static_assert(std::has_unique_object_representations_v<Value> ||
-                  std::is_floating_point_v<Value>);
-    append(&value, sizeof value);
-  }
-  void add(const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) {
-      add(x);
-    }
-  }
-  void add(const Rgb& v) {
-    for (const double x : {v.r, v.g, v.b}) {
-      add(x);
-    }
-  }
-  void add(const std::string& text) {
-    add(text.size());
-    append(text.data(), text.size());
-  }
-  /// The hash as 32 hexadecimal digits; may be called once.
-  std::string digits() {
-    std::array<char, 32> text{};
-    vtksysMD5_FinalizeHex(md5_.get(), text.data());
-    return {text.data(), text.size()};
-  }
-
- private:
-  void append(const void* data, std::size_t size) {
-    // MD5.h counts in int, and a negative length means "up to the final zero".
-    constexpr std::size_t max_block = 1U << 30;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t done = 0; done < size; done += max_block) {
-      vtksysMD5_Append(md5_.get(), bytes + done,
-                       static_cast<int>(std::min(max_block, size - done)));
-    }
-  }
-
-  std::unique_ptr<vtksysMD5, void (*)(vtksysMD5*)> md5_;
-};
-
-void add_scene(Hash& hash, const Scene& scene) {
-  hash.add(scene.points().size());
-  for (const Vec3& point : scene.points()) {
-    hash.add(point);
-  }
-  hash.add(scene.patch_count());
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    hash.add(scene.outline(i).size());
-    for (const PointId corner : scene.outline(i)) {
-      hash.add(corner);
-    }
-    hash.add(scene.exitance(i));
-    hash.add(scene.reflectance(i));
-  }
-}
-
 /// Adds the options that change B: not the memory nor the number of threads.
-void add_options(Hash& hash, const SolveOptions& options) {
+void add_options(ContentHash& hash, const SolveOptions& options) {
   hash.add(options.directions);
   hash.add(name_of(options.used_sampling()));
   hash.add(options.seed);
@@ -121,10 +55,11 @@ void add_options(Hash& hash, const SolveOptions& options) {
 }
 
 std::string key_of(const Scene& scene, const SolveOptions& options) {
-  Hash hash;
+  ContentHash hash;
   hash.add(std::string(TRANSILLUM_VERSION));
   hash.add(static_cast<int>(std::endian::native == std::endian::little));
-  add_scene(hash, scene);
+  hash.add_shape(scene);
+  hash.add_light(scene);
   add_options(hash, options);
   return hash.digits();
 }
@@ -134,7 +69,7 @@ std::string first_line(const std::string& key) {
 }
 
 std::string digits_of(const std::string& key, const std::vector<Rgb>& radiosity) {
-  Hash hash;
+  ContentHash hash;
   hash.add(key);
   for (const Rgb& b : radiosity) {
     hash.add(b);

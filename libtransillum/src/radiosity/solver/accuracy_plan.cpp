@@ -15,6 +15,7 @@
 #include "base/seconds_since.h"
 #include "radiosity/ratio.h"
 #include "radiosity/solver/norms.h"
+#include "radiosity/state_archive.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/solve_errors.h"
@@ -206,6 +207,39 @@ bool AccuracyPlan::enlarge() {
   return true;
 }
 
+template <class Archive, class Self>
+void AccuracyPlan::visit_state(Archive& archive, Self& self) {
+  constexpr std::uint64_t most_stages = 1000;
+  auto& report = self.report_;
+  std::uint64_t stages = report.stages.size();
+  archive(stages);
+  archive.require(stages < most_stages);
+  if constexpr (Archive::reading) {
+    report.stages.resize(static_cast<std::size_t>(stages));
+  }
+  for (auto& stage : report.stages) {
+    archive(stage.directions, stage.replicas, stage.error);
+  }
+  archive(report.error, report.reached, report.trusted, report.passes_made, self.stage_.directions,
+          self.stage_.replicas, self.light_directions_, self.seconds_, self.passes_before_);
+}
+
+void AccuracyPlan::save(std::ostream& out) const {
+  StateOutput archive(out);
+  visit_state(archive, *this);
+}
+
+void AccuracyPlan::restore(std::istream& in, std::uint64_t size) {
+  StateInput archive(in, size);
+  visit_state(archive, *this);
+  archive.finish();
+  try {
+    stage_.validate();
+  } catch (const InputError&) {
+    throw DamagedState();
+  }
+}
+
 int expected_directions(const SolveOptions& options) {
   if (!options.goal.set()) {
     return options.directions;
@@ -220,19 +254,20 @@ int expected_directions(const SolveOptions& options) {
 Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                            std::shared_ptr<const BspTree> tree,
                            std::shared_ptr<const DirectLight> shot,
-                           const RadiositySolver::Observer& observer,
-                           const Cancellation& cancellation, double seconds) {
+                           const AccuracyObserver& observer, const Cancellation& cancellation,
+                           double seconds, std::optional<AccuracyRun> run) {
   const auto start = Clock::now();
   const auto used = [&] { return seconds + seconds_since(start); };
-  AccuracyPlan plan(options, *scene);
+  AccuracyPlan plan = run ? std::move(run->plan) : AccuracyPlan(options, *scene);
   std::optional<Solution> best;
-  auto solver = std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree),
-                                                  cancellation, std::move(shot));
+  auto solver = run ? std::make_unique<RadiositySolver>(std::move(run->solver))
+                    : std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree),
+                                                        cancellation, std::move(shot));
   const SolveStatistics prepared = solver->statistics();
   bool ended = false;
   const auto watch = [&](const RadiositySolver& watched) {
     const bool late = best && options.goal.seconds > 0 && used() > options.goal.seconds;
-    ended = observer && !observer(watched);
+    ended = observer && !observer(watched, plan);
     return !ended && !late;
   };
   const auto begin_stage = [&] {
@@ -271,6 +306,9 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
     const SolveProgress progress = solver->progress();
     if (!best && progress.direction == 0 && progress.iteration == 0) {
       throw;
+    }
+    if (observer) {
+      observer(*solver, plan);
     }
     ended = true;
   }

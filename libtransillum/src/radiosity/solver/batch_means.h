@@ -22,6 +22,18 @@ class BatchMeans {
   /// @param unit above 0; of the size of the values
   std::optional<double> largest_half_width(double correlation, double unit) const;
 
+  /// For StateOutput and StateInput.
+  /// @param patches length of the lists
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self, std::size_t patches) {
+    archive(self.sums_, self.length_, self.in_last_);
+    archive.require(self.sums_.size() <= most && self.length_ > 0 && self.in_last_ >= 0 &&
+                    self.in_last_ < self.length_ && (self.in_last_ == 0 || !self.sums_.empty()));
+    for (const auto& list : self.sums_) {
+      archive.require(list.size() == patches);
+    }
+  }
+
  private:
   static constexpr std::size_t most = 16, fewest = 8;
   std::size_t complete() const { return sums_.size() - (in_last_ > 0 ? 1 : 0); }

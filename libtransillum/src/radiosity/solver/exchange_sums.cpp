@@ -113,6 +113,21 @@ void ExchangeSums::merge() {
   waiting_size_ = 0;
 }
 
+bool ExchangeSums::is_valid() const {
+  const auto exists = [this](PatchId patch) {
+    return patch >= 0 && static_cast<std::size_t>(patch) < patches_;
+  };
+  const auto& [begin, source, area] = sums_;
+  return begin.size() == patches_ + 1 && begin.front() == 0 &&
+         std::is_sorted(begin.begin(), begin.end()) && begin.back() == source.size() &&
+         source.size() == area.size() && std::all_of(source.begin(), source.end(), exists) &&
+         std::all_of(waiting_.begin(), waiting_.end(), [&](const Run& run) {
+           return std::all_of(run.begin(), run.end(), [&](const Transfer& t) {
+             return exists(t.receiver) && exists(t.source);
+           });
+         });
+}
+
 void ExchangeSums::finish() {
   if (overrun_) {
     return;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "radiosity/state_archive.h"
 #include "transillum/cancellation.h"
 #include "transillum/transfers.h"
 
@@ -51,6 +52,21 @@ class ExchangeSums {
     }
   }
 
+  /// For StateOutput and StateInput. Passes that wait stay so, since what is dropped and when
+  /// depends on them.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    archive(self.budget_, self.overrun_, self.sums_.begin, self.sums_.source, self.sums_.area,
+            self.waiting_);
+    if constexpr (Archive::reading) {
+      self.waiting_size_ = 0;
+      for (const Run& run : self.waiting_) {
+        self.waiting_size_ += run.size();
+      }
+      archive.require(self.is_valid());
+    }
+  }
+
  private:
   /// Compressed rows: row i is [begin[i], begin[i + 1]).
   struct Rows {
@@ -58,6 +74,8 @@ class ExchangeSums {
     std::vector<PatchId> source;
     std::vector<double> area;
   };
+  /// Whether all rows and patches that a state names exist.
+  bool is_valid() const;
   Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
   /// Merges the waiting passes into the sums, row by row: first the sums, then each pass.
   void merge();

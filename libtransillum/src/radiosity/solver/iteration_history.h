@@ -55,7 +55,27 @@ class IterationHistory {
   /// Iterations finished since reopen().
   int size_since_reopening() const { return size() - reopened_at_; }
 
+  /// For StateOutput and StateInput.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    archive.fixed(self.b_, self.h_);
+    IterationMean::visit_state(archive, self.mean_, self.b_.size());
+    auto entries = static_cast<std::uint64_t>(self.size());
+    archive(self.start_, entries);
+    if constexpr (Archive::reading) {
+      archive.require(entries <= most_records);
+      self.records_.resize(static_cast<std::size_t>(entries));
+    }
+    for (auto& record : self.records_) {
+      archive(record.change, record.contraction, record.seconds, record.error, record.remainder);
+    }
+    archive(self.last_change_, self.left_to_do_, self.reopened_at_, self.finished_, self.converged_,
+            self.options_.directions);
+    archive.require(self.reopened_at_ >= 0 && self.reopened_at_ <= self.size());
+  }
+
  private:
+  static constexpr std::uint64_t most_records = 1'000'000;  ///< SolveOptions::iterations
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
   /// Bound on the factor by which an iteration reduces the distance of B to its limit.
   double contraction() const;

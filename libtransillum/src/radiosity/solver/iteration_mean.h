@@ -34,6 +34,17 @@ class IterationMean {
   void add(const RadiosityIterate& iterate, const std::vector<Rgb>& before,
            const StartRemainder& start);
 
+  /// For StateOutput and StateInput.
+  /// @param patches of the scene
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self, std::size_t patches) {
+    archive(self.burn_in_, self.past_);
+    for (auto* mean : {&self.b_, &self.h_, &self.left_}) {
+      RunningMean::visit_state(archive, *mean, patches);
+    }
+    BatchMeans::visit_state(archive, self.batches_, patches);
+  }
+
  private:
   void check_burn_in();
   bool start_is_forgotten(const RadiosityIterate& iterate, const std::vector<Rgb>& before,

@@ -25,6 +25,12 @@ struct IterationUnderWay {
     estimate = b;
     seconds = 0;
   }
+  /// For StateOutput and StateInput. Directions are not part of the state.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    archive(self.begun, self.from_kept_sums, self.changes, self.seconds, self.energy_defect);
+    archive.fixed(self.estimate);
+  }
 };
 
 }  // namespace transillum

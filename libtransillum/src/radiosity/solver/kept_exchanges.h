@@ -57,6 +57,16 @@ class KeptExchanges {
   /// @param areas of the passes kept
   FormFactors form_factors(const RadiosityIterate& iterate, const VisibleAreaSums& areas) const;
 
+  /// For StateOutput and StateInput; the number of replicas must be the same.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    archive(self.requested_);
+    for (auto& part : self.sums_) {
+      archive(part);
+    }
+    archive(self.renewed_areas_);
+  }
+
  private:
   /// The sum over all replicas.
   ExchangeSums joined() const;

@@ -23,6 +23,14 @@ class LightDirections {
   /// weighted by what the pair contributes to the variance of B. 0 without light.
   double mean() const;
 
+  /// For StateOutput and StateInput, between two passes.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    for (auto& light : self.lights_) {
+      archive(light.sum, light.squares);
+    }
+  }
+
  private:
   /// Of one pair of patch and source.
   struct Light {

@@ -18,6 +18,7 @@ class PassPlan {
 
   /// Appends a replica with as many directions as the last has.
   void add_replica();
+  int added_replicas() const { return added_; }
   /// SolveOptions::directions and ::replicas, those added included.
   int directions() const { return options_.directions + added_ * per_replica(); }
   int replicas() const { return options_.replicas + added_; }

@@ -36,6 +36,17 @@ class PassStatistics {
   /// Sets transfers, counts, closure defects and escaped.
   void write_to(SolveStatistics& statistics) const;
 
+  /// For StateOutput and StateInput.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    auto& c = self.counts_;
+    archive(self.areas_, self.quadrature_errors_, self.projected_, self.covered_,
+            self.closure_relative_, self.closure_grazing_, self.light_, self.transfer_count_,
+            c.pairs, c.cuts, c.decisions, c.exact_decisions, c.exact_queries, c.pixels, c.missed,
+            c.seconds_order, c.seconds_bins, c.seconds_clip);
+    archive.fixed(self.facing_area_, self.back_seen_, self.uncovered_);
+  }
+
  private:
   const Scene& scene_;
   bool two_way_;

@@ -67,6 +67,21 @@ class RadiosityIterate {
   /// @throws Canceled, NotConvergent
   void set_to_limit(const KeptSums& sums, double tolerance, const Cancellation& cancellation);
 
+  /// For StateOutput and StateInput.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    const std::size_t patches = self.b_.size();
+    archive.fixed(self.b_, self.h_, self.unshot_, self.gathered_, self.projected_, self.sky_areas_);
+    archive.empty_or(patches, self.kept_projected_, self.scales_, self.row_sums_);
+    archive.empty_or(self.sky_areas_.size(), self.kept_sky_areas_);
+    archive(self.passes_, self.kept_passes_);
+    archive.require(self.passes_ >= 0 && self.kept_passes_ >= 0 &&
+                    self.row_sums_.size() == self.scales_.size());
+    archive.require(self.kept_passes_ == 0 ||
+                    (self.kept_projected_.size() == patches &&
+                     self.kept_sky_areas_.size() == self.sky_areas_.size()));
+  }
+
  private:
   /// H_i from what is gathered, the sky included, and B_i from H_i.
   Rgb irradiance(PatchId i, const Rgb& gathered) const;

@@ -10,9 +10,10 @@ namespace transillum {
 RadiositySolver::RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                                  std::shared_ptr<const BspTree> tree,
                                  const Cancellation& cancellation,
-                                 std::shared_ptr<const DirectLight> shot)
+                                 std::shared_ptr<const DirectLight> shot, TransferEngine engine)
     : impl_(std::make_unique<Impl>(SolverInput(std::move(scene), options, std::move(tree),
-                                               cancellation, std::move(shot)))) {}
+                                               cancellation, std::move(shot), std::move(engine)))) {
+}
 RadiositySolver::~RadiositySolver() = default;
 RadiositySolver::RadiositySolver(RadiositySolver&&) noexcept = default;
 RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = default;
@@ -73,7 +74,13 @@ Vec3 RadiositySolver::direction(int iteration, int pass) const {
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
   if (options.goal.set()) {
-    return solve_to_accuracy(scene, options, nullptr, nullptr, observer, cancellation);
+    AccuracyObserver watch;
+    if (observer) {
+      watch = [&observer](const RadiositySolver& solver, const AccuracyPlan&) {
+        return observer(solver);
+      };
+    }
+    return solve_to_accuracy(scene, options, nullptr, nullptr, watch, cancellation);
   }
   const auto start = std::chrono::steady_clock::now();
   RadiositySolver solver(std::move(scene), options, nullptr, cancellation);

@@ -39,6 +39,15 @@ class Replicas {
   /// replica has a pass.
   ErrorEstimate error_estimate(const Scene& scene, const std::vector<Rgb>& b, Radiosity kind) const;
 
+  /// For StateOutput and StateInput; the number of replicas must be the same.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    for (std::size_t r = 0; r < self.iterates_.size(); ++r) {
+      archive(self.iterates_[r]);
+      RunningMean::visit_state(archive, self.means_[r], self.iterates_[r].b().size());
+    }
+  }
+
  private:
   std::vector<Rgb> radiosity(const Scene& scene, std::size_t r, Radiosity kind) const;
 

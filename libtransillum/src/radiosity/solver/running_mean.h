@@ -26,6 +26,14 @@ struct RunningMean {
     }
     return mean;
   }
+  /// For StateOutput and StateInput.
+  /// @param patches length of the lists
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self, std::size_t patches) {
+    archive.empty_or(patches, self.sum);
+    archive(self.count);
+    archive.require(self.count >= 0 && (self.count == 0 || self.sum.size() == patches));
+  }
 };
 
 }  // namespace transillum

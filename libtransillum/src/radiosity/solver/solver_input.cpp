@@ -24,13 +24,14 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
                          const SolveOptions& solve_options,
                          std::shared_ptr<const BspTree> ready_tree,
                          const Cancellation& solve_cancellation,
-                         std::shared_ptr<const DirectLight> ready_shot)
+                         std::shared_ptr<const DirectLight> ready_shot, TransferEngine ready_engine)
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
       cancellation(solve_cancellation),
       threads(thread_count(options.threads)),
       shot(std::move(ready_shot)),
-      tree(std::move(ready_tree)) {
+      tree(std::move(ready_tree)),
+      engine(std::move(ready_engine)) {
   if (!shot) {
     const auto start = Clock::now();
     std::vector<PatchId> sources;
@@ -48,7 +49,9 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
                                            options.threads);
     seconds_bsp = seconds_since(start);
   }
-  engine = make_engine(options.engine, scene, tree, options.engine_options);
+  if (!engine) {
+    engine = make_engine(options.engine, scene, tree, options.engine_options);
+  }
 }
 
 }  // namespace transillum

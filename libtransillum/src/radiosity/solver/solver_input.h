@@ -18,11 +18,11 @@ struct SolverInput {
   TransferEngine engine;
   double seconds_first_shot = 0, seconds_bsp = 0;  ///< time spent here; 0 for what was passed in
 
-  /// Makes what is null: the light of the first shot, then the tree.
+  /// Makes what is null: the light of the first shot, the tree, the engine.
   /// @throws InputError, Canceled
   SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
               std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
-              std::shared_ptr<const DirectLight> shot);
+              std::shared_ptr<const DirectLight> shot, TransferEngine engine);
 
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
   std::size_t patch_count() const { return static_cast<std::size_t>(scene->patch_count()); }

@@ -181,13 +181,17 @@ void RadiositySolver::Impl::add_replica() {
       (scheme != Scheme::fixed && scheme != Scheme::conjugate_gradients)) {
     throw std::logic_error("add_replica: the solve is unfinished or has no replicas of one set");
   }
+  append_replica();
+  history.reopen(input.options.directions);
+}
+
+void RadiositySolver::Impl::append_replica() {
   plan.add_replica();
   input.options.directions = plan.directions();
   input.options.replicas = plan.replicas();
   iteration.directions = plan.directions(0);
   replicas.add_replica(input, whole);
   kept.add_replica();
-  history.reopen(input.options.directions);
 }
 
 double RadiositySolver::Impl::energy_defect() const {

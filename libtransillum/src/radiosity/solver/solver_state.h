@@ -5,6 +5,8 @@
 // read from it, radiosity_solver.cpp the public class.
 #pragma once
 
+#include <cstdint>
+#include <iosfwd>
 #include <memory>
 
 #include "radiosity/solver/iteration_history.h"
@@ -69,6 +71,9 @@ struct RadiositySolver::Impl {
   void finish_iteration();
   /// Continues with one replica more.
   void add_replica();
+  /// As RadiositySolver::save() and restore()
+  void save(std::ostream& out) const;
+  void restore(std::istream& in, std::uint64_t size);
   /// Power received against power sent, before rows are scaled (ALGORITHM.md, oracle 4).
   double energy_defect() const;
 
@@ -78,6 +83,12 @@ struct RadiositySolver::Impl {
   std::vector<Rgb> sky_irradiance() const;
   FormFactors form_factors() const;
   ErrorEstimate error_estimate() const;
+
+ private:
+  /// Makes room for the passes of a replica more.
+  void append_replica();
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self);
 };
 
 }  // namespace transillum

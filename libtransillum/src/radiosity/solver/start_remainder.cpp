@@ -73,9 +73,11 @@ void StartRemainder::start(const RadiosityIterate& whole) {
   gathered = max_of(gathered, (1 / area) * power + input_.options.sky.exitance);
   gathered = {gathered.r / (1 - rho_max_.r), gathered.g / (1 - rho_max_.g),
               gathered.b / (1 - rho_max_.b)};
-  upper_.emplace(scene, input_.options, *input_.shot);
+  make_upper();
   upper_->start_from(gathered);
 }
+
+void StartRemainder::make_upper() { upper_.emplace(*input_.scene, input_.options, *input_.shot); }
 
 double StartRemainder::contraction() const {
   const std::size_t count = largest_.size();

@@ -36,8 +36,26 @@ class StartRemainder {
   double contraction() const;
   double rho_max() const { return max_abs(rho_max_); }  ///< largest reflectance
 
+  /// For StateOutput and StateInput.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    bool has_upper = self.upper_.has_value();
+    archive(self.follows_, has_upper);
+    if (has_upper) {
+      if constexpr (Archive::reading) {
+        self.make_upper();
+      }
+      archive(*self.upper_);
+    }
+    archive.empty_or(self.patch_count(), self.left_);
+    archive(self.largest_);
+    archive.require(!has_upper || self.left_.size() == self.patch_count());
+  }
+
  private:
   void start(const RadiosityIterate& whole);
+  void make_upper();
+  std::size_t patch_count() const { return input_.patch_count(); }
 
   const SolverInput& input_;
   bool follows_;

@@ -36,6 +36,13 @@ struct VisibleAreaSums {
     }
     ++passes;
   }
+  /// For StateOutput and StateInput.
+  template <class Archive, class Self>
+  static void visit_state(Archive& archive, Self& self) {
+    archive.fixed(self.rows, self.columns, self.projected, self.uncovered);
+    archive(self.passes);
+    archive.require(self.passes >= 0);
+  }
 };
 
 }  // namespace transillum

@@ -1,0 +1,84 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <vtksys/MD5.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// MD5: detects accidental changes, not deliberate ones.
+class ContentHash {
+ public:
+  ContentHash() : md5_(vtksysMD5_New(), vtksysMD5_Delete) { vtksysMD5_Initialize(md5_.get()); }
+
+  template <typename Value>
+  void add(const Value& value) {
+    static_assert(std::has_unique_object_representations_v<Value> ||
+                  std::is_floating_point_v<Value>);
+    append(&value, sizeof value);
+  }
+  void add(const Vec3& v) {
+    for (const double x : {v.x, v.y, v.z}) {
+      add(x);
+    }
+  }
+  void add(const Rgb& v) {
+    for (const double x : {v.r, v.g, v.b}) {
+      add(x);
+    }
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    append(text.data(), text.size());
+  }
+  /// Adds points and outlines.
+  void add_shape(const Scene& scene) {
+    add(scene.points().size());
+    for (const Vec3& point : scene.points()) {
+      add(point);
+    }
+    add(scene.patch_count());
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      add(scene.outline(i).size());
+      for (const PointId corner : scene.outline(i)) {
+        add(corner);
+      }
+    }
+  }
+  /// Adds exitance and reflectance of every patch.
+  void add_light(const Scene& scene) {
+    for (PatchId i = 0; i < scene.patch_count(); ++i) {
+      add(scene.exitance(i));
+      add(scene.reflectance(i));
+    }
+  }
+  /// The hash as 32 hexadecimal digits; may be called once.
+  std::string digits() {
+    std::array<char, 32> text{};
+    vtksysMD5_FinalizeHex(md5_.get(), text.data());
+    return {text.data(), text.size()};
+  }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    // MD5.h counts in int, and a negative length means "up to the final zero".
+    constexpr std::size_t max_block = 1U << 30;
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t done = 0; done < size; done += max_block) {
+      vtksysMD5_Append(md5_.get(), bytes + done,
+                       static_cast<int>(std::min(max_block, size - done)));
+    }
+  }
+
+  std::unique_ptr<vtksysMD5, void (*)(vtksysMD5*)> md5_;
+};
+
+}  // namespace transillum

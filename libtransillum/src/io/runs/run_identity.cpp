@@ -1,0 +1,83 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "io/runs/run_identity.h"
+
+#include <fmt/format.h>
+
+#include "io/content_hash.h"
+#include "io/results/options_json.h"
+
+namespace transillum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// All that results depend on: not memory and threads.
+Json options_of(const SolveOptions& options, const SceneOptions& scene_options) {
+  Json json = options_json(options, scene_options);
+  json.erase("memory");
+  json.erase("threads");
+  const EngineOptions& engine = options.engine_options;
+  json["lines"] = engine.lines_per_patch;
+  json["random_lines"] = !engine.gridded;
+  json["order"] = name_of(engine.order);
+  const AccuracyGoal& goal = options.goal;
+  json["accuracy"] = goal.accuracy;
+  json["accuracy_of"] = goal.set() ? Json(name_of_accuracy(goal)) : Json();
+  json["seconds"] = goal.seconds;
+  return json;
+}
+
+Json scene_of(const Scene& scene) {
+  ContentHash shape, light;
+  shape.add_shape(scene);
+  light.add_light(scene);
+  return {{"name", scene.name()},
+          {"patches", scene.patch_count()},
+          {"shape", shape.digits()},
+          {"light", light.digits()}};
+}
+
+std::string text_of(const Json& value) { return value.is_null() ? "not given" : value.dump(); }
+
+}  // namespace
+
+Json run_identity(const Scene& scene, const SolveOptions& options) {
+  return {{"version", TRANSILLUM_VERSION},
+          {"scene", scene_of(scene)},
+          {"options", options_of(options, scene.options())}};
+}
+
+void check_identity(const SealedFile& file, const Json& expected) {
+  const Json found = file.head().value("run", Json());
+  const auto part = [&](const char* name) {
+    return found.is_object() ? found.value(name, Json()) : Json();
+  };
+  if (part("version") != expected["version"]) {
+    file.refuse(fmt::format("it was written by transillum {}, this is {}", text_of(part("version")),
+                            text_of(expected["version"])));
+  }
+  const Json options = part("options"), scene = part("scene");
+  if (!options.is_object() || !scene.is_object()) {
+    file.refuse("its head is damaged");
+  }
+  for (const auto& [name, value] : expected["options"].items()) {
+    const Json other = options.value(name, Json());
+    if (other != value) {
+      file.refuse(fmt::format("it is of a solve with other options: {} is {} there and {} here",
+                              name, text_of(other), text_of(value)));
+    }
+  }
+  const Json& wanted = expected["scene"];
+  const auto differs = [&](const char* name) { return scene.value(name, Json()) != wanted[name]; };
+  if (differs("patches")) {
+    file.refuse(fmt::format("it is of another scene: {} has {} patches, this one has {}",
+                            text_of(scene.value("name", Json())),
+                            text_of(scene.value("patches", Json())), text_of(wanted["patches"])));
+  }
+  if (differs("shape") || differs("light")) {
+    file.refuse(fmt::format("it is of another scene: its {} differ from those here",
+                            differs("shape") ? "polygons" : "reflectances or exitances"));
+  }
+}
+
+}  // namespace transillum

@@ -1,0 +1,20 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "io/runs/sealed_file.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace transillum {
+
+/// What two runs must have in common to have the same bits: version, scene, and the options that
+/// results depend on.
+nlohmann::ordered_json run_identity(const Scene& scene, const SolveOptions& options);
+
+/// Compares the identity in a file's head with that of this run.
+/// @throws InputError naming the first difference
+void check_identity(const SealedFile& file, const nlohmann::ordered_json& expected);
+
+}  // namespace transillum
