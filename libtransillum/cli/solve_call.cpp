@@ -132,12 +132,9 @@ void add_outputs(CLI::App& command, SolveCall& call) {
 }
 
 void add_runs(CLI::App& command, SolveCall& call) {
-  auto* checkpoint =
-      command
-          .add_option("--checkpoint", call.checkpoint,
-                      "save the run in this file every minute and at its end, so that --resume can "
-                      "go on with it")
-          ->type_name("FILE");
+  auto* checkpoint = add_checkpoint_options(
+      command, call.checkpoint,
+      "save the run in this file every minute and at its end, so that --resume can go on with it");
   add_parsed_option(
       command, "--checkpoint-every", "S",
       fmt::format("seconds between two saves of --checkpoint (default {:g}); longer "
@@ -150,10 +147,6 @@ void add_runs(CLI::App& command, SolveCall& call) {
           throw InputError(fmt::format("--checkpoint-every: \"{}\" is below 0", text));
         }
       })
-      ->needs(checkpoint);
-  command
-      .add_flag("--resume", call.resume,
-                "go on with the run in the file of --checkpoint, if it is there, to the same bits")
       ->needs(checkpoint);
   add_parsed_option(command, "--shard", "K/N",
                     "make only the K-th of N equal shares of the passes and write them to --out "
@@ -188,19 +181,15 @@ void check_share(const SolveCall& call) {
   }
 }
 
-/// Refuses to overwrite what a run has saved, and checkpoints where there is no run.
-void check_checkpoint(const SolveCall& call) {
-  if (call.checkpoint.empty()) {
+/// Refuses checkpoints where there are no passes.
+void check_run(const SolveCall& call) {
+  check_checkpoint(call.checkpoint);
+  if (call.checkpoint.file.empty()) {
     return;
   }
   refuse_unless(call.factors.empty(), *call.command, "--checkpoint", "not used with --factors");
   refuse_unless(takes_directions(call.options.engine), *call.command, "--checkpoint",
                 fmt::format("not used with engine {}", name_of(call.options.engine)));
-  if (!call.resume && std::filesystem::exists(call.checkpoint)) {
-    throw InputError(
-        fmt::format("{}: there is a checkpoint already; go on with it by --resume, or delete it",
-                    call.checkpoint));
-  }
 }
 
 }  // namespace
@@ -210,7 +199,7 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
     throw InputError("--out: standard output (-) is given twice");
   }
   check_share(call);
-  check_checkpoint(call);
+  check_run(call);
   std::vector<std::string> files = given_files(call.out);
   if (!call.share) {
     for (const std::string& file : files) {
@@ -227,8 +216,8 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
   if (!call.colors.series.empty()) {
     files.push_back(call.colors.series);
   }
-  if (!call.checkpoint.empty()) {
-    files.push_back(call.checkpoint);
+  if (!call.checkpoint.file.empty()) {
+    files.push_back(call.checkpoint.file);
   }
   check_output_files(files);
   check_distinct(files, call.shards);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint_options.h"
 #include "color_outputs.h"
 #include "scene_options.h"
 #include "sequence_options.h"
@@ -30,9 +31,8 @@ struct SolveCall {
   std::optional<PartsBy> by;  ///< --by
   std::string factors;        ///< --factors
   ColorOutputs colors;
-  std::string checkpoint;           ///< --checkpoint
+  CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s
-  bool resume = false;              ///< --resume
   std::optional<Share> share;       ///< --shard
   std::vector<std::string> shards;  ///< of `merge`: the passes are read from these
   bool quiet = false;

@@ -74,30 +74,17 @@ std::string size_text(std::uint64_t bytes) {
 std::optional<Checkpoint> make_checkpoint(const SolveCall& call, const Scene& scene,
                                           const SolveOptions& options) {
   std::optional<Checkpoint> checkpoint;
-  if (!call.checkpoint.empty()) {
-    checkpoint.emplace(call.checkpoint, scene, options);
+  if (!call.checkpoint.file.empty()) {
+    checkpoint.emplace(call.checkpoint.file, scene, options);
   }
   return checkpoint;
-}
-
-/// Whether there is something to go on with; checks that it is of this solve.
-bool can_resume(const SolveCall& call, const std::optional<Checkpoint>& checkpoint) {
-  if (!call.resume) {
-    return false;
-  }
-  if (!std::filesystem::exists(call.checkpoint)) {
-    print_message(call.checkpoint + ": not there yet, so the solve begins at its beginning");
-    return false;
-  }
-  checkpoint->check();
-  return true;
 }
 
 void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
   const Checkpoint::Cost& cost = checkpoint.cost();
   if (!call.quiet && cost.times > 0) {
     print_message(
-        fmt::format("{}: {}, saved {} in {:.2g} s", call.checkpoint, size_text(cost.bytes),
+        fmt::format("{}: {}, saved {} in {:.2g} s", call.checkpoint.file, size_text(cost.bytes),
                     cost.times == 1 ? "once" : fmt::format("{} times", cost.times), cost.seconds));
   }
 }
@@ -119,6 +106,10 @@ int run_solve(const SolveCall& call) {
     series.emplace(call.colors.series);
   }
   std::optional<Checkpoint> checkpoint = make_checkpoint(call, *scene, options);
+  const bool resume = can_resume(call.checkpoint);
+  if (resume) {
+    checkpoint->check();
+  }
   const SolveJob job{scene,
                      options,
                      cancellation,
@@ -128,7 +119,7 @@ int run_solve(const SolveCall& call) {
                      call.colors.series_every,
                      checkpoint ? &*checkpoint : nullptr,
                      call.checkpoint_every,
-                     can_resume(call, checkpoint),
+                     resume,
                      call.shards};
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job)

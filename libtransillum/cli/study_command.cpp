@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 
+#include "checkpoint_options.h"
 #include "commands.h"
 #include "interruption.h"
 #include "messages.h"
@@ -19,6 +23,7 @@
 #include "transillum/files.h"
 #include "transillum/reference_cache.h"
 #include "transillum/study.h"
+#include "transillum/study_checkpoint.h"
 #include "transillum/study_files.h"
 
 namespace transillum::cli {
@@ -48,6 +53,7 @@ struct StudyCall {
   std::string cache = ReferenceCache::default_folder().string();
   std::string out;
   std::vector<std::string> plots;
+  CheckpointCall checkpoint;
   bool quiet = false;
 
   bool uses(bool both_ways) const { return both_ways ? two_way || !one_way : one_way; }
@@ -206,6 +212,53 @@ void write_outputs(const StudyCall& call, const StudyOptions& options, const Stu
   write_all(writers);
 }
 
+/// Keeps the points so far in the file of --checkpoint, if there is one.
+class PointSaver {
+ public:
+  PointSaver(const CheckpointCall& call, const Scene& scene, const StudyOptions& options,
+             const SolveOptions& reference) {
+    if (call.file.empty()) {
+      return;
+    }
+    checkpoint_.emplace(call.file, scene, options, reference);
+    if (can_resume(call)) {
+      done_ = points_ = checkpoint_->resume();
+      print_message(fmt::format("{}: goes on after {} points", call.file, done_.size()));
+    }
+  }
+
+  /// The points that need not be solved again.
+  const std::vector<StudyPoint>& done() const { return done_; }
+  /// Saves after each point, but at most once a second.
+  void update(std::span<const StudyPoint> points) {
+    if (points.size() <= points_.size()) {
+      return;
+    }
+    points_.assign(points.begin(), points.end());
+    if (Clock::now() - last_ >= std::chrono::seconds(1)) {
+      save();
+    }
+  }
+  /// An error is a warning: the study is worth more than its checkpoint.
+  void save() {
+    if (!checkpoint_) {
+      return;
+    }
+    last_ = Clock::now();
+    try {
+      checkpoint_->save(points_);
+    } catch (const std::runtime_error& error) {
+      print_message(fmt::format("warning: the checkpoint could not be saved: {}", error.what()));
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<StudyCheckpoint> checkpoint_;
+  std::vector<StudyPoint> done_, points_;
+  Clock::time_point last_ = Clock::now();
+};
+
 int run(const StudyCall& call) {
   const StudyOptions options = study_options(call);
   for (const std::string& file : call.plots) {
@@ -213,6 +266,8 @@ int run(const StudyCall& call) {
   }
   std::vector<std::string> files = call.plots;
   files.push_back(call.out);
+  files.push_back(call.checkpoint.file);
+  check_checkpoint(call.checkpoint);
   files = given_files(files);
   check_output_files(files);
 
@@ -226,14 +281,17 @@ int run(const StudyCall& call) {
       build_tree(*context.scene, context.cancellation, context.display, reference_options.threads);
   const std::vector<Rgb> reference = reference_radiosity(call, reference_options, context);
   const std::vector<std::string> names = names_of(options.series);
+  PointSaver saver(call.checkpoint, *context.scene, options, reference_options);
   const Study study = run_study(
       context.scene, context.tree, options, reference,
       [&](const StudyProgress& now) {
         context.display.show(fmt::format("{}, {} passes", names[now.series], now.directions),
                              now.share, rate_text(now.passes_per_second, now.seconds_left));
+        saver.update(now.points);
       },
-      context.cancellation);
+      context.cancellation, saver.done());
   context.display.clear();
+  saver.save();
   if (study.points.empty()) {
     throw Canceled();  // nothing to save
   }
@@ -413,6 +471,8 @@ Run add_study_command(CLI::App& program) {
                   "appear in plots over seconds only",
                   fmt::join(study_axis_names(), " | ")),
       [call](const std::string& text) { call->against = study_axis_from_name(text); });
+  add_checkpoint_options(command, call->checkpoint,
+                         "save the points so far in this file, so that --resume can go on");
   command.add_flag("-q,--quiet", call->quiet, "no progress and no table on standard error");
   command.footer(
       "rms_error: RMS over patches of the error of B, relative to the RMS of B; max_error: "

@@ -20,8 +20,8 @@ struct StoredFormFactors {
   std::vector<double> areas;  ///< of the patches, m²; empty: the file does not have them
 };
 
-/// Checks that `path` is writable and ends in .csv, .npz, .mtx or .vf, or has no ending, which means
-/// .csv.
+/// Checks that `path` is writable and ends in .csv, .npz, .mtx or .vf, or has no ending, which
+/// means .csv.
 /// @throws InputError
 void check_form_factor_path(const std::filesystem::path& path);
 /// Writes form factors in the format given by the extension of `path`: .csv (i,j,F), .npz (a

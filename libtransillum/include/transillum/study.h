@@ -157,13 +157,15 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
 /// @param tree BSP tree of `scene`, used by all solves.
 /// @param options series, values of M and common settings.
 /// @param reference B, W/m², one per patch.
-/// @param observer if set, called after every pass.
+/// @param observer if set, called after every pass and every point.
 /// @param cancellation when set, the points done so far are returned.
+/// @param done points of an earlier call with the same arguments, in the order of
+/// StudyProgress::points; they are not solved again.
 /// @throws InputError, std::runtime_error
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
                 const std::vector<Rgb>& reference, const StudyObserver& observer = {},
-                const Cancellation& cancellation = {});
+                const Cancellation& cancellation = {}, std::span<const StudyPoint> done = {});
 
 /// The points of one series, by M.
 std::vector<StudyPoint> points_of(const Study& study, std::size_t series);

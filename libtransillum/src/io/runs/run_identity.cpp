@@ -11,22 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All that results depend on: not memory and threads.
-Json options_of(const SolveOptions& options, const SceneOptions& scene_options) {
-  Json json = options_json(options, scene_options);
-  json.erase("memory");
-  json.erase("threads");
-  const EngineOptions& engine = options.engine_options;
-  json["lines"] = engine.lines_per_patch;
-  json["random_lines"] = !engine.gridded;
-  json["order"] = name_of(engine.order);
-  const AccuracyGoal& goal = options.goal;
-  json["accuracy"] = goal.accuracy;
-  json["accuracy_of"] = goal.set() ? Json(name_of_accuracy(goal)) : Json();
-  json["seconds"] = goal.seconds;
-  return json;
-}
-
 Json scene_of(const Scene& scene) {
   ContentHash shape, light;
   shape.add_shape(scene);
@@ -41,10 +25,25 @@ std::string text_of(const Json& value) { return value.is_null() ? "not given" : 
 
 }  // namespace
 
+Json run_options(const SolveOptions& options, const SceneOptions& scene_options) {
+  Json json = options_json(options, scene_options);
+  json.erase("memory");
+  json.erase("threads");
+  const EngineOptions& engine = options.engine_options;
+  json["lines"] = engine.lines_per_patch;
+  json["random_lines"] = !engine.gridded;
+  json["order"] = name_of(engine.order);
+  const AccuracyGoal& goal = options.goal;
+  json["accuracy"] = goal.accuracy;
+  json["accuracy_of"] = goal.set() ? Json(name_of_accuracy(goal)) : Json();
+  json["seconds"] = goal.seconds;
+  return json;
+}
+
 Json run_identity(const Scene& scene, const SolveOptions& options) {
   return {{"version", TRANSILLUM_VERSION},
           {"scene", scene_of(scene)},
-          {"options", options_of(options, scene.options())}};
+          {"options", run_options(options, scene.options())}};
 }
 
 void check_identity(const SealedFile& file, const Json& expected) {
@@ -56,16 +55,27 @@ void check_identity(const SealedFile& file, const Json& expected) {
     file.refuse(fmt::format("it was written by transillum {}, this is {}", text_of(part("version")),
                             text_of(expected["version"])));
   }
-  const Json options = part("options"), scene = part("scene");
-  if (!options.is_object() || !scene.is_object()) {
-    file.refuse("its head is damaged");
-  }
-  for (const auto& [name, value] : expected["options"].items()) {
-    const Json other = options.value(name, Json());
-    if (other != value) {
-      file.refuse(fmt::format("it is of a solve with other options: {} is {} there and {} here",
-                              name, text_of(other), text_of(value)));
+  const auto compare = [&](const char* name) {
+    const Json options = part(name);
+    if (!options.is_object()) {
+      file.refuse("its head is damaged");
     }
+    for (const auto& [key, value] : expected[name].items()) {
+      const Json other = options.value(key, Json());
+      if (other != value) {
+        file.refuse(fmt::format("it is of a {} with other options: {} is {} there and {} here",
+                                name == std::string("study") ? "study" : "solve", key,
+                                text_of(other), text_of(value)));
+      }
+    }
+  };
+  compare("options");
+  if (expected.contains("study")) {
+    compare("study");
+  }
+  const Json scene = part("scene");
+  if (!scene.is_object()) {
+    file.refuse("its head is damaged");
   }
   const Json& wanted = expected["scene"];
   const auto differs = [&](const char* name) { return scene.value(name, Json()) != wanted[name]; };

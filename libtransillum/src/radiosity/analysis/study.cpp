@@ -88,10 +88,31 @@ class StudyRun {
   }
 
   const std::vector<StudyPoint>& points() const { return points_; }
-  void add_point(std::size_t series, int m) { points_.push_back(point(series, m)); }
-  void add_single_solve(std::size_t series) { points_.push_back(single_solve(series)); }
+  /// The next point, unless it is among those `done` before.
+  void add_point(std::size_t series, int m, std::span<const StudyPoint> done) {
+    if (points_.size() < done.size()) {
+      const SolveOptions solve = options_.solve_options(options_.series[series], m);
+      skip(done, passes_expected(solve) * options_.rotations);
+    } else {
+      points_.push_back(point(series, m));
+    }
+    report(series, m);
+  }
+  void add_single_solve(std::size_t series, std::span<const StudyPoint> done) {
+    if (points_.size() < done.size()) {
+      skip(done, scene_->patch_count());
+    } else {
+      points_.push_back(single_solve(series));
+    }
+    report(series, static_cast<int>(scene_->patch_count()));
+  }
 
  private:
+  void skip(std::span<const StudyPoint> done, double passes) {
+    points_.push_back(done[points_.size()]);
+    done_passes_ += passes;
+    skipped_passes_ += passes;
+  }
   /// The part of B that errors are computed of.
   std::vector<Rgb> compared(const std::vector<Rgb>& b) const {
     return options_.without_sources ? of_dark_patches(*scene_, b) : b;
@@ -197,8 +218,8 @@ class StudyRun {
     now.share = done_passes_ / all_passes_;
     now.points = points_;
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (seconds > 0 && done_passes_ > 0) {
-      now.passes_per_second = done_passes_ / seconds;
+    if (seconds > 0 && done_passes_ > skipped_passes_) {
+      now.passes_per_second = (done_passes_ - skipped_passes_) / seconds;
       now.seconds_left = (all_passes_ - done_passes_) / now.passes_per_second;
     }
     observer_(now);
@@ -212,7 +233,7 @@ class StudyRun {
   Cancellation cancellation_;
   double rho_max_;
   std::vector<StudyPoint> points_;
-  double all_passes_ = 0, done_passes_ = 0;
+  double all_passes_ = 0, done_passes_ = 0, skipped_passes_ = 0;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -379,7 +400,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
 Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::shared_ptr<const BspTree>& tree, const StudyOptions& options,
                 const std::vector<Rgb>& reference, const StudyObserver& observer,
-                const Cancellation& cancellation) {
+                const Cancellation& cancellation, std::span<const StudyPoint> done) {
   options.validate();
   if (reference.size() != scene->patches().size()) {
     throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
@@ -393,13 +414,13 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
     for (const int m : ascending) {
       for (std::size_t series = 0; series < options.series.size(); ++series) {
         if (takes_directions(options.series[series].engine)) {
-          run.add_point(series, m);
+          run.add_point(series, m, done);
         }
       }
     }
     for (std::size_t series = 0; series < options.series.size(); ++series) {
       if (!takes_directions(options.series[series].engine)) {
-        run.add_single_solve(series);
+        run.add_single_solve(series, done);
       }
     }
     study.complete = true;

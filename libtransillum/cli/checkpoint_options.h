@@ -1,0 +1,25 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace transillum::cli {
+
+/// --checkpoint and --resume.
+struct CheckpointCall {
+  std::string file;     ///< empty: nothing is saved
+  bool resume = false;  ///< go on with what is in the file, if it is there
+};
+
+/// @param help what --checkpoint does
+/// @returns the option --checkpoint
+CLI::Option* add_checkpoint_options(CLI::App& command, CheckpointCall& call,
+                                    const std::string& help);
+/// Refuses to overwrite what a run has saved.
+/// @throws InputError
+void check_checkpoint(const CheckpointCall& call);
+/// Whether there is something to go on with; prints that there is not, where it was asked for.
+bool can_resume(const CheckpointCall& call);
+
+}  // namespace transillum::cli
