@@ -1,0 +1,360 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A solve that goes on from any of its states has the bits of one that was not interrupted, and
+// files that are not its checkpoint are refused.
+#include "transillum/checkpoint.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/refusal.h"
+#include "support/scenes.h"
+#include "support/temporary_folder.h"
+#include "transillum/study_checkpoint.h"
+
+namespace transillum {
+namespace {
+
+using test::refusal;
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+using Until = RadiositySolver::Until;
+
+std::shared_ptr<const Scene> box() { return load_scene("cornell-box"); }
+
+bool same_bits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  const auto same = [](const Rgb& x, const Rgb& y) {
+    return x.r == y.r && x.g == y.g && x.b == y.b;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+/// Everything that a finished solve leads to, but for times.
+void expect_same(const RadiositySolver& a, const RadiositySolver& b) {
+  EXPECT_TRUE(same_bits(a.radiosity(), b.radiosity()));
+  EXPECT_TRUE(same_bits(a.irradiance(), b.irradiance()));
+  EXPECT_TRUE(same_bits(a.sky_irradiance(), b.sky_irradiance()));
+  EXPECT_TRUE(same_bits(a.error_estimate().standard_error, b.error_estimate().standard_error));
+  EXPECT_EQ(a.error_estimate().rms_limit, b.error_estimate().rms_limit);
+  EXPECT_EQ(a.form_factor_sums(), b.form_factor_sums());
+  EXPECT_EQ(a.sky_shares(), b.sky_shares());
+  EXPECT_EQ(a.back_seen_shares(), b.back_seen_shares());
+  EXPECT_EQ(a.quadrature_errors(), b.quadrature_errors());
+  const SolveStatistics s = a.statistics(), t = b.statistics();
+  EXPECT_EQ(s.passes_made, t.passes_made);
+  EXPECT_EQ(s.iterations, t.iterations);
+  EXPECT_EQ(s.burn_in, t.burn_in);
+  EXPECT_EQ(s.transfers, t.transfers);
+  EXPECT_EQ(s.kept_form_factors, t.kept_form_factors);
+  EXPECT_EQ(s.energy_defect, t.energy_defect);
+  EXPECT_EQ(s.light_directions, t.light_directions);
+  EXPECT_EQ(s.escaped, t.escaped);
+  EXPECT_EQ(s.closure_defect_max, t.closure_defect_max);
+  EXPECT_EQ(s.counts.cuts, t.counts.cuts);
+  ASSERT_EQ(s.iteration_records.size(), t.iteration_records.size());
+  for (std::size_t n = 0; n < s.iteration_records.size(); ++n) {
+    EXPECT_EQ(s.iteration_records[n].change, t.iteration_records[n].change);
+    EXPECT_EQ(s.iteration_records[n].remainder, t.iteration_records[n].remainder);
+    EXPECT_EQ(s.iteration_records[n].error, t.iteration_records[n].error);
+  }
+  if (s.kept_form_factors) {
+    EXPECT_EQ(a.form_factors().value, b.form_factors().value);
+    EXPECT_EQ(a.form_factors().source, b.form_factors().source);
+  }
+}
+
+/// Solves, keeps the state after every `every`-th pass or iteration, and goes on from each of them
+/// with another number of threads.
+void expect_all_states_lead_to_the_same(const std::shared_ptr<const Scene>& scene,
+                                        SolveOptions options, int every = 7) {
+  options.threads = 2;
+  std::vector<std::string> states;
+  int events = 0;
+  RadiositySolver whole(scene, options);
+  whole.advance(Until::finished, [&](const RadiositySolver& watched) {
+    if (events++ % every == 0 || watched.progress().direction == 0) {
+      std::ostringstream out;
+      watched.save(out);
+      states.push_back(out.str());
+    }
+    return true;
+  });
+  ASSERT_GT(states.size(), 3u);
+  for (std::size_t k = 0; k < states.size(); k += 1 + states.size() / 12) {
+    SCOPED_TRACE(k);
+    options.threads = static_cast<int>(1 + k % 3);
+    RadiositySolver resumed(scene, options, whole.shared_tree(), {}, whole.direct_light());
+    std::istringstream in(states[k]);
+    resumed.restore(in, states[k].size());
+    // In steps of passes at first, as a viewer does.
+    for (int pass = 0; pass < 3; ++pass) {
+      resumed.advance(Until::direction);
+    }
+    resumed.advance(Until::finished);
+    expect_same(whole, resumed);
+  }
+}
+
+TEST(Checkpoint, EveryStateLeadsToTheSameBits) {
+  const SolveOptions plain{.directions = 40};
+  expect_all_states_lead_to_the_same(box(), plain);
+  SolveOptions one_way = plain;
+  one_way.two_way = false;
+  one_way.normalize = Normalization::rows;
+  expect_all_states_lead_to_the_same(box(), one_way);
+  SolveOptions replicas = plain;
+  replicas.replicas = 4;
+  replicas.first_shot = 0;
+  expect_all_states_lead_to_the_same(box(), replicas);
+  SolveOptions sky = plain;
+  sky.sky.exitance = {10, 20, 30};
+  sky.engine = Engine::local;
+  expect_all_states_lead_to_the_same(load_scene("boards"), sky);
+}
+
+TEST(Checkpoint, EveryStateOfEverySchemeLeadsToTheSameBits) {
+  SolveOptions growing{.directions = 40, .scheme = Scheme::growing};
+  expect_all_states_lead_to_the_same(box(), growing);
+  SolveOptions gradients{.directions = 40,
+                         .normalize = Normalization::symmetric,
+                         .scheme = Scheme::conjugate_gradients};
+  expect_all_states_lead_to_the_same(box(), gradients);
+  SolveOptions averaged{.directions = 5, .scheme = Scheme::semi_iterative, .replicas = 2};
+  averaged.averaged_iterations = 40;
+  expect_all_states_lead_to_the_same(box(), averaged, 11);
+  // Form factors are not kept: every iteration makes the passes again.
+  SolveOptions passes{.directions = 10, .tolerance = 1e-3, .memory = 1};
+  expect_all_states_lead_to_the_same(box(), passes);
+}
+
+/// The sums exceed the memory limit in the middle: exactly when they do depends on what is stored.
+TEST(Checkpoint, DropsSumsWhereTheUnbrokenSolveDoes) {
+  SolveOptions options{.directions = 60, .tolerance = 1e-2};
+  const auto scene = load_scene("cornell-box", SceneOptions{.max_patch_area = 0.05});
+  RadiositySolver unlimited(scene, options);
+  unlimited.advance(Until::iteration);
+  options.memory = static_cast<std::uint64_t>(unlimited.statistics().form_factors) * 30;
+  RadiositySolver limited(scene, options);
+  limited.advance(Until::iteration);
+  ASSERT_FALSE(limited.statistics().kept_form_factors);
+  expect_all_states_lead_to_the_same(scene, options, 13);
+}
+
+TEST(Checkpoint, AddedReplicasGoOnToo) {
+  const SolveOptions options{.directions = 32, .replicas = 4};
+  const auto with_one_more = [&](bool interrupted) {
+    RadiositySolver solver(box(), options);
+    solver.advance(Until::finished);
+    solver.add_replica();
+    solver.advance(Until::direction);
+    if (!interrupted) {
+      solver.advance(Until::finished);
+      return solver;
+    }
+    std::stringstream state;
+    solver.save(state);
+    RadiositySolver resumed(box(), options);
+    resumed.restore(state, state.str().size());
+    EXPECT_EQ(resumed.options().directions, 40);
+    resumed.advance(Until::finished);
+    return resumed;
+  };
+  expect_same(with_one_more(false), with_one_more(true));
+}
+
+/// A solve with a goal, interrupted after `events`, and gone on with from its file.
+Solution interrupted_solve(const SolveOptions& options, int events, const std::string& file) {
+  const auto scene = box();
+  int count = 0;
+  Checkpoint checkpoint(file, *scene, options);
+  solve_to_accuracy(scene, options, nullptr, nullptr,
+                    [&](const RadiositySolver& solver, const AccuracyPlan& plan) {
+                      if (++count < events) {
+                        return true;
+                      }
+                      checkpoint.save(solver, &plan);
+                      return false;
+                    });
+  Checkpoint::Resumed resumed = checkpoint.resume(scene, options);
+  return solve_to_accuracy(scene, options, nullptr, nullptr, {}, {}, 0,
+                           AccuracyRun{std::move(*resumed.plan), std::move(resumed.solver)});
+}
+
+TEST(Checkpoint, AnAccuracyIsReachedByTheSameStages) {
+  SolveOptions options;
+  options.goal.accuracy = 0.05;
+  const Solution whole = solve(box(), options);
+  ASSERT_TRUE(whole.accuracy->reached);
+  const TemporaryFolder folder;
+  for (const int events : {1, 10, 24, 40, 90, 150}) {
+    SCOPED_TRACE(events);
+    const Solution resumed = interrupted_solve(options, events, folder.path() / "a.tck");
+    EXPECT_TRUE(same_bits(whole.radiosity, resumed.radiosity));
+    EXPECT_EQ(whole.accuracy->error, resumed.accuracy->error);
+    EXPECT_EQ(whole.accuracy->passes_made, resumed.accuracy->passes_made);
+    EXPECT_EQ(whole.accuracy->stages.size(), resumed.accuracy->stages.size());
+    EXPECT_TRUE(resumed.complete);
+  }
+}
+
+/// A file with the state in the middle of a solve.
+class CheckpointFile : public ::testing::Test {
+ protected:
+  CheckpointFile() {
+    RadiositySolver solver(scene_, options_);
+    for (int pass = 0; pass < 5; ++pass) {
+      solver.advance(Until::direction);
+    }
+    Checkpoint(file_, *scene_, options_).save(solver);
+    std::ostringstream text;
+    text << std::ifstream(file_, std::ios::binary).rdbuf();
+    content_ = text.str();
+  }
+  std::string refusal_of(const std::string& content) {
+    std::ofstream(file_, std::ios::binary) << content;
+    return refusal([&] { resume(scene_, options_); });
+  }
+  void resume(const std::shared_ptr<const Scene>& scene, const SolveOptions& options) const {
+    Checkpoint(file_, *scene, options).resume(scene, options);
+  }
+
+  TemporaryFolder folder_;
+  std::string file_ = folder_.path() / "run.tck";
+  std::shared_ptr<const Scene> scene_ = box();
+  SolveOptions options_{.directions = 12};
+  std::string content_;
+};
+
+TEST_F(CheckpointFile, IsRefusedWhereverItIsCutOff) {
+  ASSERT_EQ(refusal_of(content_), "");
+  for (std::size_t size = 0; size < content_.size(); size += 1 + content_.size() / 300) {
+    EXPECT_THAT(refusal_of(content_.substr(0, size)), HasSubstr("run.tck: it is ")) << size;
+  }
+  EXPECT_THAT(refusal_of(content_ + "x"), HasSubstr("damaged or cut off"));
+}
+
+TEST_F(CheckpointFile, IsRefusedWhereverABitIsWrong) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 400; ++k) {
+    std::string changed = content_;
+    changed[random() % changed.size()] ^= static_cast<char>(1u << (random() % 8));
+    EXPECT_THAT(refusal_of(changed), HasSubstr("run.tck: it")) << k;
+  }
+}
+
+TEST_F(CheckpointFile, IsRefusedByAnotherSolveWhichNamesTheDifference) {
+  const auto refused = [this](const std::shared_ptr<const Scene>& scene, const SolveOptions& o) {
+    return refusal([&] { resume(scene, o); });
+  };
+  SolveOptions other = options_;
+  other.directions = 13;
+  EXPECT_THAT(refused(scene_, other), HasSubstr("directions is 12 there and 13 here"));
+  other = options_;
+  other.engine = Engine::local;
+  EXPECT_THAT(refused(scene_, other), HasSubstr("engine is \"fast\" there and \"local\" here"));
+  other = options_;
+  other.sky.exitance = {1, 1, 1};
+  EXPECT_THAT(refused(scene_, other), HasSubstr("sky is not given there and {"));
+  other = options_;
+  other.goal.accuracy = 0.1;
+  EXPECT_THAT(refused(scene_, other), HasSubstr("accuracy is 0.0 there and 0.1 here"));
+  EXPECT_THAT(refused(load_scene("furnace"), options_),
+              HasSubstr("of another scene: \"cornell-box\" has 27 patches, this one has"));
+  SceneDescription description = describe_scene("cornell-box");
+  description.materials.front().reflectance.r += 1e-9;
+  EXPECT_THAT(refused(std::make_shared<const Scene>(description), options_),
+              HasSubstr("its reflectances or exitances differ"));
+  description = describe_scene("cornell-box");
+  description.points.front().x += 1e-9;
+  EXPECT_THAT(refused(std::make_shared<const Scene>(description), options_),
+              HasSubstr("its polygons differ"));
+  // Memory and threads may differ.
+  other = options_;
+  other.threads = 3;
+  other.memory = 1u << 30;
+  EXPECT_EQ(refused(scene_, other), "");
+}
+
+TEST_F(CheckpointFile, OfAnotherKindOrPlaceIsRefused) {
+  EXPECT_THAT(refusal_of("face,patch\n0,0\n"), HasSubstr("it is not a checkpoint of transillum"));
+  EXPECT_THAT(refusal_of("transillum checkpoint 9\n{}\n00000000"),
+              HasSubstr("it is a checkpoint of another version of transillum"));
+  file_ = folder_.path() / "none.tck";
+  EXPECT_THAT(refusal([&] { resume(scene_, options_); }), HasSubstr("there is no such file"));
+  file_ = folder_.path();
+  EXPECT_THAT(refusal([&] { resume(scene_, options_); }), HasSubstr("not a regular file"));
+}
+
+/// A write that fails leaves the file before.
+TEST_F(CheckpointFile, StaysWhereItsSuccessorCannotBeWritten) {
+  RadiositySolver solver(scene_, options_);
+  solver.advance(Until::direction);
+  Checkpoint full("/dev/full", *scene_, options_);
+  EXPECT_THROW(full.save(solver), std::runtime_error);
+  EXPECT_EQ(full.cost().times, 0);
+  EXPECT_EQ(refusal([&] { resume(scene_, options_); }), "");
+}
+
+TEST_F(CheckpointFile, IsSavedWhenItIsDueAndSaysItsCost) {
+  RadiositySolver solver(scene_, options_);
+  Checkpoint checkpoint(folder_.path() / "due.tck", *scene_, options_);
+  EXPECT_FALSE(checkpoint.save_if_due(solver, nullptr, 3600));
+  EXPECT_TRUE(checkpoint.save_if_due(solver, nullptr, 0));
+  EXPECT_TRUE(checkpoint.save_if_due(solver, nullptr, 0));
+  EXPECT_EQ(checkpoint.cost().times, 2);
+  EXPECT_GT(checkpoint.cost().seconds, 0);
+  EXPECT_EQ(checkpoint.cost().bytes, std::filesystem::file_size(checkpoint.file()));
+}
+
+/// Points of a study that stopped after each of its points in turn.
+TEST(StudyCheckpointFile, AStudyGoesOnAfterAnyPoint) {
+  const auto scene = box();
+  const auto tree = std::make_shared<const BspTree>(*scene);
+  StudyOptions options;
+  options.series = {{.sampling = Sampling::fibonacci},
+                    {.sampling = Sampling::random, .normalize = Normalization::rows}};
+  options.directions = {8, 32, 16};
+  const SolveOptions reference_options = options.reference();
+  const auto reference = solve_reference(scene, tree, reference_options);
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "study.tck";
+  const StudyCheckpoint checkpoint(file, *scene, options, reference_options);
+  std::vector<std::vector<StudyPoint>> stages;
+  const Study whole = run_study(scene, tree, options, reference, [&](const StudyProgress& now) {
+    if (now.points.size() > stages.size()) {
+      stages.emplace_back(now.points.begin(), now.points.end());
+    }
+  });
+  ASSERT_EQ(stages.size(), 6u);
+  for (const std::vector<StudyPoint>& points : stages) {
+    checkpoint.save(points);
+    std::size_t solved = 0;
+    const Study rest = run_study(
+        scene, tree, options, reference,
+        [&](const StudyProgress& now) { solved = now.points.size() - points.size(); }, {},
+        checkpoint.resume());
+    EXPECT_EQ(solved, 6 - points.size());
+    ASSERT_EQ(rest.points.size(), whole.points.size());
+    for (std::size_t k = 0; k < whole.points.size(); ++k) {
+      EXPECT_EQ(rest.points[k].passes, whole.points[k].passes);
+      EXPECT_EQ(rest.points[k].rms_error, whole.points[k].rms_error);
+      EXPECT_EQ(rest.points[k].max_error, whole.points[k].max_error);
+    }
+  }
+  StudyOptions other = options;
+  other.rotations = 2;
+  EXPECT_THAT(refusal([&] { StudyCheckpoint(file, *scene, other, reference_options).resume(); }),
+              HasSubstr("rotations is 1 there and 2 here"));
+  other = options;
+  other.series.back().normalize = Normalization::none;
+  EXPECT_THAT(refusal([&] { StudyCheckpoint(file, *scene, other, reference_options).resume(); }),
+              HasSubstr("it is of a study with other options: series 2 is {"));
+}
+
+}  // namespace
+}  // namespace transillum

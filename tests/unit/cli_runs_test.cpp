@@ -1,0 +1,201 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// `solve --checkpoint`, `--resume` and `--shard`, `merge` and `study --checkpoint` as programs:
+// kills, full disks and wrong calls.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "program_run.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+using Arguments = std::vector<std::string>;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A solve of about a second.
+Arguments solve(const std::string& out, const Arguments& options = {}) {
+  return Arguments{"solve", "cornell-box", "--max-patch-area", "0.02", "-m", "900", "--out", out} +
+         options;
+}
+
+/// Kills a solve with SIGKILL at random moments, `kills` times, and lets it finish.
+void expect_kills_change_nothing(int kills, const Arguments& options, unsigned seed) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(solve(folder / "whole.csv", options)).status, 0);
+  std::mt19937 random(seed);
+  const Arguments again = options + Arguments{"--checkpoint", folder / "run.tck",
+                                              "--checkpoint-every", "0", "--resume"};
+  int resumed = 0;
+  for (int k = 0; k < kills; ++k) {
+    RunningProgram program(solve(folder / "killed.csv", again));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30 + random() % 120));
+    program.send(SIGKILL);
+    resumed += program.wait().err.find("goes on after") != std::string::npos ? 1 : 0;
+    // Complete files only, whenever the kill came.
+    for (const std::string& name : folder.names()) {
+      EXPECT_THAT(name, ::testing::AnyOf("whole.csv", "killed.csv", "run.tck"));
+    }
+  }
+  EXPECT_GT(resumed, kills / 4);
+  const ProgramResult last = run_program(solve(folder / "killed.csv", again));
+  EXPECT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(read_file(folder / "whole.csv"), read_file(folder / "killed.csv"));
+}
+
+TEST(CliRuns, KillsAtRandomMomentsChangeNoBit) {
+  expect_kills_change_nothing(8, {}, 1);
+  expect_kills_change_nothing(4, {"--scheme", "semi-iterative", "-m", "60", "--iterations", "20"},
+                              2);
+  expect_kills_change_nothing(4, {"--accuracy", "1%"}, 3);
+}
+
+TEST(CliRuns, NightlyFiftyKillsChangeNoBit) {
+  expect_kills_change_nothing(50, {}, 4);
+  expect_kills_change_nothing(50, {"--replicas", "4", "--threads", "1"}, 5);
+  expect_kills_change_nothing(50, {"--accuracy", "0.5%"}, 6);
+}
+
+/// A file that may not grow stands for a disk that is full.
+TEST(CliRuns, AFullDiskCostsTheCheckpointNotTheSolve) {
+  const TemporaryFolder folder;
+  const Arguments options{"--checkpoint", folder / "run.tck", "--checkpoint-every", "0", "-q"};
+  ASSERT_EQ(run_program(solve(folder / "whole.csv")).status, 0);
+  const ProgramResult full =
+      RunningProgram(solve(folder / "a.csv", options), {}, {}, {}, "trap '' XFSZ; ulimit -f 60")
+          .wait();
+  EXPECT_EQ(full.status, 0) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("warning: the checkpoint could not be saved: "));
+  EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "whole.csv"));
+}
+
+TEST(CliRuns, ACheckpointIsSavedAtTheEndAndWhenInterrupted) {
+  const TemporaryFolder folder;
+  const Arguments keep{"--checkpoint", folder / "run.tck"};
+  const ProgramResult whole = run_program(solve(folder / "a.csv", keep));
+  EXPECT_EQ(whole.status, 0);
+  EXPECT_THAT(whole.err, ::testing::ContainsRegex("run.tck: [0-9.]+ [kM]B, saved once in"));
+  const ProgramResult again = run_program(solve(folder / "b.csv", keep + Arguments{"--resume"}));
+  EXPECT_THAT(again.err, HasSubstr("goes on after"));
+  EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
+
+  const Arguments keep_long{"-m", "100000", "--checkpoint", folder / "long.tck", "--resume"};
+  RunningProgram interrupted(solve(folder / "c.csv", keep_long));
+  while (interrupted.err_so_far().find("passes/s") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  interrupted.send(SIGINT);
+  EXPECT_EQ(interrupted.wait().status, 130);
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv", "b.csv", "c.csv", "long.tck", "run.tck"));
+}
+
+TEST(CliRuns, WrongCallsOfCheckpointsAreRefused) {
+  const TemporaryFolder folder;
+  write_text(folder / "there.tck", "mine");
+  const auto refused = [&](const Arguments& options) {
+    const ProgramResult result = run_program(solve(folder / "a.csv", options));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(line_count(result.err), 1u) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(refused({"--checkpoint", folder / "there.tck"}),
+              HasSubstr("there.tck: there is such a file already"));
+  EXPECT_THAT(refused({"--resume"}), HasSubstr("--checkpoint"));
+  EXPECT_THAT(refused({"--checkpoint", folder / "a.tck", "--engine", "pairs"}),
+              HasSubstr("--checkpoint: not used with engine pairs"));
+  EXPECT_THAT(refused({"--checkpoint", folder / "no/a.tck"}), HasSubstr("there is no folder"));
+  EXPECT_THAT(refused({"--checkpoint", folder / "a.csv"}), HasSubstr("given twice"));
+  const ProgramResult other =
+      run_program(solve(folder / "a.csv", {"--checkpoint", folder / "there.tck", "--resume"}));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("there.tck: it is not a checkpoint of transillum"));
+  EXPECT_EQ(read_file(folder / "there.tck"), "mine");
+  EXPECT_THAT(folder.names(), ElementsAre("there.tck"));
+}
+
+TEST(CliRuns, ShardsMergeToTheBitsOfOneSolve) {
+  const TemporaryFolder folder;
+  const Arguments options{"--replicas",   "3",    "-m",      "99",          "--sky",
+                          "10",           "--up", "-.5,0,1", "--sky-model", "cie-overcast",
+                          "--first-shot", "auto"};
+  ASSERT_EQ(run_program(solve(folder / "whole.csv", options)).status, 0);
+  Arguments parts;
+  for (const char* share : {"1/3", "2/3", "3/3"}) {
+    parts.push_back(folder / ("part" + std::string(1, share[0]) + ".tsh"));
+    const ProgramResult made =
+        run_program(solve(parts.back(), options + Arguments{"--shard", share}));
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr(std::string("share ") + share + " of the passes, 33 of 99"));
+  }
+  const ProgramResult merged =
+      run_program(Arguments{"merge"} + parts +
+                  Arguments{"--out", folder / "merged.csv", "--stats", folder / "merged.json"});
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_EQ(read_file(folder / "whole.csv"), read_file(folder / "merged.csv"));
+
+  const auto refused = [&](const Arguments& arguments) {
+    const ProgramResult result =
+        run_program(Arguments{"merge", "--out", folder / "none.csv"} + arguments);
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_THAT(refused({parts[0], parts[2]}), HasSubstr("shards are missing: 2/3"));
+  EXPECT_THAT(refused({parts[0], parts[0]}), HasSubstr("part1.tsh: it is share 1/3, as is"));
+  EXPECT_THAT(refused(parts + Arguments{"--scene", "furnace"}), HasSubstr("of another scene"));
+  EXPECT_THAT(refused({folder / "whole.csv"}), HasSubstr("it is not a shard of transillum"));
+  EXPECT_THAT(refused({parts[0], parts[1], parts[2], "--out", parts[0]}),
+              AllOf(HasSubstr("part1.tsh"), Not(HasSubstr("missing"))));
+  EXPECT_THAT(folder.names(), Not(::testing::Contains("none.csv")));
+}
+
+TEST(CliRuns, WrongCallsOfShardsAreRefused) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& out, const Arguments& options) {
+    const ProgramResult result = run_program(solve(folder / out, options));
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_THAT(refused("a.csv", {"--shard", "1/2"}), HasSubstr("requires --out FILE.tsh"));
+  EXPECT_THAT(refused("a.tsh", {}), HasSubstr("a shard is written with --shard K/N"));
+  EXPECT_THAT(refused("a.tsh", {"--shard", "3/2"}), HasSubstr("\"3/2\" is not a share"));
+  EXPECT_THAT(refused("a.tsh", {"--shard", "1/2", "--stats", folder / "s.json"}),
+              HasSubstr("--stats: not used with --shard; `merge` takes it"));
+  EXPECT_THAT(refused("a.tsh", {"--shard", "1/2", "--accuracy", "1%"}), HasSubstr("accuracy"));
+  EXPECT_THAT(refused("a.tsh", {"--shard", "1/2", "--scheme", "semi-iterative"}),
+              HasSubstr("semi-iterative"));
+  EXPECT_THAT(folder.names(), ElementsAre());
+}
+
+TEST(CliRuns, AStudyGoesOnAfterItsPoints) {
+  const TemporaryFolder folder;
+  const Arguments study{"study",     "cornell-box", "-m",           "16..64",        "--sampling",
+                        "fibonacci", "--no-cache",  "--checkpoint", folder / "s.tck"};
+  const ProgramResult whole = run_program(study + Arguments{"--out", folder / "a.csv"});
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  const ProgramResult again = run_program(study + Arguments{"--resume", "--out", folder / "b.csv"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("goes on after 3 points"));
+  EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "b.csv"));
+  const ProgramResult other =
+      run_program(study + Arguments{"--resume", "--rotations", "2", "--out", folder / "c.csv"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("rotations is 1 there and 2 here"));
+}
+
+}  // namespace
+}  // namespace transillum::testing
