@@ -117,7 +117,8 @@ void add_outputs(CLI::App& command, SolveCall& call) {
           "(default: a summary on standard output)")
       ->type_name("FILE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   command
       .add_option("--stats", call.stats,
                   "statistics: counts, times, change per iteration, closure and energy defects")

@@ -464,7 +464,8 @@ Run add_study_command(CLI::App& program) {
                   "ending; may be given several times")
       ->type_name("FILE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   add_parsed_option(
       command, "--against", "AXIS",
       fmt::format("{}: horizontal axis of the plots (default passes); hemicubes and pairs "

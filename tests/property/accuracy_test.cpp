@@ -194,8 +194,11 @@ TEST(Accuracy, IsRefusedWhereReplicasDoNotShowTheError) {
 /// One replica more is the run that had it from the start, up to the order of the sums.
 TEST(Accuracy, AddedReplicaIsAsOneFromTheStart) {
   const ScenePtr scene = box_in_a_room();
-  for (const Scheme scheme : {Scheme::fixed, Scheme::conjugate_gradients}) {
-    SolveOptions options{.directions = 64, .scheme = scheme, .replicas = 4, .tolerance = 1e-12};
+  std::vector<SolveOptions> all(3, {.directions = 64, .replicas = 4, .tolerance = 1e-12});
+  all[1].scheme = Scheme::conjugate_gradients;
+  all[2].normalize = Normalization::rows;
+  all[2].sky.exitance = {1, 2, 3};
+  for (SolveOptions options : all) {
     RadiositySolver solver(scene, options);
     EXPECT_THROW(solver.add_replica(), std::logic_error);
     solver.advance(RadiositySolver::Until::finished);

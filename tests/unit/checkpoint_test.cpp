@@ -146,7 +146,8 @@ TEST(Checkpoint, DropsSumsWhereTheUnbrokenSolveDoes) {
 }
 
 TEST(Checkpoint, AddedReplicasGoOnToo) {
-  const SolveOptions options{.directions = 32, .replicas = 4};
+  SolveOptions options{.directions = 32, .normalize = Normalization::rows, .replicas = 4};
+  options.sky.exitance = {5, 5, 5};
   const auto with_one_more = [&](bool interrupted) {
     RadiositySolver solver(box(), options);
     solver.advance(Until::finished);

@@ -177,5 +177,16 @@ TEST_F(CliOutputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(folder_.names(), names_);
 }
 
+TEST(CliOutputs, AFileMayBeNamedBeforeTheScene) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      run_program({"solve", "-q", "-m", "8", "--out", folder / "a.csv", "cornell-box"}).status, 0);
+  EXPECT_EQ(run_program(
+                {"study", "-q", "--no-cache", "-m", "8", "--plot", folder / "a.svg", "cornell-box"})
+                .status,
+            0);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.csv", "a.svg"}));
+}
+
 }  // namespace
 }  // namespace transillum::testing

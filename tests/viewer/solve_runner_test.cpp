@@ -5,6 +5,8 @@
 
 #include <QCoreApplication>
 #include <QElapsedTimer>
+#include <QFile>
+#include <QTemporaryDir>
 #include <QTest>
 #include <QThread>
 
@@ -58,6 +60,52 @@ class SolveRunnerTest : public QObject {
   Q_OBJECT
 
  private slots:
+  // A killed program leaves its checkpoint. The next one goes on where that was saved.
+  void goes_on_with_the_checkpoint_of_another_program() {
+    const QTemporaryDir folder;
+    const std::string mine = folder.filePath("mine.tck").toStdString();
+    const std::string left = folder.filePath("left.tck").toStdString();
+    std::vector<Rgb> radiosity;
+    {
+      Watched watched;
+      watched.runner.keep_in(mine, 0);
+      watched.open("cornell-box", 60, {Goal::Kind::passes, 25});
+      QVERIFY(watched.advances([](const SolveProgress& p) { return p.direction == 25; }));
+      QVERIFY(QFile::copy(QString::fromStdString(mine), QString::fromStdString(left)));
+      watched.runner.run();
+      QVERIFY(watched.advances([](const SolveProgress& p) { return p.finished; }));
+      radiosity = watched.snapshot->radiosity;
+    }
+    QVERIFY(!QFile::exists(QString::fromStdString(mine)));
+
+    Watched watched;
+    watched.runner.go_on_with(left);
+    watched.open("cornell-box", 60);
+    QVERIFY(watched.pauses_after_opening());
+    QVERIFY(QTest::qWaitFor([&] { return watched.snapshot != nullptr; }));
+    QCOMPARE(watched.snapshot->progress.direction, 25);
+    QVERIFY(!QFile::exists(QString::fromStdString(left)));
+    watched.runner.run();
+    QVERIFY(watched.advances([](const SolveProgress& p) { return p.finished; }));
+    QVERIFY(watched.snapshot->radiosity == radiosity);
+  }
+
+  // It is of other options, or damaged: the solve begins at its beginning.
+  void a_checkpoint_that_does_not_fit_is_left_out() {
+    const QTemporaryDir folder;
+    const QString left = folder.filePath("left.tck");
+    QFile file(left);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("transillum checkpoint 1\n{}\n00000000");
+    file.close();
+    Watched watched;
+    watched.runner.go_on_with(left.toStdString());
+    watched.open("cornell-box", 60);
+    QVERIFY(watched.pauses_after_opening());
+    QCOMPARE(watched.failure, QString());
+    QVERIFY(!QFile::exists(left));
+  }
+
   void a_scene_opens_paused() {
     Watched w;
     w.open("furnace", 16);

@@ -12,6 +12,7 @@
 
 #include "support/failure_text.h"
 #include "support/thread_priority.h"
+#include "transillum/checkpoint.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/material_changes.h"
@@ -134,6 +135,15 @@ void SolveRunner::include_form_factors() {
     includes_form_factors_ = form_factors_requested_ = true;
   }
   wake_.notify_one();
+}
+
+void SolveRunner::keep_in(std::string file, double interval) {
+  keeper_.set_file(std::move(file), interval);
+}
+
+void SolveRunner::go_on_with(std::string file) {
+  const std::lock_guard lock(mutex_);
+  go_on_with_ = std::move(file);
 }
 
 void SolveRunner::set_goal(Goal goal) {
@@ -282,6 +292,7 @@ void SolveRunner::replace_scene(const OpenRequest& request,
     ++goal_number_;
   }
   loaded_ = loaded;
+  keeper_.begin(loaded->scene, request.options.solve);
   replace_solver(std::move(solver));
   {
     const std::lock_guard lock(mutex_);
@@ -303,7 +314,9 @@ void SolveRunner::start_solve(const SolveOptions& options) {
     // The old solver has been canceled: if this fails, the next goal tries again.
     failed_start_ = options;
     more_to_do_ = true;
-    replace_solver(make_solver(*loaded_, options, solve_cancellation_));
+    PlannedSolver solver = make_solver(*loaded_, options, solve_cancellation_);
+    keeper_.begin(loaded_->scene, options);
+    replace_solver(std::move(solver));
     post_snapshot();
   } catch (...) {
     if (failed_start_) {
@@ -319,6 +332,9 @@ void SolveRunner::start_solve(const SolveOptions& options) {
 SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
                                                     const SolveOptions& options,
                                                     const Cancellation& cancellation) {
+  if (std::optional<PlannedSolver> old = resumed(loaded, options, cancellation)) {
+    return std::move(*old);
+  }
   PlannedSolver made;
   if (options.goal.set()) {
     made.plan.emplace(options, *loaded.scene);
@@ -328,20 +344,50 @@ SolveRunner::PlannedSolver SolveRunner::make_solver(const LoadedScene& loaded,
   return made;
 }
 
+/// Nothing where there is no checkpoint, or none of this solve.
+std::optional<SolveRunner::PlannedSolver> SolveRunner::resumed(const LoadedScene& loaded,
+                                                               const SolveOptions& options,
+                                                               const Cancellation& cancellation) {
+  std::string file;
+  {
+    const std::lock_guard lock(mutex_);
+    file = std::exchange(go_on_with_, {});
+  }
+  if (file.empty()) {
+    return std::nullopt;
+  }
+  const RemovedAtEnd removed(file);
+  try {
+    Checkpoint::Resumed old =
+        Checkpoint(file, *loaded.scene, options)
+            .resume(loaded.scene, options, loaded.tree, nullptr, cancellation);
+    return PlannedSolver{std::make_unique<RadiositySolver>(std::move(old.solver)),
+                         std::move(old.plan), old.seconds};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 void SolveRunner::replace_solver(PlannedSolver made) {
   solver_ = std::move(made.solver);
   plan_ = std::move(made.plan);
-  seconds_running_ = 0;
+  seconds_running_ = made.seconds;
   errors_.clear();
   solver_->keep_form_factors();
-  kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions())};
-  kept_passes_ = {solver_->progress().passes};
+  restore_history();
   kept_radiosity_.clear();
   form_factors_ = nullptr;
   form_factors_passes_ = 0;
   form_factors_fit_ = true;
   more_to_do_ = true;
   failed_start_.reset();
+}
+
+/// Directions and numbers of passes of the iterations that the solver has begun.
+void SolveRunner::restore_history() {
+  kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions_of(0))};
+  kept_passes_ = {solver_->passes_of(0)};
+  store_directions();
 }
 
 void SolveRunner::store_radiosity() {
@@ -372,15 +418,16 @@ void SolveRunner::store_directions() {
   const std::size_t begun =
       static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
   while (kept_directions_.size() < begun) {
-    const std::vector<Vec3>& directions = solver_->directions();
+    const auto iteration = static_cast<int>(kept_directions_.size());
     if (solver_->options().scheme != Scheme::semi_iterative) {
       kept_directions_.push_back(kept_directions_.front());
-    } else if (directions.size() * begun * sizeof(Vec3) <= most_kept_bytes) {
-      kept_directions_.push_back(std::make_shared<const std::vector<Vec3>>(directions));
+    } else if (solver_->directions().size() * begun * sizeof(Vec3) <= most_kept_bytes) {
+      kept_directions_.push_back(
+          std::make_shared<const std::vector<Vec3>>(solver_->directions_of(iteration)));
     } else {
       kept_directions_.push_back(nullptr);
     }
-    kept_passes_.push_back(progress.passes);
+    kept_passes_.push_back(solver_->passes_of(iteration));
   }
 }
 
@@ -424,6 +471,7 @@ bool SolveRunner::advance_stage(const Goal& goal) {
       });
     }
     seconds_running_ += seconds(timer);
+    keeper_.save_soon(*solver_, plan_ ? &*plan_ : nullptr);
     stage_begins = !more_to_do_ && begin_next_stage();
     more_to_do_ = more_to_do_ || stage_begins;
   } catch (const Canceled&) {
@@ -474,8 +522,7 @@ void SolveRunner::begin_stage() {
   const double running = seconds_running_;
   auto solver = std::make_unique<RadiositySolver>(loaded_->scene, plan_->stage(), loaded_->tree,
                                                   solve_cancellation_, solver_->direct_light());
-  replace_solver({std::move(solver), std::move(plan_)});
-  seconds_running_ = running;
+  replace_solver({std::move(solver), std::move(plan_), running});
 }
 
 void SolveRunner::advance_exactly(std::int64_t passes) {
@@ -511,6 +558,7 @@ void SolveRunner::on_pass(const RadiositySolver& solver) {
     iteration_changes_ = solver.estimate_changes();
     changes_iteration_ = progress.iteration;
   }
+  keeper_.save_if_due(solver, plan_ ? &*plan_ : nullptr);
   // Snapshots take at most a fifth of the solver's time.
   const double interval_ms =
       std::max<double>(refresh_interval_.load(std::memory_order_relaxed), 5 * snapshot_cost_ms_);

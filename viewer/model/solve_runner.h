@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "model/checkpoint_keeper.h"
 #include "model/run_options.h"
 #include "model/snapshot.h"
 #include "transillum/accuracy_plan.h"
@@ -60,6 +61,15 @@ class SolveRunner : public QObject {
   /// Starts a new solve run of the open scene.
   void restart(const SolveOptions& options, Goal then);
 
+  /// From now on, the solve is kept in `file`: every minute, some seconds after iterations and when
+  /// it pauses; with an interval of 0 after every pass. Of a solve that is replaced, nothing is
+  /// kept. Empty: nothing is kept, and the file is removed.
+  /// @param interval s
+  void keep_in(std::string file, double interval = 60);
+  /// The next solve goes on with the checkpoint in `file`, if that is of the same scene and
+  /// options; else it begins at its beginning. The file is removed then.
+  void go_on_with(std::string file);
+
   /// From now on, snapshots include the form factors if they fit into the memory limit.
   void include_form_factors();
 
@@ -81,9 +91,12 @@ class SolveRunner : public QObject {
   struct PlannedSolver {
     std::unique_ptr<RadiositySolver> solver;
     std::optional<AccuracyPlan> plan;
+    double seconds = 0;  ///< running, before this program
   };
-  static PlannedSolver make_solver(const LoadedScene& loaded, const SolveOptions& options,
-                                   const Cancellation& cancellation);
+  PlannedSolver make_solver(const LoadedScene& loaded, const SolveOptions& options,
+                            const Cancellation& cancellation);
+  std::optional<PlannedSolver> resumed(const LoadedScene& loaded, const SolveOptions& options,
+                                       const Cancellation& cancellation);
 
   void deliver_snapshot();
   // The rest runs on the worker's thread.
@@ -105,6 +118,7 @@ class SolveRunner : public QObject {
   void advance_exactly(std::int64_t passes);
   std::int64_t passes_so_far() const;
   void on_pass(const RadiositySolver& solver);
+  void restore_history();
   void store_radiosity();
   void store_directions();
   void store_errors();
@@ -136,6 +150,9 @@ class SolveRunner : public QObject {
   Cancellation load_cancellation_;   // of the running or the last load
   Cancellation solve_cancellation_;  // that solver_ was created with
   std::shared_ptr<const SolverSnapshot> pending_snapshot_;
+  std::string go_on_with_;  // checkpoint of another program; empty: none
+
+  CheckpointKeeper keeper_;
 
   std::atomic<bool> interrupted_ = false;  // pause after the current pass
   std::atomic<int> refresh_interval_ = 66;

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// One file of the session per running program, NAME.json, and a lock file, NAME.lock, which tells
-// other programs whether it still runs.
+// Per running program one file of the session, NAME.json, one of its solve, NAME.tck, and a lock
+// file, NAME.lock, which tells other programs whether it still runs.
 #include "window/recovery.h"
 
 #include <QDateTime>
@@ -34,6 +34,11 @@ QString made(const QString& folder) {
   return folder;
 }
 
+/// The solve of a session.
+QString checkpoint_of(const QString& session) {
+  return session.chopped(QStringLiteral("json").size()) + QStringLiteral("tck");
+}
+
 }  // namespace
 
 Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QString& folder)
@@ -53,6 +58,7 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
   connect(&parts_.scene, &OpenScene::snapshot_shown, this, &Recovery::on_snapshot);
   connect(&parts_.scene, &OpenScene::scene_shown, this, [this] { kept_iteration_ = -1; });
   every_.start();
+  parts_.runner.keep_in(checkpoint_of(session_file(name_)).toStdString());
   Banner* bar = parts_.page.recovery_bar();
   QPushButton* restore = bar->add_button("restore_session", tr("Go on"));
   restore->setToolTip(tr("Open the scene as it was, with its solve, position, views and notes"));
@@ -65,7 +71,10 @@ Recovery::Recovery(const WindowParts& parts, WindowSession& session, const QStri
   });
 }
 
-Recovery::~Recovery() { QFile::remove(session_file(name_)); }
+Recovery::~Recovery() {
+  QFile::remove(session_file(name_));
+  parts_.runner.keep_in({});
+}
 
 QString Recovery::usual_folder() {
   return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) +
@@ -74,6 +83,22 @@ QString Recovery::usual_folder() {
 
 QString Recovery::session_file(const QString& name) const {
   return QStringLiteral("%1/%2.json").arg(folder_, name);
+}
+
+QString Recovery::taken_over(const QString& checkpoint) const {
+  const QString mine = QStringLiteral("%1/%2-taken.tck").arg(folder_, name_);
+  return QFile::rename(checkpoint, mine) ? mine : QString();
+}
+
+void Recovery::remove_orphans() const {
+  for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.tck"}, QDir::Files)) {
+    const QString name = found.completeBaseName().remove(QStringLiteral("-taken"));
+    QLockFile lock(folder_ + '/' + name + ".lock");
+    lock.setStaleLockTime(0);
+    if (name != name_ && !QFile::exists(session_file(name)) && lock.tryLock()) {
+      QFile::remove(found.filePath());
+    }
+  }
 }
 
 void Recovery::on_snapshot() {
@@ -97,6 +122,7 @@ void Recovery::keep() {
 }
 
 void Recovery::offer() {
+  remove_orphans();
   // The newest first; others are offered once it is discarded, or by later starts.
   for (const QFileInfo& found : QDir(folder_).entryInfoList({"*.json"}, QDir::Files, QDir::Time)) {
     QLockFile lock(folder_ + '/' + found.completeBaseName() + ".lock");
@@ -118,6 +144,7 @@ void Recovery::restore() {
     return;
   }
   parts_.page.recovery_bar()->dismiss();
+  parts_.runner.go_on_with(taken_over(checkpoint_of(offered_)).toStdString());
   try {
     const std::string name = offered_.toStdString();
     session_.restore(session_from_text(read_json_file(name), name, folder_.toStdString()));
@@ -130,6 +157,7 @@ void Recovery::restore() {
 
 void Recovery::discard() {
   parts_.page.recovery_bar()->dismiss();
+  QFile::remove(checkpoint_of(offered_));
   QFile::remove(offered_);
   offered_.clear();
 }

@@ -13,8 +13,9 @@ namespace transillum::viewer {
 class WindowSession;
 
 /// Keeps the session of the window in a file while the program runs: every minute, and soon after
-/// each iteration. If the program is killed, the next one offers to go on from there. Solves have
-/// the same bits each time, so the run that goes on ends as the unbroken one would have.
+/// each iteration; the solve in a checkpoint beside it (SolveRunner::keep_in()). If the program is
+/// killed, the next one offers to go on from there. A solve without a checkpoint is made again;
+/// either way it ends with the bits of the unbroken one.
 ///
 /// Threads: the main thread only. Several programs may use one folder.
 class Recovery : public QObject {
@@ -35,6 +36,10 @@ class Recovery : public QObject {
 
  private:
   QString session_file(const QString& name) const;
+  /// Makes a checkpoint of another program this one's; empty if there is none.
+  QString taken_over(const QString& checkpoint) const;
+  /// Removes solves whose sessions are gone.
+  void remove_orphans() const;
   void on_snapshot();
   void restore();
   void discard();

@@ -324,6 +324,12 @@ class RadiositySolver {
   /// @param iteration from 0.
   /// @param pass from 0; less than the number of passes of that iteration.
   Vec3 direction(int iteration, int pass) const;
+  /// omega of the passes of any iteration, as directions().
+  /// @param iteration from 0.
+  std::vector<Vec3> directions_of(int iteration) const;
+  /// Number of passes of any iteration, including those whose exchanges are kept.
+  /// @param iteration from 0.
+  int passes_of(int iteration) const;
   /// Per pass of the current iteration: relative change (maximum norm) of the running estimate by
   /// that pass. Empty between iterations.
   const std::vector<double>& estimate_changes() const;

@@ -41,6 +41,7 @@ namespace transillum {}
 #include "transillum/relight.h"
 #include "transillum/result_comparison.h"
 #include "transillum/settings.h"
+#include "transillum/shares.h"
 #include "transillum/sky.h"
 
 // Directions and what is proven or measured about them.
@@ -74,12 +75,15 @@ namespace transillum {}
 // Studies of the error against the number of passes.
 #include "transillum/reference_cache.h"
 #include "transillum/study.h"
+#include "transillum/study_checkpoint.h"
 
 // Files: results, maps, charts, JSON.
+#include "transillum/checkpoint.h"
 #include "transillum/files.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/json_text.h"
 #include "transillum/line_chart.h"
 #include "transillum/map_files.h"
 #include "transillum/sensor_files.h"
+#include "transillum/shard_files.h"
 #include "transillum/study_files.h"

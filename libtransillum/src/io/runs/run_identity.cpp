@@ -21,7 +21,15 @@ Json scene_of(const Scene& scene) {
           {"light", light.digits()}};
 }
 
-std::string text_of(const Json& value) { return value.is_null() ? "not given" : value.dump(); }
+/// A value of an option, shortened where it is long.
+std::string text_of(const Json& value) {
+  constexpr std::size_t longest = 60;
+  if (value.is_null()) {
+    return "not given";
+  }
+  const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= longest ? text : text.substr(0, longest) + "…";
+}
 
 }  // namespace
 

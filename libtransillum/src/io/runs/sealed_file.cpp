@@ -93,7 +93,8 @@ void write_sealed(const std::filesystem::path& file, const std::string& kind, co
     std::ostream out(&buffer);
     Json full = head;
     full["byte_order"] = byte_order();
-    out << first_line(kind) << '\n' << full.dump() << '\n';
+    out << first_line(kind) << '\n'
+        << full.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
     write(out);
     out.flush();
     to << fmt::format("{:08x}", buffer.crc());

@@ -69,6 +69,10 @@ void RadiosityIterate::begin() {
 }
 
 void RadiosityIterate::begin(const KeptSums& sums) {
+  if (kept_passes_ == 0) {  // of a replica that was just added
+    begin();
+    return;
+  }
   gather(sums);
   projected_ = kept_projected_;
   sky_areas_ = kept_sky_areas_;

@@ -36,7 +36,7 @@ class RadiosityIterate {
   void start_from(const RadiosityIterate& other);
   /// Begins an iteration with nothing gathered.
   void begin();
-  /// Begins an iteration with what the passes of `sums` gather; keep() must have been called.
+  /// Begins an iteration with what the passes of `sums` gather; nothing before keep().
   void begin(const KeptSums& sums);
   /// Gathers along the directions of one pass.
   void add(const Transfers& transfers);

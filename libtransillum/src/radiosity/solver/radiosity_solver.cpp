@@ -71,6 +71,12 @@ Vec3 RadiositySolver::direction(int iteration, int pass) const {
   return s.plan.renews() ? s.plan.directions(iteration).at(k) : s.iteration.directions.at(k);
 }
 
+std::vector<Vec3> RadiositySolver::directions_of(int iteration) const {
+  return impl_->plan.renews() ? impl_->plan.directions(iteration) : impl_->iteration.directions;
+}
+
+int RadiositySolver::passes_of(int iteration) const { return impl_->plan.passes(iteration); }
+
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
   if (options.goal.set()) {
