@@ -115,9 +115,13 @@ SceneOptions division(const SceneInput& input, const SceneDescription& descripti
   if (whole.patch_count() > input.patches && input.patches > 0) {
     print_message(fmt::format("warning: --patches: the faces make {} patches already, more than {}",
                               whole.patch_count(), input.patches));
-  } else if (options.max_patch_area > 0 && !is_quiet(*input.command)) {
-    print_message(patches_text(count_patches(whole, options.max_patch_area), options.max_patch_area,
-                               has_option(*input.command, "--memory")));
+  } else if (options.max_patch_area > 0) {
+    const std::int64_t count = count_patches(whole, options.max_patch_area);
+    if (!is_quiet(*input.command)) {
+      print_message(
+          patches_text(count, options.max_patch_area, has_option(*input.command, "--memory")));
+    }
+    check_memory(whole.name(), count);
   }
   return options;
 }
@@ -257,6 +261,7 @@ std::shared_ptr<const Scene> load_input_scene(const SceneInput& input,
                                               const Cancellation& cancellation, Light light) {
   const SceneDescription description = describe_input(input, cancellation);
   check_distinct(outputs, description.files);
+  check_memory(description.name, static_cast<std::int64_t>(description.face_count()));
   auto scene = make_input_scene(input, description, cancellation);
   print_warnings(*scene);
   if (light == Light::required && !scene->has_light()) {

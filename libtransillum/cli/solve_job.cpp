@@ -13,6 +13,7 @@
 #include "transillum/errors.h"
 #include "transillum/form_factor_files.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/patch_count.h"
 #include "transillum/shard_files.h"
 #include "transillum/solve_errors.h"
 #include "wall_clock.h"
@@ -158,6 +159,7 @@ struct Prepared {
 };
 
 Prepared prepare(const SolveJob& job) {
+  check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas);
   const auto start = WallClock::now();
   Prepared prepared;
   prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "program_run.h"
 
 namespace transillum::testing {
@@ -70,6 +72,85 @@ TEST_F(CliMemory, PicturesSucceedOrEndWithOneLine) {
   const TemporaryFolder folder;
   expect_success_or_one_line(
       {"map", "cornell-box", "--direction", "1,2,3", "--out", folder / "m.png"});
+}
+
+/// What a solve takes beyond one that keeps nothing, MB of addresses, and its result.
+class KeptMemory {
+ public:
+  explicit KeptMemory(std::vector<std::string> solve) : solve_(std::move(solve)) {}
+
+  /// The least limit of addresses with which it succeeds, MB.
+  int least(int megabytes_of_option) const {
+    int fails = 60, succeeds = 2000;
+    while (succeeds - fails > 1) {
+      const int middle = (fails + succeeds) / 2;
+      (run(megabytes_of_option, middle).status == 0 ? succeeds : fails) = middle;
+    }
+    return succeeds;
+  }
+  ProgramResult run(int megabytes_of_option, int limit = 4000) const {
+    std::vector<std::string> arguments = solve_;
+    arguments.insert(arguments.end(),
+                     {"--memory", std::to_string(megabytes_of_option) + "M", "--threads", "1",
+                      "--stats", folder_ / "s.json", "--out", folder_ / "b.csv", "-q"});
+    return RunningProgram(arguments, {}, {}, {}, "ulimit -v " + std::to_string(limit * 1024))
+        .wait();
+  }
+  bool kept() const {
+    return read_file(folder_ / "s.json").find("\"kept_form_factors\": true") != std::string::npos;
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::vector<std::string> solve_;
+};
+
+/// The program with form factors as large as --memory allows takes at most 1.05 of it more than
+/// without any.
+TEST_F(CliMemory, MemoryIsHeldToFivePercent) {
+  const std::vector<std::string> box{"solve", "cornell-box", "--patches",    "3000",
+                                     "-m",    "96",          "--iterations", "2"};
+  for (const std::vector<std::string>& options : {std::vector<std::string>{},
+                                                  {"--replicas", "8"},
+                                                  {"--by", "material"},
+                                                  {"--normalize", "symmetric"}}) {
+    SCOPED_TRACE(options.empty() ? "plain" : options.front());
+    std::vector<std::string> solve = box;
+    solve.insert(solve.end(), options.begin(), options.end());
+    const KeptMemory memory(solve);
+    // The least --memory with which form factors are kept: they take all that it allows.
+    int dropped = 1, kept = 512;
+    while (kept - dropped > std::max(1, kept / 50)) {
+      const int middle = (dropped + kept) / 2;
+      const bool is_kept = memory.run(middle).status == 0 && memory.kept();
+      (is_kept ? kept : dropped) = middle;
+    }
+    ASSERT_LT(kept, 512);
+    ASSERT_GT(kept, 20);
+    const bool required = !options.empty() && options.back() == "symmetric";
+    const int base = required ? KeptMemory(box).least(1) : memory.least(1);
+    EXPECT_EQ(memory.run(kept, base + kept + kept / 20).status, 0) << base << " " << kept;
+    EXPECT_TRUE(memory.kept());
+    // While passes exceed it, too: until they are dropped.
+    if (!required) {
+      EXPECT_EQ(memory.run(dropped, base + dropped + dropped / 20).status, 0) << dropped;
+      EXPECT_FALSE(memory.kept());
+    }
+  }
+}
+
+TEST_F(CliMemory, ASceneThatIsTooLargeSaysWhatItNeedsBeforeItBegins) {
+  const ProgramResult result =
+      run({"solve", "cornell-box", "--patches", "400000", "--out", "/dev/null"}, 500);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, ::testing::ContainsRegex(
+                              "cornell-box: [0-9]+ patches take about 0.7[0-9]* GB of memory "
+                              "without form factors, but only 0.[0-9]+ GB are free"));
+  const ProgramResult replicas = run({"solve", "cornell-box", "--patches", "40000", "--replicas",
+                                      "64", "-q", "--out", "/dev/null"},
+                                     500);
+  EXPECT_EQ(replicas.status, 1);
+  EXPECT_THAT(replicas.err, HasSubstr(" patches in 64 replicas take about "));
 }
 
 TEST(CliFullDisk, TheReasonOfAFailedSceneIsGiven) {

@@ -56,6 +56,15 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
     const Scene whole(description, scene_options, cancellation);
     scene_options.max_patch_area = max_patch_area_for(whole, options.input.patches, cancellation);
   }
+  check_memory(description.name, static_cast<std::int64_t>(description.face_count()),
+               options.solve.replicas);
+  if (scene_options.max_patch_area > 0) {
+    SceneOptions undivided = scene_options;
+    undivided.max_patch_area = 0;
+    const Scene whole(description, undivided, cancellation);
+    check_memory(description.name, count_patches(whole, scene_options.max_patch_area),
+                 options.solve.replicas);
+  }
   return std::make_shared<const Scene>(description, scene_options, cancellation);
 }
 

@@ -5,6 +5,7 @@
 // before the refined scene is made.
 
 #include <cstdint>
+#include <string>
 
 #include "transillum/cancellation.h"
 #include "transillum/scene.h"
@@ -21,7 +22,16 @@ std::int64_t count_patches(const Scene& unrefined, double max_patch_area);
 /// Bytes that a scene of `patches` patches, its BSP tree and the passes of a solve take, about,
 /// without kept form factors (SolveOptions::memory): measured on scenes that are cut little. Deep
 /// trees take several times as much.
-std::uint64_t expected_memory(std::int64_t patches);
+/// @param patches of the scene.
+/// @param replicas SolveOptions::replicas.
+std::uint64_t expected_memory(std::int64_t patches, int replicas = 1);
+
+/// Checks, before a scene is made or solved, that its expected_memory() is free: on the machine, in
+/// the process's control group and by its own limit.
+/// @param name of the scene, for the message.
+/// @param patches, replicas as for expected_memory().
+/// @throws std::runtime_error that tells both
+void check_memory(const std::string& name, std::int64_t patches, int replicas = 1);
 
 /// A limit for patch areas with which the scene has about `patches` patches (m²).
 ///

@@ -35,6 +35,17 @@ FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, bool two_w
   return result;
 }
 
+/// The memory limit less what replicas take besides their sums.
+std::uint64_t memory_for_sums(const SolverInput& input) {
+  const std::uint64_t limit = memory_limit(input.options.memory);
+  const int replicas = input.options.replicas;
+  const std::uint64_t others = replicas > 1
+                                   ? static_cast<std::uint64_t>(replicas) * input.patch_count() *
+                                         RadiosityIterate::bytes_per_patch
+                                   : 0;
+  return limit > others ? limit - others : 0;
+}
+
 }  // namespace
 
 KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
@@ -42,7 +53,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
       two_way_(input.options.two_way),
       renews_(renews),
       cancellation_(input.cancellation),
-      memory_(memory_limit(input.options.memory)),
+      memory_(memory_for_sums(input)),
       renewed_areas_(input.patch_count()) {
   const SolveOptions& options = input.options;
   if (options.normalize == Normalization::symmetric) {

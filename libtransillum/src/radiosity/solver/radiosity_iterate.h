@@ -23,6 +23,9 @@ class RadiosityIterate {
   ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
   RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot);
 
+  /// Memory that an iterate takes, with its mean over iterations.
+  static constexpr std::uint64_t bytes_per_patch = 8 * sizeof(Rgb);
+
   const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
   const std::vector<Rgb>& h() const { return h_; }  ///< irradiance, W/m²: B = E + rho H
   /// sum_d sum_j A(i,j,omega_d) (B_j - E_j shot) of the iteration under way, W

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
+#include "base/free_memory.h"
 #include "scene/build/patch_builder.h"
 #include "scene/build/refinement.h"
 #include "transillum/errors.h"
@@ -20,6 +22,8 @@ constexpr std::int64_t too_many = std::int64_t{1} << 62;
 constexpr int bisections = 60;
 /// Resident memory of solves of cornell-box, rooms and sphere-flake with 5,000 to 230,000 patches.
 constexpr std::uint64_t bytes_per_patch = 1700, bytes_of_the_program = 40'000'000;
+/// Of a patch in each replica: B, H and what is gathered.
+constexpr std::uint64_t bytes_per_replica = 200;
 
 /// The triangles and quadrilaterals that a patch is divided into before grids are laid on them.
 std::vector<std::vector<PointId>> parts_of(const Scene& scene, PatchId i,
@@ -117,8 +121,21 @@ std::int64_t count_patches(const Scene& unrefined, double max_patch_area) {
   return PatchCounter(unrefined).count(max_patch_area);
 }
 
-std::uint64_t expected_memory(std::int64_t patches) {
-  return bytes_of_the_program + static_cast<std::uint64_t>(patches) * bytes_per_patch;
+std::uint64_t expected_memory(std::int64_t patches, int replicas) {
+  const auto more = static_cast<std::uint64_t>(std::max(replicas - 1, 0)) * bytes_per_replica;
+  return bytes_of_the_program + static_cast<std::uint64_t>(patches) * (bytes_per_patch + more);
+}
+
+void check_memory(const std::string& name, std::int64_t patches, int replicas) {
+  const std::uint64_t needed = expected_memory(patches, replicas), available = free_memory();
+  if (needed > available) {
+    const auto gigabytes = [](std::uint64_t bytes) { return 1e-9 * static_cast<double>(bytes); };
+    throw std::runtime_error(fmt::format(
+        "{}: {} patches{} take about {:.2g} GB of memory without form factors, but only "
+        "{:.2g} GB are free",
+        name, patches, replicas > 1 ? fmt::format(" in {} replicas", replicas) : "",
+        gigabytes(needed), gigabytes(available)));
+  }
 }
 
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
