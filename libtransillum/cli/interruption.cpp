@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <vector>
 
 #include "commands.h"
+#include "processes.h"
 
 namespace transillum::cli {
 namespace {
@@ -32,7 +34,11 @@ const Cancellation& cancel_on_signals() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  std::vector<int> signals{SIGINT, SIGTERM, SIGHUP};
+  if (processes().group) {
+    signals.push_back(SIGUSR1);
+  }
+  for (const int signal : signals) {
     struct sigaction inherited = {};
     sigaction(signal, nullptr, &inherited);
     if (inherited.sa_handler != SIG_IGN) {  // nohup, or a script's trap "" INT

@@ -7,10 +7,12 @@
 #include <cerrno>
 #include <new>
 
+#include "processes.h"
+
 namespace transillum::cli {
 
 void print_diagnostics(std::string_view text) noexcept {
-  while (!text.empty()) {
+  while (!text.empty() && is_first_process()) {
     const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
     if (written > 0) {
       text.remove_prefix(static_cast<std::size_t>(written));

@@ -11,7 +11,8 @@
 namespace transillum::cli {
 
 /// Writes `text` to stderr. All progress, warnings, summaries and errors go through this function:
-/// if stderr is closed, full or a pipe without a reader, the text is lost and nothing else.
+/// if stderr is closed, full or a pipe without a reader, the text is lost and nothing else. Of
+/// several processes only the first prints.
 void print_diagnostics(std::string_view text) noexcept;
 /// Prints `text` on stderr as one line; control characters become blanks.
 void print_message(std::string_view text) noexcept;

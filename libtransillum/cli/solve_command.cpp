@@ -13,6 +13,7 @@
 #include "messages.h"
 #include "output_files.h"
 #include "power_report.h"
+#include "processes.h"
 #include "progress_display.h"
 #include "solve_call.h"
 #include "solve_job.h"
@@ -21,6 +22,7 @@
 #include "stored_arguments.h"
 #include "transillum/checkpoint.h"
 #include "transillum/files.h"
+#include "transillum/settings.h"
 #include "transillum/shard_files.h"
 #include "wall_clock.h"
 
@@ -89,38 +91,85 @@ void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
   }
 }
 
+/// What is needed before a solve begins.
+struct Preparation {
+  SolveOptions options;
+  std::shared_ptr<const Scene> scene;
+  std::optional<ResultSeries> series;
+  std::optional<Checkpoint> checkpoint;
+  bool resume = false;
+};
+
+Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation) {
+  Preparation prepared;
+  std::vector<std::string> outputs;
+  if (is_first_process()) {
+    outputs = checked_outputs(call);
+  }
+  prepared.options = solve_options(call);
+  prepared.scene = load_input_scene(call.scene, outputs, cancellation,
+                                    prepared.options.sky.set() ? Light::optional : Light::required);
+  if (!call.colors.series.empty() && is_first_process()) {
+    prepared.series.emplace(call.colors.series);
+  }
+  prepared.checkpoint = make_checkpoint(call, *prepared.scene, prepared.options);
+  prepared.resume = can_resume(call.checkpoint);
+  if (prepared.resume) {
+    prepared.checkpoint->check();
+  }
+  return prepared;
+}
+
+/// Whether several processes share the solve. Otherwise the first does it alone.
+bool is_shared(const SolveCall& call) {
+  return processes().group && call.factors.empty() && takes_directions(call.options.engine);
+}
+
+/// Shares threads and memory between the processes of a machine, where the options leave them open.
+void share_machine(SolveOptions& options) {
+  if (options.threads == 0) {
+    options.threads = processes().threads;
+  }
+  if (options.memory == 0) {
+    options.memory = default_memory_limit() / static_cast<std::uint64_t>(processes().here);
+  }
+}
+
+Preparation prepare_in_all(const SolveCall& call, const Cancellation& cancellation) {
+  Preparation prepared;
+  processes().group->agree([&] { prepared = prepare_call(call, cancellation); });
+  share_machine(prepared.options);
+  return prepared;
+}
+
 }  // namespace
 
 int run_solve(const SolveCall& call) {
   const auto start = WallClock::now();
-  const std::vector<std::string> outputs = checked_outputs(call);
-  const SolveOptions options = solve_options(call);
+  const bool shared = is_shared(call);
+  if (!shared && !is_first_process()) {
+    return success;
+  }
   const Cancellation& cancellation = cancel_on_signals();
-  ProgressDisplay display(call.quiet);
-  const auto scene = load_input_scene(call.scene, outputs, cancellation,
-                                      options.sky.set() ? Light::optional : Light::required);
+  ProgressDisplay display(call.quiet || !is_first_process());
+  Preparation prepared =
+      shared ? prepare_in_all(call, cancellation) : prepare_call(call, cancellation);
+  const SolveOptions& options = prepared.options;
+  std::optional<Checkpoint>& checkpoint = prepared.checkpoint;
   const double seconds_load = seconds_since(start);
-
-  std::optional<ResultSeries> series;
-  if (!call.colors.series.empty()) {
-    series.emplace(call.colors.series);
-  }
-  std::optional<Checkpoint> checkpoint = make_checkpoint(call, *scene, options);
-  const bool resume = can_resume(call.checkpoint);
-  if (resume) {
-    checkpoint->check();
-  }
-  const SolveJob job{scene,
+  const SolveJob job{prepared.scene,
                      options,
                      cancellation,
                      display,
                      call.by.has_value(),
-                     series ? &*series : nullptr,
+                     !call.colors.series.empty(),
+                     prepared.series ? &*prepared.series : nullptr,
                      call.colors.series_every,
                      checkpoint ? &*checkpoint : nullptr,
                      call.checkpoint_every,
-                     resume,
-                     call.shards};
+                     prepared.resume,
+                     call.shards,
+                     shared ? processes().group : nullptr};
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job)
                                                          : solve_without_directions(job);
@@ -130,7 +179,12 @@ int run_solve(const SolveCall& call) {
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);
   }
-  write_outputs(call, options, solution);
+  if (shared && !call.quiet) {
+    print_message(processes().figures());
+  }
+  if (is_first_process()) {
+    write_outputs(call, options, solution);
+  }
   if (checkpoint) {
     print_cost(call, *checkpoint);
   }
@@ -193,7 +247,10 @@ Run add_solve_command(CLI::App& program) {
       "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
   return [call] {
     set_up_of_display(*call->command, call->options.sky, call->colors);
-    return call->share ? run_shard(*call) : run_solve(*call);
+    if (call->share) {
+      return is_first_process() ? run_shard(*call) : success;
+    }
+    return run_solve(*call);
   };
 }
 

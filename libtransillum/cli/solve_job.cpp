@@ -58,11 +58,15 @@ FirstShot shoot_first(const SolveJob& job) {
 
 /// Adds the result so far to a series: after an iteration, or within one the estimate by its
 /// directions so far.
-void add_to_series(ResultSeries& series, const RadiositySolver& solver) {
+void add_to_series(const SolveJob& job, const RadiositySolver& solver) {
+  solver.complete_estimate();
+  if (job.series == nullptr) {
+    return;
+  }
   const SolveProgress progress = solver.progress();
   const double share =
       progress.direction > 0 ? progress.direction / static_cast<double>(progress.passes) : 0.0;
-  series.add(solver.solution(), progress.iteration + share);
+  job.series->add(solver.solution(), progress.iteration + share);
 }
 
 /// The checkpoint of a solve, if one is asked for. An error of saving is a warning: the solve is
@@ -74,6 +78,10 @@ class Saver {
   /// Also after the last iteration of a stage, and where the solve is canceled.
   void save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan) {
     constexpr double between_stages = 1;
+    if (job_.group) {
+      save_in_group_if_due(solver, plan);
+      return;
+    }
     attempt([&] {
       if (job_.cancellation.canceled()) {
         job_.checkpoint->save(solver, plan);
@@ -90,6 +98,18 @@ class Saver {
   }
 
  private:
+  /// The first process decides; asking it after each pass would take long.
+  void save_in_group_if_due(const RadiositySolver& solver, const AccuracyPlan* plan) {
+    constexpr int passes_between = 32;
+    const int direction = solver.progress().direction;
+    if (job_.checkpoint == nullptr || direction % (passes_between * job_.group->size()) != 0) {
+      return;
+    }
+    const bool due = job_.checkpoint->is_due(job_.checkpoint_every);
+    if (job_.group->from_first(due ? 1 : 0) > 0) {
+      attempt([&] { job_.checkpoint->save(solver, plan); });
+    }
+  }
   template <class Save>
   void attempt(Save save) {
     if (job_.checkpoint == nullptr) {
@@ -109,7 +129,7 @@ class Saver {
 /// Advances a solver until it has finished.
 void advance(RadiositySolver& solver, const SolveJob& job, Saver& saver) {
   const auto until =
-      job.series != nullptr ? RadiositySolver::Until::iteration : RadiositySolver::Until::finished;
+      job.has_series ? RadiositySolver::Until::iteration : RadiositySolver::Until::finished;
   bool unfinished = true;
   while (unfinished) {
     unfinished = solver.advance(until, [&](const RadiositySolver& watched) {
@@ -118,13 +138,13 @@ void advance(RadiositySolver& solver, const SolveJob& job, Saver& saver) {
       const bool between = now.direction > 0 && now.direction < now.passes;
       // Here, not after a pause: other threads may finish more passes before it.
       if (job.series_every > 0 && between && now.direction % job.series_every == 0) {
-        add_to_series(*job.series, watched);
+        add_to_series(job, watched);
       }
       saver.save_if_due(watched, nullptr);
       return true;
     });
-    if (job.series != nullptr) {
-      add_to_series(*job.series, solver);
+    if (job.has_series) {
+      add_to_series(job, solver);
     }
   }
 }
@@ -133,7 +153,7 @@ void advance(RadiositySolver& solver, const SolveJob& job, Saver& saver) {
 Checkpoint::Resumed resume(const SolveJob& job, const std::shared_ptr<const BspTree>& tree,
                            const std::shared_ptr<const DirectLight>& light) {
   Checkpoint::Resumed run =
-      job.checkpoint->resume(job.scene, job.options, tree, light, job.cancellation);
+      job.checkpoint->resume(job.scene, job.options, tree, light, job.cancellation, job.group);
   const SolveProgress progress = run.solver.progress();
   job.display.clear();
   print_message(
@@ -162,9 +182,16 @@ Prepared prepare(const SolveJob& job) {
   check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas);
   const auto start = WallClock::now();
   Prepared prepared;
-  prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);
-  prepared.seconds_bsp = seconds_since(start);
-  prepared.shot = shoot_first(job);
+  const auto make = [&] {
+    prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);
+    prepared.seconds_bsp = seconds_since(start);
+    prepared.shot = shoot_first(job);
+  };
+  if (job.group) {
+    job.group->agree(make);
+  } else {
+    make();
+  }
   prepared.seconds = seconds_since(start);
   return prepared;
 }
@@ -187,7 +214,7 @@ Solution solve_to_goal(const SolveJob& job) {
         saver.save_if_due(watched, &plan);
         return true;
       },
-      job.cancellation, seconds, std::move(run));
+      job.cancellation, seconds, std::move(run), job.group);
   prepared.add_times(solution.statistics);
   return solution;
 }
@@ -206,8 +233,8 @@ RadiositySolver make_solver(const SolveJob& job, const Prepared& prepared, Trans
   if (job.resume) {
     return resume(job, prepared.tree, prepared.shot.light).solver;
   }
-  return {job.scene,        job.options,         prepared.tree,
-          job.cancellation, prepared.shot.light, std::move(engine)};
+  return {job.scene,           job.options,       prepared.tree, job.cancellation,
+          prepared.shot.light, std::move(engine), job.group};
 }
 
 /// Engine pairs with as many points as an accuracy takes.

@@ -18,13 +18,15 @@ struct SolveJob {
   SolveOptions options;
   const Cancellation& cancellation;
   ProgressDisplay& display;
-  bool form_factors = false;             ///< wanted in the solution, if they are kept
-  ResultSeries* series = nullptr;        ///< gets the result after every iteration
-  int series_every = 0;                  ///< and after so many directions; 0: not
-  Checkpoint* checkpoint = nullptr;      ///< null: the solve is not kept
-  double checkpoint_every = 60;          ///< s
-  bool resume = false;                   ///< go on with what is in the checkpoint
-  std::vector<std::string> shards = {};  ///< the passes are read from these
+  bool form_factors = false;                     ///< wanted in the solution, if they are kept
+  bool has_series = false;                       ///< a series gets the result after every iteration
+  ResultSeries* series = nullptr;                ///< it, in the first process
+  int series_every = 0;                          ///< and after so many directions; 0: not
+  Checkpoint* checkpoint = nullptr;              ///< null: the solve is not kept
+  double checkpoint_every = 60;                  ///< s
+  bool resume = false;                           ///< go on with what is in the checkpoint
+  std::vector<std::string> shards = {};          ///< the passes are read from these
+  std::shared_ptr<SolverGroup> group = nullptr;  ///< processes that share the passes
 };
 
 /// Solves by passes, until it has finished or is interrupted.

@@ -6,6 +6,8 @@
 #include <iostream>
 #include <system_error>
 
+#include "processes.h"
+
 namespace transillum::cli {
 
 StandardOutputError::StandardOutputError(int error_number)
@@ -15,6 +17,9 @@ StandardOutputError::StandardOutputError(int error_number)
       no_reader_(error_number == EPIPE) {}
 
 void print_results(const std::function<void(std::ostream&)>& write) {
+  if (!is_first_process()) {
+    return;
+  }
   errno = 0;
   write(std::cout);
   if (!std::cout) {

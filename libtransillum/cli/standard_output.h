@@ -20,7 +20,8 @@ class StandardOutputError : public std::runtime_error {
   bool no_reader_;
 };
 
-/// Writes results to standard output. All results that no file gets go through these functions.
+/// Writes results to standard output, of several processes in the first only. All results that no
+/// file gets go through these functions.
 /// @throws StandardOutputError
 void print_results(const std::function<void(std::ostream&)>& write);
 void print_results(const std::string& text);

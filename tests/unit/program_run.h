@@ -51,6 +51,7 @@ class RunningProgram {
                           const std::string& err = {}, const std::string& folder = {},
                           const std::string& shell = {});
   void send(int signal) const;
+  pid_t pid() const { return process_; }
   /// Whether the process has installed a handler for the signal.
   bool catches(int signal) const;
   /// The text on stderr so far.

@@ -104,6 +104,7 @@ using AccuracyObserver = std::function<bool(const RadiositySolver&, const Accura
 /// @param cancellation checked throughout.
 /// @param seconds wall time spent before, which counts as used.
 /// @param run goes on with that instead of the first stage.
+/// @param group as for RadiositySolver; the time of its member 0 decides.
 /// @returns the last stage that was finished, with its report; complete unless canceled or ended by
 /// the observer. If that happens in the first stage: its estimate so far.
 /// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
@@ -112,6 +113,7 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
                            std::shared_ptr<const DirectLight> shot = nullptr,
                            const AccuracyObserver& observer = {},
                            const Cancellation& cancellation = {}, double seconds = 0,
-                           std::optional<AccuracyRun> run = {});
+                           std::optional<AccuracyRun> run = {},
+                           const std::shared_ptr<SolverGroup>& group = nullptr);
 
 }  // namespace transillum

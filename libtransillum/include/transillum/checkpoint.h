@@ -38,7 +38,8 @@ class Checkpoint {
 
   /// Saves a solve.
   /// @param solver the solver; an observer may call this.
-  /// @param plan of a solve with a goal, else null.
+  /// @param plan of a solve with a goal, else null. In a group all members must call it after the
+  /// same pass; member 0 writes the file.
   /// @throws std::runtime_error if the file cannot be written; the one before is kept then.
   void save(const RadiositySolver& solver, const AccuracyPlan* plan = nullptr);
   /// Saves a solve if `interval` has passed since this object was made or last saved, and so long
@@ -50,6 +51,10 @@ class Checkpoint {
   bool save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan = nullptr,
                    double interval = 60);
 
+  /// Whether save_if_due() would save.
+  /// @param interval s
+  bool is_due(double interval) const;
+
   /// A solve that goes on.
   struct Resumed {
     RadiositySolver solver;            ///< in the state saved
@@ -59,13 +64,15 @@ class Checkpoint {
   /// The solve in the file.
   /// @param scene the scene.
   /// @param options of the solve.
-  /// @param tree, shot, cancellation as for RadiositySolver.
+  /// @param tree, shot, cancellation, group as for RadiositySolver. The number of members may be
+  /// another than the one that has saved the file.
   /// @throws InputError naming the file and why it cannot be used: it is damaged, or which version,
   /// option or property of the scene is another; Canceled
   Resumed resume(const std::shared_ptr<const Scene>& scene, const SolveOptions& options,
                  std::shared_ptr<const BspTree> tree = nullptr,
                  std::shared_ptr<const DirectLight> shot = nullptr,
-                 const Cancellation& cancellation = {});
+                 const Cancellation& cancellation = {},
+                 const std::shared_ptr<SolverGroup>& group = nullptr);
 
   /// Compares the file with the scene and options, without its content, before work is done that
   /// takes long.

@@ -23,6 +23,7 @@
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 #include "transillum/sky.h"
+#include "transillum/solver_group.h"
 #include "transillum/transfers.h"
 
 namespace transillum {
@@ -221,11 +222,15 @@ class RadiositySolver {
   /// here if null.
   /// @param engine makes the passes, such as one that reads them from a file; options.engine if
   /// null.
+  /// @param group processes that solve together; each has a solver of its own with the same scene
+  /// and options, and all call its functions that are not const, in the same order. The results
+  /// have the bits of a solver without a group. Null: this process alone.
   /// @throws InputError, Canceled
   RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                   std::shared_ptr<const BspTree> tree = nullptr,
                   const Cancellation& cancellation = {},
-                  std::shared_ptr<const DirectLight> shot = nullptr, TransferEngine engine = {});
+                  std::shared_ptr<const DirectLight> shot = nullptr, TransferEngine engine = {},
+                  std::shared_ptr<SolverGroup> group = nullptr);
   ~RadiositySolver();
   /// The moved-from object may only be destroyed or assigned to.
   RadiositySolver(RadiositySolver&&) noexcept;
@@ -246,7 +251,13 @@ class RadiositySolver {
   /// observed pass, from which the next call continues.
   /// @returns whether the solve is unfinished.
   /// @throws Canceled; NotConvergent, MemoryLimitExceeded (solve_errors.h).
+  /// In a group, where an observer returns false on one member, all pause after the same pass; its
+  /// observers see the progress, but B only after complete_estimate().
   bool advance(Until until, const Observer& observer = {});
+  /// In a group, makes what the solver returns complete within an observer's call, as it is between
+  /// calls of advance(). To be called by all members, after the same pass. Without a group it does
+  /// nothing.
+  void complete_estimate() const;
 
   /// The scene.
   const Scene& scene() const;
@@ -258,6 +269,8 @@ class RadiositySolver {
   std::shared_ptr<const BspTree> shared_tree() const;
   /// The options it was constructed with.
   const SolveOptions& options() const;
+  /// The processes that it solves with; null: this one alone.
+  std::shared_ptr<SolverGroup> group() const;
   /// The first shot; all 0 if there is none.
   std::shared_ptr<const DirectLight> direct_light() const;
   /// The current state.
@@ -284,12 +297,15 @@ class RadiositySolver {
   /// @throws std::logic_error unless the solve is finished, its scheme is fixed or
   /// conjugate_gradients, and it has at least 2 replicas.
   void add_replica();
-  /// Writes the state: all that passes and iterations have led to. An observer may call it.
+  /// Writes the state: all that passes and iterations have led to. An observer may call it. In a
+  /// group all members must, after the same pass; member 0 writes the state of all, in the format
+  /// of a solver alone.
   /// @param out binary; its errors are left to the caller.
   void save(std::ostream& out) const;
   /// Sets the state to one that save() wrote in the same version of the library, from a solver with
   /// the same scene and options; the number of threads may differ. The solve then continues to the
   /// same bits. To be called before advance().
+  /// In a group all members must call it, each with the whole state, and then complete_estimate().
   /// @param in binary.
   /// @param size length of the state, bytes.
   /// @throws std::runtime_error where it is damaged or of another scene; the solver may then only
@@ -298,7 +314,8 @@ class RadiositySolver {
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
   /// all iterations.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
-  /// were not kept or exceed the memory limit.
+  /// were not kept or exceed the memory limit. In a group all members must call it; it returns them
+  /// on member 0, and empty rows on the others.
   FormFactors form_factors() const;
   /// sum_j F_ij, one per patch, from the passes done so far; 1 within eps(M)/pi where i is
   /// enclosed.
@@ -369,9 +386,11 @@ struct Solution {
 /// @param options of the solve run.
 /// @param observer as for RadiositySolver::advance().
 /// @param cancellation checked throughout.
+/// @param group as for RadiositySolver.
 /// @throws InputError; Canceled before the first pass; NotConvergent, std::runtime_error
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const RadiositySolver::Observer& observer = {},
-               const Cancellation& cancellation = {});
+               const Cancellation& cancellation = {},
+               const std::shared_ptr<SolverGroup>& group = nullptr);
 
 }  // namespace transillum

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ const std::vector<Setting>& settings();
 /// Setting::description of a setting.
 /// @throws std::out_of_range where there is no setting `name`
 const char* description_of(const std::string& name);
+/// The limit of kept form factors where SolveOptions::memory is 0, bytes: a quarter of the
+/// machine's memory.
+std::uint64_t default_memory_limit();
 /// Why a setting changes nothing in any of these solves, as "used only with engine painter"; empty
 /// if it has an effect. For front ends, to refuse options that would silently do nothing.
 std::string why_unused(const std::string& name, const std::vector<SolveOptions>& solves);

@@ -43,6 +43,7 @@ namespace transillum {}
 #include "transillum/settings.h"
 #include "transillum/shares.h"
 #include "transillum/sky.h"
+#include "transillum/solver_group.h"
 
 // Directions and what is proven or measured about them.
 #include "transillum/bounds.h"

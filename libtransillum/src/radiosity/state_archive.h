@@ -61,6 +61,10 @@ class StateOutput {
   void empty_or(std::size_t /*size*/, const Lists&... lists) {
     (put(lists), ...);
   }
+  /// Bytes of a list of which the length is written before.
+  void block(const void* bytes, std::size_t size) {
+    out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  }
   /// What StateInput requires of what it has read.
   void require(bool /*condition*/) const {}
 
@@ -124,6 +128,9 @@ class StateInput {
     };
     (get_one(lists), ...);
   }
+  void block(void* bytes, std::size_t size) { read(bytes, size); }
+  /// Bytes of the state that are not read yet.
+  std::uint64_t left() const { return left_; }
   void require(bool condition) const {
     if (!condition) {
       throw DamagedState();

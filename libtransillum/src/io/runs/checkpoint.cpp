@@ -4,6 +4,7 @@
 #include "transillum/checkpoint.h"
 
 #include <algorithm>
+#include <functional>
 #include <ostream>
 #include <sstream>
 #include <utility>
@@ -24,6 +25,21 @@ constexpr const char* kind = "checkpoint";
 /// Longest share of the time that saving may take.
 constexpr double cost_share = 0.01;
 
+void in_all_members(const std::shared_ptr<SolverGroup>& group, const std::function<void()>& body) {
+  if (group) {
+    group->agree(body);
+  } else {
+    body();
+  }
+}
+
+/// Takes part in saving, in a group, where nothing is written.
+void save_nowhere(const RadiositySolver& solver) {
+  std::ostringstream nowhere;
+  nowhere.setstate(std::ios::badbit);
+  solver.save(nowhere);
+}
+
 }  // namespace
 
 struct Checkpoint::Impl {
@@ -35,7 +51,36 @@ struct Checkpoint::Impl {
   double seconds_of_last = 0;
 
   double seconds() const { return seconds_before + seconds_since(start); }
+  /// The plan in the file, if the solve has a goal; the solver's state is what is left then.
+  /// @throws InputError, Canceled
+  std::optional<AccuracyPlan> read_plan(SealedFile& file_in, const Scene& scene,
+                                        const SolveOptions& options,
+                                        const Cancellation& cancellation) const;
 };
+
+std::optional<AccuracyPlan> Checkpoint::Impl::read_plan(SealedFile& file_in, const Scene& scene,
+                                                        const SolveOptions& options,
+                                                        const Cancellation& cancellation) const {
+  check_identity(file_in, identity);
+  file_in.check(cancellation);
+  const Json seconds_used = file_in.head().value("seconds", Json());
+  const Json plan_size = file_in.head().value("plan", Json());
+  if (!seconds_used.is_number() || plan_size.is_null() == options.goal.set() ||
+      (options.goal.set() &&
+       (!plan_size.is_number_unsigned() || plan_size.get<std::uint64_t>() > file_in.size()))) {
+    file_in.refuse("its head is damaged");
+  }
+  std::optional<AccuracyPlan> plan;
+  if (options.goal.set()) {
+    plan.emplace(options, scene);
+    try {
+      plan->restore(file_in.in(), plan_size.get<std::uint64_t>());
+    } catch (const DamagedState& error) {
+      file_in.refuse(error.what());
+    }
+  }
+  return plan;
+}
 
 Checkpoint::Checkpoint(std::filesystem::path file, const Scene& scene, const SolveOptions& options)
     : impl_(std::make_unique<Impl>(Impl{std::move(file), run_identity(scene, options), {}})) {}
@@ -60,10 +105,25 @@ void Checkpoint::save(const RadiositySolver& solver, const AccuracyPlan* plan) {
   std::uint64_t size = 0;
   // A save that fails is not tried again at once.
   impl_->saved = start;
-  write_sealed(impl_->file, kind, head, [&](std::ostream& out) {
-    out << plan_bytes;
-    solver.save(out);
-  });
+  const std::shared_ptr<SolverGroup> group = solver.group();
+  if (group && group->rank() != 0) {
+    save_nowhere(solver);
+    impl_->saved = Clock::now();
+    return;
+  }
+  bool begun = false;
+  try {
+    write_sealed(impl_->file, kind, head, [&](std::ostream& out) {
+      out << plan_bytes;
+      begun = true;
+      solver.save(out);
+    });
+  } catch (const std::runtime_error&) {
+    if (group && !begun) {  // the other members take part in saving
+      save_nowhere(solver);
+    }
+    throw;
+  }
   std::error_code error;
   size = std::filesystem::file_size(impl_->file, error);
   impl_->saved = Clock::now();
@@ -76,12 +136,16 @@ void Checkpoint::save(const RadiositySolver& solver, const AccuracyPlan* plan) {
 
 bool Checkpoint::save_if_due(const RadiositySolver& solver, const AccuracyPlan* plan,
                              double interval) {
-  const double least = interval > 0 ? impl_->seconds_of_last / cost_share : 0;
-  if (seconds_since(impl_->saved) < std::max(interval, least)) {
-    return false;
+  const bool due = is_due(interval);
+  if (due) {
+    save(solver, plan);
   }
-  save(solver, plan);
-  return true;
+  return due;
+}
+
+bool Checkpoint::is_due(double interval) const {
+  const double least = interval > 0 ? impl_->seconds_of_last / cost_share : 0;
+  return seconds_since(impl_->saved) >= std::max(interval, least);
 }
 
 void Checkpoint::check() const { check_identity(SealedFile(impl_->file, kind), impl_->identity); }
@@ -90,33 +154,29 @@ Checkpoint::Resumed Checkpoint::resume(const std::shared_ptr<const Scene>& scene
                                        const SolveOptions& options,
                                        std::shared_ptr<const BspTree> tree,
                                        std::shared_ptr<const DirectLight> shot,
-                                       const Cancellation& cancellation) {
-  SealedFile file(impl_->file, kind);
-  check_identity(file, impl_->identity);
-  file.check(cancellation);
-  const Json seconds = file.head().value("seconds", Json());
-  const Json plan_size = file.head().value("plan", Json());
-  if (!seconds.is_number() || plan_size.is_null() == options.goal.set() ||
-      (options.goal.set() && !plan_size.is_number_unsigned())) {
-    file.refuse("its head is damaged");
-  }
-  try {
-    std::optional<AccuracyPlan> plan;
-    std::uint64_t left = file.size();
-    if (options.goal.set()) {
-      const auto size = std::min(left, plan_size.get<std::uint64_t>());
-      plan.emplace(options, *scene);
-      plan->restore(file.in(), size);
-      left -= size;
+                                       const Cancellation& cancellation,
+                                       const std::shared_ptr<SolverGroup>& group) {
+  std::optional<SealedFile> file;
+  std::optional<AccuracyPlan> plan;
+  std::uint64_t left = 0;
+  in_all_members(group, [&] {
+    file.emplace(impl_->file, kind);
+    plan = impl_->read_plan(*file, *scene, options, cancellation);
+    const Json plan_size = file->head().value("plan", Json());
+    left = file->size() - (plan ? plan_size.get<std::uint64_t>() : 0);
+  });
+  RadiositySolver solver(scene, plan ? plan->stage() : options, std::move(tree), cancellation,
+                         std::move(shot), TransferEngine(), group);
+  in_all_members(group, [&] {
+    try {
+      solver.restore(file->in(), left);
+    } catch (const DamagedState& error) {
+      file->refuse(error.what());
     }
-    RadiositySolver solver(scene, plan ? plan->stage() : options, std::move(tree), cancellation,
-                           std::move(shot));
-    solver.restore(file.in(), left);
-    impl_->seconds_before = seconds.get<double>();
-    return {std::move(solver), std::move(plan), impl_->seconds_before};
-  } catch (const DamagedState& error) {
-    file.refuse(error.what());
-  }
+  });
+  solver.complete_estimate();
+  impl_->seconds_before = file->head().at("seconds").get<double>();
+  return {std::move(solver), std::move(plan), impl_->seconds_before};
 }
 
 }  // namespace transillum

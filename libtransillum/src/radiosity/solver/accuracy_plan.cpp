@@ -255,14 +255,16 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
                            std::shared_ptr<const BspTree> tree,
                            std::shared_ptr<const DirectLight> shot,
                            const AccuracyObserver& observer, const Cancellation& cancellation,
-                           double seconds, std::optional<AccuracyRun> run) {
+                           double seconds, std::optional<AccuracyRun> run,
+                           const std::shared_ptr<SolverGroup>& group) {
   const auto start = Clock::now();
   const auto used = [&] { return seconds + seconds_since(start); };
   AccuracyPlan plan = run ? std::move(run->plan) : AccuracyPlan(options, *scene);
   std::optional<Solution> best;
-  auto solver = run ? std::make_unique<RadiositySolver>(std::move(run->solver))
-                    : std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree),
-                                                        cancellation, std::move(shot));
+  auto solver =
+      run ? std::make_unique<RadiositySolver>(std::move(run->solver))
+          : std::make_unique<RadiositySolver>(scene, plan.stage(), std::move(tree), cancellation,
+                                              std::move(shot), TransferEngine(), group);
   const SolveStatistics prepared = solver->statistics();
   bool ended = false;
   const auto watch = [&](const RadiositySolver& watched) {
@@ -271,8 +273,9 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
     return !ended && !late;
   };
   const auto begin_stage = [&] {
-    solver = std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(),
-                                               cancellation, solver->direct_light());
+    solver =
+        std::make_unique<RadiositySolver>(scene, plan.stage(), solver->shared_tree(), cancellation,
+                                          solver->direct_light(), TransferEngine(), group);
   };
   // Whether the solver has finished its stage, or has a larger one to make.
   const auto advance = [&] {
@@ -291,7 +294,8 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
       if (!solver->progress().finished) {
         continue;
       }
-      const AccuracyPlan::Next next = plan.next(*solver, used());
+      const AccuracyPlan::Next next =
+          plan.next(*solver, group ? group->from_first(used()) : used());
       best = solver->solution();
       if (next == AccuracyPlan::Next::done) {
         break;

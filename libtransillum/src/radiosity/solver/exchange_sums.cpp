@@ -22,9 +22,30 @@ ExchangeSums::ExchangeSums(PatchId patches, bool two_way, std::uint64_t budget,
       sums_(empty_rows()),
       place_(patches_, 0) {}
 
+std::size_t ExchangeSums::size_of_rows(std::size_t first, std::size_t last) const {
+  std::size_t size = sums_.begin[last] - sums_.begin[first];
+  for (const Run& run : waiting_) {
+    size += static_cast<std::size_t>(std::count_if(run.begin(), run.end(), [&](const Transfer& t) {
+      const auto row = static_cast<std::size_t>(t.receiver);
+      return first <= row && row < last;
+    }));
+  }
+  return size;
+}
+
 ExchangeSums::Run ExchangeSums::make_run(const std::vector<Transfer>& exchanges) const {
   if (!two_way_) {
     return exchanges;
+  }
+  if (exchanges.size() < patches_ / 16) {
+    Run run;
+    run.reserve(exchanges.size());
+    for (const Transfer& t : exchanges) {
+      run.push_back({std::min(t.receiver, t.source), std::max(t.receiver, t.source), t.area});
+    }
+    std::stable_sort(run.begin(), run.end(),
+                     [](const Transfer& a, const Transfer& b) { return a.receiver < b.receiver; });
+    return run;
   }
   // Counting sort by the lower patch.
   std::vector<std::uint32_t> next(patches_ + 1, 0);

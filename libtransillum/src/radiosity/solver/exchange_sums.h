@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "radiosity/solver/patch_share.h"
 #include "radiosity/state_archive.h"
 #include "transillum/cancellation.h"
 #include "transillum/transfers.h"
@@ -35,10 +36,21 @@ class ExchangeSums {
   bool overrun() const { return overrun_; }
   /// Drops everything, as if the budget were exceeded.
   void drop();
+  /// Merges the waiting passes into the sums, row by row: first the sums, then each pass.
+  void merge();
   /// Merges all passes and sorts the rows; to be called after the last pass.
   void finish();
   /// Number of entries, those of unmerged passes included.
   std::size_t size() const { return sums_.source.size() + waiting_size_; }
+
+  /// The part of size() that is in rows `first` to `last` - 1.
+  std::size_t size_of_rows(std::size_t first, std::size_t last) const;
+
+  /// As visit_state() for a constant object: the sums of all members of a group, each of which
+  /// gives the rows it owns. Member 0 has the rows of one member at a time in memory.
+  void save_in_group(StateOutput& archive, const PatchShare& share) const;
+  /// As visit_state() for one to be changed, but keeps only pairs that the share needs.
+  void restore_share(StateInput& archive, const PatchShare& share);
 
   /// gathered_i += sum_j entry_ij b_j for all i; `gathered` is as long as `b`. After finish().
   void gather(const std::vector<Rgb>& b, std::vector<Rgb>& gathered) const;
@@ -77,8 +89,6 @@ class ExchangeSums {
   /// Whether all rows and patches that a state names exist.
   bool is_valid() const;
   Rows empty_rows() const { return {std::vector<std::size_t>(patches_ + 1, 0), {}, {}}; }
-  /// Merges the waiting passes into the sums, row by row: first the sums, then each pass.
-  void merge();
   void transpose();
 
   std::size_t patches_;

@@ -8,6 +8,11 @@
 
 namespace transillum {
 
+/// How much the estimate of B changed, and its largest value, W/m².
+struct EstimateChange {
+  double change = 0, largest = 0;
+};
+
 /// The iteration that passes are being added to.
 struct IterationUnderWay {
   bool begun = false;
@@ -15,13 +20,15 @@ struct IterationUnderWay {
   int from_kept_sums = 0;        ///< passes that need not be made: their exchanges are kept
   std::vector<Rgb> estimate;     ///< of B, W/m²; between iterations B itself
   std::vector<double> changes;   ///< of the estimate, relative, at each pass made
-  double seconds = 0;            ///< wall time so far
-  double energy_defect = 0;      ///< of the last finished iteration
+  std::vector<EstimateChange> changes_of_share;  ///< in a group: those not yet in `changes`
+  double seconds = 0;                            ///< wall time so far
+  double energy_defect = 0;                      ///< of the last finished iteration
 
   /// Ends the iteration, which leads to `b`.
   void end(const std::vector<Rgb>& b) {
     begun = false;
     changes.clear();
+    changes_of_share.clear();
     estimate = b;
     seconds = 0;
   }

@@ -51,6 +51,7 @@ std::uint64_t memory_for_sums(const SolverInput& input) {
 KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
     : patches_(input.scene->patch_count()),
       two_way_(input.options.two_way),
+      share_(input.share()),
       renews_(renews),
       cancellation_(input.cancellation),
       memory_(memory_for_sums(input)),
@@ -68,7 +69,7 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
 }
 
 void KeptExchanges::add_replica() {
-  const std::uint64_t used = size() * sizeof(Transfer);
+  const std::uint64_t used = own_size() * sizeof(Transfer);
   const bool dropped = !available();
   sums_.emplace_back(patches_, two_way_, memory_ > used ? memory_ - used : 0, cancellation_);
   if (dropped) {
@@ -88,6 +89,14 @@ void KeptExchanges::check_available() const {
   }
 }
 
+ExchangeSums::Run KeptExchanges::make_run(const std::vector<Transfer>& exchanges) const {
+  ExchangeSums::Run run = sums_.front().make_run(exchanges);
+  if (share_.group != nullptr && !two_way_) {
+    std::erase_if(run, [this](const Transfer& t) { return !share_.owned.contains(t.receiver); });
+  }
+  return run;
+}
+
 void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
   sums_[r].add(std::move(run));
   // Where one replica does not fit, the others are of no use.
@@ -95,13 +104,47 @@ void KeptExchanges::add(std::size_t r, ExchangeSums::Run run) {
     for (ExchangeSums& part : sums_) {
       part.drop();
     }
+    if (share_.group == nullptr) {
+      check_available();
+    }
+  }
+}
+
+void KeptExchanges::agree_dropped(bool dropped) {
+  if (dropped) {
+    for (ExchangeSums& part : sums_) {
+      part.drop();
+    }
     check_available();
   }
 }
 
+void KeptExchanges::complete() {
+  renewed_areas_.complete(share_);
+  count();
+}
+
+void KeptExchanges::merge() {
+  for (ExchangeSums& part : sums_) {
+    part.merge();
+  }
+}
+
+void KeptExchanges::count() {
+  if (share_.group == nullptr) {
+    return;
+  }
+  std::int64_t owned = 0;
+  for (const ExchangeSums& part : sums_) {
+    owned += static_cast<std::int64_t>(part.size_of_rows(share_.first(), share_.last()));
+  }
+  share_.group->sums({&owned, 1});
+  size_of_group_ = static_cast<std::size_t>(owned);
+}
+
 void KeptExchanges::add_areas(const Transfers& transfers) {
   if (renews_ && requested_) {
-    renewed_areas_.add(transfers, two_way_);
+    renewed_areas_.add(transfers, two_way_, share_);
   }
 }
 
@@ -109,6 +152,7 @@ void KeptExchanges::finish() {
   for (ExchangeSums& part : sums_) {
     part.finish();
   }
+  count();
 }
 
 KeptSums KeptExchanges::all() const {
@@ -119,7 +163,7 @@ KeptSums KeptExchanges::all() const {
   return all;
 }
 
-std::size_t KeptExchanges::size() const {
+std::size_t KeptExchanges::own_size() const {
   return std::accumulate(
       sums_.begin(), sums_.end(), std::size_t{0},
       [](std::size_t size, const ExchangeSums& part) { return size + part.size(); });
@@ -130,8 +174,12 @@ ExchangeSums KeptExchanges::joined() const {
   for (const ExchangeSums& part : sums_) {
     ExchangeSums::Run run;
     run.reserve(part.size());
-    part.for_each([&](PatchId i, PatchId j, double area) { run.push_back({i, j, area}); });
-    joined.add(std::move(run));
+    part.for_each([&](PatchId i, PatchId j, double area) {
+      if (share_.owned.contains(i)) {
+        run.push_back({i, j, area});
+      }
+    });
+    joined.add(share_.gather(std::move(run)));
   }
   joined.finish();
   return joined;
@@ -140,7 +188,7 @@ ExchangeSums KeptExchanges::joined() const {
 FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
                                         const VisibleAreaSums& areas) const {
   const std::optional<ExchangeSums> all_replicas =
-      sums_.size() > 1 ? std::optional(joined()) : std::nullopt;
+      sums_.size() > 1 || share_.group != nullptr ? std::optional(joined()) : std::nullopt;
   const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
   FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), two_way_);
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);

@@ -31,29 +31,37 @@ class KeptExchanges {
   void check_available() const;
 
   /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
-  ExchangeSums::Run make_run(const std::vector<Transfer>& exchanges) const {
-    return sums_.front().make_run(exchanges);
-  }
+  ExchangeSums::Run make_run(const std::vector<Transfer>& exchanges) const;
   /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
-  /// @throws MemoryLimitExceeded as check_available()
+  /// @throws MemoryLimitExceeded as check_available(); in a group only agree_dropped() does
   void add(std::size_t r, ExchangeSums::Run run);
   /// Appends sums for one replica, which have the memory that the others leave. After finish().
   void add_replica();
   /// Adds the areas of a pass to renewed_areas(), if each iteration has its own directions and the
   /// exchanges are requested.
   void add_areas(const Transfers& transfers);
+  /// Lets all members of a group drop the exchanges if one had to, and completes nothing else.
+  /// @param dropped whether any member has dropped them
+  /// @throws MemoryLimitExceeded as check_available()
+  void agree_dropped(bool dropped);
+  /// Merges all passes added so far.
+  void merge();
+  /// Completes renewed_areas() and size() in a group.
+  void complete();
   /// To be called after the last pass of an iteration, before sums are read.
   void finish();
 
   /// The sums of all replicas.
   KeptSums all() const;
   KeptSums of_replica(std::size_t r) const { return {&sums_[r]}; }
-  /// Number of kept entries.
-  std::size_t size() const;
+  /// Number of kept entries; in a group of all members, as of the last complete() or
+  /// finish().
+  std::size_t size() const { return share_.group != nullptr ? size_of_group_ : own_size(); }
   /// Areas of the passes kept, over all iterations, where each has its own directions.
   const VisibleAreaSums& renewed_areas() const { return renewed_areas_; }
 
   /// F_ij = entry (i,j) times the scale that `iterate` gives it. After finish().
+  /// In a group, all on member 0 and none on the others.
   /// @param areas of the passes kept
   FormFactors form_factors(const RadiosityIterate& iterate, const VisibleAreaSums& areas) const;
 
@@ -62,17 +70,28 @@ class KeptExchanges {
   static void visit_state(Archive& archive, Self& self) {
     archive(self.requested_);
     for (auto& part : self.sums_) {
-      archive(part);
+      if (self.share_.group == nullptr) {
+        archive(part);
+      } else if constexpr (Archive::reading) {
+        part.restore_share(archive, self.share_);
+      } else {
+        part.save_in_group(archive, self.share_);
+      }
     }
     archive(self.renewed_areas_);
   }
 
  private:
-  /// The sum over all replicas.
+  std::size_t own_size() const;
+  /// Computes size() in a group.
+  void count();
+  /// The sum over all replicas; in a group that of all members, on member 0.
   ExchangeSums joined() const;
 
   PatchId patches_;
   bool two_way_;
+  PatchShare share_;
+  std::size_t size_of_group_ = 0;
   bool renews_;
   bool requested_ = false;
   const char* required_by_ = nullptr;  ///< the option that cannot do without; null: none

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "radiosity/light_sources.h"
 #include "radiosity/ratio.h"
@@ -63,6 +64,13 @@ void LightDirections::add(const std::vector<Transfer>& exchanges) {
     light.along = 0;
   }
   lit_.clear();
+}
+
+void LightDirections::complete(const PatchShare& share) {
+  static_assert(std::is_standard_layout_v<Light> && sizeof(Light) == 3 * sizeof(double));
+  if (share.group != nullptr) {
+    share.group->complete({&lights_.front().sum, 3 * lights_.size()}, share.patches);
+  }
 }
 
 /// The variance of what a pair contributes to B is proportional to w squares = w sum² / n.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "radiosity/solver/patch_share.h"
 #include "transillum/first_shot.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -19,6 +20,8 @@ class LightDirections {
 
   /// Adds a pass along a direction that is new.
   void add(const std::vector<Transfer>& exchanges);
+  /// Completes the sums of all patches, in a group; to be called before mean().
+  void complete(const PatchShare& share);
   /// With n = (sum c)² / sum c² directions per pair of patch and source, the mean of n, each
   /// weighted by what the pair contributes to the variance of B. 0 without light.
   double mean() const;

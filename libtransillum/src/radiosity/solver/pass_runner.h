@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "radiosity/solver/exchange_sums.h"
@@ -12,7 +13,11 @@ namespace transillum {
 struct Pass {
   Transfers transfers;
   ExchangeSums::Run run;  ///< empty unless exchanges are to be kept
+  // Figures over all patches, of a pass along a new direction:
   ClosureDefect closure;
+  double projected = 0;        ///< projected area, m²
+  double covered = 0;          ///< the part of it with a patch above, m²
+  std::int64_t exchanges = 0;  ///< number of exchanges
 };
 
 /// Makes passes on several threads and delivers them in order.

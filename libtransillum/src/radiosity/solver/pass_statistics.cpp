@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "radiosity/ratio.h"
 #include "radiosity/two_sided.h"
@@ -11,9 +12,11 @@
 
 namespace transillum {
 
-PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot)
+PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
+                               const PatchShare& share)
     : scene_(scene),
       two_way_(two_way),
+      share_(share),
       areas_(scene.patches().size()),
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
@@ -23,30 +26,47 @@ PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLig
 void PassStatistics::begin_set() {
   areas_ = VisibleAreaSums(facing_area_.size());
   quadrature_errors_.clear();
+  complete_errors_ = 0;
 }
 
 void PassStatistics::add(const Pass& pass) {
   const Transfers& transfers = pass.transfers;
-  areas_.add(transfers, two_way_);
+  areas_.add(transfers, two_way_, share_);
   const int directions_per_pass = two_way_ ? 2 : 1;
   double worst = 0;
-  for (std::size_t i = 0; i < facing_area_.size(); ++i) {
+  const std::size_t first = share_.first();
+  for (std::size_t i = first; i < share_.last(); ++i) {
     const double exact = areas_.passes * directions_per_pass * scene_.patches()[i].area / 4;
     worst = std::max(worst, std::abs(areas_.projected[i] / exact - 1));
-    const Coverage& forward = transfers.forward[i];
-    const Coverage& backward = transfers.backward[i];
+    const Coverage& forward = transfers.forward[i - first];
+    const Coverage& backward = transfers.backward[i - first];
     facing_area_[i] += forward.projected + backward.projected;
-    back_seen_[i] += transfers.back_seen[i];
+    back_seen_[i] += transfers.back_seen[i - first];
     uncovered_[i] += forward.projected - forward.covered + backward.projected - backward.covered;
-    projected_ += forward.projected + backward.projected;
-    covered_ += forward.covered + backward.covered;
   }
   quadrature_errors_.push_back(std::numbers::pi * worst);
+  projected_ += pass.projected;
+  covered_ += pass.covered;
   closure_relative_ = std::max(closure_relative_, pass.closure.relative);
   closure_grazing_ = std::max(closure_grazing_, pass.closure.grazing);
   light_.add(transfers.exchanges);
   counts_ += transfers.counts;
-  transfer_count_ += std::ssize(transfers.exchanges);
+  transfer_count_ += pass.exchanges;
+}
+
+void PassStatistics::complete_errors() {
+  if (share_.group != nullptr) {
+    share_.group->maxima(std::span(quadrature_errors_).subspan(complete_errors_));
+    complete_errors_ = quadrature_errors_.size();
+  }
+}
+
+void PassStatistics::complete() {
+  areas_.complete(share_);
+  for (std::vector<double>* values : {&facing_area_, &back_seen_, &uncovered_}) {
+    share_.complete(*values);
+  }
+  light_.complete(share_);
 }
 
 std::vector<double> PassStatistics::back_seen_shares() const {

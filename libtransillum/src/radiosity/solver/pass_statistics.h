@@ -19,13 +19,20 @@ class PassStatistics {
  public:
   /// Keeps a reference to `scene`.
   /// @param shot its sources do not count as direct light
-  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot);
+  /// @param share the patches of the coverages of passes
+  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
+                 const PatchShare& share);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
   /// quadrature_errors(); all other figures go on over all sets.
   void begin_set();
   /// Adds the first pass along a direction.
   void add(const Pass& pass);
+
+  /// Makes quadrature_errors() those of all patches, in a group.
+  void complete_errors();
+  /// Completes what is summed per patch, in a group.
+  void complete();
 
   /// Of the current set of directions.
   const VisibleAreaSums& areas() const { return areas_; }
@@ -50,8 +57,10 @@ class PassStatistics {
  private:
   const Scene& scene_;
   bool two_way_;
+  PatchShare share_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
+  std::size_t complete_errors_ = 0;  ///< number of them that are of all patches, in a group
   std::vector<double> facing_area_;  ///< per patch: projected area over all passes, both directions
   std::vector<double> back_seen_;    ///< per patch: of that, seen by receivers from its back
   std::vector<double> uncovered_;    ///< per patch: of that, with no patch above

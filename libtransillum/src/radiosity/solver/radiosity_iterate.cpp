@@ -15,26 +15,11 @@
 #include "transillum/at.h"
 
 namespace transillum {
-namespace {
-
-/// image += S values, where S is the total of `sums`, a symmetric matrix.
-void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
-                           std::vector<double>& image) {
-  for (const ExchangeSums* part : sums) {
-    part->for_each([&](PatchId first, PatchId second, double area) {
-      const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-      image[i] += area * values[j];
-      image[j] += area * values[i];
-    });
-  }
-}
-
-}  // namespace
-
 RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& options,
-                                   const DirectLight& shot)
+                                   const DirectLight& shot, const PatchShare& share)
     : scene_(scene),
       shot_(shot),
+      share_(share),
       two_way_(options.two_way),
       normalization_(options.normalize),
       sky_(options.sky),
@@ -88,25 +73,35 @@ void RadiosityIterate::add(const Transfers& transfers) {
       gathered_[j] += t.area * unshot_[i];
     }
   }
-  for (std::size_t i = 0; i < projected_.size(); ++i) {
-    projected_[i] += transfers.forward[i].projected;
+  const std::size_t first = share_.first();
+  for (std::size_t i = first; i < share_.last(); ++i) {
+    projected_[i] += transfers.forward[i - first].projected;
     if (two_way_) {
-      projected_[i] += transfers.backward[i].projected;
+      projected_[i] += transfers.backward[i - first].projected;
     }
   }
-  add_sky(transfers);
+  if (!sky_areas_.empty()) {
+    add_sky(transfers);
+  }
   ++passes_;
 }
 
 void RadiosityIterate::add_sky(const Transfers& transfers) {
   const double ahead = sky_.relative_radiance(transfers.direction);
   const double behind = sky_.relative_radiance(-transfers.direction);
-  for (std::size_t i = 0; i < sky_areas_.size(); ++i) {
-    sky_areas_[i] += ahead * transfers.forward[i].uncovered();
+  const std::size_t first = share_.first();
+  for (std::size_t i = first; i < share_.last(); ++i) {
+    sky_areas_[i] += ahead * transfers.forward[i - first].uncovered();
     if (two_way_) {
-      sky_areas_[i] += behind * transfers.backward[i].uncovered();
+      sky_areas_[i] += behind * transfers.backward[i - first].uncovered();
     }
   }
+}
+
+void RadiosityIterate::complete() {
+  share_.complete(gathered_);
+  share_.complete(projected_);
+  share_.complete(sky_areas_);
 }
 
 void RadiosityIterate::keep(const KeptSums& sums) {
@@ -126,6 +121,7 @@ void RadiosityIterate::gather(const KeptSums& sums) {
     for (const ExchangeSums* part : sums) {
       part->gather(unshot_, gathered_);
     }
+    share_.complete(gathered_);
     return;
   }
   std::vector<Rgb> scaled(b_.size());
@@ -135,9 +131,23 @@ void RadiosityIterate::gather(const KeptSums& sums) {
   for (const ExchangeSums* part : sums) {
     part->gather(scaled, gathered_);
   }
+  share_.complete(gathered_);
   for (std::size_t i = 0; i < b_.size(); ++i) {
     gathered_[i] = scales_[i] * gathered_[i];
   }
+}
+
+void RadiosityIterate::add_symmetric_product(const KeptSums& sums,
+                                             const std::vector<double>& values,
+                                             std::vector<double>& image) const {
+  for (const ExchangeSums* part : sums) {
+    part->for_each([&](PatchId first, PatchId second, double area) {
+      const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+      image[i] += area * values[j];
+      image[j] += area * values[i];
+    });
+  }
+  share_.complete(image);
 }
 
 /// Computes scales d with d_i sum_j S_ij d_j = the area that row i would sum to if its quadrature
@@ -291,7 +301,7 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
     }
     solve_by_conjugate_gradients(
         [&](const double* x, double* y) {
-          cancellation.throw_if_canceled();
+          share_.throw_if_canceled(cancellation);
           std::vector<double> image(patches);
           for (std::size_t i = 0; i < patches; ++i) {
             weighted[i] = weights[i] * x[i];

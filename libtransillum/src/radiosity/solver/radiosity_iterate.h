@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "radiosity/solver/exchange_sums.h"
+#include "radiosity/solver/patch_share.h"
 #include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
@@ -21,7 +22,9 @@ class RadiosityIterate {
   /// Keeps references to `scene` and `shot`. The light of the first shot is added to H, and the
   /// exitance that it covers is not gathered again:
   ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
-  RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot);
+  /// @param share passes are gathered for its patches; after them complete() must be called
+  RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot,
+                   const PatchShare& share);
 
   /// Memory that an iterate takes, with its mean over iterations.
   static constexpr std::uint64_t bytes_per_patch = 8 * sizeof(Rgb);
@@ -42,7 +45,11 @@ class RadiosityIterate {
   /// Begins an iteration with what the passes of `sums` gather; nothing before keep().
   void begin(const KeptSums& sums);
   /// Gathers along the directions of one pass.
+  /// @param transfers their coverages are those of the share's patches
   void add(const Transfers& transfers);
+  /// Completes what passes have gathered, in a group. Before it only the values of the share's own
+  /// patches are right.
+  void complete();
   /// From now on `sums`, finished and of the same directions, stand for the passes so far. For the
   /// symmetric normalization it computes the scales and gathers again with them.
   void keep(const KeptSums& sums);
@@ -93,6 +100,9 @@ class RadiosityIterate {
   Rgb radiosity(PatchId i, const Rgb& irradiance) const;
   void set_radiosity(PatchId i, const Rgb& b);
   void gather(const KeptSums& sums);
+  /// image += S values, where S is the total of `sums`, a symmetric matrix.
+  void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
+                             std::vector<double>& image) const;
   void find_scales(const KeptSums& sums);
   double row_scale(std::size_t i, double projected, int passes) const;
   /// The factor from uncovered area in `passes` passes to a share of the hemisphere.
@@ -102,6 +112,7 @@ class RadiosityIterate {
 
   const Scene& scene_;
   const DirectLight& shot_;
+  PatchShare share_;
   bool two_way_;
   Normalization normalization_;
   Sky sky_;

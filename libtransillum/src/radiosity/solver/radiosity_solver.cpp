@@ -10,10 +10,11 @@ namespace transillum {
 RadiositySolver::RadiositySolver(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                                  std::shared_ptr<const BspTree> tree,
                                  const Cancellation& cancellation,
-                                 std::shared_ptr<const DirectLight> shot, TransferEngine engine)
+                                 std::shared_ptr<const DirectLight> shot, TransferEngine engine,
+                                 std::shared_ptr<SolverGroup> group)
     : impl_(std::make_unique<Impl>(SolverInput(std::move(scene), options, std::move(tree),
-                                               cancellation, std::move(shot), std::move(engine)))) {
-}
+                                               cancellation, std::move(shot), std::move(engine),
+                                               std::move(group)))) {}
 RadiositySolver::~RadiositySolver() = default;
 RadiositySolver::RadiositySolver(RadiositySolver&&) noexcept = default;
 RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = default;
@@ -21,7 +22,7 @@ RadiositySolver& RadiositySolver::operator=(RadiositySolver&&) noexcept = defaul
 bool RadiositySolver::advance(Until until, const Observer& observer) {
   Impl& s = *impl_;
   while (!s.history.finished()) {
-    s.input.cancellation.throw_if_canceled();
+    s.input.throw_if_canceled();
     if (!s.iteration.begun) {
       s.begin_iteration();
     }
@@ -33,7 +34,8 @@ bool RadiositySolver::advance(Until until, const Observer& observer) {
       }
     }
     s.finish_iteration();
-    const bool go_on = !observer || observer(*this);
+    const bool stop = observer && !observer(*this);
+    const bool go_on = s.share.group != nullptr ? !s.share.group->any(stop) : !stop;
     if (!go_on || until != Until::finished) {
       break;
     }
@@ -46,9 +48,12 @@ std::shared_ptr<const Scene> RadiositySolver::shared_scene() const { return impl
 const BspTree& RadiositySolver::tree() const { return *impl_->input.tree; }
 std::shared_ptr<const BspTree> RadiositySolver::shared_tree() const { return impl_->input.tree; }
 const SolveOptions& RadiositySolver::options() const { return impl_->input.options; }
+std::shared_ptr<SolverGroup> RadiositySolver::group() const { return impl_->input.group; }
 std::shared_ptr<const DirectLight> RadiositySolver::direct_light() const {
   return impl_->input.shot;
 }
+
+void RadiositySolver::complete_estimate() const { impl_->complete(); }
 
 void RadiositySolver::add_replica() { impl_->add_replica(); }
 void RadiositySolver::keep_form_factors() { impl_->kept.request(); }
@@ -78,7 +83,8 @@ std::vector<Vec3> RadiositySolver::directions_of(int iteration) const {
 int RadiositySolver::passes_of(int iteration) const { return impl_->plan.passes(iteration); }
 
 Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
-               const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
+               const RadiositySolver::Observer& observer, const Cancellation& cancellation,
+               const std::shared_ptr<SolverGroup>& group) {
   if (options.goal.set()) {
     AccuracyObserver watch;
     if (observer) {
@@ -86,10 +92,10 @@ Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
         return observer(solver);
       };
     }
-    return solve_to_accuracy(scene, options, nullptr, nullptr, watch, cancellation);
+    return solve_to_accuracy(scene, options, nullptr, nullptr, watch, cancellation, 0, {}, group);
   }
   const auto start = std::chrono::steady_clock::now();
-  RadiositySolver solver(std::move(scene), options, nullptr, cancellation);
+  RadiositySolver solver(std::move(scene), options, nullptr, cancellation, nullptr, {}, group);
   try {
     while (solver.advance(RadiositySolver::Until::finished, observer)) {
       // A pause requested by the observer ends a solve in one call.

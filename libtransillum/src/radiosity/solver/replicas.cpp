@@ -13,13 +13,13 @@ Replicas::Replicas(const SolverInput& input) {
     return;
   }
   for (int r = 0; r < input.options.replicas; ++r) {
-    iterates_.emplace_back(*input.scene, input.options, *input.shot);
+    iterates_.emplace_back(*input.scene, input.options, *input.shot, input.share());
   }
   means_.resize(iterates_.size());
 }
 
 void Replicas::add_replica(const SolverInput& input, const RadiosityIterate& whole) {
-  iterates_.emplace_back(*input.scene, input.options, *input.shot);
+  iterates_.emplace_back(*input.scene, input.options, *input.shot, input.share());
   iterates_.back().start_from(whole);
   means_.emplace_back();
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "radiosity/memory_limit.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
@@ -154,5 +155,7 @@ const char* description_of(const std::string& name) {
   }
   return found->description;
 }
+
+std::uint64_t default_memory_limit() { return memory_limit(0); }
 
 }  // namespace transillum

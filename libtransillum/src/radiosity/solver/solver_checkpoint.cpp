@@ -41,7 +41,13 @@ void RadiositySolver::Impl::restore(std::istream& in, std::uint64_t size) {
   }
 }
 
-void RadiositySolver::save(std::ostream& out) const { impl_->save(out); }
+void RadiositySolver::save(std::ostream& out) const {
+  if (impl_->share.group != nullptr) {
+    impl_->complete();
+    impl_->kept.merge();
+  }
+  impl_->save(out);
+}
 void RadiositySolver::restore(std::istream& in, std::uint64_t size) { impl_->restore(in, size); }
 
 }  // namespace transillum

@@ -24,28 +24,38 @@ SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
                          const SolveOptions& solve_options,
                          std::shared_ptr<const BspTree> ready_tree,
                          const Cancellation& solve_cancellation,
-                         std::shared_ptr<const DirectLight> ready_shot, TransferEngine ready_engine)
+                         std::shared_ptr<const DirectLight> ready_shot, TransferEngine ready_engine,
+                         std::shared_ptr<SolverGroup> solver_group)
     : scene(std::move(solved_scene)),
       options(validated(solve_options)),
-      cancellation(solve_cancellation),
+      requested(solve_cancellation),
+      cancellation(solver_group ? Cancellation() : solve_cancellation),
       threads(thread_count(options.threads)),
       shot(std::move(ready_shot)),
       tree(std::move(ready_tree)),
-      engine(std::move(ready_engine)) {
+      engine(std::move(ready_engine)),
+      group(std::move(solver_group)) {
+  if (group) {
+    group->agree([this] { prepare(); });
+  } else {
+    prepare();
+  }
+}
+
+void SolverInput::prepare() {
   if (!shot) {
     const auto start = Clock::now();
     std::vector<PatchId> sources;
     if (options.first_shot) {
-      sources = first_shot_sources(*scene, *options.first_shot, expected_directions(options),
-                                   cancellation);
+      sources =
+          first_shot_sources(*scene, *options.first_shot, expected_directions(options), requested);
     }
-    shot =
-        std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, cancellation));
+    shot = std::make_shared<const DirectLight>(shoot(*scene, sources, options.threads, requested));
     seconds_first_shot = seconds_since(start);
   }
   if (!tree) {
     const auto start = Clock::now();
-    tree = std::make_shared<const BspTree>(*scene, cancellation, std::function<void(double)>{},
+    tree = std::make_shared<const BspTree>(*scene, requested, std::function<void(double)>{},
                                            options.threads);
     seconds_bsp = seconds_since(start);
   }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "radiosity/solver/patch_share.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
@@ -10,22 +11,31 @@ namespace transillum {
 /// What a solve starts from; constant once constructed, so any thread may read it.
 struct SolverInput {
   std::shared_ptr<const Scene> scene;
-  SolveOptions options;  ///< validated
-  Cancellation cancellation;
-  int threads = 1;                          ///< options.threads, or the number of cores
+  SolveOptions options;       ///< validated
+  Cancellation requested;     ///< set from outside
+  Cancellation cancellation;  ///< the same; in a group never set, since members stop together
+  int threads = 1;            ///< options.threads, or the number of cores
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
   TransferEngine engine;
+  std::shared_ptr<SolverGroup> group;              ///< null: this process alone
   double seconds_first_shot = 0, seconds_bsp = 0;  ///< time spent here; 0 for what was passed in
 
   /// Makes what is null: the light of the first shot, the tree, the engine.
   /// @throws InputError, Canceled
   SolverInput(std::shared_ptr<const Scene> scene, const SolveOptions& options,
               std::shared_ptr<const BspTree> tree, const Cancellation& cancellation,
-              std::shared_ptr<const DirectLight> shot, TransferEngine engine);
+              std::shared_ptr<const DirectLight> shot, TransferEngine engine,
+              std::shared_ptr<SolverGroup> group);
 
   int directions_per_pass() const { return options.two_way ? 2 : 1; }
+  PatchShare share() const { return {group.get(), scene->patch_count()}; }
+  /// @throws Canceled, in a group on every member
+  void throw_if_canceled() const { share().throw_if_canceled(requested); }
   std::size_t patch_count() const { return static_cast<std::size_t>(scene->patch_count()); }
+
+ private:
+  void prepare();
 };
 
 }  // namespace transillum

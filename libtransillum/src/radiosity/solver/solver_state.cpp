@@ -21,11 +21,12 @@ using Clock = std::chrono::steady_clock;
 RadiositySolver::Impl::Impl(SolverInput solver_input)
     : input(std::move(solver_input)),
       plan(input.options),
-      whole(*input.scene, input.options, *input.shot),
+      whole(*input.scene, input.options, *input.shot, input.share()),
       replicas(input),
       kept(input, plan.renews()),
-      statistics(*input.scene, input.options.two_way, *input.shot),
-      history(input, whole) {
+      statistics(*input.scene, input.options.two_way, *input.shot, input.share()),
+      history(input, whole),
+      share(input.share()) {
   iteration.directions = plan.directions(0);
   iteration.estimate = whole.b();
 }
@@ -44,11 +45,11 @@ void RadiositySolver::Impl::begin_iteration() {
     const double residual =
         std::min(0.1 * input.options.tolerance, 1e-6) * (1 - history.start().rho_max());
     for_each_iterate([&](RadiosityIterate& iterate, const KeptSums& sums) {
-      iterate.set_to_limit(sums, residual, input.cancellation);
+      iterate.set_to_limit(sums, residual, input.requested);
     });
   }
   for_each_iterate([&](RadiosityIterate& iterate, const KeptSums& sums) {
-    input.cancellation.throw_if_canceled();
+    input.throw_if_canceled();
     if (from_sums) {
       iterate.begin(sums);
     } else {
@@ -60,6 +61,9 @@ void RadiositySolver::Impl::begin_iteration() {
   iteration.from_kept_sums = whole.passes();
   if (iteration.from_kept_sums > 0) {
     update_estimate();
+    if (share.group != nullptr) {
+      share.complete(iteration.estimate);
+    }
   }
   const double seconds = seconds_since(start);
   timing.seconds_iterate += seconds;
@@ -70,6 +74,9 @@ bool RadiositySolver::Impl::advance_direction(const RadiositySolver& self,
                                               const Observer& observer) {
   const auto start = Clock::now();
   const int k = passes_done();
+  if (share.group != nullptr) {
+    return advance_in_group(k + 1, self, observer);
+  }
   Pass pass = make_pass(k, statistics.areas().passes);
   timing.seconds_transfers += seconds_since(start);
   add_pass(k, std::move(pass));
@@ -78,6 +85,9 @@ bool RadiositySolver::Impl::advance_direction(const RadiositySolver& self,
 }
 
 bool RadiositySolver::Impl::advance_passes(const RadiositySolver& self, const Observer& observer) {
+  if (share.group != nullptr) {
+    return advance_in_group(passes_needed(), self, observer);
+  }
   bool going = true;
   auto last = Clock::now();
   // Of the wall time, what all threads together did not spend on adding is the passes'.
@@ -112,12 +122,18 @@ bool RadiositySolver::Impl::advance_passes(const RadiositySolver& self, const Ob
 
 Pass RadiositySolver::Impl::make_pass(int k, int known) const {
   Pass pass;
-  pass.transfers = input.engine(at(iteration.directions, k), input.cancellation);
+  pass.transfers = input.engine(at(iteration.directions, k), input.requested);
   if (is_first_along(k, known)) {
-    if (kept.requested()) {
+    if (kept.requested() && share.group == nullptr) {
       pass.run = kept.make_run(pass.transfers.exchanges);
     }
     pass.closure = closure_defect(pass.transfers, *input.scene);
+    pass.exchanges = std::ssize(pass.transfers.exchanges);
+    for (std::size_t i = 0; i < pass.transfers.forward.size(); ++i) {
+      const Coverage &forward = pass.transfers.forward[i], &backward = pass.transfers.backward[i];
+      pass.projected += forward.projected + backward.projected;
+      pass.covered += forward.covered + backward.covered;
+    }
   }
   return pass;
 }
@@ -137,19 +153,24 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
     kept.add_areas(pass.transfers);
   }
   ++timing.passes_made;
-  iteration.changes.push_back(update_estimate());
+  const EstimateChange change = update_estimate();
+  if (share.group == nullptr) {
+    iteration.changes.push_back(ratio_or_zero(change.change, change.largest));
+  } else {
+    iteration.changes_of_share.push_back(change);
+  }
   timing.seconds_iterate += seconds_since(start);
 }
 
-double RadiositySolver::Impl::update_estimate() {
-  double change = 0, largest = 0;
-  for (std::size_t i = 0; i < iteration.estimate.size(); ++i) {
+EstimateChange RadiositySolver::Impl::update_estimate() {
+  EstimateChange result;
+  for (std::size_t i = share.first(); i < share.last(); ++i) {
     const Rgb value = history.with(i, whole.estimate(static_cast<PatchId>(i)));
-    change = std::max(change, max_abs(value - iteration.estimate[i]));
-    largest = std::max(largest, max_abs(value));
+    result.change = std::max(result.change, max_abs(value - iteration.estimate[i]));
+    result.largest = std::max(result.largest, max_abs(value));
     iteration.estimate[i] = value;
   }
-  return ratio_or_zero(change, largest);
+  return result;
 }
 
 void RadiositySolver::Impl::finish_iteration() {
@@ -173,6 +194,7 @@ void RadiositySolver::Impl::finish_iteration() {
   const IterationRecord record{.change = change, .seconds = iteration.seconds + seconds};
   history.update(whole, record, complete);
   iteration.end(history.b());
+  check_agreement();
 }
 
 void RadiositySolver::Impl::add_replica() {

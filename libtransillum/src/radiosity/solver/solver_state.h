@@ -33,6 +33,7 @@ struct RadiositySolver::Impl {
   IterationUnderWay iteration;  ///< in progress
   IterationHistory history;     ///< finished iterations, and the answer so far
   SolverTiming timing;
+  PatchShare share;
 
   explicit Impl(SolverInput solver_input);
 
@@ -61,12 +62,23 @@ struct RadiositySolver::Impl {
   /// All passes that the iteration still needs, on all threads. They are added in order, so the
   /// sums have the same bits for any number of threads. Returns false if the observer did.
   bool advance_passes(const RadiositySolver& self, const Observer& observer);
+  /// The same up to pass `last` - 1, made by all members of a group.
+  bool advance_in_group(int last, const RadiositySolver& self, const Observer& observer);
   /// A pure function of k and `known`, as in is_first_along().
   Pass make_pass(int k, int known) const;
   /// Adds pass k; in the order of the passes, on one thread at a time.
   void add_pass(int k, Pass pass);
-  /// Updates the estimate of B. Returns its change over its largest value.
-  double update_estimate();
+  /// Updates the estimate of B for the share's patches.
+  EstimateChange update_estimate();
+  /// To be called on every member after the same passes: completes what is largest per pass, and
+  /// drops the kept exchanges where one member had to. Returns whether all are `going` on.
+  bool agree_after_round(bool going);
+  /// Checks in a group that every member has the same B.
+  /// @throws std::runtime_error
+  void check_agreement() const;
+  /// In a group, completes what is summed per patch, and the estimate of B. Every getter then
+  /// returns the same on every member.
+  void complete();
   /// B(n+1) from what was gathered, and the stopping rule (eq. 25).
   void finish_iteration();
   /// Continues with one replica more.

@@ -10,7 +10,7 @@
 namespace transillum {
 namespace {
 
-/// Share of the largest B below which the difference of two iterates is rounding.
+/// PatchShare of the largest B below which the difference of two iterates is rounding.
 constexpr double negligible = 1e-13;
 
 Rgb max_of(const Rgb& a, const Rgb& b) {
@@ -35,6 +35,12 @@ void StartRemainder::begin() {
 void StartRemainder::add(const Transfers& transfers) {
   if (upper_) {
     upper_->add(transfers);
+  }
+}
+
+void StartRemainder::complete() {
+  if (upper_) {
+    upper_->complete();
   }
 }
 
@@ -77,7 +83,9 @@ void StartRemainder::start(const RadiosityIterate& whole) {
   upper_->start_from(gathered);
 }
 
-void StartRemainder::make_upper() { upper_.emplace(*input_.scene, input_.options, *input_.shot); }
+void StartRemainder::make_upper() {
+  upper_.emplace(*input_.scene, input_.options, *input_.shot, input_.share());
+}
 
 double StartRemainder::contraction() const {
   const std::size_t count = largest_.size();

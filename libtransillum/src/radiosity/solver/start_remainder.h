@@ -25,6 +25,8 @@ class StartRemainder {
   void begin();
   /// Gathers along the directions of one pass.
   void add(const Transfers& transfers);
+  /// Completes what passes have gathered, in a group.
+  void complete();
   /// Ends an iteration which led to `whole`.
   void finish(const RadiosityIterate& whole);
 

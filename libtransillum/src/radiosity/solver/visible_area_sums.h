@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "radiosity/solver/patch_share.h"
 #include "transillum/transfers.h"
 
 namespace transillum {
@@ -19,13 +20,16 @@ struct VisibleAreaSums {
 
   explicit VisibleAreaSums(std::size_t patches)
       : rows(patches), columns(patches), projected(patches), uncovered(patches) {}
-  void add(const Transfers& transfers, bool two_way) {
-    for (std::size_t i = 0; i < projected.size(); ++i) {
-      projected[i] += transfers.forward[i].projected;
-      uncovered[i] += transfers.forward[i].uncovered();
+  /// @param share the patches of the coverages; the sums of others are right after complete()
+  void add(const Transfers& transfers, bool two_way, const PatchShare& share) {
+    for (std::size_t i = share.first(); i < share.last(); ++i) {
+      const Coverage& forward = transfers.forward[i - share.first()];
+      const Coverage& backward = transfers.backward[i - share.first()];
+      projected[i] += forward.projected;
+      uncovered[i] += forward.uncovered();
       if (two_way) {
-        projected[i] += transfers.backward[i].projected;
-        uncovered[i] += transfers.backward[i].uncovered();
+        projected[i] += backward.projected;
+        uncovered[i] += backward.uncovered();
       }
     }
     for (const Transfer& t : transfers.exchanges) {
@@ -35,6 +39,11 @@ struct VisibleAreaSums {
       (two_way ? rows : columns)[j] += t.area;
     }
     ++passes;
+  }
+  void complete(const PatchShare& share) {
+    for (std::vector<double>* areas : {&rows, &columns, &projected, &uncovered}) {
+      share.complete(*areas);
+    }
   }
   /// For StateOutput and StateInput.
   template <class Archive, class Self>

@@ -1,0 +1,32 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "transillum/solver_group.h"
+
+namespace transillum::cli {
+
+/// The processes of a program that is started several times at once: transillum-mpi. All parse the
+/// same arguments. The first one prints and writes everything; the others are silent and share
+/// the passes of `solve`.
+struct Processes {
+  std::shared_ptr<SolverGroup> group;    ///< null: this process alone
+  int here = 1;                          ///< processes of the group on this machine
+  int threads = 0;                       ///< default of --threads; 0: the number of cores
+  std::function<std::string()> figures;  ///< what was sent, as a sentence; all must call it
+};
+
+/// Set once, before the program runs.
+Processes& processes();
+
+/// Whether this process prints and writes.
+bool is_first_process();
+
+/// Runs `body` in all processes, and where one fails, fails in all.
+/// @throws the error of `body`, or MemberFailed
+void in_all_processes(const std::function<void()>& body);
+
+}  // namespace transillum::cli

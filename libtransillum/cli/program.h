@@ -1,0 +1,19 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string_view>
+
+namespace transillum::cli {
+
+/// Prepares streams and signals of the process; to be called first.
+void prepare_process();
+
+/// What run_program() returns where another process has failed, and this one has nothing to say.
+inline constexpr int failed_elsewhere = -1;
+
+/// Runs the command in the arguments; never throws.
+/// @param report prints the message of an error
+/// @returns the exit status, or failed_elsewhere
+int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept);
+
+}  // namespace transillum::cli

@@ -1,0 +1,144 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "mpi_group.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <climits>
+#include <cstdint>
+#include <stdexcept>
+
+#include "mpi_waiting.h"
+#include "pass_rounds.h"
+
+namespace transillum::mpi {
+namespace {
+
+constexpr int unit_bytes = 16;
+
+int checked_count(std::size_t count) {
+  if (count > INT_MAX) {
+    throw std::runtime_error("too many values for one message of MPI");
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+MpiGroup::MpiGroup() {
+  MPI_Comm_dup(MPI_COMM_WORLD, &comm_);
+  MPI_Comm_dup(MPI_COMM_WORLD, &dealing_);
+  MPI_Comm_rank(comm_, &rank_);
+  MPI_Comm_size(comm_, &size_);
+  MPI_Type_contiguous(unit_bytes, MPI_BYTE, &unit_);
+  MPI_Type_commit(&unit_);
+}
+
+MpiGroup::~MpiGroup() {
+  MPI_Type_free(&unit_);
+  MPI_Comm_free(&dealing_);
+  MPI_Comm_free(&comm_);
+}
+
+void MpiGroup::wait(MPI_Request& request) {
+  wait_for(request, [this] {
+    if (rounds_ != nullptr) {
+      rounds_->serve();
+    }
+  });
+}
+
+bool MpiGroup::run(const GroupPasses& passes) {
+  PassRounds rounds(comm_, dealing_, unit_, passes);
+  struct Current {
+    MpiGroup& group;
+    PassRounds& rounds;
+    ~Current() {
+      group.sent_in_passes_ += static_cast<std::int64_t>(rounds.bytes_sent());
+      group.rounds_ = nullptr;
+    }
+  };
+  rounds_ = &rounds;
+  const Current current{*this, rounds};
+  return rounds.run();
+}
+
+void MpiGroup::complete(std::span<double> values, PatchId patches) {
+  const std::size_t each = values.size() / static_cast<std::size_t>(patches);
+  checked_count(values.size());
+  std::vector<int> counts, begin;
+  for (int r = 0; r < size_; ++r) {
+    const PatchRange range = range_of(r, patches);
+    counts.push_back(static_cast<int>(each * range.size()));
+    begin.push_back(static_cast<int>(each * static_cast<std::size_t>(range.first)));
+  }
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DOUBLE, values.data(), counts.data(), begin.data(),
+                  MPI_DOUBLE, comm_, &request);
+  wait(request);
+  sent_in_sums_ +=
+      static_cast<std::int64_t>(owned(patches).size() * each * sizeof(double)) * (size_ - 1);
+}
+
+void MpiGroup::maxima(std::span<double> values) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, values.data(), checked_count(values.size()), MPI_DOUBLE, MPI_MAX,
+                 comm_, &request);
+  wait(request);
+}
+
+void MpiGroup::sums(std::span<std::int64_t> values) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(MPI_IN_PLACE, values.data(), checked_count(values.size()), MPI_INT64_T, MPI_SUM,
+                 comm_, &request);
+  wait(request);
+}
+
+std::vector<std::byte> MpiGroup::gather(std::span<const std::byte> bytes) {
+  // In whole units, the last of them filled up.
+  std::vector<std::byte> own(bytes.begin(), bytes.end());
+  own.resize((bytes.size() + unit_bytes - 1) / unit_bytes * unit_bytes);
+  const auto size = static_cast<std::size_t>(size_);
+  std::vector<std::int64_t> sizes(size);
+  const auto own_size = static_cast<std::int64_t>(bytes.size());
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallgather(&own_size, 1, MPI_INT64_T, sizes.data(), 1, MPI_INT64_T, comm_, &request);
+  wait(request);
+  std::vector<int> counts, begin;
+  std::size_t units = 0;
+  for (const std::int64_t part : sizes) {
+    begin.push_back(checked_count(units));
+    counts.push_back(checked_count((static_cast<std::size_t>(part) + unit_bytes - 1) / unit_bytes));
+    units += static_cast<std::size_t>(counts.back());
+  }
+  std::vector<std::byte> all(rank_ == 0 ? units * unit_bytes : 0);
+  MPI_Igatherv(own.data(), checked_count(own.size() / unit_bytes), unit_, all.data(), counts.data(),
+               begin.data(), unit_, 0, comm_, &request);
+  wait(request);
+  if (rank_ != 0) {
+    return {};
+  }
+  std::vector<std::byte> result;
+  for (std::size_t r = 0; r < size; ++r) {
+    const auto part = all.begin() + static_cast<std::ptrdiff_t>(begin[r]) * unit_bytes;
+    result.insert(result.end(), part, part + static_cast<std::ptrdiff_t>(sizes[r]));
+  }
+  return result;
+}
+
+std::string MpiGroup::figures() {
+  std::vector<std::int64_t> sent{sent_in_passes_, sent_in_sums_};
+  sums(sent);
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  std::vector<double> largest{static_cast<double>(usage.ru_maxrss)};
+  maxima(largest);
+  constexpr double mega = 1e-6;
+  return fmt::format(
+      "{} processes sent {:.1f} MB for passes and {:.1f} MB for sums; the largest used {:.1f} MB "
+      "of memory",
+      size_, mega * static_cast<double>(sent[0]), mega * static_cast<double>(sent[1]),
+      mega * 1024 * largest[0]);
+}
+
+}  // namespace transillum::mpi

@@ -1,0 +1,214 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// The messages in which one member of a group tells the others of a pass that it has made.
+//
+// Format, in the byte order and layout of the machine: Header; a Coverage for each patch owned by
+// the receiver, or two; perhaps back_seen of each; the exchanges, in the order of the pass. A patch
+// faces omega or -omega, so mostly one Coverage says both: a negative projected area stands for
+// the backward one.
+#include "radiosity/solver/pass_messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace transillum {
+namespace {
+
+constexpr std::size_t unit = 16;  ///< of message sizes, bytes
+
+struct Header {
+  Vec3 direction;
+  ClosureDefect closure;
+  PassCounts counts;
+  double projected = 0, covered = 0;
+  std::int64_t exchanges = 0;   ///< of the whole pass
+  std::uint64_t sent = 0;       ///< exchanges in this message
+  std::uint32_t two_sided = 0;  ///< forward and backward coverages, one list after the other
+  std::uint32_t back_seen = 0;  ///< whether back_seen is there
+};
+static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Transfer> &&
+              std::is_trivially_copyable_v<Coverage>);
+
+/// Appends values to a message whose memory is there.
+class Writer {
+ public:
+  explicit Writer(std::byte* place) : place_(place) {}
+  template <class T>
+  void put(const T& value) {
+    std::memcpy(place_, &value, sizeof(T));
+    place_ += sizeof(T);
+  }
+
+ private:
+  std::byte* place_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  template <class T>
+  T get() {
+    T value;
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_ = bytes_.subspan(sizeof(T));
+    return value;
+  }
+  template <class T>
+  std::vector<T> list(std::size_t count) {
+    std::vector<T> values(count);
+    if (count > 0) {
+      std::memcpy(values.data(), bytes_.data(), count * sizeof(T));
+      bytes_ = bytes_.subspan(count * sizeof(T));
+    }
+    return values;
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+bool is_empty(const Coverage& coverage) { return coverage.projected == 0 && coverage.covered == 0; }
+
+/// The member that owns patch i, the inverse of SolverGroup::range_of().
+std::size_t owner(PatchId i, std::int64_t members, PatchId patches) {
+  return static_cast<std::size_t>(((i + std::int64_t{1}) * members - 1) / patches);
+}
+
+/// What the messages to one member look like.
+Header header_for(const Pass& pass, const PatchRange& owned) {
+  Header header;
+  header.direction = pass.transfers.direction;
+  header.closure = pass.closure;
+  header.counts = pass.transfers.counts;
+  header.projected = pass.projected;
+  header.covered = pass.covered;
+  header.exchanges = pass.exchanges;
+  for (auto i = static_cast<std::size_t>(owned.first); i < static_cast<std::size_t>(owned.last);
+       ++i) {
+    const Coverage &forward = pass.transfers.forward[i], &backward = pass.transfers.backward[i];
+    if ((!is_empty(forward) && !is_empty(backward)) || std::signbit(forward.projected) ||
+        std::signbit(backward.projected)) {
+      header.two_sided = 1;
+    }
+    if (pass.transfers.back_seen[i] != 0) {
+      header.back_seen = 1;
+    }
+  }
+  return header;
+}
+
+std::size_t size_of(const Header& header, std::size_t patches) {
+  const std::size_t bytes = sizeof(Header) +
+                            patches * (header.two_sided ? 2 : 1) * sizeof(Coverage) +
+                            (header.back_seen ? patches * sizeof(double) : 0) +
+                            static_cast<std::size_t>(header.sent) * sizeof(Transfer);
+  return (bytes + unit - 1) / unit * unit;
+}
+
+void write_coverages(Writer& writer, const Header& header, const Transfers& transfers,
+                     const PatchRange& owned) {
+  const auto first = static_cast<std::size_t>(owned.first);
+  const auto last = static_cast<std::size_t>(owned.last);
+  if (header.two_sided) {
+    for (const auto* list : {&transfers.forward, &transfers.backward}) {
+      for (std::size_t i = first; i < last; ++i) {
+        writer.put((*list)[i]);
+      }
+    }
+  } else {
+    for (std::size_t i = first; i < last; ++i) {
+      const Coverage& backward = transfers.backward[i];
+      writer.put(is_empty(backward) ? transfers.forward[i]
+                                    : Coverage{-backward.projected, backward.covered});
+    }
+  }
+  for (std::size_t i = first; header.back_seen && i < last; ++i) {
+    writer.put(transfers.back_seen[i]);
+  }
+}
+
+void read_coverages(Reader& reader, const Header& header, std::size_t patches,
+                    Transfers& transfers) {
+  transfers.forward = reader.list<Coverage>(patches);
+  if (header.two_sided) {
+    transfers.backward = reader.list<Coverage>(patches);
+  } else {
+    transfers.backward.resize(patches);
+    for (std::size_t i = 0; i < patches; ++i) {
+      Coverage& forward = transfers.forward[i];
+      if (std::signbit(forward.projected)) {
+        transfers.backward[i] = {-forward.projected, forward.covered};
+        forward = {};
+      }
+    }
+  }
+  transfers.back_seen =
+      header.back_seen ? reader.list<double>(patches) : std::vector<double>(patches);
+}
+
+}  // namespace
+
+GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches) {
+  const auto members = static_cast<std::size_t>(group.size());
+  const auto owners = [&](const Transfer& t) {
+    return std::pair(owner(t.receiver, group.size(), patches),
+                     owner(t.source, group.size(), patches));
+  };
+  std::vector<Header> headers;
+  for (int r = 0; r < group.size(); ++r) {
+    headers.push_back(header_for(pass, group.range_of(r, patches)));
+  }
+  for (const Transfer& t : pass.transfers.exchanges) {
+    const auto [receiver, source] = owners(t);
+    ++headers[receiver].sent;
+    headers[source].sent += source != receiver ? 1 : 0;
+  }
+  GroupMessages messages;
+  messages.begin.push_back(0);
+  for (std::size_t r = 0; r < members; ++r) {
+    const std::size_t owned = group.range_of(static_cast<int>(r), patches).size();
+    messages.begin.push_back(messages.begin.back() + size_of(headers[r], owned));
+  }
+  messages.bytes.resize(messages.begin.back());
+  std::vector<Writer> writers;
+  for (std::size_t r = 0; r < members; ++r) {
+    writers.emplace_back(messages.bytes.data() + messages.begin[r]);
+    writers.back().put(headers[r]);
+    write_coverages(writers.back(), headers[r], pass.transfers,
+                    group.range_of(static_cast<int>(r), patches));
+  }
+  for (const Transfer& t : pass.transfers.exchanges) {
+    const auto [receiver, source] = owners(t);
+    writers[receiver].put(t);
+    if (source != receiver) {
+      writers[source].put(t);
+    }
+  }
+  return messages;
+}
+
+Pass joined_pass(std::span<const std::byte> message, const PatchRange& owned) {
+  Reader reader(message);
+  const auto header = reader.get<Header>();
+  Pass pass;
+  pass.closure = header.closure;
+  pass.projected = header.projected;
+  pass.covered = header.covered;
+  pass.exchanges = header.exchanges;
+  pass.transfers.direction = header.direction;
+  pass.transfers.counts = header.counts;
+  read_coverages(reader, header, owned.size(), pass.transfers);
+  pass.transfers.exchanges = reader.list<Transfer>(static_cast<std::size_t>(header.sent));
+  return pass;
+}
+
+/// One coverage per patch, and one or two exchanges per patch, each sent to at most two members.
+std::uint64_t expected_message_bytes(PatchId patches) {
+  return static_cast<std::uint64_t>(patches) * (sizeof(Coverage) + 3 * sizeof(Transfer));
+}
+
+}  // namespace transillum

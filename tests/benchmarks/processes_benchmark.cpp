@@ -1,0 +1,185 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// A model of transillum-mpi for many processes, from parts that one core can measure. A solver of
+// one process of N is run for real: it makes passes, splits them into messages for N processes and
+// adds those for itself; the others do not exist. From the times of its parts, a simulation of the
+// schedule by which passes are dealt (libtransillum/mpi/block_schedule.h) gives the time of a
+// machine with N cores. RESULTS.md states the assumptions.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <queue>
+#include <random>
+
+#include "block_schedule.h"
+#include "measure.h"
+#include "transillum/radiosity.h"
+
+namespace transillum::benchmarks {
+namespace {
+
+// The network: bytes per second and process, and seconds per message.
+constexpr double bandwidth = 1e9, latency = 5e-6;
+
+/// Times of the parts of a pass in a process of N.
+struct Parts {
+  std::vector<double> make;  ///< with splitting, s
+  double add = 0;            ///< mean, s
+  double bytes = 0;          ///< of the messages of a pass, mean, to all processes
+  double kept = 0;           ///< bytes of form factors in one process
+  double iteration = 0;      ///< an iteration from kept sums, without messages, s
+};
+
+/// Process `rank` of a group in which no other exists.
+class LonelyGroup : public SolverGroup {
+ public:
+  LonelyGroup(int rank, int size, Parts& parts) : rank_(rank), size_(size), parts_(parts) {}
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  bool run(const GroupPasses& passes) override {
+    bool going = true;
+    for (int k = passes.first; going && k < passes.last; ++k) {
+      GroupMessages messages;
+      parts_.make.push_back(
+          seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { messages = passes.make(k); }));
+      const auto r = static_cast<std::size_t>(rank_);
+      const auto own = std::span(messages.bytes)
+                           .subspan(messages.begin[r], messages.begin[r + 1] - messages.begin[r]);
+      parts_.add += seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] { passes.add(k, own); });
+      parts_.bytes += static_cast<double>(messages.bytes.size());
+      going = passes.after_round();
+    }
+    parts_.add /= passes.last - passes.first;
+    parts_.bytes /= passes.last - passes.first;
+    return going;
+  }
+  void complete(std::span<double>, PatchId) override {}
+  void maxima(std::span<double>) override {}
+  void sums(std::span<std::int64_t> values) override {
+    parts_.kept = 12 * static_cast<double>(values[0]);
+  }
+  std::vector<std::byte> gather(std::span<const std::byte>) override { return {}; }
+
+ private:
+  int rank_, size_;
+  Parts& parts_;
+};
+
+/// The middle process of `size`, which solves with so many passes.
+Parts measure(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<const BspTree>& tree,
+              int size, int passes) {
+  Parts parts;
+  const SolveOptions options{.directions = passes, .iterations = 2, .threads = 1};
+  RadiositySolver solver(scene, options, tree, {}, nullptr, {},
+                         std::make_shared<LonelyGroup>(size / 2, size, parts));
+  solver.advance(RadiositySolver::Until::iteration);
+  try {
+    parts.iteration = seconds_of(CLOCK_THREAD_CPUTIME_ID,
+                                 [&] { solver.advance(RadiositySolver::Until::iteration); });
+  } catch (const std::runtime_error&) {
+    // The others' values are missing.
+  }
+  return parts;
+}
+
+/// Seconds until all passes are added in all processes, each with one core.
+double simulated_passes(const Parts& parts, int size, int passes) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::size_t> pick(0, parts.make.size() - 1);
+  mpi::BlockSchedule schedule(0, passes, size);
+  const int round = size * mpi::passes_per_thread(static_cast<std::uint64_t>(parts.bytes));
+  const int rounds = (passes + round - 1) / round;
+  const auto in_round = [&](int r) { return std::min(round, passes - r * round); };
+  const auto exchange = [&](int r) {
+    return latency * 2 * size + in_round(r) * parts.bytes / size / bandwidth;
+  };
+  std::vector<double> finished(static_cast<std::size_t>(rounds));  ///< all passes of it made
+  std::vector<double> debt(static_cast<std::size_t>(size));        ///< adding that is to be done
+  using Free = std::pair<double, int>;
+  std::priority_queue<Free, std::vector<Free>, std::greater<>> processes;
+  for (int p = 0; p < size; ++p) {
+    processes.emplace(0.0, p);
+  }
+  int added = 0;   // rounds
+  double now = 0;  // when the last of them was exchanged
+  int dealt = 0;
+  while (dealt < passes) {
+    auto [time, p] = processes.top();
+    processes.pop();
+    const mpi::PassBlock block = schedule.take((added + mpi::rounds_ahead) * round);
+    if (block.first == block.last) {  // waits for the exchange of a round
+      now = std::max(now, finished[static_cast<std::size_t>(added)]) + exchange(added);
+      for (double& seconds : debt) {
+        seconds += in_round(added) * parts.add;
+      }
+      ++added;
+      processes.emplace(std::max(time, now), p);
+      continue;
+    }
+    dealt = block.last;
+    auto& own = debt[static_cast<std::size_t>(p)];
+    time += latency + own;
+    own = 0;
+    for (int k = block.first; k < block.last; ++k) {
+      time += parts.make[pick(random)];
+      auto& end = finished[static_cast<std::size_t>(k / round)];
+      end = std::max(end, time);
+    }
+    processes.emplace(time, p);
+  }
+  for (; added < rounds; ++added) {
+    now = std::max(now, finished[static_cast<std::size_t>(added)]) + exchange(added) +
+          in_round(added) * parts.add;
+  }
+  return now;
+}
+
+double sum(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) {
+    sum += value;
+  }
+  return sum;
+}
+
+/// TRANSILLUM_SCENE and TRANSILLUM_PASSES choose another scene and M.
+void measure_processes(benchmark::State& state) {
+  const char* spec = std::getenv("TRANSILLUM_SCENE");
+  const char* given = std::getenv("TRANSILLUM_PASSES");
+  constexpr int measured = 96;
+  for (auto _ : state) {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const BspTree> tree;
+    const double before = seconds_of(CLOCK_THREAD_CPUTIME_ID, [&] {
+      scene = load_scene(spec != nullptr ? spec : "sphere-flake");
+      tree =
+          std::make_shared<const BspTree>(*scene, Cancellation{}, std::function<void(double)>{}, 1);
+    });
+    const PatchId patches = scene->patch_count();
+    fmt::print("{} patches, scene and tree {:.2f} s\n", patches, before);
+    for (const int passes : {1024, given != nullptr ? std::atoi(given) : 65536}) {
+      double alone = 0;
+      for (const int size : {1, 2, 16, 128, 1024}) {
+        const Parts parts = measure(scene, tree, size, measured);
+        const double mean = sum(parts.make) / static_cast<double>(parts.make.size());
+        const double seconds = simulated_passes(parts, size, passes);
+        alone = size == 1 ? seconds : alone;
+        const double arrays = 24.0 * patches / bandwidth + latency * std::log2(size);
+        fmt::print(
+            "M = {:6}, N = {:4}: make {:.2f} ms, add {:.3f} ms, {:.2f} MB sent a pass; passes "
+            "{:9.3f} s, efficiency {:.3f}; iteration {:.2f} + {:.2f} ms; all {:.2f} s\n",
+            passes, size, 1e3 * mean, 1e3 * parts.add, 1e-6 * parts.bytes * (size - 1) / size,
+            seconds, alone / size / seconds, 1e3 * parts.iteration, 1e3 * 2 * arrays,
+            before + seconds + 20 * (parts.iteration + 2 * arrays));
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+BENCHMARK(measure_processes)->Name("Processes")->Iterations(1)->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace transillum::benchmarks

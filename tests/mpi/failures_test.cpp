@@ -1,0 +1,191 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// transillum-mpi with bad input, interrupted, and with a process that is killed; and the commands
+// that only the first process runs.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include "mpi_run.h"
+
+namespace transillum {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using testing::mpi_command;
+using testing::read_file;
+using testing::run_mpi;
+using testing::RunningProgram;
+using ::testing::StartsWith;
+using testing::TemporaryFolder;
+using Words = std::vector<std::string>;
+
+/// Lines that the program has printed; those of mpirun do not begin like that.
+Words messages(const std::string& err) {
+  Words lines;
+  std::istringstream text(err);
+  for (std::string line; std::getline(text, line);) {
+    if (line.find("transillum: ") != std::string::npos) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+/// Waits for a condition; false if it does not come true within a minute.
+bool wait_until(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+    std::this_thread::sleep_for(10ms);
+  }
+  return true;
+}
+
+std::vector<pid_t> children_of(pid_t pid) {
+  const std::string number = std::to_string(pid);
+  std::istringstream list(read_file("/proc/" + number + "/task/" + number + "/children"));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+/// Seconds of processor time that a process has used.
+double cpu_seconds(pid_t pid) {
+  const std::string stat = read_file("/proc/" + std::to_string(pid) + "/stat");
+  std::istringstream fields(stat.substr(std::min(stat.size(), stat.rfind(')') + 2)));
+  std::string skipped;
+  for (int k = 0; k < 11; ++k) {
+    fields >> skipped;
+  }
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// A solve that would take hours.
+Words long_solve(const std::string& out) {
+  return {"solve", "sphere-flake:levels=1", "-m", "1000000", "--out", out};
+}
+
+bool shows_passes(const RunningProgram& run) {
+  return run.err_so_far().find("iteration 1, pass ") != std::string::npos;
+}
+
+TEST(Failures, BadInputIsOneMessage) {
+  for (const Words& words :
+       {Words{"solve", "cornell-box", "--directionz", "4"}, Words{"solve", "no-such-file.obj"},
+        Words{"solve"}, Words{"sovle"}, Words{"solve", "cornell-box", "-m", "0"},
+        Words{"solve", "cornell-box", "-m", "4", "--out", "/no/folder.csv"}}) {
+    const auto run = run_mpi(3, words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(messages(run.err), ::testing::SizeIs(1)) << run.err;
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+TEST(Failures, AreThoseOfTheProgramAlone) {
+  const Words words{"solve", "cornell-box", "--scheme", "conjugate-gradients", "--memory", "1k"};
+  const auto run = run_mpi(3, words);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("exceed the memory limit (try a larger --memory)"));
+  EXPECT_THAT(messages(run.err), ::testing::SizeIs(1)) << run.err;
+}
+
+TEST(Failures, TheFirstProcessRunsOtherCommands) {
+  const Words words{"bounds", "cornell-box", "-m", "64"};
+  const auto shared = run_mpi(3, words), alone = testing::run_alone(words);
+  EXPECT_EQ(shared.status, 0) << shared.err;
+  EXPECT_EQ(shared.out, alone.out);
+  const auto help = run_mpi(3, {"solve", "--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.out, testing::run_alone({"solve", "--help"}).out);
+  const auto pairs = run_mpi(2, {"solve", "cornell-box", "--engine", "pairs", "--out", "-"});
+  EXPECT_EQ(pairs.status, 0) << pairs.err;
+  EXPECT_EQ(pairs.out,
+            testing::run_alone({"solve", "cornell-box", "--engine", "pairs", "--out", "-"}).out);
+}
+
+TEST(Failures, WaitingProcessesLeaveTheirCores) {
+  const TemporaryFolder folder;
+  // Engine pairs takes long in the first process alone.
+  RunningProgram run(mpi_command(
+      2, {"solve", "sphere-flake:levels=2", "--engine", "pairs", "-q", "--out", folder / "b.csv"}));
+  std::vector<pid_t> ranks;
+  ASSERT_TRUE(wait_until([&] {
+    ranks = children_of(run.pid());
+    return ranks.size() == 2 && std::max(cpu_seconds(ranks[0]), cpu_seconds(ranks[1])) > 2;
+  }));
+  EXPECT_LT(std::min(cpu_seconds(ranks[0]), cpu_seconds(ranks[1])), 1);
+  run.send(SIGTERM);
+  run.wait();
+}
+
+TEST(Failures, InterruptionSavesTheEstimate) {
+  for (const int signal : {SIGUSR1, SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    RunningProgram run(mpi_command(3, long_solve(folder / "b.csv")));
+    ASSERT_TRUE(wait_until([&] { return shows_passes(run); })) << run.err_so_far();
+    run.send(signal);
+    const auto result = run.wait();
+    // Of the others, mpirun itself ends.
+    EXPECT_EQ(result.status, signal == SIGUSR1 ? 130 : 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("transillum: interrupted; the results so far are saved"));
+    EXPECT_THAT(read_file(folder / "b.csv"), StartsWith("face,patch,"));
+    EXPECT_EQ(folder.names(), Words{"b.csv"});
+  }
+}
+
+TEST(Failures, AKilledProcessEndsTheOthers) {
+  const TemporaryFolder folder;
+  RunningProgram run(mpi_command(3, long_solve(folder / "b.csv")));
+  ASSERT_TRUE(wait_until([&] { return shows_passes(run); })) << run.err_so_far();
+  const std::vector<pid_t> ranks = children_of(run.pid());
+  ASSERT_EQ(ranks.size(), 3u);
+  ::kill(ranks[1], SIGKILL);
+  const auto result = run.wait();
+  EXPECT_EQ(result.status, 137) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("exited on signal 9"));
+  EXPECT_EQ(folder.names(), Words{});
+  EXPECT_TRUE(wait_until([&] { return ::kill(ranks[0], 0) != 0 && ::kill(ranks[2], 0) != 0; }));
+}
+
+TEST(Failures, NeedNoRoot) {
+  if (::geteuid() != 0) {
+    EXPECT_EQ(run_mpi(3, {"solve", "cornell-box", "-m", "16", "--out", "-", "-q"}).status, 0);
+    return;
+  }
+  const TemporaryFolder folder;
+  constexpr int nobody = 65534;
+  ASSERT_EQ(::chown(folder.path().c_str(), nobody, nobody), 0);
+  Words words{"-u",
+              "OMPI_ALLOW_RUN_AS_ROOT",
+              "HOME=" + folder.path().string(),
+              "setpriv",
+              "--reuid",
+              "65534",
+              "--regid",
+              "65534",
+              "--clear-groups"};
+  for (const std::string& word :
+       mpi_command(3, {"solve", "cornell-box", "-m", "16", "--out", folder / "b.csv", "-q"})) {
+    words.push_back(word);
+  }
+  const auto run = testing::run_program(words, {}, {}, folder.path());
+  EXPECT_EQ(run.status, 0) << run.err;
+  struct stat file = {};
+  ASSERT_EQ(::stat((folder / "b.csv").c_str(), &file), 0);
+  EXPECT_EQ(file.st_uid, static_cast<uid_t>(nobody));
+}
+
+}  // namespace
+}  // namespace transillum

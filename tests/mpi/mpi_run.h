@@ -1,0 +1,40 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "unit/program_run.h"
+
+namespace transillum::testing {
+
+/// The command line of transillum-mpi in `ranks` processes, without a network and on however few
+/// cores.
+inline std::vector<std::string> mpi_command(int ranks, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{TRANSILLUM_MPIRUN,
+                                   "--oversubscribe",
+                                   "--mca",
+                                   "btl",
+                                   "self,vader",
+                                   "--mca",
+                                   "btl_vader_single_copy_mechanism",
+                                   "none",
+                                   "-n",
+                                   std::to_string(ranks),
+                                   TRANSILLUM_MPI_PROGRAM};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+inline ProgramResult run_mpi(int ranks, const std::vector<std::string>& arguments,
+                             const std::string& folder = {}) {
+  return run_program(mpi_command(ranks, arguments), {}, {}, folder);
+}
+
+/// The program `transillum`.
+inline ProgramResult run_alone(std::vector<std::string> arguments, const std::string& folder = {}) {
+  arguments.insert(arguments.begin(), TRANSILLUM_ALONE);
+  return run_program(arguments, {}, {}, folder);
+}
+
+}  // namespace transillum::testing
