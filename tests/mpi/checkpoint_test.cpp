@@ -28,7 +28,7 @@ testing::ProgramResult run_in(int processes, const Words& words) {
 /// Interrupts a solve in `first` processes once it has been saved, and goes on with it in others.
 void expect_same_after_resuming(const Words& scheme, int first, const std::vector<int>& then) {
   const TemporaryFolder folder;
-  Words words{"solve", "cornell-box", "-q", "--checkpoint-every", "0.001"};
+  Words words{"solve", "cornell-box", "-q"};
   words.insert(words.end(), scheme.begin(), scheme.end());
   const auto command = [&](const Words& more) {
     Words all = words;
@@ -39,8 +39,9 @@ void expect_same_after_resuming(const Words& scheme, int first, const std::vecto
   ASSERT_EQ(whole.status, 0) << whole.err;
   const std::string checkpoint = folder / "run.ckpt";
   {
-    RunningProgram run(testing::mpi_command(
-        first, command({"--checkpoint", checkpoint, "--out", folder / "cut.csv"})));
+    RunningProgram run(
+        testing::mpi_command(first, command({"--checkpoint", checkpoint, "--checkpoint-every",
+                                             "0.001", "--out", folder / "cut.csv"})));
     while (!std::filesystem::exists(checkpoint)) {
       std::this_thread::sleep_for(1ms);
     }
