@@ -189,20 +189,81 @@ class CompareTest : public QObject {
     const ComparedWindow shown;
     QVERIFY(shown.ready);
     auto* dock = shown.window->findChild<QDockWidget*>("compare_dock");
+    const auto* action = shown.window->findChild<QAction*>("compare_large");
+    const auto panels = [&] {
+      QSet<QString> visible;
+      for (const QDockWidget* each : shown.window->findChildren<QDockWidget*>()) {
+        if (each->isVisible()) {
+          visible << each->objectName();
+        }
+      }
+      return visible;
+    };
+    // A small screen has room for little else.
+    shown.window->resize(1280 - 16, 720 - 48);
+    QCoreApplication::processEvents();
     const QSize usual = dock->size();
+    const QSet<QString> others = panels();
     shown.trigger("compare_large");
-    QVERIFY(
-        wait_for([&] { return dock->width() > usual.width() && dock->height() > usual.height(); }));
+    QVERIFY2(wait_for([&] {
+               return dock->width() > 0.58 * shown.window->width() &&
+                      dock->height() > 1.5 * usual.height();
+             }),
+             qPrintable(QString("%1 x %2, before %3 x %4")
+                            .arg(dock->width())
+                            .arg(dock->height())
+                            .arg(usual.width())
+                            .arg(usual.height())));
+    QVERIFY(panels() == (QSet<QString>{"compare_dock", "timeline_dock"}));
+    QVERIFY(wait_for([&] { return shown.window->settled(); }));
     save_picture(*shown.window, "compare-large");
+    // What is kept of the layout is that before.
+    const QByteArray kept = shown.window->parts().docks.state();
     shown.trigger("compare_large");
-    QVERIFY2(wait_for([&] { return dock->width() == usual.width(); }),
+    QVERIFY2(wait_for([&] { return dock->size() == usual; }),
              qPrintable(QString("%1, not %2").arg(dock->width()).arg(usual.width())));
+    QVERIFY(panels() == others && !action->isChecked());
+    shown.trigger("layout_debug");
+    DockLayouts& docks = shown.window->parts().docks;
+    QVERIFY(docks.restore(static_cast<int>(Layout::inspect), kept));
+    QVERIFY(wait_for([&] { return panels() == others; }));
+    // Another layout ends it too.
+    shown.trigger("compare_large");
+    QVERIFY(action->isChecked());
+    shown.trigger("layout_inspect");
+    QVERIFY(!action->isChecked() && panels().contains("settings_dock"));
+    shown.trigger("compare_large");
+    shown.trigger("compare_large");
+    QVERIFY(panels().contains("settings_dock"));
     // It is a tab of the map's place, also where maps are debugged.
     const auto tabs = shown.window->tabifiedDockWidgets(dock);
     QVERIFY(tabs.contains(shown.window->findChild<QDockWidget*>("map_dock")));
     shown.trigger("layout_debug");
     QVERIFY(shown.window->tabifiedDockWidgets(dock).contains(
         shown.window->findChild<QDockWidget*>("map_dock")));
+  }
+
+  // A picture of the window that is taken without a user must not show "Comparing…".
+  void a_window_that_shows_a_comparison_is_settled_once_it_is_complete() {
+    const SolvedWindow solved("furnace");
+    QVERIFY(solved.ready);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("compare.json");
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"title": "Engines", "pages": [{"text": "Two.", "show": {"scene": "cornell-box",
+      "options": {"directions": 16}, "layout": "inspect", "panels": ["compare"]}}]})");
+    file.close();
+    const auto* view = solved.window->findChild<CompareView*>();
+    solved.window->files().open(path);
+    // Checked at each turn of the event loop, as a screenshot could be.
+    QVERIFY(wait_for([&] { return solved.window->settled() && view->isVisible(); }));
+    QVERIFY(view->up_to_date());
+    // Nothing is waited for where nothing can be compared.
+    view->findChild<QComboBox*>("other_engine")->setCurrentText("Hemicube");
+    QVERIFY(wait_for([&] { return solved.window->settled(); }));
+    QVERIFY2(solved.text("compare_words").contains("select a patch"),
+             qPrintable(solved.text("compare_words")));
   }
 
   void shows_both_side_by_side() {

@@ -2,6 +2,7 @@
 // What helps to find an error in a map: breakpoints with several conditions, the filter of events,
 // both phases of a step, details of a polygon, watched figures.
 #include <QComboBox>
+#include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
 #include <QListWidget>
@@ -453,6 +454,23 @@ class DebuggingTest : public QObject {
              button(2)->geometry().bottom() < chart->plot().top();
     }));
     QCOMPARE(s.window->watches.list().size(), std::size_t{3});
+    // A window that is high enough gives the chart more than its least height.
+    QVERIFY(wait_for([&] { return chart->height() > chart->minimumSizeHint().height(); }));
+    // On a small screen, the values are beside it.
+    const QSize usual = s.window->size();
+    s.window->resize(1280 - 16, 720 - 48);
+    s.window->resizeDocks({s.window->findChild<QDockWidget*>("timeline_dock")}, {1}, Qt::Vertical);
+    QVERIFY(wait_for([&] { return button(2)->x() > chart->plot().right(); }));
+    QCOMPARE(s.window->size(), QSize(1280 - 16, 720 - 48));
+    for (int k = 0; k < 3; ++k) {
+      QVERIFY2(chart->rect().contains(button(k)->geometry()), qPrintable(button(k)->text()));
+      QVERIFY(button(k)->toolTip().contains("at most"));
+    }
+    QVERIFY(chart->plot().height() >= 26);
+    save_picture(*s.window, "watched-small");
+    s.window->resize(usual);
+    s.trigger("layout_reset");
+    QVERIFY(wait_for([&] { return button(2)->x() < chart->plot().right(); }));
     const MapHistory& history = s.history();
     const auto sizes = values_of({Watch::Kind::map_size}, history);
     // The lines pass where the values are, and the buttons tell them.

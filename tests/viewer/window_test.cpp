@@ -351,6 +351,8 @@ class WindowTest : public QObject {
     QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
     window->colors.set_mode(ColorMode::luminance);
     check("a scene");
+    window->watches.add({Watch::Kind::map_size});
+    check("a watch");
     window->hide();  // nothing has to be painted
     window->parts().lessons.show_page(3, 0);
     window->findChild<QAction*>(layout)->trigger();

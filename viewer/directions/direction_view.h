@@ -44,7 +44,7 @@ class DirectionView : public QWidget {
   std::vector<double> received() const;
 
   QSize sizeHint() const override { return {420, 340}; }
-  QSize minimumSizeHint() const override { return {220, 150}; }
+  QSize minimumSizeHint() const override { return {220, 128}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -153,7 +153,7 @@ void CompareView::make_large_action() {
   large_->setIconText(tr("Large"));
   large_->setCheckable(true);
   large_->setShortcut(Qt::Key_G);
-  large_->setToolTip(tr("Give the comparison of engines most of the window (G)"));
+  large_->setToolTip(tr("Give the comparison of engines most of the window, or take it back (G)"));
   connect(large_, &QAction::toggled, this, &CompareView::enlarged);
 }
 
@@ -331,8 +331,17 @@ void CompareView::clear() {
 
 bool CompareView::up_to_date() const {
   return comparison_ && !comparing_ && focus_.map() && snapshot_ && current_request() == sent_ &&
-         first_.up_to_date() && other_.up_to_date() && difference_->canvas()->up_to_date() &&
+         drawn();
+}
+
+bool CompareView::drawn() const {
+  return first_.up_to_date() && other_.up_to_date() && difference_->canvas()->up_to_date() &&
          by_polygon_->canvas()->up_to_date();
+}
+
+bool CompareView::busy() const {
+  const bool shown = comparison_ && comparison_->ok();
+  return isVisible() && (comparing_ || request_timer_->isActive() || (shown && !drawn()));
 }
 
 void CompareView::showEvent(QShowEvent* event) {

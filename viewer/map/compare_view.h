@@ -41,6 +41,8 @@ class CompareView : public QWidget {
   void clear();
   /// Whether the comparison shown is of the direction in focus and the chosen engines.
   bool up_to_date() const;
+  /// Whether a comparison is on its way to the panel, which is visible.
+  bool busy() const;
   /// Gives the panel most of the window, and takes it back.
   QAction* large() const { return large_; }
 
@@ -65,6 +67,8 @@ class CompareView : public QWidget {
     /// As in EngineComparer::Request: 0 for an engine without one; even for a hemicube.
     int requested_resolution() const;
   };
+  /// Whether the maps show the comparison.
+  bool drawn() const;
   Choice make_choice(const char* name, Engine engine);
   QBoxLayout* column_of(const Choice& choice) const;
   /// Moving one of these maps moves the others.

@@ -33,7 +33,7 @@ HemicubeView::HemicubeView(const Selection& selection, QWidget* parent)
           [this](const Task& task, const QString& message) {
             post_failure(message, task.number);
           }) {
-  setMinimumSize(200, 90);
+  setMinimumSize(200, 80);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
   connect(&selection_, &Selection::changed, this, &HemicubeView::send_request);

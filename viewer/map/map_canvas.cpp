@@ -50,7 +50,7 @@ MapCanvas::MapCanvas(Selection& selection, QWidget* parent)
             };
             QMetaObject::invokeMethod(this, show, Qt::QueuedConnection);
           }) {
-  setMinimumSize(200, 90);
+  setMinimumSize(200, 80);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setToolTip(tr("Drag to move, wheel to zoom, double-click to show all, click to select a patch"));

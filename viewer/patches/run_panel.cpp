@@ -80,11 +80,11 @@ RunPanel::RunPanel(ColorChoice& colors, Selection& selection, QAction& keep, QAc
   hint_ = new QLabel;
   hint_->setObjectName("run_hint");
   hint_->setWordWrap(true);
-  hint_->setContentsMargins(10, 0, 10, 4);
+  hint_->setContentsMargins(10, 0, 10, 2);
   hint_->setForegroundRole(QPalette::PlaceholderText);
   // A layout does not count further lines of wrapped text, and would lay the table over them.
-  hint_->setMinimumHeight(2 * hint_->fontMetrics().lineSpacing() + 4);
-  table_->setMinimumHeight(44);
+  hint_->setMinimumHeight(2 * hint_->fontMetrics().lineSpacing() + 2);
+  table_->setMinimumHeight(38);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
@@ -142,7 +142,7 @@ QLayout* RunPanel::make_choices() {
   second_ = make_choice("run_b", tr("The run whose difference from A is shown"));
   first_ = make_choice("run_a", tr("Run A: subtracted, and shown while the key A is held"));
   auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 2, 8, 2);
+  row->setContentsMargins(10, 0, 8, 2);
   row->addWidget(second_, 1);
   row->addWidget(new QLabel(tr("minus A:")));
   row->addWidget(first_, 1);
@@ -166,7 +166,7 @@ QLayout* RunPanel::make_figures() {
   go_->setToolTip(tr("Select the patch with the largest difference, and turn the scene to it"));
   connect(go_, &QToolButton::clicked, this, &RunPanel::go_to_worst);
   auto* row = new QHBoxLayout;
-  row->setContentsMargins(10, 2, 8, 6);
+  row->setContentsMargins(10, 0, 8, 4);
   row->addWidget(figures_, 1);
   row->addWidget(go_);
   return row;

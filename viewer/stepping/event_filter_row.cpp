@@ -55,7 +55,7 @@ EventFilterRow::EventFilterRow(Focus& focus, QWidget* parent) : QWidget(parent),
   clear_button_ = new QToolButton;
   clear_button_->setDefaultAction(clear_);
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 2, 8, 4);
+  row->setContentsMargins(8, 0, 8, 3);
   row->setSpacing(4);
   row->addWidget(new QLabel(tr("Area")));
   row->addWidget(least_, 1);

@@ -33,6 +33,7 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
   line_.view->setColumnHidden(EventTable::of_parts, true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
   layout->addWidget(tabs_);
   filter_ = new EventFilterRow(focus_);
   layout->addWidget(filter_);
@@ -55,7 +56,7 @@ StepPanel::StepPanel(Focus& focus, Selection& selection, QWidget* parent)
 StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   Tab tab{new EventTable(this), new QTableView, new QLabel};
   tab.text->setWordWrap(true);
-  tab.text->setContentsMargins(10, 4, 10, 4);
+  tab.text->setContentsMargins(10, 2, 10, 2);
   tab.text->setForegroundRole(QPalette::PlaceholderText);
   tab.view->setObjectName(QString::fromLatin1(name));
   tab.view->setModel(tab.table);
@@ -64,6 +65,8 @@ StepPanel::Tab StepPanel::add_tab(const QString& title, const char* name) {
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setSectionResizeMode(EventTable::of_kind, QHeaderView::Stretch);
   set_up_figure_table(*tab.view, {"88888", "88888", "", "88888", "0.008888", "8", "0.008888"});
+  constexpr int header_and_row = 46;
+  tab.view->setMinimumHeight(header_and_row);
 
   auto* page = new QWidget;
   auto* layout = new QVBoxLayout(page);

@@ -96,6 +96,13 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
         {tr("Search stopped: nothing found in %1 directions").arg(count_text(searched))});
   });
   connect(&focus_, &Focus::filtered, this, &TimelineBar::show_filter);
+  // After the chart has received the change.
+  connect(&watches, &Watches::changed, this, [this] {
+    if (watched_->isHidden() == has_chart_) {
+      has_chart_ = !has_chart_;
+      emit chart_shown();
+    }
+  });
   show_position();
   show_filter();
 }

@@ -34,6 +34,10 @@ class TimelineBar : public QWidget {
   /// Of what can be watched.
   QMenu* watch_menu() const;
 
+ signals:
+  /// The chart of what is watched has been shown or hidden.
+  void chart_shown();
+
  private:
   void show_position();
   void show_filter();
@@ -45,6 +49,7 @@ class TimelineBar : public QWidget {
   QToolButton* filter_;
   TimelineLanes* lanes_;
   WatchChart* watched_;
+  bool has_chart_ = false;
 };
 
 }  // namespace transillum::viewer

@@ -70,8 +70,8 @@ void TimelineLanes::set_thin(bool thin) {
 }
 
 QSize TimelineLanes::minimumSizeHint() const {
-  constexpr int thin_height = 36, usual_height = 72;
-  return {300, thin_ ? theme::scaled(thin_height) : usual_height};
+  constexpr int thin_height = 36, least_height = 59;
+  return {300, thin_ ? theme::scaled(thin_height) : least_height};
 }
 
 void TimelineLanes::set_progress(int iteration, int directions) {

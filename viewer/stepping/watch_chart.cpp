@@ -5,18 +5,17 @@
 #include "stepping/watch_chart.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "stepping/timeline_lanes.h"
 #include "support/number_text.h"
+#include "transillum/at.h"
 #include "widgets/theme.h"
 
 namespace transillum::viewer {
@@ -24,6 +23,9 @@ namespace transillum::viewer {
 namespace {
 
 constexpr int plot_height = 52;
+// Where the panels leave no more, and the buttons are beside the plot.
+constexpr int least_height = 37, least_plot_height = 30;
+constexpr int top_gap = 4, bottom_gap = 5;
 constexpr double least_defect = 1e-17;  ///< bottom of the logarithmic scale of closure defects
 
 QIcon icon_of(const QColor& color) {
@@ -41,19 +43,11 @@ WatchChart::WatchChart(Focus& focus, Selection& selection, Watches& watches,
       selection_(selection),
       watches_(watches),
       lanes_(lanes),
-      menu_(std::make_unique<QMenu>()),
-      buttons_(new QHBoxLayout) {
+      menu_(std::make_unique<QMenu>()) {
   setToolTip(
       tr("Watched figures over the steps of the direction, each on its own scale from 0 to "
          "its largest value (closure defects: logarithmic, from 10⁻¹⁷ to 1). Click or drag "
          "to go to a step."));
-  buttons_->setContentsMargins(8, 0, 8, 0);
-  buttons_->setSpacing(4);
-  buttons_->addStretch(1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addLayout(buttons_);
-  layout->addStretch(1);
   make_menu();
   connect(&watches_, &Watches::changed, this, &WatchChart::show_list);
   connect(&focus_, &Focus::moved, this, [this] {
@@ -107,17 +101,17 @@ void WatchChart::show_list() {
   series_.clear();
   for (const Watch& watch : watches_.list()) {
     const std::size_t k = series_.size();
-    auto* button = new QToolButton;
+    auto* button = new QToolButton(this);
     button->setObjectName(QStringLiteral("watch_%1").arg(k));
     button->setIcon(icon_of(color_of(k)));
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setAutoRaise(true);
-    button->setMinimumWidth(24);  // without room, the text is cut off; the tool tip has it
+    button->setIconSize({theme::scaled(12), theme::scaled(12)});
     // Later: the button is deleted with its list.
     connect(
         button, &QToolButton::clicked, this, [this, k] { watches_.remove(k); },
         Qt::QueuedConnection);
-    buttons_->insertWidget(static_cast<int>(k), button);
+    button->show();
     series_.push_back({watch, {}, 0, button});
   }
   setVisible(!series_.empty());
@@ -139,27 +133,70 @@ void WatchChart::compute() {
 void WatchChart::show_values() {
   const auto step = static_cast<std::size_t>(focus_.position().step + 1);
   for (const Series& series : series_) {
-    QString text = text_of(series.watch);
+    const QString name = text_of(series.watch);
+    QString text = name, value = QStringLiteral("–");
     if (step < series.values.size()) {
-      const double value = series.values[step];
-      text = tr("%1: %2, at most %3")
-                 .arg(text, std::isnan(value) ? QStringLiteral("–") : number_text(value),
-                      number_text(series.largest));
+      if (!std::isnan(series.values[step])) {
+        value = number_text(series.values[step]);
+      }
+      text = tr("%1: %2, at most %3").arg(name, value, number_text(series.largest));
     }
-    series.button->setText(text);
+    series.button->setText(is_low() ? value : text);
     series.button->setToolTip(tr("%1. Click to remove.").arg(text));
   }
+  place_buttons();
   update();
 }
 
-QSize WatchChart::minimumSizeHint() const {
-  return {300, layout()->minimumSize().height() + theme::scaled(plot_height)};
+int WatchChart::button_height() const {
+  return series_.empty() ? 0 : series_.front().button->sizeHint().height();
+}
+
+bool WatchChart::is_low() const {
+  return height() < button_height() + top_gap + theme::scaled(least_plot_height) + bottom_gap;
+}
+
+QSize WatchChart::minimumSizeHint() const { return {300, theme::scaled(least_height)}; }
+
+QSize WatchChart::sizeHint() const {
+  return {300, button_height() + top_gap + theme::scaled(plot_height) + bottom_gap};
+}
+
+void WatchChart::resizeEvent(QResizeEvent*) { show_values(); }
+
+void WatchChart::place_buttons() {
+  constexpr int margin = 8, gap = 4;
+  const int count = static_cast<int>(series_.size());
+  if (is_low()) {
+    const int rows = count > 1 ? 2 : 1, columns = (count + rows - 1) / rows;
+    const int left = static_cast<int>(plot().right()) + gap;
+    const int column = (width() - left) / std::max(columns, 1), row = height() / rows;
+    for (int k = 0; k < count; ++k) {
+      QToolButton& button = *at(series_, k).button;
+      button.setGeometry(left + k / rows * column, k % rows * row,
+                         std::min(column, button.sizeHint().width()), row);
+    }
+    return;
+  }
+  int wanted = 0;
+  for (const Series& series : series_) {
+    wanted += series.button->sizeHint().width();
+  }
+  // Without room, texts are cut off; the tool tips have them.
+  const double room = width() - 2 * margin - gap * (count - 1);
+  const double share = std::min(1.0, room / std::max(wanted, 1));
+  int left = margin;
+  for (const Series& series : series_) {
+    const int wide = static_cast<int>(share * series.button->sizeHint().width());
+    series.button->setGeometry(left, 0, wide, button_height());
+    left += wide + gap;
+  }
 }
 
 QRectF WatchChart::plot() const {
   const QRectF lane = lanes_.rect_of(TimelineLanes::Lane::steps);
-  const double top = buttons_->geometry().bottom() + 4;
-  return {lane.left(), top, lane.width(), std::max(height() - top - 5, 1.0)};
+  const double top = (is_low() ? 0 : button_height()) + top_gap;
+  return {lane.left(), top, lane.width(), std::max(height() - top - bottom_gap, 1.0)};
 }
 
 double WatchChart::height_of(std::size_t k, double value) const {

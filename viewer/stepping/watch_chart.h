@@ -10,7 +10,6 @@
 #include "state/watches.h"
 
 class QAction;
-class QHBoxLayout;
 class QMenu;
 class QToolButton;
 
@@ -19,8 +18,8 @@ namespace transillum::viewer {
 class TimelineLanes;
 
 /// Lines of the watched figures over the steps of the direction, below the lane of steps, each on
-/// its own scale. Above them a button for each, which tells the value and removes it. Hidden
-/// without any.
+/// its own scale. Above them, or beside them in a low window, a button for each, which tells the
+/// value and removes it. Hidden without any.
 class WatchChart : public QWidget {
   Q_OBJECT
 
@@ -37,11 +36,13 @@ class WatchChart : public QWidget {
   double height_of(std::size_t k, double value) const;
   static QColor color_of(std::size_t k);
 
+  /// Its plot is lower where the panels of a small screen leave no more room.
   QSize minimumSizeHint() const override;
-  QSize sizeHint() const override { return minimumSizeHint(); }
+  QSize sizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
 
@@ -56,6 +57,10 @@ class WatchChart : public QWidget {
   void show_list();
   void compute();
   void show_values();
+  int button_height() const;
+  /// Whether it is too low for buttons above the plot.
+  bool is_low() const;
+  void place_buttons();
   void draw(QPainter& painter, std::size_t k) const;
   void go_to(double x);
 
@@ -65,7 +70,6 @@ class WatchChart : public QWidget {
   const TimelineLanes& lanes_;
   std::unique_ptr<QMenu> menu_;
   std::vector<QAction*> choices_;
-  QHBoxLayout* buttons_;
   std::vector<Series> series_;
   std::shared_ptr<const RecordedMap> computed_;  ///< the map that series_ is of
 };

@@ -90,7 +90,7 @@ void DockLayouts::choose(Layout layout) {
     reset();
     return;
   }
-  at(kept_, current_) = window_.saveState(layout_version);
+  at(kept_, current_) = plain_state();
   arrange(layout);
   if (const QByteArray& kept = at(kept_, layout); !kept.isEmpty()) {
     window_.restoreState(kept, layout_version);
@@ -105,6 +105,7 @@ void DockLayouts::reset() {
 
 void DockLayouts::arrange(Layout layout) {
   current_ = layout;
+  end_alone();
   for (const Dock& dock : docks_) {
     // In this order: a dock that has been removed does not come back from floating.
     dock.widget->setFloating(false);
@@ -193,11 +194,23 @@ void DockLayouts::follow_type() {
         window_.resizeDocks({dock.widget}, {widths.left}, Qt::Horizontal);
       } else if (place.area == Qt::RightDockWidgetArea) {
         window_.resizeDocks({dock.widget}, {widths.right}, Qt::Horizontal);
-      } else {
-        window_.resizeDocks(
-            {dock.widget},
-            {static_cast<int>(std::min(theme::scale() * place.height, 0.18 * window_.height()))},
-            Qt::Vertical);
+      }
+    }
+  }
+  fit_bottom();
+}
+
+void DockLayouts::fit_bottom() {
+  constexpr double share = 0.18, most_share = 0.22;
+  for (const Dock& dock : docks_) {
+    for (const Place& place : dock.places) {
+      if (place.layout == current_ && place.area == Qt::BottomDockWidgetArea &&
+          !dock.widget->isHidden()) {
+        const double usual = std::min(theme::scale() * place.height, share * window_.height());
+        const double wanted = std::min<double>(dock.widget->widget()->sizeHint().height(),
+                                               most_share * window_.height());
+        window_.resizeDocks({dock.widget}, {static_cast<int>(std::max(usual, wanted))},
+                            Qt::Vertical);
       }
     }
   }
@@ -222,8 +235,10 @@ void DockLayouts::hold(bool held) {
   held_ = held;
 }
 
-QByteArray DockLayouts::state() const {
-  return held_ ? held_state_ : with_checksum(window_.saveState(layout_version));
+QByteArray DockLayouts::state() const { return held_ ? held_state_ : with_checksum(plain_state()); }
+
+QByteArray DockLayouts::plain_state() const {
+  return alone_.isEmpty() ? window_.saveState(layout_version) : before_alone_;
 }
 
 bool DockLayouts::restore(int layout, const QByteArray& state) {
@@ -301,10 +316,48 @@ bool DockLayouts::bring_to_front(const std::string& panel) {
   return false;
 }
 
+void DockLayouts::end_alone() {
+  if (!alone_.isEmpty()) {
+    alone_.clear();
+    emit alone({});
+  }
+}
+
+void DockLayouts::show_alone(const std::string& panel) {
+  const QString name = QString::fromStdString(panel);
+  if (held_ || name == alone_) {
+    emit alone(alone_);
+    return;
+  }
+  if (!alone_.isEmpty()) {
+    end_alone();
+    window_.restoreState(before_alone_, layout_version);
+  }
+  const auto found = std::find_if(docks_.begin(), docks_.end(), [&](const Dock& dock) {
+    return panel_name(*dock.widget) == panel;
+  });
+  if (found == docks_.end()) {
+    return;
+  }
+  before_alone_ = window_.saveState(layout_version);
+  alone_ = name;
+  for (const Dock& dock : docks_) {
+    const bool bottom = window_.dockWidgetArea(dock.widget) == Qt::BottomDockWidgetArea;
+    if (dock.widget != found->widget && !bottom && !dock.widget->isFloating()) {
+      dock.widget->hide();
+    }
+  }
+  bring_to_front(panel);
+  constexpr double share = 0.62;  // the scene needs less than it has beside two columns of panels
+  window_.resizeDocks({found->widget}, {static_cast<int>(share * window_.width())}, Qt::Horizontal);
+  emit alone(alone_);
+}
+
 void DockLayouts::enlarge(const std::string& panel) {
   if (held_) {
     return;
   }
+  show_alone({});
   if (enlarged_) {
     arrange_sizes();
     enlarged_ = false;

@@ -5,6 +5,7 @@
 #include <QList>
 #include <QMainWindow>
 #include <QObject>
+#include <QString>
 #include <array>
 #include <string>
 #include <vector>
@@ -42,6 +43,8 @@ class DockLayouts : public QObject {
   void reset();
   /// Sets the widths of the sides for the current font size.
   void follow_type();
+  /// Gives panels at the bottom the height that they ask for, if the window is high enough.
+  void fit_bottom();
   /// The places and sizes of all docks, for restore(). While held, those of before.
   QByteArray state() const;
   /// Restores a state saved in layout number `layout`. False where it is damaged or does not fit
@@ -62,15 +65,25 @@ class DockLayouts : public QObject {
   bool bring_to_front(const std::string& panel);
   /// Gives a panel, or the `scene`, most of the window; empty: the usual sizes again.
   void enlarge(const std::string& panel);
+  /// Hides all panels but this one and those at the bottom, and gives it what the scene can spare;
+  /// empty: all as before. Another layout ends it too, and so does a page of a lesson.
+  void show_alone(const std::string& panel);
   /// The names that bring_to_front() accepts.
   std::vector<std::string> panels() const;
   /// Adds the actions that show and hide docks, and the layouts.
   void add_to(QMenu& menu);
 
+ signals:
+  /// The panel that show_alone() shows now, or empty.
+  void alone(const QString& panel);
+
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// The places and sizes of all docks, as they were before show_alone().
+  QByteArray plain_state() const;
+  void end_alone();
   /// The usual sizes of the layout, without moving docks.
   void arrange_sizes();
 
@@ -88,6 +101,8 @@ class DockLayouts : public QObject {
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;
+  QString alone_;            ///< argument of show_alone()
+  QByteArray before_alone_;  ///< state of the window
 };
 
 }  // namespace transillum::viewer

@@ -257,7 +257,11 @@ void MainWindow::connect_views() {
   connect(step_panel_->filter(), &EventFilterRow::requested, this,
           [this] { docks_.bring_to_front("event"); });
   connect(compare_view_, &CompareView::enlarged, this,
-          [this](bool large) { docks_.enlarge(large ? "compare" : ""); });
+          [this](bool large) { docks_.show_alone(large ? "compare" : ""); });
+  connect(&docks_, &DockLayouts::alone, compare_view_->large(),
+          [large = compare_view_->large()](const QString& panel) {
+            large->setChecked(panel == QLatin1String("compare"));
+          });
   connect(algorithm_, &AlgorithmView::region_shown, map_view_->canvas(), &MapCanvas::mark_region);
   connect(lesson_panel_, &LessonPanel::errors_wanted, error_view_, &ErrorView::set_runs);
   connect(lesson_panel_, &LessonPanel::callouts_shown, map_view_->canvas(),
@@ -282,6 +286,14 @@ void MainWindow::connect_views() {
     // After the layouts have received the new font.
     QTimer::singleShot(0, &docks_, &DockLayouts::follow_type);
   });
+  // Later: the window does not know the new least height yet.
+  connect(
+      timeline_, &TimelineBar::chart_shown, this,
+      [this] {
+        docks_.fit_bottom();
+        projector_->follow_timeline();
+      },
+      Qt::QueuedConnection);
   connect(timeline_->play(), &PlayControl::turned, page_->scene_view(),
           [this](double degrees) { page_->scene_view()->turn(degrees, 0); });
 }
@@ -558,7 +570,7 @@ bool MainWindow::settled() const {
   const bool idle =
       state_.runner.state() == RunState::paused || state_.runner.state() == RunState::finished;
   return idle && state_.scene.snapshot() && applier_->arrived() && !state_.relighting.busy() &&
-         !state_.colors.busy() && !inspection_->busy() &&
+         !state_.colors.busy() && !inspection_->busy() && !compare_view_->busy() &&
          (map_dock_->isHidden() || map_view_->up_to_date()) && direction_view_->up_to_date();
 }
 

@@ -41,6 +41,12 @@ void ProjectorMode::follow_page() {
   }
 }
 
+void ProjectorMode::follow_timeline() {
+  if (projecting_) {
+    arrange();
+  }
+}
+
 QDockWidget* ProjectorMode::dock(const std::string& panel) const {
   return parts_.window.findChild<QDockWidget*>(QString::fromStdString(panel + "_dock"));
 }

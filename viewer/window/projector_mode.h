@@ -28,6 +28,8 @@ class ProjectorMode : public QObject {
 
   /// Begins or ends it, as the appearance asks for.
   void follow_appearance();
+  /// Gives the timeline the height that it needs now.
+  void follow_timeline();
 
  private:
   void project(bool on);
