@@ -16,7 +16,9 @@
 
 #include "lessons/lesson_panel.h"
 #include "solved_window.h"
+#include "state/watches.h"
 #include "stepping/event_table.h"
+#include "stepping/watch_chart.h"
 #include "widgets/full_screen.h"
 #include "widgets/theme.h"
 #include "window/dock_layouts.h"
@@ -34,6 +36,19 @@ std::unique_ptr<TestWindow> make_active_window() {
   window->activateWindow();
   (void)QTest::qWaitForWindowActive(window.get());
   return window;
+}
+
+/// The contrast of two colors by WCAG 2.1, 1 to 21.
+double contrast_of(const QColor& a, const QColor& b) {
+  const auto luminance = [](const QColor& color) {
+    const auto linear = [](double v) {
+      return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+           0.0722 * linear(color.blueF());
+  };
+  const auto [darker, lighter] = std::minmax({luminance(a), luminance(b)});
+  return (lighter + 0.05) / (darker + 0.05);
 }
 
 }  // namespace
@@ -198,22 +213,49 @@ class AppearanceTest : public QObject {
 
   // WCAG 2.1 asks for a contrast of 4.5 of text on its background.
   void text_of_exchanges_can_be_read_in_both_modes() {
-    const auto luminance = [](const QColor& color) {
-      const auto linear = [](double v) {
-        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-      };
-      return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
-             0.0722 * linear(color.blueF());
-    };
     for (const bool dark : {true, false}) {
       theme::apply(*qApp, {.dark = dark});
       EventTable table;
       table.set_events({{.kind = StepEvent::Kind::exchange}});
       const auto ink = table.data(table.index(0, EventTable::of_kind), Qt::ForegroundRole);
-      const double of_text = luminance(ink.value<QColor>()), behind = luminance(theme::paper);
-      const double contrast =
-          (std::max(of_text, behind) + 0.05) / (std::min(of_text, behind) + 0.05);
+      const double contrast = contrast_of(ink.value<QColor>(), theme::paper);
       QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
+    }
+  }
+
+  // And of 3 of parts of a picture that must be told apart.
+  void the_position_stands_out_from_its_lane_in_both_modes() {
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      const double contrast = contrast_of(theme::accent, theme::finished);
+      QVERIFY2(contrast >= 3, qPrintable(QString::number(contrast)));
+    }
+  }
+
+  void lines_of_watched_figures_stand_out_in_both_modes() {
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      for (std::size_t k = 0; k < Watches::most; ++k) {
+        const double contrast = contrast_of(WatchChart::color_of(k), theme::hover);
+        QVERIFY2(contrast >= 3, qPrintable(QString("%1: %2").arg(k).arg(contrast)));
+      }
+    }
+  }
+
+  void the_cross_that_removes_a_filter_is_seen_in_both_modes() {
+    for (const bool dark : {true, false}) {
+      theme::apply(*qApp, {.dark = dark});
+      const QImage cross = theme::icon(theme::Icon::clear).pixmap(QSize(32, 32)).toImage();
+      double most = 0;
+      for (int y = 0; y < cross.height(); ++y) {
+        for (int x = 0; x < cross.width(); ++x) {
+          if (qAlpha(cross.pixel(x, y)) > 200) {
+            most = std::max(
+                most, contrast_of(cross.pixelColor(x, y), qApp->palette().color(QPalette::Button)));
+          }
+        }
+      }
+      QVERIFY2(most >= 3, qPrintable(QString::number(most)));
     }
   }
 

@@ -240,6 +240,18 @@ class InspectTest : public QObject {
     // The part of patch 9 follows the edit.
     QTRY_VERIFY(!colors.busy() && max_abs(colors.values()[9] - effect) < 1e-8 * max_abs(effect));
     save_picture(*shown.window, "what-lights");
+    // Nothing of the title of the color bar is cut off.
+    colors.set_quantity(Quantity::response);
+    QTRY_VERIFY(!colors.busy());
+    auto* bar = shown.window->findChild<ColorBar*>();
+    QTRY_VERIFY(bar->isVisible());
+    const QImage title = bar->grab().toImage();
+    for (const int x : {0, 1, title.width() - 2, title.width() - 1}) {
+      for (int y = 0; y < 32; ++y) {
+        QCOMPARE(title.pixel(x, y), title.pixel(0, 0));
+      }
+    }
+    colors.set_quantity(Quantity::origin);
     shown.window->selection.select(no_patch);
     QVERIFY(colors.values().empty());
   }
@@ -266,6 +278,13 @@ class InspectTest : public QObject {
       QCOMPARE(table->item(row, 2)->text().toInt(), int(path.patches.size()) - 1);
       QVERIFY(table->item(row, 3)->text().endsWith("→ 4"));
       listed += table->item(row, 0)->text().toDouble();
+      // Equal decimals in a column, so that the shares can be compared at a glance.
+      for (const int column : {0, 1}) {
+        const QString text = table->item(row, column)->text();
+        const auto decimals = [](const QString& number) { return number.section('.', 1).size(); };
+        QVERIFY2(text == "≈ 0" || decimals(text) == decimals(table->item(0, column)->text()),
+                 qPrintable(text));
+      }
     }
     const double rest = 100 * luminance(expected.cut_off) / luminance(expected.radiosity);
     QVERIFY(std::abs(listed + rest - 100) < 0.05);  // digits shown

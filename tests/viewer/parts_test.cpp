@@ -367,7 +367,15 @@ class PartsTest : public QObject {
     QVERIFY(shown.solved.ready);
     QVERIFY(
         wait_for([&] { return !shown.window().findChild<QSlider*>("sky_slider")->isEnabled(); }));
-    QVERIFY(shown.solved.text("sky_note").contains("closed"));
+    const auto* note = shown.window().findChild<QLabel*>("sky_note");
+    QVERIFY(note->text().contains("closed"));
+    // Also where the panel has only just the width that it needs.
+    auto* settings = shown.window().findChild<QDockWidget*>("settings_dock");
+    shown.window().resizeDocks({settings}, {1}, Qt::Horizontal);
+    QVERIFY(wait_for([&] { return settings->width() <= settings->minimumSizeHint().width(); }));
+    QVERIFY2(
+        note->width() >= note->sizeHint().width() && note->height() >= note->sizeHint().height(),
+        qPrintable(QString("%1 x %2").arg(note->width()).arg(note->height())));
   }
 
   void a_sky_of_a_session_keeps_its_digits_and_color() {

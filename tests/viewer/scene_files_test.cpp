@@ -8,14 +8,20 @@
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QDoubleSpinBox>
+#include <QDropEvent>
 #include <QFile>
 #include <QLabel>
 #include <QMenu>
+#include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <QUrl>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "model/snapshot_solution.h"
 #include "open_scene.h"
@@ -23,6 +29,7 @@
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "window/color_export_dialog.h"
+#include "window/command_line.h"
 #include "window/export_actions.h"
 #include "window/file_actions.h"
 #include "window/reading_dialog.h"
@@ -213,9 +220,81 @@ class SceneFilesTest : public QObject {
     QVERIFY(std::abs(middle.red() - byte(b.r)) <= 1 && std::abs(middle.blue() - byte(b.b)) <= 1);
     dialog.findChild<QComboBox*>("color_up")->setCurrentIndex(1);
     QVERIFY((*dialog.display().up == Vec3{0, 0, 1}));
+    auto* light_map = dialog.findChild<QCheckBox*>("color_light_map");
+    QVERIFY(light_map->isEnabled() && !dialog.display().light_map);
+    light_map->setChecked(true);
+    QVERIFY(dialog.display().light_map);
     dialog.findChild<QComboBox*>("color_format")->setCurrentIndex(2);
     QCOMPARE(dialog.ending(), QString(".ply"));
-    QVERIFY(!dialog.display().up);
+    QVERIFY(!dialog.display().up && !dialog.display().light_map && !light_map->isEnabled());
+  }
+
+  void units_of_a_command_line_come_before_remembered_ones() {
+    const QTemporaryDir folder;
+    const QString path = write_open_scene(folder.path());
+    const auto open_by = [&](TestWindow& window, std::vector<std::string> words) {
+      words.insert(words.begin(), "transillum-viewer");
+      words.push_back(path.toStdString());
+      std::vector<const char*> arguments;
+      for (const std::string& word : words) {
+        arguments.push_back(word.c_str());
+      }
+      std::ostringstream out, error;
+      const CommandLine line =
+          parse_command_line(static_cast<int>(arguments.size()), arguments.data(), out, error)
+              .command_line;
+      const auto before = window.scene.loaded();
+      window.files().open(QString::fromStdString(line.scene), {}, line.input, line.reading_given);
+      return wait_for([&] { return window.scene.loaded() != before && window.settled(); });
+    };
+    const auto window = make_window(16);
+    QVERIFY(open_by(*window, {"--units", "cm"}));
+    QVERIFY(std::abs(width(*window) - 0.04) < 1e-12);
+    QVERIFY(open_by(*window, {}));  // remembered
+    QVERIFY(std::abs(width(*window) - 0.04) < 1e-12);
+    QVERIFY(open_by(*window, {"--units", "m"}));
+    QCOMPARE(width(*window), 4.0);
+    // Which is what was chosen last.
+    QCOMPARE(window->files().reading().size(), 0);
+    QVERIFY(open_by(*window, {}));
+    QCOMPARE(width(*window), 4.0);
+  }
+
+  void a_file_of_each_format_can_be_dropped_data() {
+    QTest::addColumn<QString>("file");
+    for (const char* file : {"cube.glb", "ascii.ply", "binary.stl", "cube.off", "room.vs3",
+                             "room.rad", "ascii.vtp", "ascii-version-4.vtk"}) {
+      QTest::newRow(file) << QString(file);
+    }
+    QTest::newRow("obj") << "two.obj";
+  }
+  void a_file_of_each_format_can_be_dropped() {
+    QFETCH(QString, file);
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(file);
+    QFile written(path);
+    QVERIFY(written.open(QIODevice::WriteOnly));
+    // The first byte of the corpus chooses the reader that is fuzzed.
+    const QString corpus = QStringLiteral(TRANSILLUM_SOURCE "/data/corpus/fuzz/formats/") + file;
+    written.write(file.endsWith(".obj")
+                      ? "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf 1 2 3\nf 6 5 4\n"
+                      : bytes_of(corpus).mid(1));
+    written.close();
+    const auto window = make_window(16);
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    // Over the scene, where a user drops it: the child under the pointer leaves it to the window.
+    auto* under = window->childAt(window->rect().center());
+    QVERIFY(under);
+    QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &enter);
+    QVERIFY(enter.isAccepted() && !under->acceptDrops());
+    QDropEvent drop(QPointF(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(window.get(), &drop);
+    QVERIFY2(wait_for([&] { return window->scene.loaded() && window->settled(); }, 10000),
+             qPrintable(window->banner_text()));
+    QVERIFY2(window->windowTitle().startsWith(file), qPrintable(window->windowTitle()));
+    QVERIFY(window->scene.loaded()->scene->patch_count() > 0);
   }
 
   void the_export_writes_what_the_library_writes_whole_or_not_at_all() {

@@ -11,6 +11,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -22,6 +23,7 @@
 
 #include "lessons/lesson_panel.h"
 #include "scene/color_controls.h"
+#include "scene/welcome_page.h"
 #include "solved_window.h"
 #include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
@@ -594,6 +596,18 @@ class WindowTest : public QObject {
       QCOMPARE(window->windowTitle(), title);
       QCOMPARE(window->snapshot() != nullptr, has_scene);
     }
+  }
+
+  // A page as wide as a long name would have to be scrolled sideways.
+  void the_name_of_what_is_loaded_fits_the_start_page() {
+    const auto window = make_window(8);
+    window->resize(1280 - 16, 720 - 48);
+    window->files().open_scene("sphere-flake:levels=4,slices=100,stacks=100");
+    const auto* title = window->findChild<QLabel*>("welcome_title");
+    const auto* page = window->findChild<WelcomePage*>();
+    QVERIFY(wait_for([&] { return title->text().contains("Loading"); }));
+    QVERIFY2(title->text().count("…") == 2, qPrintable(title->text()));  // the name is shortened
+    QCOMPARE(page->horizontalScrollBar()->maximum(), 0);
   }
 
   void panels_can_be_closed_and_reopened() {

@@ -3,6 +3,8 @@
 // Paints the color map as a bar with ticks, and beside it a histogram of area over values.
 #include "colors/color_bar.h"
 
+#include <QFontInfo>
+#include <QFontMetricsF>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -157,11 +159,15 @@ void ColorBar::paint_title(QPainter& painter) const {
   const int line = fontMetrics().height();
   QFont bold = font();
   bold.setBold(true);
+  const QString title = QString::fromUtf8(traits.symbol) +
+                        (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit));
+  const double room = width() - margin, needed = QFontMetricsF(bold).horizontalAdvance(title);
+  if (needed > room) {
+    bold.setPixelSize(static_cast<int>(room / needed * QFontInfo(bold).pixelSize()));
+  }
   painter.setFont(bold);
   painter.setPen(theme::on_dark);
-  painter.drawText(QRect(0, margin, width(), line), Qt::AlignHCenter,
-                   QString::fromUtf8(traits.symbol) +
-                       (unit.isEmpty() ? unit : QStringLiteral(" (%1)").arg(unit)));
+  painter.drawText(QRect(0, margin, width(), line), Qt::AlignHCenter, title);
   painter.setFont(font());
   painter.setPen(theme::on_dark_dim);
   painter.drawText(QRect(0, margin + line, width(), line), Qt::AlignHCenter, subtitle_of(colors_));

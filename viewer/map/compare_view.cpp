@@ -44,9 +44,17 @@ constexpr int map_height = 110;  ///< size hint, pixels
 QString percent_text(double share) { return number_text(100 * share) + QStringLiteral(" %"); }
 
 QString figures_text(const EngineComparison::Side& side, double exchanged) {
-  return CompareView::tr("%1 ms, %2 pairs\n%3 m² exchanged\n%4 covered")
-      .arg(number_text(1000 * side.seconds), count_text(static_cast<std::int64_t>(side.pairs)),
-           number_text(exchanged), percent_text(side.covered_share));
+  const QString figures[] = {
+      CompareView::tr("%1 ms").arg(number_text(1000 * side.seconds)),
+      CompareView::tr("%1 pairs").arg(count_text(static_cast<std::int64_t>(side.pairs))),
+      CompareView::tr("%1 m² exchanged").arg(number_text(exchanged)),
+      CompareView::tr("%1 covered").arg(percent_text(side.covered_share))};
+  QString text;
+  for (QString figure : figures) {
+    text += (text.isEmpty() ? QString() : QStringLiteral(", ")) +
+            figure.replace(QLatin1Char(' '), QChar(QChar::Nbsp));  // lines end between figures
+  }
+  return text;
 }
 
 QString direction_text(const EngineComparison& c) {

@@ -495,15 +495,20 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     total -= width_of(entries.front().second);
     entries.erase(entries.begin());
   }
-  double x = std::min(std::max(width() / 2.0 - 8, left), right - total);
+  // In a low map that leaves its sides free, one above the other at the left.
+  constexpr int low = 140, row = 20;
+  const bool stacked = height() < low && width() > 3 * height();
+  double x = stacked ? 12 : std::min(std::max(width() / 2.0 - 8, left), right - total);
+  int y = height() - 23 - (stacked ? row : 0);
   for (const auto& [brush, text] : entries) {
-    const QRectF box(x, height() - 23, box_width, 12);
+    const QRectF box(x, y, box_width, 12);
     painter.setPen(QPen(theme::on_dark_dim, 1));
     painter.setBrush(brush);
     painter.drawRect(box);
     painter.setPen(theme::on_dark);
     draw_text(painter, box.bottomRight() + QPointF(gap, -1), text);
-    x += width_of(text);
+    x += stacked ? 0 : width_of(text);
+    y -= stacked ? row : 0;
   }
 }
 

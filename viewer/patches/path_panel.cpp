@@ -19,7 +19,7 @@
 
 #include "colors/color_scale.h"
 #include "model/form_factor_views.h"
-#include "support/number_text.h"
+#include "support/column_format.h"
 #include "transillum/files.h"
 #include "widgets/figure_table.h"
 #include "widgets/save_dialog.h"
@@ -182,10 +182,14 @@ void PathPanel::show_paths() {
   const int rows = paths_ ? static_cast<int>(paths_->paths.size()) : 0;
   table_->clearSelection();
   table_->setRowCount(rows);
+  // The strongest path is the first.
+  const Rgb most = rows > 0 ? paths_->paths.front().contribution : Rgb();
+  const ColumnFormat share_format(100), light_format(luminance(most));
+  table_->horizontalHeaderItem(1)->setText(light_format.header(tr("B, W/m²")));
   for (int row = 0; row < rows; ++row) {
     const LightPath& path = at(paths_->paths, row);
-    const QString texts[] = {number_text(100 * share_of(*paths_, path.contribution)),
-                             number_text(luminance(path.contribution)),
+    const QString texts[] = {share_format.text(100 * share_of(*paths_, path.contribution)),
+                             light_format.text(luminance(path.contribution)),
                              QString::number(path.patches.size() - 1),
                              path.patches.size() > 1 ? path_text(path) : tr("emits it itself")};
     for (int column = 0; column < 4; ++column) {

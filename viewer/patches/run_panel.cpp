@@ -53,7 +53,7 @@ QStringList texts_of(const KeptRun& run) {
                         : none,
           snapshot.of_file ? RunPanel::tr("a file") : engine_label(options.engine),
           QString::number(snapshot.progress.iteration),
-          QLocale::c().toString(run.kept, QStringLiteral("yyyy-MM-dd HH:mm"))};
+          QLocale::c().toString(run.kept, QStringLiteral("HH:mm:ss"))};
 }
 
 void set_choosable(const QComboBox& box, int index, const QString& reason) {
@@ -111,7 +111,7 @@ void RunPanel::make_table() {
   table_->horizontalHeader()->setStretchLastSection(true);
   set_up_figure_table(*table_, {QStringLiteral("Name of a run"), QStringLiteral("8888"),
                                 QStringLiteral("antipodal"), QStringLiteral("Z-buffer"),
-                                QStringLiteral("88"), QStringLiteral("8888-88-88 88:88")});
+                                QStringLiteral("88"), QStringLiteral("88:88:88")});
   connect(table_, &QTableWidget::itemChanged, this,
           [this](const QTableWidgetItem* item) { rename(*item); });
   connect(table_, &QTableWidget::itemSelectionChanged, this, &RunPanel::show_hint);

@@ -75,6 +75,8 @@ class WelcomePage::Card : public QPushButton {
 WelcomePage::WelcomePage(QWidget* parent) : QScrollArea(parent) {
   init_resources();
   title_ = new QLabel;
+  title_->setObjectName("welcome_title");
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   auto* hint =
       new QLabel(tr("The scene is solved immediately, one direction after another. You can also "
                     "open your own file "
@@ -134,7 +136,12 @@ void WelcomePage::set_loading(const QString& name) {
 }
 
 void WelcomePage::show_title() {
-  const QString title = loading_.isEmpty() ? tr("Choose a scene") : tr("Loading %1…").arg(loading_);
+  QString title = loading_.isEmpty() ? tr("Choose a scene") : tr("Loading %1…").arg(loading_);
+  title_->setToolTip(loading_);
+  QFont bold = font();
+  bold.setBold(true);
+  bold.setPixelSize(theme::scaled(24));
+  title = QFontMetrics(bold).elidedText(title, Qt::ElideMiddle, viewport()->width() - 2 * margin);
   // As HTML: a font set on the label would be lost when the style sheet changes.
   title_->setText(QStringLiteral("<span style='font-size: %1px; font-weight: bold'>%2</span>")
                       .arg(theme::scaled(24))
@@ -152,6 +159,7 @@ void WelcomePage::measure() {
 
 void WelcomePage::resizeEvent(QResizeEvent* event) {
   QScrollArea::resizeEvent(event);
+  show_title();
   place_cards();
 }
 

@@ -232,9 +232,8 @@ void SettingsPanel::add_sky_rows(QFormLayout& form) {
   sky_note_ = new QLabel;
   sky_note_->setObjectName("sky_note");
   sky_note_->setForegroundRole(QPalette::PlaceholderText);
-  sky_note_->setWordWrap(true);
   sky_note_->hide();
-  column->addWidget(sky_note_);
+  column->addWidget(sky_note_);  // one line: the layout of a form does not count further ones
   form.addRow(tr("Sky, W/m²"), column);
   sky_model_ = new QComboBox;
   sky_model_->setObjectName("sky_model");
@@ -321,7 +320,7 @@ void SettingsPanel::show_escape(std::optional<double> share) {
 void SettingsPanel::show_sky_state() {
   const bool takes = takes_directions(engine_of(*engine_));
   const QString note = !takes    ? tr("Not with this engine")
-                       : closed_ ? tr("The scene is closed: no sky is seen")
+                       : closed_ ? tr("The scene is closed")
                                  : QString();
   sky_note_->setText(note);
   sky_note_->setVisible(!note.isEmpty());

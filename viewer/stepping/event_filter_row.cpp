@@ -94,7 +94,7 @@ void EventFilterRow::make_actions() {
     emit requested();
     least_->setFocus();
   });
-  clear_ = new QAction(theme::icon(theme::Icon::close), tr("Show all events"), this);
+  clear_ = new QAction(theme::icon(theme::Icon::clear), tr("Show all events"), this);
   clear_->setObjectName("clear_filter");
   clear_->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+E")));
   clear_->setToolTip(tr("Remove the filter of events (Ctrl+Shift+E)"));

@@ -102,9 +102,11 @@ void StepPanel::list(const Tab& tab, const QString& text, std::vector<StepEvent>
   const std::size_t all = events.size();
   std::erase_if(events, [this](const StepEvent& event) { return !focus_.filter().passes(event); });
   const std::size_t hidden = all - events.size();
+  // Without the hint that follows the first sentence: small screens have one line.
   tab.text->setText(hidden == 0 ? text
-                                : tr("%1 The filter hides %2 of %3 events.")
-                                      .arg(text, count_text(static_cast<std::int64_t>(hidden)),
+                                : tr("%1 The filter hides %2 of %3.")
+                                      .arg(text.section(QStringLiteral(". "), 0, 0) + '.',
+                                           count_text(static_cast<std::int64_t>(hidden)),
                                            count_text(static_cast<std::int64_t>(all))));
   tab.table->set_events(std::move(events));
 }

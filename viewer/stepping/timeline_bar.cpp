@@ -51,7 +51,7 @@ TimelineBar::TimelineBar(Focus& focus, Selection& selection, Watches& watches,
   filter_ = new QToolButton;
   filter_->setObjectName("filter_shown");
   filter_->setToolTip(tr("Only steps with these events are stepped to; click to show all"));
-  filter_->setIcon(theme::icon(theme::Icon::close));
+  filter_->setIcon(theme::icon(theme::Icon::clear));
   filter_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   connect(filter_, &QToolButton::clicked, this, [this] { focus_.set_filter({}); });
   auto* play = button_of(play_->action());

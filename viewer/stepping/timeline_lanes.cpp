@@ -199,7 +199,7 @@ void TimelineLanes::draw_lane(QPainter& painter, Lane lane, const QString& name,
     done.setWidth(rect.width() * done_directions_ / std::max(count, 1));
   }
   if (lane != Lane::steps) {
-    painter.setBrush(QColor(0xb9, 0xcc, 0xe6));
+    painter.setBrush(theme::finished);
     painter.drawRoundedRect(done, 2, 2);
   } else {
     draw_columns(painter);

@@ -88,9 +88,13 @@ void WatchChart::make_menu() {
 }
 
 QColor WatchChart::color_of(std::size_t k) {
-  // Okabe and Ito's colors, which color-blind viewers can tell apart.
-  constexpr std::array<QRgb, Watches::most> colors{0xff0072b2, 0xffe69f00, 0xff009e73,
-                                                   0xffcc79a7, 0xff56b4e9, 0xffd55e00};
+  // Hues by Okabe and Ito, which color-blind viewers can tell apart, darker or lighter than there
+  // so that they stand out from the plot.
+  constexpr std::array<QRgb, Watches::most> on_light{0xff0072b2, 0xffa97000, 0xff007f5f,
+                                                     0xffb3528a, 0xff2483b8, 0xffcc5500};
+  constexpr std::array<QRgb, Watches::most> on_dark{0xff4fa8e8, 0xffe69f00, 0xff2fbf96,
+                                                    0xffdb8fb8, 0xff9ad3f5, 0xffff8a4a};
+  const auto& colors = theme::appearance().dark ? on_dark : on_light;
   return QColor(colors[k % colors.size()]);
 }
 
@@ -142,6 +146,7 @@ void WatchChart::show_values() {
       text = tr("%1: %2, at most %3").arg(name, value, number_text(series.largest));
     }
     series.button->setText(is_low() ? value : text);
+    series.button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     series.button->setToolTip(tr("%1. Click to remove.").arg(text));
   }
   place_buttons();
@@ -162,19 +167,33 @@ QSize WatchChart::sizeHint() const {
   return {300, button_height() + top_gap + theme::scaled(plot_height) + bottom_gap};
 }
 
+void WatchChart::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) {
+    for (std::size_t k = 0; k < series_.size(); ++k) {
+      series_[k].button->setIcon(icon_of(color_of(k)));
+    }
+  }
+}
+
 void WatchChart::resizeEvent(QResizeEvent*) { show_values(); }
 
 void WatchChart::place_buttons() {
   constexpr int margin = 8, gap = 4;
   const int count = static_cast<int>(series_.size());
   if (is_low()) {
-    const int rows = count > 1 ? 2 : 1, columns = (count + rows - 1) / rows;
-    const int left = static_cast<int>(plot().right()) + gap;
-    const int column = (width() - left) / std::max(columns, 1), row = height() / rows;
+    const int rows = count > 1 ? 2 : 1, row = height() / rows;
+    int left = static_cast<int>(plot().right()) + gap, wide = 0;
     for (int k = 0; k < count; ++k) {
       QToolButton& button = *at(series_, k).button;
-      button.setGeometry(left + k / rows * column, k % rows * row,
-                         std::min(column, button.sizeHint().width()), row);
+      left += k % rows == 0 ? wide : 0;
+      // A value that is cut off would be taken for another one.
+      if (left + button.sizeHint().width() > width()) {
+        button.setToolButtonStyle(Qt::ToolButtonIconOnly);
+      }
+      const int own = button.sizeHint().width();
+      wide = k % rows == 0 ? own : std::max(wide, own);
+      button.setGeometry(left, k % rows * row, own, row);
     }
     return;
   }

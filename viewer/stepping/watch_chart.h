@@ -34,6 +34,7 @@ class WatchChart : public QWidget {
   /// The plot, and the height in it of a value of watch k.
   QRectF plot() const;
   double height_of(std::size_t k, double value) const;
+  /// In the current appearance.
   static QColor color_of(std::size_t k);
 
   /// Its plot is lower where the panels of a small screen leave no more room.
@@ -43,6 +44,7 @@ class WatchChart : public QWidget {
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
 

@@ -130,30 +130,19 @@ class ScaledStyle : public QProxyStyle {
 };
 
 // The files of icons/, in the order of enum Icon.
-constexpr const char* icon_files[] = {"open",
-                                      "run",
-                                      "pause",
-                                      "one_direction",
-                                      "one_iteration",
-                                      "stop",
-                                      "frame",
-                                      "warning",
-                                      "error",
-                                      "close",
-                                      "scene",
-                                      "step_on",
-                                      "step_back",
-                                      "phase_on",
-                                      "next_event",
-                                      "previous_event",
-                                      "next_exchange",
-                                      "previous_exchange",
-                                      "next_direction",
-                                      "previous_direction",
-                                      "newest",
-                                      "study",
-                                      "info"};
-static_assert(std::size(icon_files) == static_cast<std::size_t>(Icon::info) + 1);
+constexpr const char* icon_files[] = {"open",           "run",
+                                      "pause",          "one_direction",
+                                      "one_iteration",  "stop",
+                                      "frame",          "warning",
+                                      "error",          "close",
+                                      "scene",          "step_on",
+                                      "step_back",      "phase_on",
+                                      "next_event",     "previous_event",
+                                      "next_exchange",  "previous_exchange",
+                                      "next_direction", "previous_direction",
+                                      "newest",         "study",
+                                      "info",           "close"};
+static_assert(std::size(icon_files) == static_cast<std::size_t>(Icon::clear) + 1);
 
 // The SVG text of an icon, in which "currentColor" stands for its color.
 QByteArray icon_source(Icon which) {
@@ -197,6 +186,9 @@ class SvgIcon : public QIconEngine {
     const QColor& color = mode == QIcon::Disabled ? disabled_ink : color_of(which_);
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
+    if (mode == QIcon::Disabled) {
+      painter->setOpacity(source_.contains('#') ? 0.5 : 1);  // it has colors of its own
+    }
     QSvgRenderer(colored(source_, color)).render(painter, square);
     painter->restore();
   }
@@ -227,6 +219,7 @@ void set_colors(const Appearance& appearance) {
     good = {0x52, 0xc4, 0x86};
     hover = {0x36, 0x3d, 0x47};
     title = {0x2d, 0x32, 0x3a};
+    finished = {0x41, 0x56, 0x74};
     disabled_ink = {0x7a, 0x82, 0x8d};
   } else {
     window = {0xf4, 0xf5, 0xf7};
@@ -240,6 +233,7 @@ void set_colors(const Appearance& appearance) {
     good = {0x1a, 0x7f, 0x4b};
     hover = {0xe3, 0xe8, 0xef};
     title = {0xe6, 0xe9, 0xee};
+    finished = {0xb9, 0xcc, 0xe6};
     disabled_ink = {0xb4, 0xba, 0xc2};
   }
   if (!appearance.projector) {

@@ -27,7 +27,7 @@ constexpr int rays_per_pixel_side = 2;
 
 struct Format {
   const char *ending, *text;
-  bool has_up;
+  bool is_gltf;  ///< has a vertical, and textures
 };
 constexpr Format formats[] = {
     {".glb", QT_TRANSLATE_NOOP("ColorExportDialog", "glTF, one file (.glb)"), true},
@@ -57,6 +57,7 @@ ColorExportDialog::ColorExportDialog(std::shared_ptr<const SolverSnapshot> snaps
   exposure_row->addWidget(exposure_, 1);
   exposure_row->addWidget(automatic_);
   form->addRow(tr("Exposure"), exposure_row);
+  form->addRow(tr("Colors"), light_map_);
   form->addRow(QString(), note_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   QPushButton* go_on = buttons->addButton(tr("Export…"), QDialogButtonBox::AcceptRole);
@@ -121,6 +122,11 @@ void ColorExportDialog::make_fields(const Vec3& up) {
   automatic_->setObjectName("color_automatic");
   automatic_->setChecked(true);
   automatic_->setToolTip(tr("98 % of the area that does not emit is below white"));
+  light_map_ = new QCheckBox(tr("as a light map"));
+  light_map_->setObjectName("color_light_map");
+  light_map_->setToolTip(
+      tr("glTF: a picture with texture coordinates, a square of it per patch, instead of a color "
+         "per corner; for programs that ignore colors of corners"));
   note_ = new QLabel;
   note_->setObjectName("color_note_of_export");
   note_->setWordWrap(true);
@@ -143,7 +149,9 @@ double ColorExportDialog::exposure() const {
 }
 
 void ColorExportDialog::show_state() {
-  up_->setEnabled(formats[format_->currentIndex()].has_up);
+  for (QWidget* of_gltf : std::initializer_list<QWidget*>{up_, light_map_}) {
+    of_gltf->setEnabled(formats[format_->currentIndex()].is_gltf);
+  }
   exposure_->setEnabled(!automatic_->isChecked());
   if (!view_) {
     return;
@@ -173,6 +181,7 @@ DisplayOptions ColorExportDialog::display() const {
   if (!automatic_->isChecked()) {
     options.exposure = exposure_->value();
   }
+  options.light_map = light_map_->isEnabled() && light_map_->isChecked();
   const Vertical& vertical = verticals[up_->currentIndex()];
   if (up_->isEnabled() && up_->currentIndex() > 0) {
     options.up = vertical.direction;

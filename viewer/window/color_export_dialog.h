@@ -43,7 +43,7 @@ class ColorExportDialog : public QDialog {
   std::shared_ptr<const UnlitView> view_;  ///< null until it has been computed
   QLabel *picture_, *note_;
   QComboBox *format_, *up_;
-  QCheckBox* automatic_;
+  QCheckBox *automatic_, *light_map_;
   QDoubleSpinBox* exposure_;
   UnlitPreview preview_;
 };

@@ -204,6 +204,10 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   }
   solve.validate();
   line.input.read.validate();
+  for (const char* option : {"--default-reflectance", "--max-reflectance", "--scale", "--units",
+                             "--join", "--photometric", "--orient"}) {
+    line.reading_given = line.reading_given || app.count(option) > 0;
+  }
   if (is_result_file(line.scene) && !(line.input == SceneInput{})) {
     throw InputError(
         "options of scenes, such as --emission and --scale, do not apply to the result \"" +

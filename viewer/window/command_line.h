@@ -14,7 +14,8 @@ namespace transillum::viewer {
 struct CommandLine {
   std::string scene;  ///< file or built-in; empty: none given
   SceneOptions scene_options;
-  SceneInput input;  ///< how the scene is read
+  SceneInput input;            ///< how the scene is read
+  bool reading_given = false;  ///< whether the arguments say so, were it as is usual
   SolveOptions solve_options;
   std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
   int page = 1;            ///< of the lesson, from 1

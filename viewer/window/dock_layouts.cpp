@@ -201,15 +201,17 @@ void DockLayouts::follow_type() {
 }
 
 void DockLayouts::fit_bottom() {
-  constexpr double share = 0.18, most_share = 0.22;
+  constexpr double share = 0.18, most_share = 0.24;
   for (const Dock& dock : docks_) {
     for (const Place& place : dock.places) {
       if (place.layout == current_ && place.area == Qt::BottomDockWidgetArea &&
           !dock.widget->isHidden()) {
         const double usual = std::min(theme::scale() * place.height, share * window_.height());
-        const double wanted = std::min<double>(dock.widget->widget()->sizeHint().height(),
-                                               most_share * window_.height());
-        window_.resizeDocks({dock.widget}, {static_cast<int>(std::max(usual, wanted))},
+        // In a low window, the panels above need the room more.
+        const double wanted = dock.widget->widget()->sizeHint().height();
+        const bool has_room = wanted < most_share * window_.height();
+        window_.resizeDocks({dock.widget},
+                            {static_cast<int>(has_room ? std::max(usual, wanted) : usual)},
                             Qt::Vertical);
       }
     }
@@ -225,7 +227,21 @@ bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
       bar->setUsesScrollButtons(true);
     }
   }
+  if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) {
+    QTimer::singleShot(0, this, &DockLayouts::repaint_moved);
+  }
   return QObject::eventFilter(watched, event);
+}
+
+void DockLayouts::repaint_moved() {
+  std::vector<QRect> places;
+  for (const Dock& dock : docks_) {
+    places.push_back(dock.widget->isVisible() ? dock.widget->geometry() : QRect());
+  }
+  if (places != places_) {
+    places_ = std::move(places);
+    window_.update();
+  }
 }
 
 void DockLayouts::hold(bool held) {

@@ -5,6 +5,7 @@
 #include <QList>
 #include <QMainWindow>
 #include <QObject>
+#include <QRect>
 #include <QString>
 #include <array>
 #include <string>
@@ -84,6 +85,8 @@ class DockLayouts : public QObject {
   /// The places and sizes of all docks, as they were before show_alone().
   QByteArray plain_state() const;
   void end_alone();
+  /// Where a separator has moved away, Qt leaves a part of it behind what has no background.
+  void repaint_moved();
   /// The usual sizes of the layout, without moving docks.
   void arrange_sizes();
 
@@ -101,8 +104,9 @@ class DockLayouts : public QObject {
   bool held_ = false;
   QByteArray held_state_;
   bool enlarged_ = false;
-  QString alone_;            ///< argument of show_alone()
-  QByteArray before_alone_;  ///< state of the window
+  std::vector<QRect> places_;  ///< of docks_ when the window was painted
+  QString alone_;              ///< argument of show_alone()
+  QByteArray before_alone_;    ///< state of the window
 };
 
 }  // namespace transillum::viewer

@@ -190,10 +190,11 @@ void FileActions::try_open(const QString& path) {
   }
 }
 
-void FileActions::open(const QString& path, std::optional<Goal> goal, const SceneInput& input) {
+void FileActions::open(const QString& path, std::optional<Goal> goal, const SceneInput& input,
+                       bool as_given) {
   if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) {
     const bool result = is_result_file(path.toStdString());
-    open_scene(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}), input);
+    open_scene(path, goal.value_or(result ? Goal{} : Goal{Goal::Kind::finished}), input, as_given);
     return;
   }
   const std::string name = path.toStdString();
@@ -205,7 +206,8 @@ void FileActions::open(const QString& path, std::optional<Goal> goal, const Scen
   remember(path);
 }
 
-void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input) {
+void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& input,
+                             bool as_given) {
   if (!parts_.guard.may_lose(&parts_.window, tr("Open"))) {
     return;
   }
@@ -215,7 +217,8 @@ void FileActions::open_scene(const QString& spec, Goal goal, const SceneInput& i
   const QString path = QFileInfo(spec).absoluteFilePath();
   recalled_.clear();
   if (const auto before = reading_memory_.find(path);
-      before && ReadingMemory::reading_of(input) == SceneInput{} && QFileInfo::exists(spec)) {
+      before && !as_given && ReadingMemory::reading_of(input) == SceneInput{} &&
+      QFileInfo::exists(spec)) {
     options.input = *before;
     options.input.changes = input.changes;
     options.input.patches = input.patches;

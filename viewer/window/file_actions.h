@@ -38,16 +38,18 @@ class FileActions : public QObject {
   /// @param goal none: a scene is solved, a result only shown
   /// @param input how a scene is read; ignored for results, sessions and lessons. By default as the
   /// file was read before
+  /// @param as_given read by `input` also where it is the default
   /// @throws InputError where a session or lesson cannot be read; a scene that cannot be read is
   /// reported later by SolveRunner::failed
-  void open(const QString& path, std::optional<Goal> goal = {}, const SceneInput& input = {});
+  void open(const QString& path, std::optional<Goal> goal = {}, const SceneInput& input = {},
+            bool as_given = false);
   /// open() for files that the user has chosen or dropped: errors go to the banner.
   void try_open(const QString& path);
   /// Opens a file or a built-in scene with the default camera and exposure and without anything
   /// that a lesson has set, and follows the newest direction. Asks before long work is lost, as all
   /// of these do.
   void open_scene(const QString& spec, Goal goal = {Goal::Kind::finished},
-                  const SceneInput& input = {});
+                  const SceneInput& input = {}, bool as_given = false);
   /// Shows a page of a lesson.
   /// @param which a file, or the number of a built-in lesson, from 1
   /// @param page from 1

@@ -140,7 +140,8 @@ std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunne
 void open_arguments(MainWindow& window, const CommandLine& command_line) {
   const std::string scene = scene_of(command_line);
   if (!scene.empty()) {
-    window.files().open(QString::fromStdString(scene), goal_of(command_line), command_line.input);
+    window.files().open(QString::fromStdString(scene), goal_of(command_line), command_line.input,
+                        command_line.reading_given);
   }
   if (!command_line.lesson.empty()) {
     window.files().open_lesson(command_line.lesson, command_line.page);
