@@ -389,6 +389,24 @@ class WindowTest : public QObject {
     QVERIFY2(too_large.isEmpty(), qPrintable(too_large.join("; ")));
   }
 
+  // Which they get late: they are hidden until a scene is shown.
+  void color_controls_get_their_height_in_windows_of_all_widths() {
+    for (const int width : {1120, 1232, 1344, 1392, 1424, 1440, 1520, 1600}) {
+      const auto window = make_window(8);
+      window->resize(width, 852);
+      QCoreApplication::processEvents();
+      window->open("furnace", {Goal::Kind::iteration});
+      window->colors.set_mode(width % 32 == 0 ? ColorMode::luminance : ColorMode::true_color);
+      QVERIFY(wait_for([&] { return window->snapshot() && window->settled(); }));
+      const auto* controls = window->findChild<ColorControls*>();
+      QVERIFY2(wait_for([&] { return controls->height() >= controls->sizeHint().height(); }, 2000),
+               qPrintable(QString("%1: %2, not %3")
+                              .arg(width)
+                              .arg(controls->height())
+                              .arg(controls->sizeHint().height())));
+    }
+  }
+
   void color_controls_do_not_overlap_in_a_narrow_view_data() {
     QTest::addColumn<bool>("projects");
     QTest::newRow("usual type") << false;
@@ -602,7 +620,7 @@ class WindowTest : public QObject {
   void the_name_of_what_is_loaded_fits_the_start_page() {
     const auto window = make_window(8);
     window->resize(1280 - 16, 720 - 48);
-    window->files().open_scene("sphere-flake:levels=4,slices=100,stacks=100");
+    window->files().open_scene("sphere-flake:levels=4,slices=20,stacks=9");
     const auto* title = window->findChild<QLabel*>("welcome_title");
     const auto* page = window->findChild<WelcomePage*>();
     QVERIFY(wait_for([&] { return title->text().contains("Loading"); }));

@@ -134,6 +134,8 @@ void ColorControls::fill_quantities() {
 bool ColorControls::event(QEvent* event) {
   if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) {
     arrange();
+  } else if (event->type() == QEvent::Show) {
+    ask_for_height();
   }
   return QWidget::event(event);
 }
@@ -171,8 +173,22 @@ void ColorControls::arrange() {
   } else {
     grid_->addWidget(pages_, rows - 1, 0, 1, 3, Qt::AlignLeft);
   }
-  // Within a resize the layout above does not notice that the height changes.
-  QMetaObject::invokeMethod(this, &QWidget::updateGeometry, Qt::QueuedConnection);
+  ask_for_height();
+}
+
+// Within a resize, and while a page above is hidden, the layouts above do not notice that the
+// height changes.
+void ColorControls::ask_for_height() {
+  QMetaObject::invokeMethod(
+      this,
+      [this] {
+        updateGeometry();
+        for (QWidget* above = parentWidget(); above && above->layout();
+             above = above->parentWidget()) {
+          above->layout()->activate();
+        }
+      },
+      Qt::QueuedConnection);
 }
 
 QWidget* ColorControls::make_true_color_page() {

@@ -51,6 +51,7 @@ class ColorControls : public QWidget {
   void fill_quantities();
   /// Chooses the number of rows by the width.
   void arrange();
+  void ask_for_height();
   void show_choice();
 
   ColorChoice& colors_;
