@@ -496,8 +496,11 @@ void MapCanvas::draw_legend(QPainter& painter) const {
     entries.erase(entries.begin());
   }
   // In a low map that leaves its sides free, one above the other at the left.
-  constexpr int low = 140, row = 20;
-  const bool stacked = height() < low && width() > 3 * height();
+  constexpr int low = 140, row = 20, side = 130;
+  const auto scale_in = [this](int room) {
+    return fit_map(*content_.map, QSizeF(room, height())).scale;
+  };
+  const bool stacked = height() < low && scale_in(width() - 2 * side) == scale_in(width());
   double x = stacked ? 12 : std::min(std::max(width() / 2.0 - 8, left), right - total);
   int y = height() - 23 - (stacked ? row : 0);
   for (const auto& [brush, text] : entries) {

@@ -78,6 +78,7 @@ QDockWidget* DockLayouts::add(const QString& title, const char* name, QWidget* c
       dock->show();
     }
   });
+  dock->installEventFilter(this);
   docks_.push_back({dock, std::move(places)});
   return dock;
 }
@@ -227,7 +228,8 @@ bool DockLayouts::eventFilter(QObject* watched, QEvent* event) {
       bar->setUsesScrollButtons(true);
     }
   }
-  if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) {
+  const bool moves = event->type() == QEvent::Resize || event->type() == QEvent::Move;
+  if (moves || event->type() == QEvent::LayoutRequest) {
     QTimer::singleShot(0, this, &DockLayouts::repaint_moved);
   }
   return QObject::eventFilter(watched, event);
