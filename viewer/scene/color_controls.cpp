@@ -134,8 +134,10 @@ void ColorControls::fill_quantities() {
 bool ColorControls::event(QEvent* event) {
   if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) {
     arrange();
-  } else if (event->type() == QEvent::Show) {
-    ask_for_height();
+  }
+  const bool placed = event->type() == QEvent::Resize || event->type() == QEvent::Show;
+  if (placed && height() != grid_->sizeHint().height()) {
+    ask_for_height();  // the layout above used what was right before
   }
   return QWidget::event(event);
 }
