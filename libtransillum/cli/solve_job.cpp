@@ -179,10 +179,10 @@ struct Prepared {
 };
 
 Prepared prepare(const SolveJob& job) {
-  check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas);
   const auto start = WallClock::now();
   Prepared prepared;
   const auto make = [&] {
+    check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas);
     prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);
     prepared.seconds_bsp = seconds_since(start);
     prepared.shot = shoot_first(job);

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "transillum/at.h"
+
 namespace transillum {
 namespace {
 
@@ -73,9 +75,15 @@ class Reader {
 
 bool is_empty(const Coverage& coverage) { return coverage.projected == 0 && coverage.covered == 0; }
 
-/// The member that owns patch i, the inverse of SolverGroup::range_of().
-std::size_t owner(PatchId i, std::int64_t members, PatchId patches) {
-  return static_cast<std::size_t>(((i + std::int64_t{1}) * members - 1) / patches);
+/// The member that owns each patch.
+std::vector<std::uint32_t> owners_of(const SolverGroup& group, PatchId patches) {
+  std::vector<std::uint32_t> owners(static_cast<std::size_t>(patches));
+  for (int r = 0; r < group.size(); ++r) {
+    const PatchRange range = group.range_of(r, patches);
+    std::fill(owners.begin() + range.first, owners.begin() + range.last,
+              static_cast<std::uint32_t>(r));
+  }
+  return owners;
 }
 
 /// What the messages to one member look like.
@@ -154,16 +162,13 @@ void read_coverages(Reader& reader, const Header& header, std::size_t patches,
 
 GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches) {
   const auto members = static_cast<std::size_t>(group.size());
-  const auto owners = [&](const Transfer& t) {
-    return std::pair(owner(t.receiver, group.size(), patches),
-                     owner(t.source, group.size(), patches));
-  };
+  const std::vector<std::uint32_t> owners = owners_of(group, patches);
   std::vector<Header> headers;
   for (int r = 0; r < group.size(); ++r) {
     headers.push_back(header_for(pass, group.range_of(r, patches)));
   }
   for (const Transfer& t : pass.transfers.exchanges) {
-    const auto [receiver, source] = owners(t);
+    const std::uint32_t receiver = at(owners, t.receiver), source = at(owners, t.source);
     ++headers[receiver].sent;
     headers[source].sent += source != receiver ? 1 : 0;
   }
@@ -182,7 +187,7 @@ GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches)
                     group.range_of(static_cast<int>(r), patches));
   }
   for (const Transfer& t : pass.transfers.exchanges) {
-    const auto [receiver, source] = owners(t);
+    const std::uint32_t receiver = at(owners, t.receiver), source = at(owners, t.source);
     writers[receiver].put(t);
     if (source != receiver) {
       writers[source].put(t);
