@@ -3,7 +3,6 @@
 // The program `transillum-mpi`: the commands of `transillum`, started by mpirun or srun in several
 // processes, which share the passes of `solve`. Rank 0 alone runs the other commands; the rest
 // wait.
-#include <malloc.h>
 #include <mpi.h>
 #include <sched.h>
 
@@ -114,9 +113,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   transillum::cli::prepare_process();
-  // Messages of passes are large, and come and go: their memory is not given back each time.
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED) {
