@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstring>
 #include <mutex>
+#include <sstream>
 
 #include "support/thread_group.h"
 #include "transillum/radiosity.h"
@@ -66,7 +67,7 @@ Outcome solved(const SolveOptions& options, const std::shared_ptr<SolverGroup>& 
   if (options.goal.set()) {
     return outcome_of(solve(box(), options, {}, {}, group));
   }
-  RadiositySolver solver(box(), options, nullptr, {}, nullptr, group);
+  RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
   std::vector<double> changes;
   while (solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
     const auto& now = watched.estimate_changes();
@@ -182,7 +183,7 @@ TEST(SolverGroup, IsCanceledTogetherAndGoesOn) {
   const SolveOptions options{.directions = 256};
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
     const Cancellation cancellation;
-    RadiositySolver solver(box(), options, nullptr, cancellation, nullptr, group);
+    RadiositySolver solver(box(), options, nullptr, cancellation, nullptr, {}, group);
     EXPECT_THROW(solver.advance(Until::finished,
                                 [&](const RadiositySolver& watched) {
                                   if (group->rank() == 1 && watched.progress().direction == 20) {
@@ -210,7 +211,7 @@ TEST(SolverGroup, PausesTogether) {
   const SolveOptions options{.directions = 64};
   const Outcome expected = solved(options);
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, nullptr, {}, nullptr, group);
+    RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
     EXPECT_TRUE(solver.advance(Until::finished, [&](const RadiositySolver& watched) {
       return group->rank() != 2 || watched.progress().direction != 10;
     }));
@@ -233,7 +234,7 @@ TEST(SolverGroup, CompletesEstimatesForObservers) {
     return true;
   });
   const auto errors = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
-    RadiositySolver solver(box(), options, nullptr, {}, nullptr, group);
+    RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
     solver.advance(Until::iteration, [&](const RadiositySolver& watched) {
       if (watched.progress().direction == 11) {
         watched.complete_estimate();
@@ -243,6 +244,39 @@ TEST(SolverGroup, CompletesEstimatesForObservers) {
     });
   });
   EXPECT_EQ(errors, std::vector<std::exception_ptr>(3));
+}
+
+TEST(SolverGroup, IsSavedAsOneSolverAndRestoredByAnyNumber) {
+  for (const bool two_way : {true, false}) {
+    const SolveOptions options{.directions = 64, .two_way = two_way, .replicas = 2};
+    const Outcome expected = solved(options);
+    std::string state;
+    const auto saving = run_in_group(3, [&](const std::shared_ptr<SolverGroup>& group) {
+      RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+      solver.advance(Until::finished, [](const RadiositySolver& watched) {
+        return watched.progress().direction != 20;
+      });
+      std::ostringstream out;
+      solver.save(out);
+      if (group->rank() == 0) {
+        state = out.str();
+      }
+    });
+    EXPECT_EQ(saving, std::vector<std::exception_ptr>(3));
+    const auto finish = [&](const std::shared_ptr<SolverGroup>& group) {
+      RadiositySolver solver(box(), options, nullptr, {}, nullptr, {}, group);
+      std::istringstream in(state);
+      solver.restore(in, state.size());
+      solver.complete_estimate();
+      EXPECT_GE(solver.progress().direction, 20);
+      solver.advance(Until::finished);
+      const Outcome outcome = outcome_of(solver.solution());
+      EXPECT_TRUE(
+          std::equal(outcome.values.begin(), outcome.values.end(), expected.values.begin()));
+    };
+    finish(nullptr);
+    EXPECT_EQ(run_in_group(2, finish), std::vector<std::exception_ptr>(2));
+  }
 }
 
 TEST(SolverGroup, FailsTogether) {
