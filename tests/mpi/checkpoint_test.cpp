@@ -42,7 +42,9 @@ void expect_same_after_resuming(const Words& scheme, int first, const std::vecto
     RunningProgram run(
         testing::mpi_command(first, command({"--checkpoint", checkpoint, "--checkpoint-every",
                                              "0.001", "--out", folder / "cut.csv"})));
+    const auto end = std::chrono::steady_clock::now() + 60s;
     while (!std::filesystem::exists(checkpoint)) {
+      ASSERT_LT(std::chrono::steady_clock::now(), end) << run.err_so_far();
       std::this_thread::sleep_for(1ms);
     }
     run.send(SIGKILL);

@@ -1,12 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "unit/program_run.h"
 
 namespace transillum::testing {
+
+/// mpirun refuses root unless it is told that this is meant.
+inline const bool root_is_meant = ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1) == 0 &&
+                                  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1) == 0;
 
 /// The command line of transillum-mpi in `ranks` processes, without a network and on however few
 /// cores.
