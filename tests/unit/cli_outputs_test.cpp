@@ -177,7 +177,7 @@ TEST_F(CliOutputs, AFileBeyondTheSizeLimitIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(folder_.names(), names_);
 }
 
-TEST(CliOutputs, AFileMayBeNamedBeforeTheScene) {
+TEST(CliOutputOrder, AFileMayBeNamedBeforeTheScene) {
   const TemporaryFolder folder;
   EXPECT_EQ(
       run_program({"solve", "-q", "-m", "8", "--out", folder / "a.csv", "cornell-box"}).status, 0);
