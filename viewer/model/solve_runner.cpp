@@ -51,19 +51,19 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
                                         const RunOptions& options,
                                         const Cancellation& cancellation) {
   SceneOptions scene_options = options.scene;
-  if (options.input.patches > 0) {
-    scene_options.max_patch_area = 0;
-    const Scene whole(description, scene_options, cancellation);
-    scene_options.max_patch_area = max_patch_area_for(whole, options.input.patches, cancellation);
-  }
   check_memory(description.name, static_cast<std::int64_t>(description.face_count()),
                options.solve.replicas);
-  if (scene_options.max_patch_area > 0) {
+  if (options.input.patches > 0 || scene_options.max_patch_area > 0) {
     SceneOptions undivided = scene_options;
     undivided.max_patch_area = 0;
     const Scene whole(description, undivided, cancellation);
-    check_memory(description.name, count_patches(whole, scene_options.max_patch_area),
-                 options.solve.replicas);
+    if (options.input.patches > 0) {
+      scene_options.max_patch_area = max_patch_area_for(whole, options.input.patches, cancellation);
+    }
+    if (scene_options.max_patch_area > 0) {
+      check_memory(description.name, count_patches(whole, scene_options.max_patch_area),
+                   options.solve.replicas);
+    }
   }
   return std::make_shared<const Scene>(description, scene_options, cancellation);
 }
