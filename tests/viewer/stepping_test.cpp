@@ -370,6 +370,21 @@ class SteppingTest : public QObject {
     const RunPosition stopped = focus.target();
     QTest::qWait(100);
     QVERIFY(focus.target() == stopped);
+
+    // Once started it can be stopped, but not started, while there is no direction to show.
+    s.trigger("play");
+    focus.begin_run(0);
+    QVERIFY(play.action()->isChecked() && play.action()->isEnabled());
+    s.trigger("play");
+    QVERIFY(!play.action()->isChecked() && !play.action()->isEnabled());
+  }
+
+  void plays_only_with_a_scene() {
+    const auto window = make_window({.directions = 8});
+    auto* play = window->findChild<QAction*>("play");
+    QVERIFY(!play->isEnabled());
+    window->open("boards", {Goal::Kind::iteration});
+    QVERIFY(wait_for([&] { return play->isEnabled() && window->focus.map(); }));
   }
 
   void breakpoints_belong_to_their_scene() {

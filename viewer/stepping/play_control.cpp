@@ -31,8 +31,11 @@ PlayControl::PlayControl(Focus& focus, QObject* parent)
       action_->setChecked(false);  // no further step passes the filter of events
     }
   });
+  connect(&focus_, &Focus::target_changed, this, &PlayControl::show_state);
+  connect(&focus_, &Focus::moved, this, &PlayControl::show_state);
   make_menu();
   set_speed(per_second_);
+  show_state();
 }
 
 PlayControl::~PlayControl() = default;
@@ -90,6 +93,11 @@ void PlayControl::toggle(bool on) {
   action_->setText(on ? tr("Stop") : tr("Play"));
   action_->setIcon(theme::icon(on ? theme::Icon::pause : theme::Icon::run));
   on ? timer_.start() : timer_.stop();
+  show_state();
+}
+
+void PlayControl::show_state() {
+  action_->setEnabled(action_->isChecked() || (focus_.passes() > 0 && focus_.map()));
 }
 
 void PlayControl::show_next() {

@@ -48,6 +48,8 @@ class PlayControl : public QObject {
   void make_menu();
   QActionGroup* add_group(const QString& title);
   void toggle(bool on);
+  /// Without a direction to play from, only a play that is under way can be stopped.
+  void show_state();
   void show_next();
   /// False at the end of the run.
   bool advance();
