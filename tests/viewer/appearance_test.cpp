@@ -211,6 +211,14 @@ class AppearanceTest : public QObject {
     QVERIFY(lightness() > 200);
   }
 
+  // Tabs have a line below in this color.
+  void no_line_is_bright_in_dark_mode() {
+    theme::apply(*qApp, {.dark = true});
+    const QColor line = qApp->palette().color(QPalette::Light);
+    theme::apply(*qApp, {.dark = false});
+    QVERIFY2(contrast_of(line, theme::scene_background) < 3, qPrintable(line.name()));
+  }
+
   // WCAG 2.1 asks for a contrast of 4.5 of text on its background.
   void text_of_exchanges_can_be_read_in_both_modes() {
     for (const bool dark : {true, false}) {

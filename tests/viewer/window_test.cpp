@@ -12,6 +12,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QSlider>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -404,6 +405,28 @@ class WindowTest : public QObject {
                               .arg(width)
                               .arg(controls->height())
                               .arg(controls->sizeHint().height())));
+    }
+  }
+
+  void color_controls_keep_their_arrangement_while_the_width_stays() {
+    const auto window = make_window();
+    ColorControls controls(window->colors);
+    auto* tool = new QToolButton;
+    tool->setText("Camera ");
+    controls.add_tool(tool);
+    controls.show();
+    const auto* slider = controls.findChild<QSlider*>("exposure_slider");
+    for (int width = controls.minimumWidth(); width < 900; width += 2) {
+      controls.resize(width, controls.sizeHint().height());
+      QCoreApplication::processEvents();
+      const bool hidden = slider->isHidden();
+      const int height = controls.sizeHint().height();
+      for (int k = 0; k < 3; ++k) {
+        QEvent again(QEvent::LayoutRequest);
+        QCoreApplication::sendEvent(&controls, &again);
+        const QByteArray at = QByteArray::number(width);
+        QVERIFY2(slider->isHidden() == hidden && controls.sizeHint().height() == height, at);
+      }
     }
   }
 

@@ -143,6 +143,7 @@ QLayout* RunPanel::make_choices() {
   first_ = make_choice("run_a", tr("Run A: subtracted, and shown while the key A is held"));
   auto* row = new QHBoxLayout;
   row->setContentsMargins(10, 0, 8, 2);
+  row->setSpacing(6);
   row->addWidget(second_, 1);
   row->addWidget(new QLabel(tr("minus A:")));
   row->addWidget(first_, 1);

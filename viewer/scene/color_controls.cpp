@@ -149,7 +149,11 @@ void ColorControls::arrange() {
   // Without room the slider is hidden: the box beside it shows the same value.
   const int spare =
       exposure_label_->sizeHint().width() + exposure_slider_->sizeHint().width() + 2 * spacing;
-  const int page = pages_->sizeHint().width() - (exposure_slider_->isHidden() ? 0 : spare);
+  const int exposure = pages_->widget(0)->sizeHint().width();
+  const int scale = pages_->widget(1)->sizeHint().width();
+  // The same whether the slider is hidden or not: otherwise each arrangement could ask for the
+  // other.
+  const int page = std::max(exposure - (exposure_slider_->isHidden() ? 0 : spare), scale);
   const int quantity = quantity_row_->minimumSizeHint().width();
   setMinimumWidth(std::max({quantity, tools, page}) + margins.left() + margins.right());
 
@@ -195,6 +199,7 @@ void ColorControls::ask_for_height() {
 
 QWidget* ColorControls::make_true_color_page() {
   exposure_slider_ = new QSlider(Qt::Horizontal);
+  exposure_slider_->setObjectName("exposure_slider");
   exposure_slider_->setRange(static_cast<int>(lowest_exposure) * slider_steps_per_ev,
                              static_cast<int>(highest_exposure) * slider_steps_per_ev);
   exposure_slider_->setMinimumWidth(70);

@@ -261,6 +261,9 @@ QPalette make_palette() {
   palette.setColor(QPalette::Highlight, accent);
   palette.setColor(QPalette::HighlightedText, current.dark ? paper : QColor(Qt::white));
   palette.setColor(QPalette::Link, accent);
+  if (current.dark) {
+    palette.setColor(QPalette::Light, rule);  // the line under tabs
+  }
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
     palette.setColor(QPalette::Disabled, role, disabled_ink.darker(current.dark ? 90 : 118));
   }
