@@ -24,12 +24,15 @@ void RadiositySolver::Impl::save(std::ostream& out) const {
 
 void RadiositySolver::Impl::restore(std::istream& in, std::uint64_t size) {
   StateInput archive(in, size);
-  constexpr int most_replicas = 1024;  // far beyond those that an accuracy plan adds
+  constexpr int most_added = 64;  // an accuracy plan stops at 16 replicas
   int added = 0;
   archive(added);
-  archive.require(added >= 0 && added <= most_replicas && (added == 0 || plan.replicas() > 1));
+  archive.require(added >= 0 && added <= most_added && (added == 0 || plan.replicas() > 1));
   for (int r = 0; r < added; ++r) {
     append_replica();
+  }
+  if (added > 0) {
+    iteration.directions = plan.directions(0);
   }
   visit_state(archive, *this);
   archive.finish();

@@ -204,6 +204,7 @@ void RadiositySolver::Impl::add_replica() {
     throw std::logic_error("add_replica: the solve is unfinished or has no replicas of one set");
   }
   append_replica();
+  iteration.directions = plan.directions(0);
   history.reopen(input.options.directions);
 }
 
@@ -211,7 +212,6 @@ void RadiositySolver::Impl::append_replica() {
   plan.add_replica();
   input.options.directions = plan.directions();
   input.options.replicas = plan.replicas();
-  iteration.directions = plan.directions(0);
   replicas.add_replica(input, whole);
   kept.add_replica();
 }
