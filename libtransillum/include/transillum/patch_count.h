@@ -30,7 +30,7 @@ std::uint64_t expected_memory(std::int64_t patches, int replicas = 1);
 /// the process's control group and by its own limit.
 /// @param name of the scene, for the message.
 /// @param patches, replicas as for expected_memory().
-/// @throws std::runtime_error that tells both
+/// @throws std::runtime_error that tells both; not where a Scene cannot have so many patches at all
 void check_memory(const std::string& name, std::int64_t patches, int replicas = 1);
 
 /// A limit for patch areas with which the scene has about `patches` patches (m²).

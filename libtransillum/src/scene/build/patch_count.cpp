@@ -127,6 +127,9 @@ std::uint64_t expected_memory(std::int64_t patches, int replicas) {
 }
 
 void check_memory(const std::string& name, std::int64_t patches, int replicas) {
+  if (patches > PatchBuilder::max_patches) {
+    return;  // whatever the memory, no scene may have so many, which it says itself
+  }
   const std::uint64_t needed = expected_memory(patches, replicas), available = free_memory();
   if (needed > available) {
     const auto gigabytes = [](std::uint64_t bytes) { return 1e-9 * static_cast<double>(bytes); };
