@@ -2,7 +2,8 @@
 //
 // Output files appear complete or not at all: each is written to a temporary file in the target's
 // folder, synchronized to disk, and renamed. Where the file system allows it, the temporary file
-// has no name before it is complete, so that a killed program leaves nothing behind. Devices and
+// has no name before it is complete, so that a killed program leaves nothing behind; but where it
+// replaces another, it is named for the moment before it does. Devices and
 // files that this process has open already (/dev/stdout) are written to directly.
 #include <fcntl.h>
 #include <fmt/format.h>
