@@ -73,7 +73,8 @@ Run add_merge_command(CLI::App& program) {
       ->type_name("SCENE");
   add_output_options(command, call->outputs);
   command.footer(
-      "The result has the bits of one solve that makes all passes itself. The scene is read again;\n"
+      "The result has the bits of one solve that makes all passes itself. The scene is read "
+      "again;\n"
       "it must be the same.\n"
       "Example: transillum merge part*.tsh --out result.vtp");
   return [call] { return merge(*call); };

@@ -242,7 +242,8 @@ Run add_solve_command(CLI::App& program) {
       "group,material; areas in m2, exitance E, radiosity B and irradiance H in W/m2.\n"
       "Ctrl-C saves the results so far and exits with status 130; pressed twice, it exits "
       "immediately.\n"
-      "One solve on four machines: --shard 1/4 --out part1.tsh on the first, and so on; then merge.\n"
+      "One solve on four machines: --shard 1/4 --out part1.tsh on the first, and so on; then "
+      "merge.\n"
       "Example: transillum solve cornell-box --max-patch-area 0.01 -m 256 --out cornell.vtp");
   return [call] {
     set_up_of_display(*call->command, call->options.sky, call->colors);
