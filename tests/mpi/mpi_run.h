@@ -9,7 +9,7 @@
 
 namespace transillum::testing {
 
-/// mpirun refuses root unless it is told that this is meant.
+/// mpirun refuses to run as root without these variables.
 inline const bool root_is_meant = ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1) == 0 &&
                                   ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1) == 0;
 
