@@ -3,6 +3,7 @@
 // The program `transillum-mpi`: the commands of `transillum`, started by mpirun or srun in several
 // processes, which share the passes of `solve`. Rank 0 alone runs the other commands; the rest
 // wait.
+#include <malloc.h>
 #include <mpi.h>
 #include <sched.h>
 
@@ -113,6 +114,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   transillum::cli::prepare_process();
+  // Messages of some 100 kB come and go with every pass: their memory is kept, since getting it
+  // from the system takes longer than writing it.
+  mallopt(M_MMAP_THRESHOLD, 8 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED) {

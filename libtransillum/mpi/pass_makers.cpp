@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include "pass_makers.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace transillum::mpi {
@@ -39,6 +40,7 @@ void PassMakers::work() {
     const int k = waiting_.front();
     waiting_.pop_front();
     lock.unlock();
+    const auto start = std::chrono::steady_clock::now();
     GroupMessages messages;
     std::exception_ptr error;
     try {
@@ -50,6 +52,7 @@ void PassMakers::work() {
     if (!error) {
       made_[k] = std::move(messages);
       unmade_.erase(k);
+      time_of_a_pass_ = std::chrono::steady_clock::now() - start;
     } else if (!error_) {
       error_ = error;
     }
@@ -104,7 +107,13 @@ std::exception_ptr PassMakers::error() const {
 }
 
 void PassMakers::pause(std::chrono::microseconds time) {
+  using std::chrono::duration_cast;
+  using std::chrono::microseconds;
+  constexpr microseconds longest{5000};
   std::unique_lock lock(mutex_);
+  if (!unmade_.empty()) {
+    time = std::max(time, std::min(longest, duration_cast<microseconds>(time_of_a_pass_ / 4)));
+  }
   pass_made_.wait_for(lock, time, [this] { return news_; });
   news_ = false;
 }

@@ -38,7 +38,8 @@ class PassMakers {
   bool failed() const;
   /// What it threw; null: nothing
   std::exception_ptr error() const;
-  /// Pauses, at most until a pass is made.
+  /// Pauses, at most until a pass is made. Where passes are being made, for a quarter of one at
+  /// least: waking costs time, and nothing is so urgent then.
   void pause(std::chrono::microseconds time);
 
  private:
@@ -52,7 +53,8 @@ class PassMakers {
   std::map<int, GroupMessages> made_;
   std::exception_ptr error_;
   bool stopped_ = false, ended_ = false;
-  bool news_ = false;  ///< a pass was made since the last pause
+  bool news_ = false;                                     ///< a pass was made since the last pause
+  std::chrono::steady_clock::duration time_of_a_pass_{};  ///< the last one made
   std::vector<std::thread> threads_;
 };
 

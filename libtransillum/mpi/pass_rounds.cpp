@@ -28,6 +28,12 @@ struct MessageHead {
 };
 static_assert(sizeof(MessageHead) == unit_bytes);
 
+std::span<const std::byte> message_to(const GroupMessages& messages, int rank) {
+  const auto r = static_cast<std::size_t>(rank);
+  return std::span(messages.bytes)
+      .subspan(messages.begin[r], messages.begin[r + 1] - messages.begin[r]);
+}
+
 }  // namespace
 
 PassRounds::PassRounds(MPI_Comm exchange, MPI_Comm dealing, MPI_Datatype unit,
@@ -159,24 +165,27 @@ void PassRounds::begin_counts() {
   std::fill(send_counts_.begin(), send_counts_.end(), reason_ == going ? 0 : -1);
   send_.clear();
   if (reason_ == going) {
-    const std::map<int, GroupMessages> made = makers_.take_below(end_of_round());
+    own_ = makers_.take_below(end_of_round());
     std::size_t total = 0;
-    for (const auto& [k, messages] : made) {
-      total += messages.bytes.size() + static_cast<std::size_t>(size_) * unit_bytes;
+    for (const auto& [k, messages] : own_) {
+      total += messages.bytes.size() - message_to(messages, rank_).size() +
+               static_cast<std::size_t>(size_ - 1) * unit_bytes;
     }
     send_.reserve(total);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(size_); ++r) {
+    for (int r = 0; r < size_; ++r) {
+      if (r == rank_) {
+        continue;
+      }
       const std::size_t begin = send_.size();
-      for (const auto& [k, messages] : made) {
-        const auto message =
-            std::span(messages.bytes)
-                .subspan(messages.begin[r], messages.begin[r + 1] - messages.begin[r]);
+      for (const auto& [k, messages] : own_) {
+        const auto message = message_to(messages, r);
         const MessageHead head{k, static_cast<std::int64_t>(message.size())};
         const auto head_bytes = std::as_bytes(std::span(&head, 1));
         send_.insert(send_.end(), head_bytes.begin(), head_bytes.end());
         send_.insert(send_.end(), message.begin(), message.end());
       }
-      send_counts_[r] = static_cast<std::int64_t>((send_.size() - begin) / unit_bytes);
+      send_counts_[static_cast<std::size_t>(r)] =
+          static_cast<std::int64_t>((send_.size() - begin) / unit_bytes);
     }
   }
   MPI_Ialltoall(send_counts_.data(), 1, MPI_INT64_T, receive_counts_.data(), 1, MPI_INT64_T, comm_,
@@ -205,9 +214,7 @@ void PassRounds::begin_messages() {
   };
   lay_out(send_counts_, send_sizes_, send_begin_);
   receive_.resize(lay_out(receive_counts_, receive_sizes_, receive_begin_) * unit_bytes);
-  bytes_sent_ +=
-      send_.size() -
-      static_cast<std::size_t>(send_sizes_[static_cast<std::size_t>(rank_)]) * unit_bytes;
+  bytes_sent_ += send_.size();
   exchange_ = Exchange::messages;
   MPI_Ialltoallv(send_.data(), send_sizes_.data(), send_begin_.data(), unit_, receive_.data(),
                  receive_sizes_.data(), receive_begin_.data(), unit_, comm_, &request_);
@@ -215,6 +222,9 @@ void PassRounds::begin_messages() {
 
 void PassRounds::add_round() {
   std::map<int, std::span<const std::byte>> messages;
+  for (const auto& [k, of_a_pass] : own_) {
+    messages[k] = message_to(of_a_pass, rank_);
+  }
   for (std::span<const std::byte> rest(receive_); !rest.empty();) {
     MessageHead head;
     std::memcpy(&head, rest.data(), sizeof(head));
@@ -228,6 +238,7 @@ void PassRounds::add_round() {
     dealer_.serve(limit());
   }
   added_ = end;
+  own_.clear();
   if (!passes_.after_round()) {
     leave_for(paused);
     over_ = true;

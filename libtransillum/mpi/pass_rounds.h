@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,7 @@ class PassRounds {
   std::vector<std::int64_t> send_counts_, receive_counts_;  ///< units; -1: the rank leaves
   std::vector<int> send_sizes_, send_begin_, receive_sizes_, receive_begin_;
   std::vector<std::byte> send_, receive_;
+  std::map<int, GroupMessages> own_;  ///< made here, of the round being exchanged
   std::uint64_t bytes_sent_ = 0;
 };
 
