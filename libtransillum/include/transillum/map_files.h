@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -58,5 +59,9 @@ bool is_map_picture(const std::filesystem::path& path);
 /// if the file cannot be written.
 void write_map(const std::filesystem::path& path, const Scene& scene, const VisibilityMap& map,
                const MapPictureOptions& options = {});
+
+/// Writes the map as the figure that write_map() writes to a file ending in .svg.
+void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
+                   const MapPictureOptions& options = {});
 
 }  // namespace transillum

@@ -1,0 +1,152 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include "options.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "arrays.h"
+#include "transillum/did_you_mean.h"
+#include "transillum/settings.h"
+
+namespace transillum::python {
+namespace {
+
+using Setter = std::function<void(SolveOptions&, const py::handle&)>;
+
+template <class T>
+T number(const py::handle& value) {
+  return py::cast<T>(value);
+}
+std::string text(const py::handle& value) { return py::cast<std::string>(value); }
+
+Rgb color(const py::handle& value, const std::string& name) {
+  if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) {
+    const auto gray = number<double>(value);
+    return {gray, gray, gray};
+  }
+  const Vec3 channels = to_vec3(value, name);
+  return {channels.x, channels.y, channels.z};
+}
+
+const std::map<std::string, Setter>& setters() {
+  using Options = SolveOptions;
+  using Value = const py::handle&;
+  static const std::map<std::string, Setter> all{
+      {"directions", [](Options& o, Value v) { o.directions = number<int>(v); }},
+      {"sampling", [](Options& o, Value v) { o.sampling = sampling_from_name(text(v)); }},
+      {"seed",
+       [](Options& o, Value v) {
+         o.seed = number<std::uint64_t>(v);
+         o.engine_options.seed = o.seed;
+       }},
+      {"rotate", [](Options& o, Value v) { o.rotation = number<std::uint64_t>(v); }},
+      {"engine", [](Options& o, Value v) { o.engine = engine_from_name(text(v)); }},
+      {"resolution", [](Options& o, Value v) { o.engine_options.resolution = number<int>(v); }},
+      {"points", [](Options& o, Value v) { o.engine_options.points = number<int>(v); }},
+      {"lines", [](Options& o, Value v) { o.engine_options.lines_per_patch = number<double>(v); }},
+      {"order",
+       [](Options& o, Value v) { o.engine_options.order = painters_order_from_name(text(v)); }},
+      {"random-lines", [](Options& o, Value v) { o.engine_options.gridded = !number<bool>(v); }},
+      {"two-way", [](Options& o, Value v) { o.two_way = number<bool>(v); }},
+      {"normalize", [](Options& o, Value v) { o.normalize = normalization_from_name(text(v)); }},
+      {"scheme", [](Options& o, Value v) { o.scheme = scheme_from_name(text(v)); }},
+      {"first-shot",
+       [](Options& o, Value v) {
+         o.first_shot = PyUnicode_Check(v.ptr()) ? first_shot_from_name(text(v))
+                                                 : std::optional(number<double>(v));
+       }},
+      {"burn-in", [](Options& o, Value v) { o.burn_in = number<int>(v); }},
+      {"replicas", [](Options& o, Value v) { o.replicas = number<int>(v); }},
+      {"accuracy",
+       [](Options& o, Value v) {
+         o.goal.accuracy =
+             PyUnicode_Check(v.ptr()) ? accuracy_from_text(text(v)) : number<double>(v);
+       }},
+      {"accuracy-of",
+       [](Options& o, Value v) {
+         const AccuracyGoal of = accuracy_of_from_name(text(v));
+         o.goal.of = of.of;
+         o.goal.patch = of.patch;
+       }},
+      {"seconds", [](Options& o, Value v) { o.goal.seconds = number<double>(v); }},
+      {"iterations", [](Options& o, Value v) { o.iterations = number<int>(v); }},
+      {"tolerance", [](Options& o, Value v) { o.tolerance = number<double>(v); }},
+      {"sky", [](Options& o, Value v) { o.sky.exitance = color(v, "sky"); }},
+      {"sky-model", [](Options& o, Value v) { o.sky.model = sky_model_from_name(text(v)); }},
+      {"up", [](Options& o, Value v) { o.sky.up = normalized(to_vec3(v, "up")); }},
+      {"memory", [](Options& o, Value v) { o.memory = number<std::uint64_t>(v); }},
+      {"threads", [](Options& o, Value v) { o.threads = number<int>(v); }},
+  };
+  return all;
+}
+
+std::string with(std::string name, char from, char to) {
+  std::replace(name.begin(), name.end(), from, to);
+  return name;
+}
+
+const Setting* setting_of(const std::string& name) {
+  const auto found = std::find_if(settings().begin(), settings().end(),
+                                  [&](const Setting& s) { return s.name == name; });
+  return found == settings().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+SolveOptions options_from(const py::dict& keywords) {
+  SolveOptions options;
+  std::vector<std::string> given;
+  for (const auto& [key, value] : keywords) {
+    const std::string keyword = text(key);
+    const std::string name = with(keyword, '_', '-');
+    const auto setter = setters().find(name);
+    if (setter == setters().end()) {
+      std::vector<std::string> known;
+      for (const auto& [other, ignored] : setters()) {
+        known.push_back(with(other, '-', '_'));
+      }
+      throw InputError("there is no option " + keyword + did_you_mean(keyword, known));
+    }
+    if (value.is_none()) {
+      continue;
+    }
+    try {
+      setter->second(options, value);
+    } catch (const py::cast_error&) {
+      const Setting* setting = setting_of(name);
+      throw InputError(keyword + ": expected " + (setting != nullptr ? setting->type : "a value") +
+                       ", not " + py::cast<std::string>(py::repr(value)));
+    }
+    given.push_back(name);
+  }
+  for (const std::string& name : given) {
+    if (const std::string why = why_unused(name, {options}); !why.empty()) {
+      throw InputError(with(name, '-', '_') + " is " + why);
+    }
+  }
+  options.validate();
+  return options;
+}
+
+py::list option_list() {
+  py::list list;
+  for (const Setting& setting : settings()) {
+    const std::string name = setting.name;
+    if (name == "two-sided" || name == "max-patch-area") {  // of scenes
+      continue;
+    }
+    if (setters().count(name) == 0) {
+      throw std::logic_error("option " + name + " is missing in Python");
+    }
+    list.append(py::make_tuple(with(name, '-', '_'), setting.type, setting.description,
+                               setting.default_value));
+  }
+  return list;
+}
+
+}  // namespace transillum::python

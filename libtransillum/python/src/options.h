@@ -1,0 +1,17 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "transillum/radiosity.h"
+
+namespace transillum::python {
+
+/// Options of a solve from keywords: the names of settings(), with underscores.
+/// @throws InputError for a name or value that does not exist, or that would have no effect
+SolveOptions options_from(const pybind11::dict& keywords);
+
+/// Keyword, type, description and default of every option of a solve.
+pybind11::list option_list();
+
+}  // namespace transillum::python

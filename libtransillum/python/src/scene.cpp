@@ -1,0 +1,198 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interrupt.h"
+
+namespace transillum::python {
+namespace {
+
+using ScenePtr = std::shared_ptr<const Scene>;
+
+struct Refinement {
+  double max_patch_area = 0;
+  std::int64_t patches = 0;  ///< 0: not asked for
+};
+
+ScenePtr make_scene(const SceneDescription& description, bool two_sided, const Refinement& refine,
+                    const Cancellation& cancellation) {
+  if (refine.patches != 0 && refine.max_patch_area != 0) {
+    throw InputError("patches and max_patch_area exclude each other");
+  }
+  SceneOptions options;
+  options.two_sided = two_sided;
+  auto scene = std::make_shared<const Scene>(description, options, cancellation);
+  options.max_patch_area = refine.patches != 0
+                               ? max_patch_area_for(*scene, refine.patches, cancellation)
+                               : refine.max_patch_area;
+  if (options.max_patch_area != 0) {
+    scene = std::make_shared<const Scene>(description, options, cancellation);
+  }
+  return scene;
+}
+
+ScenePtr load(const std::string& spec, bool two_sided, double max_patch_area, std::int64_t patches,
+              double scale, std::optional<bool> join, double default_reflectance) {
+  ReadOptions read;
+  read.scale = scale;
+  read.join = join;
+  read.default_reflectance = default_reflectance;
+  read.validate();
+  const Cancellation cancellation;
+  return run_interruptibly(
+      [&] {
+        return make_scene(describe_scene(spec, read, cancellation), two_sided,
+                          {max_patch_area, patches}, cancellation);
+      },
+      [] {}, [&] { cancellation.cancel(); });
+}
+
+/// The rows of an array (n, 3) or of one row for all n.
+std::vector<Rgb> colors(const Array<double>& values, std::size_t count, const std::string& name) {
+  std::vector<Rgb> rows(count);
+  const auto size = static_cast<std::size_t>(values.size());
+  const double* data = values.data();
+  if (size == 1 || size == 3) {
+    const Rgb all = size == 1 ? Rgb{data[0], data[0], data[0]} : Rgb{data[0], data[1], data[2]};
+    std::fill(rows.begin(), rows.end(), all);
+  } else if (values.ndim() == 1 && size == count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      rows[i] = {data[i], data[i], data[i]};
+    }
+  } else if (values.ndim() == 2 && values.shape(1) == 3 && size == 3 * count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      rows[i] = {data[3 * i], data[3 * i + 1], data[3 * i + 2]};
+    }
+  } else {
+    throw InputError(name + ": expected one value, three, one for each face, or three for each");
+  }
+  return rows;
+}
+
+ScenePtr build(const Array<double>& points, const std::vector<std::vector<PointId>>& faces,
+               const Array<double>& reflectance, const Array<double>& exitance, bool two_sided,
+               double max_patch_area, std::int64_t patches, const std::string& name) {
+  if (points.ndim() != 2 || points.shape(1) != 3) {
+    throw InputError("points: expected an array (n, 3)");
+  }
+  SceneDescription description;
+  description.name = name;
+  description.points.resize(static_cast<std::size_t>(points.shape(0)));
+  for (std::size_t i = 0; i < description.points.size(); ++i) {
+    const double* p = points.data() + 3 * i;
+    description.points[i] = {p[0], p[1], p[2]};
+  }
+  const std::vector<Rgb> rho = colors(reflectance, faces.size(), "reflectance");
+  const std::vector<Rgb> given = colors(exitance, faces.size(), "exitance");
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool as_before = f > 0 && rho[f] == rho[f - 1] && given[f] == given[f - 1];
+    if (!as_before) {
+      description.materials.push_back({"", rho[f], given[f]});
+    }
+    description.add_face(faces[f], static_cast<int>(description.materials.size()) - 1);
+  }
+  const Cancellation cancellation;
+  return run_interruptibly(
+      [&] {
+        return make_scene(description, two_sided, {max_patch_area, patches}, cancellation);
+      },
+      [] {}, [&] { cancellation.cancel(); });
+}
+
+/// Corners of all outlines, and where each begins.
+py::tuple outlines(const Scene& scene) {
+  std::vector<std::int64_t> begin{0};
+  std::vector<PointId> corners;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto outline = scene.outline(i);
+    corners.insert(corners.end(), outline.begin(), outline.end());
+    begin.push_back(static_cast<std::int64_t>(corners.size()));
+  }
+  return py::make_tuple(to_array(begin), to_array(corners));
+}
+
+template <class Value, class Get>
+py::array_t<Value> of_patches(const Scene& scene, Get get) {
+  py::array_t<Value> values(static_cast<py::ssize_t>(scene.patch_count()));
+  Value* out = values.mutable_data();
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    out[i] = get(i);
+  }
+  return values;
+}
+
+template <class Get>
+py::array_t<double> table_of_patches(const Scene& scene, Get get) {
+  std::vector<decltype(get(0))> values;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    values.push_back(get(i));
+  }
+  return to_table<3>(values);
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+  // Held as a pointer to const by all that C++ shares; Python sees no function that changes it.
+  py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
+      .def_property_readonly("name", &Scene::name)
+      .def("__len__", &Scene::patch_count)
+      .def_property_readonly("points", [](const Scene& s) { return to_table<3>(s.points()); })
+      .def_property_readonly("outlines", &outlines)
+      .def_property_readonly("area",
+                             [](const Scene& s) {
+                               return of_patches<double>(
+                                   s, [&](PatchId i) { return s.patch(i).area; });
+                             })
+      .def_property_readonly("normal",
+                             [](const Scene& s) {
+                               return table_of_patches(
+                                   s, [&](PatchId i) { return s.patch(i).normal; });
+                             })
+      .def_property_readonly("center",
+                             [](const Scene& s) {
+                               return table_of_patches(
+                                   s, [&](PatchId i) { return s.patch(i).center; });
+                             })
+      .def_property_readonly("reflectance",
+                             [](const Scene& s) {
+                               return table_of_patches(s,
+                                                       [&](PatchId i) { return s.reflectance(i); });
+                             })
+      .def_property_readonly("exitance",
+                             [](const Scene& s) {
+                               return table_of_patches(s, [&](PatchId i) { return s.exitance(i); });
+                             })
+      .def_property_readonly("face",
+                             [](const Scene& s) {
+                               return of_patches<std::int32_t>(
+                                   s, [&](PatchId i) { return s.patch(i).face; });
+                             })
+      .def_property_readonly("group",
+                             [](const Scene& s) {
+                               return of_patches<std::int32_t>(
+                                   s, [&](PatchId i) { return s.patch(i).group; });
+                             })
+      .def_property_readonly("groups", &Scene::groups)
+      .def_property_readonly("warnings", [](const Scene& s) { return s.report().warnings; });
+  module.def("load", [](const std::string& spec, bool two_sided, double max_patch_area,
+                        std::int64_t patches, double scale, std::optional<bool> join,
+                        double default_reflectance) {
+    return std::const_pointer_cast<Scene>(
+        load(spec, two_sided, max_patch_area, patches, scale, join, default_reflectance));
+  });
+  module.def(
+      "build", [](const Array<double>& points, const std::vector<std::vector<PointId>>& faces,
+                  const Array<double>& reflectance, const Array<double>& exitance, bool two_sided,
+                  double max_patch_area, std::int64_t patches, const std::string& name) {
+        return std::const_pointer_cast<Scene>(
+            build(points, faces, reflectance, exitance, two_sided, max_patch_area, patches, name));
+      });
+}
+
+}  // namespace transillum::python

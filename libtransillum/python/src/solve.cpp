@@ -1,0 +1,256 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interrupt.h"
+#include "options.h"
+
+namespace transillum::python {
+namespace {
+
+using ScenePtr = std::shared_ptr<Scene>;
+
+py::dict to_dict(const SolveProgress& progress) {
+  py::dict dict;
+  dict["iteration"] = progress.iteration;
+  dict["direction"] = progress.direction;
+  dict["passes"] = progress.passes;
+  dict["finished"] = progress.finished;
+  dict["change"] = progress.change;
+  dict["passes_per_second"] = progress.passes_per_second;
+  dict["seconds_left"] = progress.seconds_left;
+  return dict;
+}
+
+py::dict to_dict(const SolveStatistics& s) {
+  py::dict dict;
+  dict["patches"] = s.patches;
+  dict["fragments"] = s.fragments;
+  dict["directions"] = s.directions;
+  dict["passes"] = s.passes;
+  dict["passes_made"] = s.passes_made;
+  dict["iterations"] = s.iterations;
+  dict["converged"] = s.converged;
+  dict["threads"] = s.threads;
+  dict["transfers"] = s.transfers;
+  dict["form_factors"] = s.form_factors;
+  dict["closure_defect"] = s.closure_defect_max;
+  dict["escaped"] = s.escaped;
+  dict["energy_defect"] = s.energy_defect;
+  dict["energy_balance"] = s.energy_balance;
+  dict["rho_max"] = s.rho_max;
+  dict["light_directions"] = s.light_directions;
+  dict["seconds"] = s.seconds_total;
+  return dict;
+}
+
+/// The progress of a solver, from the thread that solves to Python's.
+class ProgressRelay {
+ public:
+  explicit ProgressRelay(py::object callback) : callback_(std::move(callback)) {}
+  /// On the thread that solves.
+  void put(const RadiositySolver& solver) {
+    if (!callback_.is_none()) {
+      const std::lock_guard lock(mutex_);
+      newest_ = solver.progress();
+    }
+  }
+  /// On Python's thread.
+  void tell() {
+    std::optional<SolveProgress> progress;
+    {
+      const std::lock_guard lock(mutex_);
+      std::swap(progress, newest_);
+    }
+    if (progress) {
+      callback_(to_dict(*progress));
+    }
+  }
+
+ private:
+  py::object callback_;
+  std::mutex mutex_;
+  std::optional<SolveProgress> newest_;
+};
+
+Solution solve_scene(const ScenePtr& scene, const py::dict& keywords, const py::object& progress) {
+  const SolveOptions options = options_from(keywords);
+  const Cancellation cancellation;
+  ProgressRelay relay(progress);
+  return run_interruptibly(
+      [&] {
+        if (!takes_directions(options.engine)) {
+          return solve_by_form_factors(scene, options, cancellation);
+        }
+        return solve(
+            scene, options,
+            [&](const RadiositySolver& solver) {
+              relay.put(solver);
+              return true;
+            },
+            cancellation);
+      },
+      [&] { relay.tell(); }, [&] { cancellation.cancel(); });
+}
+
+py::tuple to_arrays(const FormFactors& f) {
+  py::array_t<std::int64_t> begin(static_cast<py::ssize_t>(f.row_begin.size()));
+  std::copy(f.row_begin.begin(), f.row_begin.end(), begin.mutable_data());
+  return py::make_tuple(to_array(f.value), to_array(f.source), begin);
+}
+
+py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
+                       const py::object& progress) {
+  SolveOptions options = options_from(keywords);
+  const Cancellation cancellation;
+  ProgressRelay relay(progress);
+  const FormFactors result = run_interruptibly(
+      [&]() -> FormFactors {
+        options.iterations = 1;
+        if (!takes_directions(options.engine)) {
+          return *solve_by_form_factors(scene, options, cancellation).form_factors;
+        }
+        RadiositySolver solver(scene, options, nullptr, cancellation);
+        solver.keep_form_factors();
+        solver.advance(RadiositySolver::Until::iteration, [&](const RadiositySolver& s) {
+          relay.put(s);
+          return true;
+        });
+        return solver.form_factors();
+      },
+      [&] { relay.tell(); }, [&] { cancellation.cancel(); });
+  return to_arrays(result);
+}
+
+RadiositySolver::Until until_from(const std::string& name) {
+  if (name == "direction") {
+    return RadiositySolver::Until::direction;
+  }
+  if (name == "iteration") {
+    return RadiositySolver::Until::iteration;
+  }
+  if (name == "finished") {
+    return RadiositySolver::Until::finished;
+  }
+  throw InputError("until: \"" + name + "\" is neither direction, iteration nor finished");
+}
+
+/// A solve in steps. Ctrl-C pauses it after the pass under way.
+class Run {
+ public:
+  Run(const ScenePtr& scene, const py::dict& keywords) {
+    const SolveOptions options = options_from(keywords);
+    if (options.goal.set()) {
+      throw InputError("accuracy and seconds are options of solve(), not of Run");
+    }
+    if (!takes_directions(options.engine)) {
+      throw InputError("Run: engine " + name_of(options.engine) + " has no directions");
+    }
+    solver_ = run_interruptibly(
+        [&] { return std::make_unique<RadiositySolver>(scene, options, nullptr, cancellation_); },
+        [] {}, [&] { cancellation_.cancel(); });
+  }
+
+  bool advance(const std::string& until, const py::object& progress) {
+    const RadiositySolver::Until where = until_from(until);
+    const std::unique_lock lock(busy_, std::try_to_lock);
+    if (!lock) {
+      throw std::runtime_error("the run is being advanced by another thread");
+    }
+    std::atomic<bool> going = true;
+    ProgressRelay relay(progress);
+    return run_interruptibly(
+        [&] {
+          return solver_->advance(where, [&](const RadiositySolver& solver) {
+            relay.put(solver);
+            return going.load();
+          });
+        },
+        [&] { relay.tell(); }, [&] { going = false; });
+  }
+
+  template <class Get>
+  auto read(Get get) {
+    const std::unique_lock lock(busy_, std::try_to_lock);
+    if (!lock) {
+      throw std::runtime_error("the run is being advanced");
+    }
+    return get(*solver_);
+  }
+
+ private:
+  std::mutex busy_;
+  Cancellation cancellation_;
+  std::unique_ptr<RadiositySolver> solver_;
+};
+
+py::object standard_error_of(const ErrorEstimate& error) {
+  return error.replicas > 0 ? py::object(to_table<3>(error.standard_error)) : py::none();
+}
+
+void bind_solution(py::module_& module) {
+  py::class_<Solution>(module, "Solution")
+      .def_property_readonly(
+          "scene", [](const Solution& s) { return std::const_pointer_cast<Scene>(s.scene); })
+      .def_property_readonly("radiosity",
+                             [](const Solution& s) { return to_table<3>(s.radiosity); })
+      .def_property_readonly("irradiance",
+                             [](const Solution& s) { return to_table<3>(s.irradiance); })
+      .def_property_readonly("standard_error",
+                             [](const Solution& s) { return standard_error_of(s.error); })
+      .def_property_readonly("quantile", [](const Solution& s) { return s.error.quantile; })
+      .def_property_readonly("rms_error",
+                             [](const Solution& s) -> std::optional<double> {
+                               if (s.error.replicas == 0) {
+                                 return {};
+                               }
+                               return s.error.rms_limit;
+                             })
+      .def_property_readonly("complete", [](const Solution& s) { return s.complete; })
+      .def_property_readonly("statistics", [](const Solution& s) { return to_dict(s.statistics); });
+}
+
+void bind_run(py::module_& module) {
+  py::class_<Run>(module, "Run")
+      .def(py::init<const ScenePtr&, const py::dict&>())
+      .def("advance", &Run::advance)
+      .def_property_readonly(
+          "progress",
+          [](Run& run) {
+            return run.read([](const RadiositySolver& s) { return to_dict(s.progress()); });
+          })
+      .def_property_readonly("radiosity",
+                             [](Run& run) {
+                               return run.read([](const RadiositySolver& s) {
+                                 return to_table<3>(s.running_estimate());
+                               });
+                             })
+      .def_property_readonly(
+          "directions",
+          [](Run& run) {
+            return run.read([](const RadiositySolver& s) { return to_table<3>(s.directions()); });
+          })
+      .def("solution",
+           [](Run& run) { return run.read([](const RadiositySolver& s) { return s.solution(); }); })
+      .def("form_factors", [](Run& run) {
+        return run.read([](const RadiositySolver& s) { return to_arrays(s.form_factors()); });
+      });
+}
+
+}  // namespace
+
+void bind_solve(py::module_& module) {
+  bind_solution(module);
+  bind_run(module);
+  module.def("solve", &solve_scene);
+  module.def("form_factors", &form_factors);
+}
+
+}  // namespace transillum::python

@@ -1,0 +1,160 @@
+# transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+"""Solves and their results."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Callable, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._scenes import Scene
+
+if TYPE_CHECKING:
+    import scipy.sparse
+
+Values = npt.NDArray[np.float64]
+Progress = Callable[[dict[str, Any]], Any]
+
+
+class Solution:
+    """The radiosity of every patch, and how it was found."""
+
+    def __init__(self, core: _core.Solution, scene: Scene) -> None:
+        self._core = core
+        self._scene = scene
+
+    def __repr__(self) -> str:
+        state = "" if self.complete else ", incomplete"
+        return f"<transillum.Solution of {len(self._scene)} patches{state}>"
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self._scene
+
+    @property
+    def radiosity(self) -> Values:
+        """B, (N, 3), W/m²."""
+        return self._core.radiosity
+
+    @property
+    def irradiance(self) -> Values:
+        """H, (N, 3), W/m²."""
+        return self._core.irradiance
+
+    @property
+    def standard_error(self) -> Union[Values, None]:
+        """Of B, (N, 3), W/m², estimated from replicas; None without replicas."""
+        return self._core.standard_error
+
+    @property
+    def confidence(self) -> Union[Values, None]:
+        """Half the width of the 95 % confidence interval of B, (N, 3), W/m²; None without
+        replicas."""
+        error = self._core.standard_error
+        return None if error is None else self._core.quantile * error
+
+    @property
+    def rms_error(self) -> Union[float, None]:
+        """What the relative RMS error of B does not exceed in 95 % of all runs; None without
+        replicas."""
+        return self._core.rms_error
+
+    @property
+    def complete(self) -> bool:
+        """False: stopped early; radiosity is the best estimate so far."""
+        return self._core.complete
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """Figures of the solve."""
+        return self._core.statistics
+
+
+def solve(scene: Scene, *, progress: Union[Progress, None] = None, **options: Any) -> Solution:
+    """Solves B_i = E_i + rho_i sum_j F_ij B_j.
+
+    progress: called several times a second with a dict: iteration, direction (passes made in it),
+        passes, passes_per_second, seconds_left, change. What it raises ends the solve.
+    options: those of options().
+    """
+    return Solution(_core.solve(scene._core, options, progress), scene)
+
+
+def form_factors(
+    scene: Scene, *, progress: Union[Progress, None] = None, **options: Any
+) -> scipy.sparse.csr_matrix:
+    """The matrix F of form factors, (N, N): F[i, j] is the share of what leaves patch i that
+    reaches patch j, so that A_i F[i, j] = A_j F[j, i] and B = E + rho * (F @ B).
+
+    progress, options: as for solve().
+    """
+    return _to_csr(_core.form_factors(scene._core, options, progress), len(scene))
+
+
+class Run:
+    """A solve in steps.
+
+    >>> run = transillum.Run(scene, directions=4096)
+    >>> while run.advance("direction"):
+    ...     plot(run.radiosity)
+    """
+
+    def __init__(self, scene: Scene, **options: Any) -> None:
+        """options: those of options(), but for accuracy and seconds."""
+        self._scene = scene
+        self._core = _core.Run(scene._core, options)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self._scene
+
+    def advance(
+        self, until: str = "iteration", *, progress: Union[Progress, None] = None
+    ) -> bool:
+        """Goes on until the end of a "direction" (one pass), an "iteration", or "finished".
+
+        Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
+        the pass under way: the next call goes on.
+        """
+        return self._core.advance(until, progress)
+
+    @property
+    def progress(self) -> dict[str, Any]:
+        """iteration, direction, passes, finished, change, passes_per_second, seconds_left."""
+        return self._core.progress
+
+    @property
+    def radiosity(self) -> Values:
+        """B, (N, 3), W/m², estimated from the passes made so far."""
+        return self._core.radiosity
+
+    @property
+    def directions(self) -> Values:
+        """The direction of each pass of the iteration, (M, 3)."""
+        return self._core.directions
+
+    def solution(self) -> Solution:
+        """The result so far."""
+        return Solution(self._core.solution(), self._scene)
+
+    def form_factors(self) -> scipy.sparse.csr_matrix:
+        """F, as of form_factors(), from the passes of finished iterations."""
+        return _to_csr(self._core.form_factors(), len(self._scene))
+
+
+def options() -> dict[str, str]:
+    """The options of solve(), Run and form_factors(), each with its meaning and default."""
+    return {
+        name: f"{description} ({kind}; default: {default})"
+        for name, kind, description, default in _core.options()
+    }
+
+
+def _to_csr(rows: tuple[Any, Any, Any], size: int) -> scipy.sparse.csr_matrix:
+    from scipy.sparse import csr_matrix
+
+    return csr_matrix(rows, shape=(size, size))

@@ -1,0 +1,304 @@
+# transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+"""The Python module: known answers, the same bits as the program, interruption, errors."""
+
+import csv
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+import xml.etree.ElementTree
+
+import numpy as np
+import transillum
+
+CORNERS = [
+    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)
+]  # fmt: skip
+# Counterclockwise seen from inside.
+CUBE = [[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]]
+
+
+def room(**options):
+    return transillum.load("cornell-box", patches=150, **options)
+
+
+class Scenes(unittest.TestCase):
+    def test_arrays_of_a_cube(self):
+        cube = transillum.Scene(CORNERS, CUBE, reflectance=[0.1, 0.2, 0.3], exitance=2)
+        self.assertEqual(len(cube), 6)
+        np.testing.assert_array_equal(cube.points[cube.outlines[1]], np.array(CORNERS)[CUBE[1]])
+        np.testing.assert_array_equal(cube.area, np.ones(6))
+        np.testing.assert_array_equal(cube.normal[0], (0, 0, 1))
+        np.testing.assert_array_equal(cube.center[1], (0.5, 0.5, 1))
+        np.testing.assert_array_equal(cube.reflectance, np.tile((0.1, 0.2, 0.3), (6, 1)))
+        np.testing.assert_array_equal(cube.exitance, np.full((6, 3), 2))
+
+    def test_values_for_each_face(self):
+        rho = np.linspace(0.1, 0.6, 6)
+        light = np.arange(18.0).reshape(6, 3)
+        cube = transillum.Scene(CORNERS, CUBE, rho, light, patches=100)
+        self.assertGreater(len(cube), 50)
+        np.testing.assert_array_equal(cube.reflectance[:, 1], rho[cube.face])
+        np.testing.assert_array_equal(cube.exitance, light[cube.face])
+        self.assertAlmostEqual(cube.area.sum(), 6, 12)
+
+    def test_two_sided_faces_are_two_patches(self):
+        self.assertEqual(len(transillum.Scene(CORNERS, CUBE, two_sided=True)), 12)
+
+    def test_changing_an_array_changes_no_scene(self):
+        cube = transillum.Scene(CORNERS, CUBE)
+        before = cube.points
+        cube.points[:] = 7
+        np.testing.assert_array_equal(cube.points, before)
+
+    def test_repairs_are_warnings(self):
+        with self.assertWarns(transillum.TransillumWarning):
+            transillum.Scene(CORNERS, CUBE + [[0, 1, 1]])
+
+    def test_built_in_scenes_load(self):
+        self.assertIn("cornell-box", transillum.built_in_scenes())
+
+
+class Solves(unittest.TestCase):
+    def test_furnace(self):
+        cube = transillum.Scene(CORNERS, CUBE, reflectance=0.5, exitance=1, patches=150)
+        solution = transillum.solve(cube, directions=32, normalize="rows", tolerance=1e-12)
+        self.assertTrue(solution.complete)
+        np.testing.assert_allclose(solution.radiosity, 2, rtol=1e-10)
+        np.testing.assert_allclose(solution.irradiance, 2, rtol=1e-10)
+
+    def test_same_bits_as_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "result.csv")
+            subprocess.run(
+                [os.environ["TRANSILLUM_PROGRAM"], "solve", "cornell-box", "-m", "64",
+                 "--out", path],
+                check=True, stderr=subprocess.DEVNULL,
+            )  # fmt: skip
+            with open(path, newline="") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        names = [name for name in rows[0] if name.startswith("B_")]
+        self.assertEqual(len(names), 3)
+        expected = np.array([[float(row[name]) for name in names] for row in rows])
+        solution = transillum.solve(transillum.load("cornell-box"), directions=64)
+        np.testing.assert_array_equal(solution.radiosity, expected)
+
+    def test_steps_end_with_the_same_bits(self):
+        scene = room()
+        whole = transillum.solve(scene, directions=24)
+        run = transillum.Run(scene, directions=24)
+        self.assertTrue(run.advance("direction"))
+        self.assertEqual(run.progress["direction"], 1)
+        self.assertEqual(run.radiosity.shape, (len(scene), 3))
+        self.assertEqual(run.directions.shape, (24, 3))
+        self.assertTrue(run.advance("iteration"))
+        self.assertEqual(run.progress["iteration"], 1)
+        self.assertFalse(run.advance("finished"))
+        np.testing.assert_array_equal(run.solution().radiosity, whole.radiosity)
+
+    def test_error_estimate(self):
+        scene = room()
+        self.assertIsNone(transillum.solve(scene, directions=16).standard_error)
+        solution = transillum.solve(scene, directions=256, replicas=8)
+        exact = transillum.solve(scene, directions=4096).radiosity
+        within = np.abs(solution.radiosity - exact) <= solution.confidence
+        self.assertGreater(within.mean(), 0.85)
+        rms = np.sqrt(((solution.radiosity - exact) ** 2).mean() / (exact**2).mean())
+        self.assertLess(rms, solution.rms_error)
+
+    def test_accuracy(self):
+        solution = transillum.solve(room(), accuracy="5%")
+        self.assertLessEqual(solution.rms_error, 0.05)
+
+    def test_sky(self):
+        floor = transillum.Scene(CORNERS[:4], [[0, 1, 2, 3]], reflectance=0.5)
+        for sky, expected in ((10, [5, 5, 5]), ((2, 4, 6), [1, 2, 3])):
+            solution = transillum.solve(floor, directions=64, normalize="rows", sky=sky)
+            np.testing.assert_allclose(solution.radiosity, [expected], rtol=1e-12)
+
+
+class FormFactors(unittest.TestCase):
+    def test_meaning_reciprocity_and_closure(self):
+        scene = room()
+        f = transillum.form_factors(scene, directions=512, normalize="symmetric")
+        flow = f.multiply(scene.area[:, None])
+        self.assertLess(abs(flow - flow.T).max(), 1e-15)
+        np.testing.assert_allclose(f.sum(axis=1), 1, atol=1e-8)
+        # What the lamp, small, gives to the floor, large, is more than it gets from there.
+        lamp = int(scene.exitance.sum(axis=1).argmax())
+        others = scene.area > 4 * scene.area[lamp]
+        sent = np.asarray(f[lamp].todense())[0, others].sum()
+        received = np.asarray(f[:, [lamp]].todense())[others, 0].sum()
+        if others.any():
+            self.assertGreater(sent, received)
+
+    def test_they_solve_the_scene(self):
+        scene = room()
+        options = {"directions": 128, "normalize": "rows"}
+        f = transillum.form_factors(scene, **options)
+        b = scene.exitance
+        for _ in range(200):
+            b = scene.exitance + scene.reflectance * (f @ b)
+        expected = transillum.solve(scene, tolerance=1e-13, **options).radiosity
+        np.testing.assert_allclose(b, expected, rtol=0, atol=1e-10 * expected.max())
+
+    def test_of_a_run(self):
+        scene = room()
+        run = transillum.Run(scene, directions=32)
+        run.advance("iteration")
+        difference = run.form_factors() - transillum.form_factors(scene, directions=32)
+        self.assertEqual(difference.nnz, 0)
+
+    def test_parallel_squares(self):
+        # Two unit squares, one apart (a closed form; Howell, C-11).
+        two = transillum.Scene(
+            CORNERS, [[0, 1, 2, 3], [4, 7, 6, 5]], reflectance=0.5, exitance=1
+        )
+        for options, tolerance in (({"directions": 20000}, 1e-3), ({"engine": "pairs"}, 1e-6)):
+            f = transillum.form_factors(two, **options)
+            self.assertAlmostEqual(f[0, 1], 0.19982489569838746, delta=tolerance)
+
+
+class Visibility(unittest.TestCase):
+    def test_engines_agree(self):
+        scene = room()
+        fast, local = (
+            transillum.transfers(scene, (0.3, -0.5, 0.8), engine=engine)
+            for engine in ("fast", "local")
+        )
+        areas = np.zeros((2, len(scene), len(scene)))
+        for area, found in zip(areas, (fast, local)):
+            area[found.receiver, found.source] = found.area
+        self.assertGreater(areas.sum(), 0.1)
+        np.testing.assert_allclose(areas[0], areas[1], rtol=0, atol=1e-12)
+        self.assertLess(fast.closure_defect, 1e-10)
+        projected, covered = fast.forward
+        np.testing.assert_allclose(covered, projected, atol=1e-12)
+        omega = np.array(fast.direction)
+        cosine = np.maximum(scene.normal @ omega, 0)
+        np.testing.assert_allclose(projected, scene.area * cosine, atol=1e-12)
+
+    def test_a_map_adds_up(self):
+        scene = room()
+        omega = np.array((0.2, 0.1, 1))
+        omega /= np.linalg.norm(omega)
+        floor = int((scene.area * (scene.normal @ omega)).argmax())
+        seen = transillum.visibility_map(scene, omega, floor)
+        total = 0
+        for polygon in seen.polygons:
+            x, y = polygon.corners.T
+            area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+            self.assertAlmostEqual(area, polygon.area, 12)
+            total += area
+        self.assertAlmostEqual(total, scene.area[floor] * (scene.normal[floor] @ omega), 12)
+
+    def test_a_map_draws_itself(self):
+        drawing = transillum.visibility_map(room(), (0, 0.3, 1))
+        root = xml.etree.ElementTree.fromstring(drawing._repr_svg_())
+        self.assertTrue(root.tag.endswith("svg"))
+        self.assertGreater(len(root.findall(".//{*}path")), 10)
+
+
+class Errors(unittest.TestCase):
+    def test_wrong_values(self):
+        scene = room()
+        cases = {
+            'did you mean "directions"': lambda: transillum.solve(scene, direction=3),
+            "directions: expected a number": lambda: transillum.solve(scene, directions="x"),
+            "resolution is used only": lambda: transillum.solve(scene, resolution=5),
+            "no such file": lambda: transillum.load("nothing.obj"),
+            'did you mean "cornell-box"': lambda: transillum.load("cornel-box"),
+            "not 0": lambda: transillum.transfers(scene, (0, 0, 0)),
+            "three numbers": lambda: transillum.transfers(scene, (0, 1)),
+            "no patch 9999": lambda: transillum.visibility_map(scene, (0, 0, 1), 9999),
+            "out of range": lambda: transillum.Scene(CORNERS[:1], [[0, 1, 2]]),
+            "(n, 3)": lambda: transillum.Scene([[0, 0]], []),
+            "reflectance": lambda: transillum.Scene(CORNERS, CUBE, reflectance=[1, 2]),
+            "options of solve()": lambda: transillum.Run(scene, accuracy=0.1),
+            "neither": lambda: transillum.Run(scene).advance("end"),
+        }
+        for message, call in cases.items():
+            with self.subTest(message):
+                with self.assertRaisesRegex(ValueError, re.escape(message)) as caught:
+                    call()
+                self.assertIsInstance(caught.exception, transillum.InputError)
+
+    def test_every_option_has_a_description(self):
+        options = transillum.options()
+        for name in ("directions", "two_way", "first_shot", "accuracy", "sky", "threads"):
+            self.assertIn("default:", options[name])
+
+    def test_what_progress_raises_ends_the_solve(self):
+        def fail(progress):
+            self.assertEqual(progress["passes"], 10**5)
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            transillum.solve(room(), directions=10**5, progress=fail)
+
+    def test_interruption_pauses_a_run(self):
+        run = transillum.Run(room(), directions=10**5)
+
+        def press(progress):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            run.advance("finished", progress=press)
+        made = run.progress["direction"]
+        self.assertGreater(made, 0)
+        self.assertTrue(run.advance("direction"))
+        self.assertEqual(run.progress["direction"], made + 1)
+
+    def test_other_threads_work_meanwhile(self):
+        class Enough(Exception):
+            pass
+
+        count = 0
+        stop = threading.Event()
+
+        def work():
+            nonlocal count
+            while not stop.is_set():
+                count += 1
+
+        def look(progress):
+            if count > 1000:
+                raise Enough
+
+        other = threading.Thread(target=work)
+        other.start()
+        try:
+            with self.assertRaises(Enough):
+                transillum.solve(room(), directions=10**5, progress=look)
+        finally:
+            stop.set()
+            other.join()
+
+
+try:
+    import pyvista
+except ImportError:
+    pyvista = None
+
+
+@unittest.skipUnless(pyvista, "PyVista is not installed")
+class PyVista(unittest.TestCase):
+    def test_there_and_back(self):
+        scene = room()
+        solution = transillum.solve(scene, directions=16, replicas=2)
+        mesh = transillum.to_pyvista(solution)
+        self.assertEqual(mesh.n_cells, len(scene))
+        np.testing.assert_array_equal(mesh.cell_data["radiosity"], solution.radiosity)
+        again = transillum.from_pyvista(mesh)
+        np.testing.assert_allclose(again.area, scene.area, rtol=1e-12)
+        np.testing.assert_array_equal(again.reflectance, scene.reflectance)
+        np.testing.assert_array_equal(
+            transillum.solve(again, directions=16, replicas=2).radiosity, solution.radiosity
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()
