@@ -95,6 +95,16 @@ build() {
   [ ! -t 1 ] || printf '\r\033[K'
 }
 
+# built_programs PRESET SECONDS: what was built, and where it is.
+built_programs() {
+  local folder=build/$1/bin program
+  say "Built in $(($2 / 60)) min $(($2 % 60)) s, in $root:"
+  for program in transillum transillum-viewer transillum-mpi; do
+    [ ! -x "$root/$folder/$program" ] || say "  $folder/$program"
+  done
+  say "  build/$1/lib/libtransillum.so"
+}
+
 # Starts a virtual display, which ends with this script. Without -noreset the server would restart,
 # and refuse connections meanwhile, whenever its last client disconnects.
 start_display() {

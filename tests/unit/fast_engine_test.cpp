@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <optional>
 #include <thread>
 
 #include "scene/build/closed_surface.h"
@@ -418,30 +420,50 @@ double cpu_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// CPU time from cancellation, after `delay` seconds of a pass, to its end; nothing where the pass
+/// ended before.
+std::optional<double> seconds_to_stop(const Fast& fast, const Vec3& omega, clockid_t clock,
+                                      double delay) {
+  const Cancellation cancellation;
+  const double start = cpu_seconds(clock);
+  double canceled = 0;
+  std::atomic<bool> ended = false;
+  std::thread canceler([&] {
+    while (cpu_seconds(clock) < start + delay && !ended) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    canceled = cpu_seconds(clock);
+    cancellation.cancel();
+  });
+  bool left = false;
+  try {
+    fast.run(omega, cancellation);
+  } catch (const Canceled&) {
+    left = true;
+  }
+  const double stopped = cpu_seconds(clock);
+  ended = true;
+  canceler.join();
+  return left ? std::optional(stopped - canceled) : std::nullopt;
+}
+
 TEST(FastEngine, StopsQuicklyWhenCanceledDuringAPass) {
   const Fast fast(load_scene("sphere-flake:slices=34,stacks=17"));
   const Vec3 omega = normalized({1, 2, 3});
   clockid_t clock{};
   ASSERT_EQ(pthread_getcpuclockid(pthread_self(), &clock), 0);
+  fast.run(omega, {});  // the first takes longer than those after it
   const double begin = cpu_seconds(clock);
   fast.run(omega, {});
   const double pass = cpu_seconds(clock) - begin;
   for (const double share : {0.02, 0.1, 0.25, 0.5, 0.7}) {
-    const Cancellation cancellation;
-    const double start = cpu_seconds(clock);
-    double canceled = 0;
-    std::thread canceler([&] {
-      while (cpu_seconds(clock) < start + share * pass) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
-      canceled = cpu_seconds(clock);
-      cancellation.cancel();
-    });
-    EXPECT_THROW(fast.run(omega, cancellation), Canceled);
-    const double stopped = cpu_seconds(clock);
-    canceler.join();
+    std::optional<double> seconds;
+    for (int attempt = 0; attempt < 10 && !seconds; ++attempt) {
+      seconds = seconds_to_stop(fast, omega, clock, share * pass);
+    }
+    ASSERT_TRUE(seconds) << "ten passes ended before " << share << " of " << pass << " s";
     // The limit is 50 ms; sanitizers slow everything down in proportion.
-    EXPECT_LT(stopped - canceled, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
+    EXPECT_LT(*seconds, std::max(0.05, 0.2 * pass)) << share << " of " << pass << " s";
   }
 }
 

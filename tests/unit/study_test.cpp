@@ -389,7 +389,9 @@ TEST(StudyPlot, SvgHasALineWithItsOwnDashesForEverySeries) {
   const TemporaryFolder folder;
   const auto plot = [&](const std::vector<StudySeries>& series) {
     write_charts(folder / "p.svg", {study_chart("box", series, two_ways(1))});
-    return read_file(folder / "p.svg");
+    std::string text = read_file(folder / "p.svg");
+    std::erase(text, ' ');  // Cairo 1.18 has them between a color's components
+    return text;
   };
   const std::string both = plot({{Sampling::random}, {Sampling::random, false}});
   EXPECT_THAT(both, StartsWith("<?xml"));

@@ -13,9 +13,13 @@ namespace transillum {
 
 /// Corners of a planar polygon, in order.
 using Outline = std::span<const Vec3>;
-/// An Outline that owns its corners.
+/// The corners of an Outline, owned. Pointers are its iterators, so that std::span takes it as a
+/// range; those of Boost are contiguous for the standard library in some versions only.
 struct Corners : boost::container::small_vector<Vec3, 12> {
-  operator Outline() const { return {data(), size()}; }
+  const Vec3* begin() const { return data(); }
+  const Vec3* end() const { return data() + size(); }
+  Vec3* begin() { return data(); }
+  Vec3* end() { return data() + size(); }
 };
 
 /// The points x of space with normal·x >= offset.
