@@ -18,3 +18,25 @@ run_step(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run_step(${WORK_DIR}/build/consumer)
 # The installed program finds the installed library.
 run_step(${prefix}/bin/transillum --version)
+
+# What it exports, and where programs look for it.
+file(GLOB_RECURSE LIBRARY ${prefix}/lib*/libtransillum.so)
+file(GLOB PROGRAMS ${prefix}/bin/*)
+include(${CMAKE_CURRENT_LIST_DIR}/check_exports.cmake)
+
+# The same consumer by pkg-config.
+file(GLOB_RECURSE pc ${prefix}/lib*/transillum.pc)
+cmake_path(GET pc PARENT_PATH pc_folder)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+execute_process(COMMAND pkg-config --cflags --libs transillum OUTPUT_VARIABLE flags
+  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND pkg-config --modversion transillum OUTPUT_VARIABLE version
+  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+if(NOT version STREQUAL VERSION)
+  message(FATAL_ERROR "transillum.pc has version ${version}, not ${VERSION}")
+endif()
+separate_arguments(flags UNIX_COMMAND "${CXX_FLAGS} ${flags}")
+cmake_path(GET LIBRARY PARENT_PATH library_folder)
+run_step(${CXX_COMPILER} -std=c++20 ${SOURCE_DIR}/consumer.cpp -o ${WORK_DIR}/by_pkg_config ${flags}
+         -Wl,-rpath,${library_folder})
+run_step(${WORK_DIR}/by_pkg_config)

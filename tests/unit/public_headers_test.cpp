@@ -62,5 +62,32 @@ TEST(PublicHeaders, NameNoCommandLineOption) {
   }
 }
 
+// decisions/0068-exported-symbols.md
+TEST(PublicHeaders, OpenTheExportedNamespace) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename(), text = content_of(entry.path());
+    const auto opened = matches(text, "\n(namespace [^\n]*transillum \\{)\n");
+    if (name != "export.h" && name != "transillum.h") {
+      EXPECT_EQ(opened, std::set<std::string>{"namespace TRANSILLUM_API transillum {"}) << name;
+    }
+  }
+}
+
+/// GCC hides a class that is declared first in a namespace that is not exported.
+TEST(PublicHeaders, DeclareTheirClassesFirst) {
+  std::set<std::string> classes;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    classes.merge(matches(content_of(entry.path()), "\n(?:class|struct) (\\w+)[ ;]"));
+  }
+  EXPECT_GT(classes.size(), 80U);
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "../../src")) {
+    if (entry.is_regular_file()) {
+      for (const auto& declared : matches(content_of(entry.path()), "\n(?:class|struct) (\\w+);")) {
+        EXPECT_FALSE(classes.contains(declared)) << entry.path() << " declares " << declared;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace transillum

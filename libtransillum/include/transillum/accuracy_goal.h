@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The error that an AccuracyGoal is about. All are limits that are not exceeded in 95 % of all
 /// runs, by the spread of replicas.
@@ -60,4 +61,4 @@ struct AccuracyReport {
   std::int64_t passes_made = 0;  ///< in all stages
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

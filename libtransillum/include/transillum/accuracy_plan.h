@@ -11,9 +11,10 @@
 #include <memory>
 #include <optional>
 
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The relative error that `goal` is about: its limit with 95 % confidence.
 /// @param scene the scene.
@@ -116,4 +117,4 @@ Solution solve_to_accuracy(const std::shared_ptr<const Scene>& scene, const Solv
                            std::optional<AccuracyRun> run = {},
                            const std::shared_ptr<SolverGroup>& group = nullptr);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

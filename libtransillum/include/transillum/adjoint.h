@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Options of solve_adjoint().
 struct AdjointOptions {
@@ -50,4 +51,4 @@ Adjoint solve_adjoint(const Scene& scene, const FormFactors& form_factors, Patch
                       const std::vector<Material>& materials, const AdjointOptions& options = {},
                       const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

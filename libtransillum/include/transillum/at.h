@@ -3,7 +3,9 @@
 
 #include <cstddef>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// The element of `container` at index `id`. Ids of patches, fragments and points are signed
 /// 32-bit integers, so that -1 can mean "none"; containers are indexed by std::size_t. Unchecked,
@@ -15,4 +17,4 @@ constexpr decltype(auto) at(Container&& container, Id id) {
   return container[static_cast<std::size_t>(id)];
 }
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -8,9 +8,10 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// @name Bounds proven in the paper
 /// M is the number of directions; rho the largest reflectance, 0 <= rho < 1; eps the quadrature
@@ -120,4 +121,4 @@ double estimated_passes(Sampling sampling, double passes, double error, double a
 double estimated_passes_by_replicas(Sampling sampling, double passes, double replicas, double error,
                                     double accuracy);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

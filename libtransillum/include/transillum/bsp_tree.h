@@ -11,9 +11,10 @@
 
 #include "transillum/at.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Index into BspTree::fragments().
 using FragmentId = std::int32_t;
@@ -128,4 +129,4 @@ class BspTree {
   int depth_ = 0;
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -5,8 +5,9 @@
 #include <memory>
 
 #include "transillum/errors.h"
+#include "transillum/export.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A cancellation flag shared by all copies. Sticky: once set, it stays set.
 ///
@@ -30,4 +31,4 @@ class Cancellation {
   std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -13,11 +13,12 @@
 #include "transillum/accuracy_plan.h"
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/first_shot.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A file with the state of a solve. It is replaced as a whole, so that there is always a complete
 /// one, and ends in a checksum; it goes with the same version of the library, scene and options
@@ -92,4 +93,4 @@ class Checkpoint {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Two coplanar patches with the same normal, one of which covers part of the other.
 struct CoplanarOverlap {
@@ -30,4 +31,4 @@ struct CoplanarOverlap {
 std::vector<CoplanarOverlap> coplanar_overlaps(const Scene& scene, std::size_t most,
                                                const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

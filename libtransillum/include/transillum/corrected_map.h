@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The state of V in engine corrected, which cuts nothing: whole projected fragments, each with the
 /// part of its area that the engine takes as visible from below.
@@ -43,4 +44,4 @@ CorrectedMap corrected_map_after(const std::shared_ptr<const Scene>& scene,
                                  const MapRecord& record, std::int32_t step,
                                  const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

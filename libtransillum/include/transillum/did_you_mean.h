@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// The entry of `names` closest to `word` by edit distance, or an empty string if none is within
 /// a third of the length of `word` (at least one edit). A word longer than 64 characters matches
@@ -15,4 +17,4 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
 /// nearest_name() finds none.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/vec3.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The sequence of points of the unit square from which directions are made (paper, section 4).
 /// phi_b is the radical inverse in base b; k counts from 0.
@@ -91,4 +92,4 @@ std::vector<DirectionSample> with_opposites(std::vector<DirectionSample> samples
 /// that an estimate from the passes done so far is unbiased by region.
 std::vector<int> progressive_order(Sampling sampling, int count);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

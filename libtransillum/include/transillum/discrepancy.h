@@ -6,8 +6,9 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
+#include "transillum/export.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Star discrepancy D* of points of the unit square (eq. 3): the largest difference, over all boxes
 /// [0,u] x [0,v] with or without their upper sides, between the share of points in the box and its
@@ -57,4 +58,4 @@ std::vector<double> quadrature_errors(std::span<const Vec3> normals,
 /// `count` unit normals spread over the sphere, and the six axis directions.
 std::vector<Vec3> spread_normals(int count);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -9,10 +9,11 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The algorithm that computes Transfers from a direction.
 enum class Engine {
@@ -87,4 +88,4 @@ struct EngineOptions {
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree, const EngineOptions& options = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// Invalid input or an invalid argument. `what()` is one sentence for the user that names the place
 /// (file, line, face), the value and the valid range. The programs print it and exit with status 2.
@@ -20,4 +22,4 @@ class Canceled : public std::exception {
   const char* what() const noexcept override { return "canceled"; }
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// F_ij of one patch i to every patch j, without directions or pixels: a reference for engines.
 ///
@@ -24,4 +25,4 @@ std::vector<double> exact_form_factors(const Scene& scene, PatchId i,
                                        const Cancellation& cancellation = {},
                                        const std::function<void(double)>& progress = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

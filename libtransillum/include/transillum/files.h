@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "transillum/directions.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Writes `path` through a temporary file in the same folder. A symbolic link stays, and what it
 /// refers to is written, whether that exists or not. A device, and an open file of this process
@@ -139,4 +140,4 @@ void write_directions_csv(const std::filesystem::path& path,
 void write_statistics(const std::filesystem::path& path, const SolveOptions& options,
                       const Solution& solution);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

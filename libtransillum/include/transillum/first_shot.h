@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Default threshold of R²/A from which a source is treated as small: of 2,048 directions, fewer
 /// than one on average meets it from a point half a scene away.
@@ -91,4 +92,4 @@ DirectLight with_materials(const DirectLight& light, const Scene& scene,
                            const std::vector<Material>& materials,
                            std::span<const std::int32_t> patch_materials = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

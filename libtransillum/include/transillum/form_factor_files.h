@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Form factors read from a file.
 struct StoredFormFactors {
@@ -47,4 +48,4 @@ StoredFormFactors read_form_factors(const std::filesystem::path& path,
 /// @throws InputError naming the file and the difference.
 void check_form_factors(const Scene& scene, const StoredFormFactors& stored);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

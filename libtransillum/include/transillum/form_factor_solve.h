@@ -5,10 +5,11 @@
 #include <memory>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Checks options for solve_by_form_factors().
 /// @throws InputError where solve_by_form_factors() would.
@@ -69,4 +70,4 @@ PairSolution solve_by_pairs(const std::shared_ptr<const Scene>& scene, const Sol
                             double accuracy, const Cancellation& cancellation = {},
                             const std::function<void(int points, double share)>& progress = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

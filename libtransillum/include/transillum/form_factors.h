@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The matrix of form factors as a sparse matrix by rows: F_ij is the share of the light leaving
 /// patch i that arrives directly at the front side of patch j.
@@ -54,4 +55,4 @@ FormFactors gather_form_factors(const Scene& scene, const GatherOptions& options
 std::vector<Rgb> solve_radiosity(const Scene& scene, const FormFactors& form_factors,
                                  double tolerance);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

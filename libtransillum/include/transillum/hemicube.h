@@ -5,10 +5,11 @@
 #include <functional>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Options of hemicube_form_factors().
 struct HemicubeOptions {
@@ -37,4 +38,4 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                   const Cancellation& cancellation = {},
                                   const std::function<void(double)>& progress = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "transillum/bsp_tree.h"
+#include "transillum/export.h"
 #include "transillum/hemicube.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The item buffers of engine hemicube at the center of one patch: five sides of half a cube.
 ///
@@ -41,4 +42,4 @@ HemicubeImage hemicube_image(const std::shared_ptr<const Scene>& scene,
                              const std::shared_ptr<const BspTree>& tree, PatchId patch,
                              const HemicubeOptions& options, const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

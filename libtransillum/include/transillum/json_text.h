@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// Largest JSON file accepted, bytes.
 inline constexpr std::uintmax_t largest_json_file = std::uintmax_t{16} << 20;
@@ -31,4 +33,4 @@ std::string read_json_file(const std::filesystem::path& path);
 void check_json(std::string_view text, const std::string& name,
                 std::uintmax_t limit = largest_json_file);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

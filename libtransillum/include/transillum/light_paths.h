@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Options of find_light_paths().
 struct LightPathOptions {
@@ -60,4 +61,4 @@ LightPaths find_light_paths(const Scene& scene, const FormFactors& form_factors,
                             const LightPathOptions& options = {},
                             const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

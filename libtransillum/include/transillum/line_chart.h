@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// An sRGB color.
 struct ChartColor {
@@ -154,4 +156,4 @@ void check_chart_path(const std::filesystem::path& path);
 void write_charts(const std::filesystem::path& path, const std::vector<LineChart>& charts,
                   const ChartPage& page = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A text that names a place of a map.
 struct MapLabel {
@@ -64,4 +65,4 @@ void write_map(const std::filesystem::path& path, const Scene& scene, const Visi
 void write_map_svg(std::ostream& out, const Scene& scene, const VisibilityMap& map,
                    const MapPictureOptions& options = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "transillum/at.h"
+#include "transillum/export.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A MapRecord with indexes that make queries by step and by patch fast: for debuggers.
 ///
@@ -92,4 +93,4 @@ class MapHistory {
   std::vector<std::uint32_t> patch_begin_;  ///< per patch, and the end
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

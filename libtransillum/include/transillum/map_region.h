@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/map_history.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A region R of the global visibility map (paper, section 3.1): a maximal connected part of the
 /// plane that contains no edge of a projected fragment. The same fragments cover all of its points.
@@ -25,4 +26,4 @@ struct MapRegion {
 /// is cut into more than 2,000 parts.
 std::optional<MapRegion> region_at(const MapHistory& history, const Vec2& point);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

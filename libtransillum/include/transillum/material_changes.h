@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// New values for the material of some faces.
 struct MaterialChange {
@@ -54,4 +55,4 @@ void change_materials(SceneDescription& description, std::span<const MaterialCha
 /// the fewest faces; `face:0` where no material in use has a name that fits on a line.
 std::string suggested_light(const SceneDescription& description);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// What plan_orientation() changes among the faces of one material or group.
 struct OrientationCount {
@@ -111,4 +112,4 @@ struct BackShare {
 /// @throws Canceled
 BackShare back_share(const Scene& scene, int threads = 0, const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -6,10 +6,11 @@
 
 #include "transillum/cancellation.h"
 #include "transillum/engine.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Options of pair_form_factors().
 struct PairOptions {
@@ -41,4 +42,4 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
                               const Cancellation& cancellation = {},
                               const std::function<void(double)>& progress = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

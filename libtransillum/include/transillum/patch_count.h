@@ -8,9 +8,10 @@
 #include <string>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The number of patches that the description of `unrefined` gives with
 /// SceneOptions::max_patch_area = `max_patch_area` (m², > 0) and otherwise the same options.
@@ -46,4 +47,4 @@ void check_memory(const std::string& name, std::int64_t patches, int replicas = 
 double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
                           const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

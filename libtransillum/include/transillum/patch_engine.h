@@ -4,8 +4,9 @@
 #include <memory>
 
 #include "transillum/engine.h"
+#include "transillum/export.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Makes an engine restricted to one patch: its Transfers list only the exchanges in which `patch`
 /// is the receiver or the source, equal up to rounding to those of make_engine(); all other fields
@@ -23,4 +24,4 @@ TransferEngine make_patch_engine(Engine engine, std::shared_ptr<const Scene> sce
                                  std::shared_ptr<const BspTree> tree, PatchId patch,
                                  const EngineOptions& options = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

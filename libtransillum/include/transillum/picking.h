@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The first intersection of a ray with the scene.
 struct PickedPoint {
@@ -48,4 +49,4 @@ class Picker {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

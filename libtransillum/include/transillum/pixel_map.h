@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/visibility_map.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The item buffer of a discrete engine: the patch visible at each pixel along one direction,
 /// upward.
@@ -74,4 +75,4 @@ VisibilityMap drawn_in_pixels(const Scene& scene, const PixelMap& pixels,
 void mark_differences(const PixelMap& pixels, const VisibilityMap& exact, VisibilityMap& drawn,
                       const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

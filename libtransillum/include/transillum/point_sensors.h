@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A point at which light is measured, on one side of a small area.
 struct PointSensor {
@@ -49,4 +50,4 @@ FormFactors sensor_form_factors(const Scene& scene, std::span<const PointSensor>
 /// @param radiosity B of all patches, W/m².
 std::vector<Rgb> sensor_irradiance(const FormFactors& form_factors, std::span<const Rgb> radiosity);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// What the rows of a power table are.
 enum class PartsBy {
@@ -62,4 +63,4 @@ PowerTable power_table(const Solution& solution, PartsBy by,
                        std::span<const Material> materials = {},
                        std::span<const std::int32_t> patch_materials = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -19,6 +19,7 @@
 #include "transillum/cancellation.h"
 #include "transillum/directions.h"
 #include "transillum/engine.h"
+#include "transillum/export.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
@@ -26,7 +27,7 @@
 #include "transillum/solver_group.h"
 #include "transillum/transfers.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// How the form-factor matrix is scaled to have the correct row sums.
 enum class Normalization {
@@ -393,4 +394,4 @@ Solution solve(std::shared_ptr<const Scene> scene, const SolveOptions& options,
                const Cancellation& cancellation = {},
                const std::shared_ptr<SolverGroup>& group = nullptr);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

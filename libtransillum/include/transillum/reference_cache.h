@@ -11,10 +11,11 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// B of long reference runs, cached as files in a folder. A file's name is a hash of the scene's
 /// geometry and materials, of the options that affect the result and of the library's version. It
@@ -66,4 +67,4 @@ ReferenceSolution find_or_solve_reference(
     const std::function<void(const SolveProgress&)>& observer = {},
     const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Options of relight().
 struct RelightOptions {
@@ -55,4 +56,4 @@ RelightResult relight(const Scene& scene, const FormFactors& form_factors,
                       const std::vector<Material>& materials, const RelightOptions& options = {},
                       const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

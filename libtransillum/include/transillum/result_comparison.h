@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The difference of B over some patches.
 struct RadiosityDifference {
@@ -53,4 +54,4 @@ std::string sky_difference(const Solution& one, const Solution& other);
 /// @throws InputError with scene_difference() where the scenes differ.
 ResultComparison compare_results(const Solution& first, const Solution& second);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

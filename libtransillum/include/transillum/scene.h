@@ -15,9 +15,10 @@
 
 #include "transillum/at.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/vec3.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// 0-based number of a patch: the order of the caller's faces, in every interface of the library.
 using PatchId = std::int32_t;
@@ -275,4 +276,4 @@ struct BuiltInScene {
 /// All built-in scenes.
 const std::vector<BuiltInScene>& built_in_scenes();
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

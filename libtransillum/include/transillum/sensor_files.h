@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/point_sensors.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Reads sensors: a line x,y,z,nx,ny,nz per point, separated by commas or blanks; a first line of
 /// names, empty lines and lines that begin with # are ignored. Normals may have any length.
@@ -25,4 +26,4 @@ void write_sensor_factors_csv(std::ostream& out, const FormFactors& form_factors
 void write_sensor_irradiance_csv(std::ostream& out, std::span<const PointSensor> sensors,
                                  const FormFactors& form_factors, std::span<const Rgb> irradiance);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 struct SolveOptions;
 
@@ -32,4 +34,4 @@ std::uint64_t default_memory_limit();
 /// if it has an effect. For front ends, to refuse options that would silently do nothing.
 std::string why_unused(const std::string& name, const std::vector<SolveOptions>& solves);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

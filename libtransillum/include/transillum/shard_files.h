@@ -14,11 +14,12 @@
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/engine.h"
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/shares.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// What a shard says about itself.
 struct ShardInfo {
@@ -58,4 +59,4 @@ ShardInfo read_shard_info(const std::filesystem::path& file);
 TransferEngine engine_of_shards(const std::vector<std::string>& files, const Scene& scene,
                                 const SolveOptions& options, const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -11,10 +11,11 @@
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
 #include "transillum/engine.h"
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// One of `of` equal shares of the passes of a solve.
 struct Share {
@@ -51,4 +52,4 @@ void make_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& 
                  const std::function<void(int, const Transfers&)>& add,
                  const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

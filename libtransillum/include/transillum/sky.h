@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/vec3.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// How the radiance of a sky depends on the direction.
 enum class SkyModel {
@@ -40,4 +41,4 @@ struct Sky {
   friend bool operator==(const Sky&, const Sky&) = default;
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

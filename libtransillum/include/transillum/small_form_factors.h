@@ -4,10 +4,11 @@
 #include <cstddef>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/form_factors.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The result of drop_small_form_factors().
 struct DroppedFormFactors {
@@ -33,4 +34,4 @@ struct DroppedFormFactors {
 DroppedFormFactors drop_small_form_factors(const Scene& scene, const FormFactors& form_factors,
                                            double threshold, const Cancellation& cancellation = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// What the caller can change so that a failed solve succeeds. A front end adds a hint that names
 /// its own option or control for it.
@@ -43,4 +45,4 @@ class MemoryLimitExceeded : public SolveError {
   explicit MemoryLimitExceeded(const std::string& what) : SolveError(what, Remedy::memory) {}
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Consecutive patches: `first` to `last` - 1.
 struct PatchRange {
@@ -110,4 +111,4 @@ class SolverGroup {
   void agree(const std::function<void()>& body);
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

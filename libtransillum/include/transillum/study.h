@@ -16,11 +16,12 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/cancellation.h"
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/solve_errors.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// The error of B against a reference.
 struct RadiosityError {
@@ -190,4 +191,4 @@ struct StudyCost {
 std::optional<StudyCost> cost_of(std::span<const StudyPoint> points, double accuracy,
                                  ErrorMeasure measure = ErrorMeasure::rms);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

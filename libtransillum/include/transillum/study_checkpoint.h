@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A file with the points of a study so far, with which run_study() can go on. It is replaced as a
 /// whole, and goes with the same version of the library, scene, series, values of M, options and
@@ -40,4 +41,4 @@ class StudyCheckpoint {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/line_chart.h"
 #include "transillum/study.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// @name Study tables
 /// @{
@@ -45,4 +46,4 @@ LineChart study_chart(const std::string& scene, const std::vector<StudySeries>& 
                       const Study& study, ErrorMeasure error = ErrorMeasure::rms,
                       StudyAxis against = StudyAxis::passes, const ChartStyle& style = {});
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

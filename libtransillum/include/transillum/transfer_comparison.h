@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/transfers.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// What two engines find of one pair of patches.
 struct PairDifference {
@@ -34,4 +35,4 @@ struct TransferComparison {
 /// Compares `other` with `first`; both of the same direction and scene.
 TransferComparison compare(const Transfers& first, const Transfers& other);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A(i,j,omega) of eq. 14: the area, on the plane perpendicular to omega, over which front-facing
 /// patch i sees back-facing patch j with nothing between them.
@@ -73,4 +74,4 @@ struct ClosureDefect {
 /// Computes the closure defect from the coverages of one direction.
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -18,6 +18,7 @@ namespace transillum {}
 #include "transillum/cancellation.h"
 #include "transillum/did_you_mean.h"
 #include "transillum/errors.h"
+#include "transillum/export.h"
 #include "transillum/solve_errors.h"
 #include "transillum/vec3.h"
 

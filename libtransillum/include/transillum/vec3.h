@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace transillum {
+#include "transillum/export.h"
+
+namespace TRANSILLUM_API transillum {
 
 /// A point or a vector in space; points in meters.
 struct Vec3 {
@@ -91,4 +93,4 @@ struct Bounds {
   double diagonal() const { return empty() ? 0.0 : norm(high - low); }
 };
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -12,8 +12,9 @@
 
 #include "transillum/bsp_tree.h"
 #include "transillum/engine.h"
+#include "transillum/export.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// A point of the transillumination plane.
 struct Vec2 {
@@ -146,4 +147,4 @@ VisibilityMap map_from_below(const RecordedDirection& direction);
 /// Empty, also the window, if the patch is edge-on or back-facing.
 VisibilityMap map_of_receiver(const RecordedDirection& direction, PatchId receiver);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

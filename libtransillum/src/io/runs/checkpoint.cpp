@@ -42,7 +42,7 @@ void save_nowhere(const RadiositySolver& solver) {
 
 }  // namespace
 
-struct Checkpoint::Impl {
+struct [[gnu::visibility("hidden")]] Checkpoint::Impl {
   std::filesystem::path file;
   Json identity;
   Cost cost;

@@ -57,7 +57,7 @@ Json study_identity(const Scene& scene, const StudyOptions& options,
 
 }  // namespace
 
-struct StudyCheckpoint::Impl {
+struct [[gnu::visibility("hidden")]] StudyCheckpoint::Impl {
   std::filesystem::path file;
   Json identity;
   std::size_t series, points;  ///< of the whole study

@@ -23,7 +23,7 @@
 
 namespace transillum {
 
-struct RadiositySolver::Impl {
+struct [[gnu::visibility("hidden")]] RadiositySolver::Impl {
   SolverInput input;
   PassPlan plan;                ///< which direction each pass takes
   RadiosityIterate whole;       ///< B from all passes

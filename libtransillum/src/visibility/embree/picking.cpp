@@ -9,7 +9,7 @@
 
 namespace transillum {
 
-struct Picker::Impl {
+struct [[gnu::visibility("hidden")]] Picker::Impl {
   std::shared_ptr<const Scene> scene;
   EmbreeScene embree;
 

@@ -1,0 +1,43 @@
+# Checks the installed library LIBRARY and the programs PROGRAMS: exported is namespace transillum
+# and nothing else, its SONAME has the major number of VERSION, and no RPATH names another folder
+# than the library's beside the program. Included by install_and_use.cmake.
+execute_process(COMMAND nm --dynamic --demangle --defined-only ${LIBRARY}
+  OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^\n]+" symbols "${symbols}")
+list(LENGTH symbols count)
+list(TRANSFORM symbols REPLACE "^[0-9a-f]+ . " "")
+set(private ${symbols})
+list(FILTER private INCLUDE REGEX "::Impl::")
+if(private)
+  message(FATAL_ERROR "exported, but private: ${private}")
+endif()
+list(FILTER symbols EXCLUDE REGEX "^(typeinfo (name )?for |vtable for )?transillum::")
+if(symbols)
+  message(FATAL_ERROR "exported, but not of namespace transillum: ${symbols}")
+endif()
+if(count LESS 150)
+  message(FATAL_ERROR "only ${count} symbols are exported")
+endif()
+
+function(dynamic_entry file tag result)
+  execute_process(COMMAND readelf --dynamic --wide ${file} OUTPUT_VARIABLE entries
+    COMMAND_ERROR_IS_FATAL ANY)
+  set(${result} "" PARENT_SCOPE)
+  if(entries MATCHES "\\(${tag}\\)[^[]*\\[([^\n]*)\\]")
+    set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+  endif()
+endfunction()
+
+string(REGEX MATCH "^[0-9]+" major ${VERSION})
+dynamic_entry(${LIBRARY} SONAME soname)
+if(NOT soname STREQUAL "libtransillum.so.${major}")
+  message(FATAL_ERROR "version ${VERSION} has the SONAME ${soname}")
+endif()
+foreach(file IN LISTS LIBRARY PROGRAMS)
+  foreach(tag IN ITEMS RPATH RUNPATH)
+    dynamic_entry(${file} ${tag} path)
+    if(path AND NOT path MATCHES "^\\$ORIGIN/\\.\\./lib[a-z0-9_/-]*$")
+      message(FATAL_ERROR "${file} has the ${tag} ${path}")
+    endif()
+  endforeach()
+endforeach()
