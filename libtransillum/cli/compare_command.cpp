@@ -15,6 +15,7 @@
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
+#include "transillum/function_comparison.h"
 #include "transillum/result_comparison.h"
 
 namespace transillum::cli {
@@ -23,6 +24,7 @@ namespace {
 struct CompareCall {
   std::string first, second;
   std::optional<double> tolerance;
+  bool functions = false;
 };
 
 Solution read(const std::string& file, const Cancellation& cancellation) {
@@ -75,17 +77,12 @@ std::string comparison_text(const Scene& scene, const ResultComparison& comparis
   return text;
 }
 
-int run(const CompareCall& call) {
-  const Cancellation& cancellation = cancel_on_signals();
-  const Solution first = read(call.first, cancellation), second = read(call.second, cancellation);
-  ResultComparison comparison;
-  try {
-    comparison = compare_results(first, second);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
-  }
-  print_results(comparison_text(*first.scene, comparison));
-  const double worst = std::max(comparison.whole.rms, comparison.whole.largest);
+std::string function_text(const FunctionDifference& difference) {
+  return report_row("L2 of functions", fmt::format("{:.4g} of that of A; {:.4g} without sources",
+                                                   difference.l2, difference.l2_without_sources));
+}
+
+int exit_status(double worst, const CompareCall& call) {
   if (call.tolerance && worst > *call.tolerance) {
     flush_results();
     print_message(fmt::format("the results differ by {:.4g}, more than the tolerance of {}", worst,
@@ -93,6 +90,27 @@ int run(const CompareCall& call) {
     return failure;
   }
   return success;
+}
+
+int run(const CompareCall& call) {
+  const Cancellation& cancellation = cancel_on_signals();
+  const Solution first = read(call.first, cancellation), second = read(call.second, cancellation);
+  if (call.functions) {
+    const FunctionDifference difference = compare_functions(first, second);
+    print_results(report_row("patches", fmt::format("{} and {}", first.scene->patch_count(),
+                                                    second.scene->patch_count())) +
+                  function_text(difference));
+    return exit_status(difference.l2, call);
+  }
+  ResultComparison comparison;
+  try {
+    comparison = compare_results(first, second);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
+  }
+  print_results(comparison_text(*first.scene, comparison) +
+                function_text(compare_functions(first, second)));
+  return exit_status(std::max(comparison.whole.rms, comparison.whole.largest), call);
 }
 
 }  // namespace
@@ -113,9 +131,15 @@ Run add_compare_command(CLI::App& program) {
                         throw InputError(fmt::format("--tolerance: \"{}\" is less than 0", text));
                       }
                     });
+  command.add_flag("--functions", call->functions,
+                   "compare B as functions on the faces, whose patches may differ, as those of "
+                   "--max-patch-area: the L2 norm of the difference");
   command.footer(
       "Differences of B: their RMS over the RMS of A's, and the largest over the largest of A's;\n"
-      "by group relative to the group. Results of different scenes are refused.\n"
+      "by group relative to the group. With --basis linear, B of a patch is its mean; L2 is that "
+      "of "
+      "the functions.\n"
+      "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");
   return [call] { return run(*call); };
 }

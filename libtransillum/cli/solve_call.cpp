@@ -25,7 +25,7 @@ void check_stored_factors(const SolveCall& call) {
         "--resolution", "--points",   "--lines",     "--order",   "--random-lines",
         "--one-way",    "--two-way",  "--normalize", "--scheme",  "--first-shot",
         "--burn-in",    "--replicas", "--accuracy",  "--seconds", "--sky",
-        "--memory"}) {
+        "--basis",      "--memory"}) {
     refuse_unless(false, *call.command, option, "not used with --factors");
   }
 }
@@ -67,6 +67,8 @@ void add_scheme(CLI::App& command, SolveCall& call) {
   add_parsed_option(
       command, "--scheme", "NAME", help_of("scheme", name_of(options.scheme)),
       [&options](const std::string& text) { options.scheme = scheme_from_name(text); });
+  add_parsed_option(command, "--basis", "NAME", help_of("basis", name_of(options.basis)),
+                    [&options](const std::string& text) { options.basis = basis_from_name(text); });
   add_parsed_option(command, "--first-shot", "RATIO",
                     choice_help("first-shot", {"none", "auto", "a number"}, "none"),
                     [&call, &options](const std::string& text) {
@@ -240,7 +242,8 @@ SolveOptions solve_options(const SolveCall& call) {
   if (options.scheme == Scheme::semi_iterative && !call.stop_given) {
     options.averaged_iterations = default_averaged_iterations;
   }
-  if (options.goal.set() && !call.shot_given && takes_directions(options.engine)) {
+  if (options.goal.set() && !call.shot_given && takes_directions(options.engine) &&
+      options.basis == Basis::constant) {
     options.first_shot = first_shot_where_it_pays;
   }
   options.validate();

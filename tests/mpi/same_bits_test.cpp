@@ -76,6 +76,15 @@ TEST(SameBits, ForAnyNumberOfProcesses) {
                     {1, 2, 3, 7});
 }
 
+TEST(SameBits, LinearBasis) {
+  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear"}), {2, 3});
+  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear", "--one-way", "--replicas", "2"}),
+                    {2});
+  expect_same_bytes(with(box, {"-m", "40", "--basis", "linear", "--scheme", "conjugate-gradients",
+                               "--sky", "0.3"}),
+                    {3});
+}
+
 TEST(SameBits, OneWay) { expect_same_bytes(with(box, {"-m", "65", "--one-way"}), {2, 3}); }
 
 TEST(SameBits, Replicas) { expect_same_bytes(with(box, {"-m", "64", "--replicas", "4"}), {3}); }

@@ -37,6 +37,8 @@ Engine engine_from_name(const std::string& name);
 const std::string& name_of(Engine engine);
 /// Whether make_engine() accepts it: all but hemicube and pairs.
 bool takes_directions(Engine engine);
+/// Whether it computes Transfers::moments: fast, local and exact.
+bool has_moments(Engine engine);
 
 /// Computes the Transfers of a direction omega (unit). A pure function without shared mutable
 /// state: any number of threads may call one, and the same omega gives the same bits. Throws
@@ -74,6 +76,8 @@ struct EngineOptions {
   PaintersOrder order = PaintersOrder::bsp;  ///< painter
   /// pairs: PairOptions::points, up to largest_points; 0: default_points.
   int points = 0;
+  /// fast, local and exact: Transfers::moments too, for Basis::linear. The other engines have none.
+  bool moments = false;
 
   /// Exact comparison of all members.
   friend bool operator==(const EngineOptions&, const EngineOptions&) = default;

@@ -22,6 +22,7 @@
 #include "transillum/export.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factors.h"
+#include "transillum/linear_basis.h"
 #include "transillum/scene.h"
 #include "transillum/sky.h"
 #include "transillum/solver_group.h"
@@ -62,6 +63,21 @@ Scheme scheme_from_name(const std::string& name);
 /// The name in scheme_names().
 const std::string& name_of(Scheme scheme);
 
+/// The functions that represent the radiosity of a patch.
+enum class Basis {
+  constant,  ///< one value per patch
+  linear,    ///< a linear function on each patch (section 3; ALGORITHM.md 6.12), not continuous
+             ///< across edges. Requires an engine that has_moments(); not with
+             ///< Normalization::symmetric, Scheme::semi_iterative or a first shot
+};
+/// The names of the bases as in options and files, in the order of the enumeration.
+const std::vector<std::string>& basis_names();
+/// The basis called `name`.
+/// @throws InputError listing the choices.
+Basis basis_from_name(const std::string& name);
+/// The name in basis_names().
+const std::string& name_of(Basis basis);
+
 /// Options of a solve run.
 struct SolveOptions {
   int directions = 1024;                          ///< M: passes per iteration, 1 … 2^24
@@ -73,6 +89,7 @@ struct SolveOptions {
   bool two_way = true;                            ///< each pass serves omega and -omega
   Normalization normalize = Normalization::none;  ///< of the form factors
   Scheme scheme = Scheme::fixed;                  ///< of the iteration
+  Basis basis = Basis::constant;                  ///< of the radiosity on a patch
   /// R²/A from which sources are small and, if bright, are shot before the first iteration, or
   /// first_shot_where_it_pays (first_shot_sources()); nothing: no first shot.
   std::optional<double> first_shot = {};
@@ -175,6 +192,10 @@ struct SolveStatistics {
   bool converged = false;             ///< the tolerance was reached, or changes are rounding
   double closure_defect_max = 0;      ///< largest ClosureDefect::relative (ALGORITHM.md, oracle 1)
   double closure_defect_grazing = 0;  ///< largest ClosureDefect::grazing
+  double closure_defect_moments = 0;  ///< largest ClosureDefect::moments; 0: Basis::constant
+  /// Corners of patches at which a channel of B is below 0, of Basis::linear; set by
+  /// RadiositySolver::solution()
+  std::int64_t negative_corners = 0;
   /// Directions that bring a patch the light of a source: (sum c)² / sum c² of the light c that it
   /// receives along each; mean over pairs of patch and source, each weighted by what it contributes
   /// to the variance of B. 0: no direct light. Below least_light_directions per replica, the error
@@ -282,12 +303,16 @@ class RadiositySolver {
   SolveStatistics statistics() const;
 
   /// B of the last finished iteration, W/m², one per patch; before the first: E, plus the
-  /// contribution of the first shot.
+  /// contribution of the first shot. Of Basis::linear its mean over the patch.
   const std::vector<Rgb>& radiosity() const;
+  /// The linear parts of B, one per patch, of what solution() returns as radiosity; empty for
+  /// Basis::constant.
+  std::vector<LinearPart> linear_parts() const;
   /// B of the current iteration, W/m², estimated from the passes done so far; radiosity() between
   /// iterations.
   std::vector<Rgb> running_estimate() const;
-  /// H of the last finished iteration, W/m², one per patch.
+  /// H of the last finished iteration, W/m², one per patch; of Basis::linear its mean over the
+  /// patch.
   const std::vector<Rgb>& irradiance() const;
   /// Keeps form factors in the semi-iterative scheme too, from the next pass on. The other schemes
   /// always keep them if SolveOptions::memory suffices.
@@ -313,7 +338,7 @@ class RadiositySolver {
   /// be destroyed.
   void restore(std::istream& in, std::uint64_t size);
   /// F_ij of all pairs, from the kept exchange sums of all passes; in the semi-iterative scheme, of
-  /// all iterations.
+  /// all iterations. Of Basis::linear those of constant functions, which alone do not give its B.
   /// @throws std::runtime_error where no iteration is finished or one is unfinished, or where they
   /// were not kept or exceed the memory limit. In a group all members must call it; it returns them
   /// on member 0, and empty rows on the others.
@@ -379,7 +404,13 @@ struct Solution {
   Sky sky = {};  ///< SolveOptions::sky
   /// Of solves with given form factors; null: RadiositySolver::form_factors() may have them.
   std::shared_ptr<const FormFactors> form_factors = nullptr;
+  /// RadiositySolver::linear_parts(), of Basis::linear, whose mean over a patch is `radiosity`;
+  /// empty: B is constant on patches
+  std::vector<LinearPart> linear_parts = {};
 };
+
+/// B at the corners of patch i's outline, W/m². Of Basis::linear it may be below 0.
+std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i);
 
 /// Solves in one call. If `cancellation` is set during the passes, it returns the best estimate so
 /// far, with complete = false.

@@ -19,7 +19,7 @@ struct Setting {
   const char* description;    ///< what it does; begins in lower case, no full stop
   std::string default_value;  ///< of SolveOptions and SceneOptions, as text
   bool in_files = true;       ///< lessons and sessions store it; false: it depends on the machine,
-                              ///< or belongs to an engine
+                              ///< belongs to an engine, or is for the command line only
 };
 
 /// All settings of SolveOptions, SceneOptions and EngineOptions.

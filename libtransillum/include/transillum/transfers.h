@@ -1,6 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +17,25 @@ struct Transfer {
   PatchId receiver;  ///< i
   PatchId source;    ///< j
   double area;       ///< m², > 0
+};
+
+/// Moments of a Transfer for a linear basis: T^ab(i,j,omega) = ∫ phi_a(x) phi_b(y) dp over the part
+/// of the plane that makes up its area, x and y being the points of receiver i and source j above p
+/// (LinearBasis; ALGORITHM.md 6.12), m².
+struct TransferMoments {
+  std::array<double, 9> value{};  ///< T^ab at 3 a + b
+
+  /// T^ab; T^00 is the area.
+  double& of(std::size_t a, std::size_t b) { return value[3 * a + b]; }
+  /// T^ab; T^00 is the area.
+  double of(std::size_t a, std::size_t b) const { return value[3 * a + b]; }
+};
+
+/// Integrals of phi_1 and phi_2 over the parts of a receiver's projection that a Coverage measures,
+/// m².
+struct CoverageMoments {
+  std::array<double, 2> projected{};  ///< over all of it: 0, but for rounding
+  std::array<double, 2> covered{};    ///< over what has some surface above
 };
 
 /// How much of a receiver's projection is accounted for.
@@ -59,6 +80,10 @@ struct Transfers {
   std::vector<double> back_seen;  ///< per patch: m² of its back side that receivers see, for both
                                   ///< omega and -omega
   PassCounts counts;              ///< work done
+  /// Of each exchange, if EngineOptions::moments; else empty.
+  std::vector<TransferMoments> moments = {};
+  std::vector<CoverageMoments> forward_moments = {};   ///< as `forward`; empty without moments
+  std::vector<CoverageMoments> backward_moments = {};  ///< as `backward`; empty without moments
 };
 
 /// The closure defect of one direction, omega and -omega together: projected area minus everything
@@ -70,6 +95,9 @@ struct ClosureDefect {
   /// Largest |projected - covered| / area over the others.
   double grazing = 0;
   PatchId worst = no_patch;  ///< the patch with the defect `relative`
+  /// As `relative`, of the integrals of phi_1 and phi_2: the largest over the projected area. 0
+  /// without moments.
+  double moments = 0;
 };
 /// Computes the closure defect from the coverages of one direction.
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene);

@@ -24,6 +24,7 @@ namespace transillum {}
 
 // Scenes: from a file, a generator or arrays to patches.
 #include "transillum/coplanar_overlap.h"
+#include "transillum/linear_basis.h"
 #include "transillum/material_changes.h"
 #include "transillum/orientation.h"
 #include "transillum/patch_count.h"
@@ -36,6 +37,7 @@ namespace transillum {}
 #include "transillum/adjoint.h"
 #include "transillum/first_shot.h"
 #include "transillum/form_factor_solve.h"
+#include "transillum/function_comparison.h"
 #include "transillum/light_paths.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"

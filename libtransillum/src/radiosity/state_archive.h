@@ -39,6 +39,10 @@ template <>
 inline constexpr bool stored_as_bytes<Vec3> = true;
 template <>
 inline constexpr bool stored_as_bytes<Transfer> = true;
+template <>
+inline constexpr bool stored_as_bytes<TransferMoments> = true;
+template <>
+inline constexpr bool stored_as_bytes<CoverageMoments> = true;
 
 /// Writes states. Errors of the stream are left to its owner.
 class StateOutput {

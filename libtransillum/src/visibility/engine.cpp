@@ -15,8 +15,9 @@
 namespace transillum {
 
 const std::vector<std::string>& engine_names() {
-  static const std::vector<std::string> names{"fast",    "local", "global",    "exact",   "zbuffer",
-                                              "painter", "rays",  "corrected", "hemicube", "pairs"};
+  static const std::vector<std::string> names{"fast",     "local",   "global", "exact",
+                                              "zbuffer",  "painter", "rays",   "corrected",
+                                              "hemicube", "pairs"};
   return names;
 }
 
@@ -28,6 +29,10 @@ const std::string& name_of(Engine engine) { return at(engine_names(), engine); }
 
 bool takes_directions(Engine engine) {
   return engine != Engine::hemicube && engine != Engine::pairs;
+}
+
+bool has_moments(Engine engine) {
+  return engine == Engine::fast || engine == Engine::local || engine == Engine::exact;
 }
 
 const std::vector<std::string>& painters_order_names() {
@@ -43,7 +48,13 @@ const std::string& name_of(PaintersOrder order) { return at(painters_order_names
 
 namespace {
 
-void check(const EngineOptions& options) {
+void check(Engine engine, const EngineOptions& options) {
+  if (options.moments && !has_moments(engine)) {
+    throw InputError(
+        fmt::format("engine {}: it has no moments, which a linear basis requires; choose fast, "
+                    "local or exact",
+                    name_of(engine)));
+  }
   if (options.resolution < 0 || options.resolution > EngineOptions::largest_resolution) {
     throw InputError(fmt::format("resolution: {} is not in the range 1 to {}", options.resolution,
                                  EngineOptions::largest_resolution));
@@ -54,16 +65,16 @@ void check(const EngineOptions& options) {
 
 TransferEngine make_engine(Engine engine, std::shared_ptr<const Scene> scene,
                            std::shared_ptr<const BspTree> tree, const EngineOptions& options) {
-  check(options);
+  check(engine, options);
   switch (engine) {
     case Engine::fast:
-      return fast_engine(std::move(scene), std::move(tree));
+      return fast_engine(std::move(scene), std::move(tree), options.moments);
     case Engine::local:
-      return local_map_engine(std::move(scene), std::move(tree));
+      return local_map_engine(std::move(scene), std::move(tree), options.moments);
     case Engine::global:
       return global_map_engine(std::move(scene), std::move(tree));
     case Engine::exact:
-      return exact_engine(std::move(scene), std::move(tree));
+      return exact_engine(std::move(scene), std::move(tree), options.moments);
     case Engine::rays:
       return ray_engine(std::move(scene), options);
     case Engine::zbuffer:

@@ -73,19 +73,38 @@ std::array<float, 2> LightMap::coordinates(const Chart& chart, const Vec3& point
           static_cast<float>(y / static_cast<double>(height()))};
 }
 
+/// With a linear basis, texels at the border have the function's value beyond the box, so that
+/// linear filtering gives the function within it, but for rounding and where it is below 0 or
+/// above 1.
+Rgb LightMap::at_texel(PatchId i, std::size_t x, std::size_t y) const {
+  if (solution_.linear_parts.empty()) {
+    return at(solution_.radiosity, i);
+  }
+  constexpr double inside = square - 2;
+  const Chart box = chart(i);
+  const double s = (static_cast<double>(x) - 0.5) / inside;
+  const double t = 1 - (static_cast<double>(y) - 0.5) / inside;
+  const Vec3 point = box.origin + (box.begin_s + s * box.length_s) * box.s +
+                     (box.begin_t + t * box.length_t) * box.t;
+  const auto [first, second] = linear_basis(*solution_.scene, i).at(point);
+  const LinearPart& part = at(solution_.linear_parts, i);
+  return at(solution_.radiosity, i) + first * part.first + second * part.second;
+}
+
 std::string LightMap::png() const {
   std::vector<unsigned char> pixels(3 * width() * height());
   for (PatchId i = 0; i < solution_.scene->patch_count(); ++i) {
-    const Rgb color = exposure_ * at(solution_.radiosity, i);
-    const std::array<unsigned char, 3> bytes{static_cast<unsigned char>(srgb_byte(color.r)),
-                                             static_cast<unsigned char>(srgb_byte(color.g)),
-                                             static_cast<unsigned char>(srgb_byte(color.b))};
     const std::size_t left = square * (static_cast<std::size_t>(i) % columns_);
     const std::size_t top = square * (static_cast<std::size_t>(i) / columns_);
-    for (std::size_t y = top; y < top + square; ++y) {
-      for (std::size_t x = left; x < left + square; ++x) {
-        std::copy(bytes.begin(), bytes.end(),
-                  pixels.begin() + static_cast<std::ptrdiff_t>(3 * (y * width() + x)));
+    for (std::size_t y = 0; y < square; ++y) {
+      for (std::size_t x = 0; x < square; ++x) {
+        const Rgb color = exposure_ * at_texel(i, x, y);
+        const std::array<unsigned char, 3> bytes{static_cast<unsigned char>(srgb_byte(color.r)),
+                                                 static_cast<unsigned char>(srgb_byte(color.g)),
+                                                 static_cast<unsigned char>(srgb_byte(color.b))};
+        std::copy(
+            bytes.begin(), bytes.end(),
+            pixels.begin() + static_cast<std::ptrdiff_t>(3 * ((top + y) * width() + left + x)));
       }
     }
   }

@@ -10,9 +10,9 @@
 namespace transillum {
 
 /// Radiosity as a picture, with a square of texels for each patch and the coordinates of its points
-/// there. All texels of a square have the color of the patch, and no point lies within a texel of
-/// the square's border: linear filtering, of the picture and of its first reduction, gives this
-/// color and no other.
+/// there. All texels of a square have the color of the patch, or of its linear function, and no
+/// point lies within half a texel of the square's border: linear filtering of the picture gives
+/// this color and no other; of its first reduction too, where it is constant.
 class LightMap {
  public:
   /// Texels along the side of a square.
@@ -40,6 +40,8 @@ class LightMap {
   std::string png() const;
 
  private:
+  Rgb at_texel(PatchId i, std::size_t x, std::size_t y) const;
+
   const Solution& solution_;
   double exposure_;
   std::size_t columns_ = 1, rows_ = 1;

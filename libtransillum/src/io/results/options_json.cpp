@@ -32,6 +32,7 @@ Json options_json(const SolveOptions& options, const SceneOptions& scene_options
   json["two_way"] = options.two_way;
   json["normalize"] = name_of(options.normalize);
   json["scheme"] = name_of(options.scheme);
+  json["basis"] = name_of(options.basis);
   const bool averages = options.scheme == Scheme::semi_iterative;
   json["burn_in"] = averages && options.burn_in ? Json(*options.burn_in) : Json();
   json["replicas"] = options.replicas;

@@ -51,6 +51,31 @@ Triple color_of(const Rgb& b, double exposure) {
   return {channel(b.r), channel(b.g), channel(b.b)};
 }
 
+/// The colors of a patch.
+class PatchColors {
+ public:
+  PatchColors(const Solution& solution, PatchId i, double exposure)
+      : mean_(at(solution.radiosity, i)), exposure_(exposure) {
+    if (!solution.linear_parts.empty()) {
+      part_ = at(solution.linear_parts, i);
+      basis_ = linear_basis(*solution.scene, i);
+    }
+  }
+  Triple at_point(const Vec3& point) const {
+    if (!basis_) {
+      return color_of(mean_, exposure_);
+    }
+    const auto [first, second] = basis_->at(point);
+    return color_of(mean_ + first * part_.first + second * part_.second, exposure_);
+  }
+
+ private:
+  Rgb mean_;
+  double exposure_;
+  LinearPart part_;
+  std::optional<LinearBasis> basis_;  ///< nothing: B is constant on patches
+};
+
 /// Triangles by group, with coordinates relative to `origin`: floats have few digits.
 /// @param light_map null: colors of corners
 std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double exposure,
@@ -61,7 +86,7 @@ std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double 
     Triangles& group = groups[scene.patch(piece.patch).group];
     const auto corners = scene.corners(piece);
     const auto first = static_cast<std::uint32_t>(group.positions.size());
-    const Triple color = color_of(at(solution.radiosity, piece.patch), exposure);
+    const PatchColors colors(solution, piece.patch, exposure);
     const LightMap::Chart chart =
         light_map != nullptr ? light_map->chart(piece.patch) : LightMap::Chart();
     for (const PointId corner : corners) {
@@ -69,7 +94,7 @@ std::map<std::int32_t, Triangles> triangles_of(const Solution& solution, double 
       if (light_map != nullptr) {
         group.texture_points.push_back(light_map->coordinates(chart, scene.point(corner)));
       } else {
-        group.colors.push_back(color);
+        group.colors.push_back(colors.at_point(scene.point(corner)));
       }
     }
     for (std::uint32_t k = 1; k + 1 < corners.size(); ++k) {

@@ -51,6 +51,12 @@ class ResultReader {
       solution.error.standard_error = colors("standard_error");
     }
     read_steps(solution.statistics.iteration_records);
+    if (file_.has("CellData", "B1")) {
+      const std::vector<Rgb> first = colors("B1"), second = colors("B2");
+      for (std::size_t i = 0; i < first.size(); ++i) {
+        solution.linear_parts.push_back({first[i], second[i]});
+      }
+    }
     return solution;
   }
 

@@ -55,6 +55,17 @@ void add_light_and_names(TextBuffer& text, const Solution& solution, PatchId i) 
            csv_cell(scene.material(i).name));
 }
 
+/// Writes the linear part of B, and the functions by which it is multiplied.
+void add_linear_part(TextBuffer& text, const Solution& solution, PatchId i) {
+  const LinearPart& part = at(solution.linear_parts, i);
+  add_color(text, part.first, ',');
+  add_color(text, part.second, ',');
+  const LinearBasis basis = linear_basis(*solution.scene, i);
+  for (const Vec3& v : {basis.center, basis.gradient[0], basis.gradient[1]}) {
+    text.add(",{},{},{}", v.x, v.y, v.z);
+  }
+}
+
 std::size_t corner_count(const Scene& scene) {
   std::size_t count = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
@@ -75,21 +86,28 @@ bool has_large_outlines(const Scene& scene) {
 }  // namespace
 
 /// One line per patch: face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b; with replicas
-/// also SE_r,SE_g,SE_b; then H_r,H_g,H_b, F_sum and sky where they are known, group,material.
+/// also SE_r,SE_g,SE_b; then H_r,H_g,H_b, F_sum and sky where they are known, group,material; with
+/// a linear basis also coefficients, center and gradients.
 void write_result_csv(std::ostream& out, const Solution& solution) {
   TextBuffer text(out);
   const std::vector<Rgb>& errors = solution.error.standard_error;
   text.add(
       "face,patch,area,E_r,E_g,E_b,rho_r,rho_g,rho_b,B_r,B_g,B_b{},H_r,H_g,H_b{}{},group,"
-      "material\n",
+      "material{}\n",
       errors.empty() ? "" : ",SE_r,SE_g,SE_b", solution.form_factor_sums.empty() ? "" : ",F_sum",
-      solution.sky_shares.empty() ? "" : ",sky");
+      solution.sky_shares.empty() ? "" : ",sky",
+      solution.linear_parts.empty()
+          ? ""
+          : ",B1_r,B1_g,B1_b,B2_r,B2_g,B2_b,c_x,c_y,c_z,g1_x,g1_y,g1_z,g2_x,g2_y,g2_z");
   for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
     add_patch_values(text, solution, i, ',');
     if (!errors.empty()) {
       add_color(text, at(errors, i), ',');
     }
     add_light_and_names(text, solution, i);
+    if (!solution.linear_parts.empty()) {
+      add_linear_part(text, solution, i);
+    }
     text.add("\n");
   }
 }
@@ -103,6 +121,10 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
   text.add("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
            corner_count(scene));
   text.add("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+  const bool linear = !solution.linear_parts.empty();
+  if (linear) {
+    text.add("property double B_r\nproperty double B_g\nproperty double B_b\n");
+  }
   // Most readers support only lists whose length is a byte.
   text.add("element face {}\nproperty list {} int vertex_indices\n", scene.patch_count(),
            has_large_outlines(scene) ? "uint" : "uchar");
@@ -113,11 +135,16 @@ void write_result_ply(std::ostream& out, const Solution& solution, const Display
   }
   text.add("end_header\n");
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const Rgb color = exposure * at(solution.radiosity, i);
-    for (const PointId id : scene.outline(i)) {
-      const Vec3& p = scene.point(id);
-      text.add("{} {} {} {} {} {}\n", p.x, p.y, p.z, srgb_byte(color.r), srgb_byte(color.g),
+    const std::vector<Rgb> corners = corner_radiosity(solution, i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3& p = scene.point(scene.outline(i)[k]);
+      const Rgb color = exposure * corners[k];
+      text.add("{} {} {} {} {} {}", p.x, p.y, p.z, srgb_byte(color.r), srgb_byte(color.g),
                srgb_byte(color.b));
+      if (linear) {
+        add_color(text, corners[k], ' ');
+      }
+      text.add("\n");
     }
   }
   std::int64_t corner = 0;
@@ -136,13 +163,15 @@ void write_result_obj(std::ostream& out, const Solution& solution) {
   const Scene& scene = *solution.scene;
   TextBuffer text(out);
   text.add(
-      "# transillum: one face per patch; v x y z r g b, where r g b is the patch's radiosity B, "
-      "W/m2, linear\n");
+      "# transillum: one face per patch; v x y z r g b, where r g b is the patch's radiosity B{}, "
+      "W/m2, linear\n",
+      solution.linear_parts.empty() ? "" : " at that corner");
   std::int64_t corner = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const Rgb& b = at(solution.radiosity, i);
-    for (const PointId id : scene.outline(i)) {
-      const Vec3& p = scene.point(id);
+    const std::vector<Rgb> corners = corner_radiosity(solution, i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3& p = scene.point(scene.outline(i)[k]);
+      const Rgb& b = corners[k];
       text.add("v {} {} {} {} {} {}\n", p.x, p.y, p.z, b.r, b.g, b.b);
     }
     text.add("f");

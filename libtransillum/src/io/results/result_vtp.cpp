@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
@@ -32,6 +33,29 @@ void add_colors(vtkFieldData& fields, const char* name, PatchId count, ValueOf v
     array->SetTuple3(i, rgb.r, rgb.g, rgb.b);
   }
   fields.AddArray(array);
+}
+
+/// A polygon per patch with points of its own, and B at each of them.
+void add_unshared_geometry(vtkPolyData& mesh, const Solution& solution) {
+  const Scene& scene = *solution.scene;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> polygons;
+  std::vector<Rgb> values;
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    const auto outline = scene.outline(i);
+    polygons->InsertNextCell(static_cast<int>(outline.size()));
+    for (const PointId p : outline) {
+      const Vec3& point = scene.point(p);
+      polygons->InsertCellPoint(points->InsertNextPoint(point.x, point.y, point.z));
+    }
+    const std::vector<Rgb> corners = corner_radiosity(solution, i);
+    values.insert(values.end(), corners.begin(), corners.end());
+  }
+  mesh.SetPoints(points);
+  mesh.SetPolys(polygons);
+  add_colors(*mesh.GetPointData(), "B_corner", static_cast<PatchId>(values.size()),
+             [&](PatchId k) { return at(values, k); });
 }
 
 void add_geometry(vtkPolyData& mesh, const Scene& scene) {
@@ -64,6 +88,10 @@ void add_patch_values(vtkFieldData& fields, const Solution& solution) {
   add_colors(fields, "E", count, [&](PatchId i) { return scene.exitance(i); });
   add_colors(fields, "rho", count, [&](PatchId i) { return scene.reflectance(i); });
   add_colors(fields, "B", count, [&](PatchId i) { return at(solution.radiosity, i); });
+  if (!solution.linear_parts.empty()) {
+    add_colors(fields, "B1", count, [&](PatchId i) { return at(solution.linear_parts, i).first; });
+    add_colors(fields, "B2", count, [&](PatchId i) { return at(solution.linear_parts, i).second; });
+  }
   if (!solution.error.standard_error.empty()) {
     add_colors(fields, "standard_error", count,
                [&](PatchId i) { return at(solution.error.standard_error, i); });
@@ -129,7 +157,11 @@ void add_solve_values(vtkFieldData& fields, const Solution& solution) {
 
 void write_result_vtp(std::ostream& out, const Solution& solution) {
   vtkNew<vtkPolyData> mesh;
-  add_geometry(*mesh, *solution.scene);
+  if (solution.linear_parts.empty()) {
+    add_geometry(*mesh, *solution.scene);
+  } else {
+    add_unshared_geometry(*mesh, solution);
+  }
   add_patch_values(*mesh->GetCellData(), solution);
   mesh->GetCellData()->SetActiveScalars("B");
   add_solve_values(*mesh->GetFieldData(), solution);

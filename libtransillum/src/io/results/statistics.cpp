@@ -82,6 +82,8 @@ Json statistics_json(const SolveStatistics& statistics) {
   json["converged"] = statistics.converged;
   json["closure_defect_max"] = statistics.closure_defect_max;
   json["closure_defect_grazing"] = statistics.closure_defect_grazing;
+  json["closure_defect_moments"] = statistics.closure_defect_moments;
+  json["negative_corners"] = statistics.negative_corners;
   json["light_directions"] = statistics.light_directions;
   json["escaped"] = statistics.escaped;
   json["energy_defect"] = stepped ? Json(statistics.energy_defect) : Json();

@@ -71,15 +71,22 @@ struct StoredPass {
   /// Five numbers per patch: projected and covered, forward and backward; back_seen.
   SparseList areas;
   PassCounts counts;
+  // Empty without moments
+  std::vector<TransferMoments> moments;
+  std::vector<CoverageMoments> forward_moments, backward_moments;
 
-  explicit StoredPass(std::size_t patches) : areas(5 * patches) {}
+  std::size_t patches;
+
+  explicit StoredPass(std::size_t patch_count) : areas(5 * patch_count), patches(patch_count) {}
 
   template <class Archive, class Self>
   static void visit_state(Archive& archive, Self& self) {
     auto& c = self.counts;
     archive(self.number, self.direction, self.exchanges, self.areas, c.pairs, c.cuts, c.decisions,
             c.exact_decisions, c.exact_queries, c.pixels, c.missed, c.seconds_order, c.seconds_bins,
-            c.seconds_clip);
+            c.seconds_clip, self.moments);
+    archive.empty_or(self.patches, self.forward_moments, self.backward_moments);
+    archive.require(self.moments.empty() || self.moments.size() == self.exchanges.size());
   }
 };
 
@@ -90,6 +97,9 @@ StoredPass stored(int number, const Transfers& transfers) {
   pass.direction = transfers.direction;
   pass.exchanges = transfers.exchanges;
   pass.counts = transfers.counts;
+  pass.moments = transfers.moments;
+  pass.forward_moments = transfers.forward_moments;
+  pass.backward_moments = transfers.backward_moments;
   for (std::size_t i = 0; i < patches; ++i) {
     const Coverage &forward = transfers.forward[i], &backward = transfers.backward[i];
     std::size_t entry = 5 * i;
@@ -106,6 +116,9 @@ Transfers transfers_of(StoredPass pass, std::size_t patches) {
   transfers.direction = pass.direction;
   transfers.exchanges = std::move(pass.exchanges);
   transfers.counts = pass.counts;
+  transfers.moments = std::move(pass.moments);
+  transfers.forward_moments = std::move(pass.forward_moments);
+  transfers.backward_moments = std::move(pass.backward_moments);
   transfers.forward.resize(patches);
   transfers.backward.resize(patches);
   transfers.back_seen.resize(patches);

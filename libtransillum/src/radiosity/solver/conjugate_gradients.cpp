@@ -73,9 +73,17 @@ namespace transillum {
 
 void solve_by_conjugate_gradients(const std::function<void(const double* x, double* y)>& product,
                                   const std::vector<double>& right, double tolerance,
-                                  std::vector<double>& x) {
+                                  Entries entries, std::vector<double>& x) {
   const auto size = static_cast<Eigen::Index>(right.size());
-  const ProductMatrix matrix(product, size);
+  bool indefinite = false;
+  const std::function<void(const double*, double*)> watched = [&](const double* in, double* out) {
+    product(in, out);
+    if (entries == Entries::any_sign) {
+      const Eigen::Map<const Eigen::VectorXd> v(in, size), image(out, size);
+      indefinite = indefinite || v.dot(image) < 0;
+    }
+  };
+  const ProductMatrix matrix(watched, size);
   Eigen::ConjugateGradient<ProductMatrix, Eigen::Lower | Eigen::Upper,
                            Eigen::IdentityPreconditioner>
       solver;
@@ -91,9 +99,9 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   // powers of K diverges: x is then no limit of the iteration. Values above -`rounding` are
   // not taken as negative.
   constexpr double rounding = 1e-3;
-  const bool negative =
-      size > 0 && solution.minCoeff() < -rounding * solution.cwiseAbs().maxCoeff();
-  if (solver.info() != Eigen::Success || !solution.allFinite() || negative) {
+  const bool negative = entries == Entries::at_least_zero && size > 0 &&
+                        solution.minCoeff() < -rounding * solution.cwiseAbs().maxCoeff();
+  if (solver.info() != Eigen::Success || !solution.allFinite() || negative || indefinite) {
     throw NotConvergent(
         "conjugate gradients do not converge: the row sums of the form factors are too large",
         Remedy::directions_or_symmetric_normalization);

@@ -37,11 +37,17 @@ Rgb standard_error_of(std::size_t count, double scale, ValueOf value_of) {
 
 double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
 
+/// Unknowns per patch in a list of their values.
+std::size_t unknowns_per_patch(const Scene& scene, const std::vector<Rgb>& b) {
+  return b.size() / scene.patches().size();
+}
+
 Rgb mean_over_area(const Scene& scene, const std::vector<Rgb>& b) {
+  const std::size_t per_patch = unknowns_per_patch(scene, b);
   Rgb power;
   double area = 0;
   for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    power += scene.patch(i).area * at(b, i);
+    power += scene.patch(i).area * b[per_patch * static_cast<std::size_t>(i)];
     area += scene.patch(i).area;
   }
   return (1 / area) * power;
@@ -107,15 +113,18 @@ ErrorEstimate estimate_error(const Scene& scene, const std::vector<Rgb>& b,
   error.replicas = static_cast<int>(replicas.size());
   const boost::math::students_t student(error.replicas - 1);
   error.quantile = quantile(student, (1 + confidence) / 2);
-  error.standard_error.reserve(b.size());
+  error.standard_error.reserve(scene.patches().size());
+  const std::size_t per_patch = unknowns_per_patch(scene, b);
   const double scale = scale_to_one(max_norm(b));
   double errors = 0, values = 0;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    const auto patch = static_cast<std::size_t>(i);
-    error.standard_error.push_back(standard_error_of(
-        replicas.size(), scale, [&](std::size_t r) { return replicas[r][patch]; }));
-    errors += sum_of_squares(scale * error.standard_error.back());
-    values += sum_of_squares(scale * b[patch]);
+  for (std::size_t u = 0; u < b.size(); ++u) {
+    const Rgb standard_error =
+        standard_error_of(replicas.size(), scale, [&](std::size_t r) { return replicas[r][u]; });
+    if (u % per_patch == 0) {
+      error.standard_error.push_back(standard_error);
+    }
+    errors += sum_of_squares(scale * standard_error);
+    values += sum_of_squares(scale * b[u]);
   }
   error.rms = values > 0 ? std::sqrt(errors / values) : 0.0;
   error.independent_errors = independent_errors(scalar_products(b, scale, replicas));
@@ -139,8 +148,9 @@ void include_bias(ErrorEstimate& error, const Scene& scene, const std::vector<Rg
   if (error.replicas == 0 || bias.empty()) {
     return;
   }
-  for (std::size_t i = 0; i < bias.size(); ++i) {
-    error.standard_error[i] = root_of_squares(error.standard_error[i], bias[i]);
+  const std::size_t per_patch = unknowns_per_patch(scene, bias);
+  for (std::size_t i = 0; i < error.standard_error.size(); ++i) {
+    error.standard_error[i] = root_of_squares(error.standard_error[i], bias[per_patch * i]);
   }
   error.mean_standard_error =
       root_of_squares(error.mean_standard_error, mean_over_area(scene, bias));

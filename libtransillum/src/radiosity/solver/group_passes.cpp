@@ -56,7 +56,7 @@ bool RadiositySolver::Impl::advance_in_group(int last, const RadiositySolver& se
   passes.add = [&](int k, std::span<const std::byte> message) {
     Pass pass = joined_pass(message, share.owned);
     if (is_first_along(k, statistics.areas().passes) && kept.available()) {
-      pass.run = kept.make_run(pass.transfers.exchanges);
+      pass.run = kept.make_run(pass.transfers);
     }
     add_pass(k, std::move(pass));
     iteration.seconds = seconds_before + seconds_since(start);

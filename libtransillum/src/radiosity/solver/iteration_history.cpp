@@ -10,7 +10,6 @@
 #include "radiosity/error_bounds.h"
 #include "radiosity/ratio.h"
 #include "radiosity/solver/norms.h"
-#include "transillum/at.h"
 #include "transillum/solve_errors.h"
 
 namespace transillum {
@@ -22,12 +21,21 @@ constexpr double rounding = 1e-12;
 }  // namespace
 
 IterationHistory::IterationHistory(const SolverInput& input, const RadiosityIterate& first)
-    : scene_(*input.scene),
+    : unknowns_(*input.unknowns),
       options_(input.options),
       b_(first.b()),
       h_(first.h()),
       mean_(input.options),
-      start_(input) {}
+      start_(input) {
+  set_means();
+}
+
+void IterationHistory::set_means() {
+  if (unknowns_.per_patch > 1) {
+    mean_b_ = unknowns_.means(b_);
+    mean_h_ = unknowns_.means(h_);
+  }
+}
 
 Rgb IterationHistory::with(std::size_t i, const Rgb& value) const {
   return averaged() ? mean_.with(i, value) : value;
@@ -43,10 +51,10 @@ std::vector<Rgb> IterationHistory::left() const {
   // B_i - E_i = rho_i H_i, and H is off by at most the error of B before the last iteration.
   const double error = distance_to_limit(last_change_, contraction());
   std::vector<Rgb> left(b_.size());
-  for (PatchId i = 0; i < scene_.patch_count() && error > 0; ++i) {
-    const Rgb& rho = scene_.reflectance(i);
+  for (std::size_t u = 0; u < b_.size() && error > 0; ++u) {
+    const Rgb& rho = unknowns_.reflectance[u];
     const auto share = [error](double r) { return r > 0 ? r * error : 0.0; };
-    at(left, i) = {share(rho.r), share(rho.g), share(rho.b)};
+    left[u] = {share(rho.r), share(rho.g), share(rho.b)};
   }
   return left;
 }
@@ -77,6 +85,7 @@ void IterationHistory::update(const RadiosityIterate& iterate, IterationRecord r
   }
   b_ = averaged() ? mean_.b() : iterate.b();
   h_ = averaged() ? mean_.h() : iterate.h();
+  set_means();
   records_.push_back(record);
   if (!all_finite(b_)) {
     throw NotConvergent(

@@ -18,15 +18,17 @@ namespace transillum {
 /// over the iterations since (eq. 45).
 class IterationHistory {
  public:
-  /// Keeps references to the scene and the first shot of `input`.
+  /// Keeps references to parts of `input`.
   /// @param first B before any iteration
   IterationHistory(const SolverInput& input, const RadiosityIterate& first);
 
   int size() const { return static_cast<int>(records_.size()); }
   const std::vector<IterationRecord>& records() const { return records_; }
-  const std::vector<Rgb>& b() const { return b_; }  ///< W/m²
-  const std::vector<Rgb>& h() const { return h_; }  ///< W/m²
-  bool finished() const { return finished_; }       ///< no iteration is left to do
+  const std::vector<Rgb>& b() const { return b_; }  ///< of all unknowns, W/m²
+  /// Of patches: the means of a linear basis, W/m².
+  const std::vector<Rgb>& patch_b() const { return unknowns_.per_patch == 1 ? b_ : mean_b_; }
+  const std::vector<Rgb>& patch_h() const { return unknowns_.per_patch == 1 ? h_ : mean_h_; }
+  bool finished() const { return finished_; }  ///< no iteration is left to do
   bool converged() const { return converged_; }
 
   /// Whether b() is a mean over iterations, and the iterations before those in the mean, so far.
@@ -34,10 +36,10 @@ class IterationHistory {
   int burn_in() const { return mean_.burn_in(); }
   /// Whether the iteration under way will count in the mean.
   bool past_burn_in() const { return semi_iterative() && mean_.begins(); }
-  /// What b()[i] becomes if the iteration under way ends with B_i = `value`.
+  /// What b()[i] becomes if the iteration under way ends with `value`.
   Rgb with(std::size_t i, const Rgb& value) const;
   /// Bound of what b() is off by because the iteration has ended, converged or not: W/m², one per
-  /// patch; empty before the first iteration. Of the semi-iterative scheme what is left of the
+  /// unknown; empty before the first iteration. Of the semi-iterative scheme what is left of the
   /// start.
   std::vector<Rgb> left() const;
 
@@ -72,10 +74,14 @@ class IterationHistory {
     archive(self.last_change_, self.left_to_do_, self.reopened_at_, self.finished_, self.converged_,
             self.options_.directions);
     archive.require(self.reopened_at_ >= 0 && self.reopened_at_ <= self.size());
+    if constexpr (Archive::reading) {
+      self.set_means();
+    }
   }
 
  private:
   static constexpr std::uint64_t most_records = 1'000'000;  ///< SolveOptions::iterations
+  void set_means();
   bool semi_iterative() const { return options_.scheme == Scheme::semi_iterative; }
   /// Bound on the factor by which an iteration reduces the distance of B to its limit.
   double contraction() const;
@@ -84,11 +90,12 @@ class IterationHistory {
   /// rho times the row sums of F is above 1 where there are too few directions.
   void check_contraction() const;
 
-  const Scene& scene_;
+  const Unknowns& unknowns_;
   SolveOptions options_;
   std::vector<Rgb> b_, h_;
-  IterationMean mean_;    ///< semi-iterative scheme
-  StartRemainder start_;  ///< semi-iterative scheme
+  std::vector<Rgb> mean_b_, mean_h_;  ///< of patches; empty where they are the unknowns
+  IterationMean mean_;                ///< semi-iterative scheme
+  StartRemainder start_;              ///< semi-iterative scheme
   std::vector<IterationRecord> records_;
   double last_change_ = 0;            ///< absolute, W/m²
   std::optional<double> left_to_do_;  ///< semi-iterative scheme: compared with the tolerance

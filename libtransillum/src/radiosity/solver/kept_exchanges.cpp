@@ -19,11 +19,23 @@
 namespace transillum {
 namespace {
 
+/// Entries of sums that are of constant functions, as receiver, source and entry.
+template <class Visit>
+void for_each_constant(const ExchangeSums& sums, std::size_t per_patch, Visit visit) {
+  const auto step = static_cast<PatchId>(per_patch);
+  sums.for_each([&](PatchId u, PatchId v, double entry) {
+    if (step == 1 || (u % step == 0 && v % step == 0)) {
+      visit(u / step, v / step, entry);
+    }
+  });
+}
+
 /// A matrix with room for the entries of `sums`, its row_begin set.
-FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, bool two_way) {
+FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, std::size_t per_patch,
+                       bool two_way) {
   FormFactors result;
   result.row_begin.resize(patches + 1);
-  sums.for_each([&](PatchId i, PatchId j, double) {
+  for_each_constant(sums, per_patch, [&](PatchId i, PatchId j, double) {
     ++result.row_begin[static_cast<std::size_t>(i) + 1];
     if (two_way) {
       ++result.row_begin[static_cast<std::size_t>(j) + 1];
@@ -35,14 +47,39 @@ FormFactors empty_rows(const ExchangeSums& sums, std::size_t patches, bool two_w
   return result;
 }
 
+/// The exchanges between unknowns.
+std::vector<Transfer> exchanges_of_unknowns(const Transfers& transfers) {
+  std::vector<Transfer> exchanges;
+  exchanges.reserve(9 * transfers.exchanges.size());
+  for (std::size_t k = 0; k < transfers.exchanges.size();) {
+    // By receiver, its functions, then source, as in Transfers::exchanges.
+    const PatchId receiver = transfers.exchanges[k].receiver;
+    std::size_t end = k;
+    while (end < transfers.exchanges.size() && transfers.exchanges[end].receiver == receiver) {
+      ++end;
+    }
+    for (PatchId a = 0; a < 3; ++a) {
+      for (std::size_t n = k; n < end; ++n) {
+        for (PatchId b = 0; b < 3; ++b) {
+          exchanges.push_back(
+              {3 * receiver + a, 3 * transfers.exchanges[n].source + b,
+               transfers.moments[n].of(static_cast<std::size_t>(a), static_cast<std::size_t>(b))});
+        }
+      }
+    }
+    k = end;
+  }
+  return exchanges;
+}
+
 /// The memory limit less what replicas take besides their sums.
 std::uint64_t memory_for_sums(const SolverInput& input) {
   const std::uint64_t limit = memory_limit(input.options.memory);
   const int replicas = input.options.replicas;
-  const std::uint64_t others = replicas > 1
-                                   ? static_cast<std::uint64_t>(replicas) * input.patch_count() *
-                                         RadiosityIterate::bytes_per_patch
-                                   : 0;
+  const std::uint64_t others = replicas > 1 ? static_cast<std::uint64_t>(replicas) *
+                                                  input.unknowns->count() *
+                                                  RadiosityIterate::bytes_per_unknown
+                                            : 0;
   return limit > others ? limit - others : 0;
 }
 
@@ -50,12 +87,14 @@ std::uint64_t memory_for_sums(const SolverInput& input) {
 
 KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
     : patches_(input.scene->patch_count()),
+      per_patch_(input.unknowns->per_patch),
       two_way_(input.options.two_way),
       share_(input.share()),
+      unknown_share_(share_.of_unknowns(per_patch_)),
       renews_(renews),
       cancellation_(input.cancellation),
       memory_(memory_for_sums(input)),
-      renewed_areas_(input.patch_count()) {
+      renewed_areas_(input.patch_count(), input.unknowns->per_patch) {
   const SolveOptions& options = input.options;
   if (options.normalize == Normalization::symmetric) {
     required_by_ = "the symmetric normalization";
@@ -63,15 +102,18 @@ KeptExchanges::KeptExchanges(const SolverInput& input, bool renews)
     required_by_ = "the scheme conjugate-gradients";
   }
   for (int r = 0; r < options.replicas; ++r) {
-    sums_.emplace_back(patches_, two_way_, memory_ / static_cast<std::uint64_t>(options.replicas),
-                       cancellation_);
+    sums_.push_back(empty_sums(memory_ / static_cast<std::uint64_t>(options.replicas)));
   }
+}
+
+ExchangeSums KeptExchanges::empty_sums(std::uint64_t memory) const {
+  return {patches_ * static_cast<PatchId>(per_patch_), two_way_, memory, cancellation_};
 }
 
 void KeptExchanges::add_replica() {
   const std::uint64_t used = own_size() * sizeof(Transfer);
   const bool dropped = !available();
-  sums_.emplace_back(patches_, two_way_, memory_ > used ? memory_ - used : 0, cancellation_);
+  sums_.push_back(empty_sums(memory_ > used ? memory_ - used : 0));
   if (dropped) {
     sums_.back().drop();
   }
@@ -89,10 +131,12 @@ void KeptExchanges::check_available() const {
   }
 }
 
-ExchangeSums::Run KeptExchanges::make_run(const std::vector<Transfer>& exchanges) const {
-  ExchangeSums::Run run = sums_.front().make_run(exchanges);
+ExchangeSums::Run KeptExchanges::make_run(const Transfers& transfers) const {
+  ExchangeSums::Run run = sums_.front().make_run(per_patch_ > 1 ? exchanges_of_unknowns(transfers)
+                                                                : transfers.exchanges);
   if (share_.group != nullptr && !two_way_) {
-    std::erase_if(run, [this](const Transfer& t) { return !share_.owned.contains(t.receiver); });
+    std::erase_if(run,
+                  [this](const Transfer& t) { return !unknown_share_.owned.contains(t.receiver); });
   }
   return run;
 }
@@ -136,7 +180,8 @@ void KeptExchanges::count() {
   }
   std::int64_t owned = 0;
   for (const ExchangeSums& part : sums_) {
-    owned += static_cast<std::int64_t>(part.size_of_rows(share_.first(), share_.last()));
+    owned +=
+        static_cast<std::int64_t>(part.size_of_rows(unknown_share_.first(), unknown_share_.last()));
   }
   share_.group->sums({&owned, 1});
   size_of_group_ = static_cast<std::size_t>(owned);
@@ -170,12 +215,12 @@ std::size_t KeptExchanges::own_size() const {
 }
 
 ExchangeSums KeptExchanges::joined() const {
-  ExchangeSums joined(patches_, two_way_, ~std::uint64_t{0}, cancellation_);
+  ExchangeSums joined = empty_sums(~std::uint64_t{0});
   for (const ExchangeSums& part : sums_) {
     ExchangeSums::Run run;
     run.reserve(part.size());
     part.for_each([&](PatchId i, PatchId j, double area) {
-      if (share_.owned.contains(i)) {
+      if (unknown_share_.owned.contains(i)) {
         run.push_back({i, j, area});
       }
     });
@@ -190,19 +235,22 @@ FormFactors KeptExchanges::form_factors(const RadiosityIterate& iterate,
   const std::optional<ExchangeSums> all_replicas =
       sums_.size() > 1 || share_.group != nullptr ? std::optional(joined()) : std::nullopt;
   const ExchangeSums& sums = all_replicas ? *all_replicas : sums_.front();
-  FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), two_way_);
+  FormFactors result = empty_rows(sums, static_cast<std::size_t>(patches_), per_patch_, two_way_);
   std::vector<std::size_t> next(result.row_begin.begin(), result.row_begin.end() - 1);
   const auto put = [&](PatchId i, PatchId j, double area) {
     const std::size_t k = at(next, i)++;
     result.source[k] = j;
-    result.value[k] = area * iterate.form_factor_scale(i, j, at(areas.projected, i), areas.passes);
+    result.value[k] = area * iterate.form_factor_scale(static_cast<std::size_t>(i) * per_patch_,
+                                                       static_cast<std::size_t>(j) * per_patch_,
+                                                       at(areas.projected, i), areas.passes);
   };
   // Pairs come in rising order. Entries left of the diagonal are put first, so that sources rise
   // within each row.
   if (two_way_) {
-    sums.for_each([&](PatchId i, PatchId j, double area) { put(j, i, area); });
+    for_each_constant(sums, per_patch_,
+                      [&](PatchId i, PatchId j, double area) { put(j, i, area); });
   }
-  sums.for_each(put);
+  for_each_constant(sums, per_patch_, put);
   return result;
 }
 

@@ -13,7 +13,8 @@
 namespace transillum {
 
 /// The exchanges of all passes, summed and kept within the memory limit, so that later iterations
-/// need no passes: one ExchangeSums per replica, or one.
+/// need no passes: one ExchangeSums per replica, or one. Their rows and sources are unknowns: with
+/// a linear basis, an exchange of two patches has nine entries.
 class KeptExchanges {
  public:
   /// @param renews whether each iteration has its own directions; exchanges are then kept only
@@ -31,7 +32,7 @@ class KeptExchanges {
   void check_available() const;
 
   /// The exchanges of a pass in the order that add() takes. Any thread may call it at any time.
-  ExchangeSums::Run make_run(const std::vector<Transfer>& exchanges) const;
+  ExchangeSums::Run make_run(const Transfers& transfers) const;
   /// Adds a pass of replica r. Where it exceeds the limit, everything is dropped.
   /// @throws MemoryLimitExceeded as check_available(); in a group only agree_dropped() does
   void add(std::size_t r, ExchangeSums::Run run);
@@ -73,15 +74,16 @@ class KeptExchanges {
       if (self.share_.group == nullptr) {
         archive(part);
       } else if constexpr (Archive::reading) {
-        part.restore_share(archive, self.share_);
+        part.restore_share(archive, self.unknown_share_);
       } else {
-        part.save_in_group(archive, self.share_);
+        part.save_in_group(archive, self.unknown_share_);
       }
     }
     archive(self.renewed_areas_);
   }
 
  private:
+  ExchangeSums empty_sums(std::uint64_t memory) const;
   std::size_t own_size() const;
   /// Computes size() in a group.
   void count();
@@ -89,8 +91,9 @@ class KeptExchanges {
   ExchangeSums joined() const;
 
   PatchId patches_;
+  std::size_t per_patch_;  ///< unknowns
   bool two_way_;
-  PatchShare share_;
+  PatchShare share_, unknown_share_;
   std::size_t size_of_group_ = 0;
   bool renews_;
   bool requested_ = false;

@@ -3,9 +3,10 @@
 // The messages in which one member of a group tells the others of a pass that it has made.
 //
 // Format, in the byte order and layout of the machine: Header; a Coverage for each patch owned by
-// the receiver, or two; perhaps back_seen of each; the exchanges, in the order of the pass. A patch
-// faces omega or -omega, so mostly one Coverage says both: a negative projected area stands for
-// the backward one.
+// the receiver, or two; perhaps back_seen of each; the exchanges, in the order of the pass. With
+// moments, those of the coverages follow the coverages, and each exchange is followed by its own. A
+// patch faces omega or -omega, so mostly one Coverage says both: a negative projected area stands
+// for the backward one.
 #include "radiosity/solver/pass_messages.h"
 
 #include <algorithm>
@@ -31,9 +32,12 @@ struct Header {
   std::uint64_t sent = 0;       ///< exchanges in this message
   std::uint32_t two_sided = 0;  ///< forward and backward coverages, one list after the other
   std::uint32_t back_seen = 0;  ///< whether back_seen is there
+  std::uint64_t moments = 0;    ///< whether moments are there
 };
 static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Transfer> &&
-              std::is_trivially_copyable_v<Coverage>);
+              std::is_trivially_copyable_v<Coverage> &&
+              std::is_trivially_copyable_v<TransferMoments> &&
+              std::is_trivially_copyable_v<CoverageMoments>);
 
 /// Appends values to a message whose memory is there.
 class Writer {
@@ -95,6 +99,7 @@ Header header_for(const Pass& pass, const PatchRange& owned) {
   header.projected = pass.projected;
   header.covered = pass.covered;
   header.exchanges = pass.exchanges;
+  header.moments = pass.transfers.forward_moments.empty() ? 0 : 1;
   for (auto i = static_cast<std::size_t>(owned.first); i < static_cast<std::size_t>(owned.last);
        ++i) {
     const Coverage &forward = pass.transfers.forward[i], &backward = pass.transfers.backward[i];
@@ -113,7 +118,10 @@ std::size_t size_of(const Header& header, std::size_t patches) {
   const std::size_t bytes = sizeof(Header) +
                             patches * (header.two_sided ? 2 : 1) * sizeof(Coverage) +
                             (header.back_seen ? patches * sizeof(double) : 0) +
-                            static_cast<std::size_t>(header.sent) * sizeof(Transfer);
+                            static_cast<std::size_t>(header.sent) * sizeof(Transfer) +
+                            static_cast<std::size_t>(header.moments) *
+                                (2 * patches * sizeof(CoverageMoments) +
+                                 static_cast<std::size_t>(header.sent) * sizeof(TransferMoments));
   return (bytes + unit - 1) / unit * unit;
 }
 
@@ -137,6 +145,11 @@ void write_coverages(Writer& writer, const Header& header, const Transfers& tran
   for (std::size_t i = first; header.back_seen && i < last; ++i) {
     writer.put(transfers.back_seen[i]);
   }
+  for (const auto* list : {&transfers.forward_moments, &transfers.backward_moments}) {
+    for (std::size_t i = first; header.moments && i < last; ++i) {
+      writer.put((*list)[i]);
+    }
+  }
 }
 
 void read_coverages(Reader& reader, const Header& header, std::size_t patches,
@@ -156,6 +169,10 @@ void read_coverages(Reader& reader, const Header& header, std::size_t patches,
   }
   transfers.back_seen =
       header.back_seen ? reader.list<double>(patches) : std::vector<double>(patches);
+  if (header.moments) {
+    transfers.forward_moments = reader.list<CoverageMoments>(patches);
+    transfers.backward_moments = reader.list<CoverageMoments>(patches);
+  }
 }
 
 }  // namespace
@@ -186,11 +203,19 @@ GroupMessages split(const Pass& pass, const SolverGroup& group, PatchId patches)
     write_coverages(writers.back(), headers[r], pass.transfers,
                     group.range_of(static_cast<int>(r), patches));
   }
-  for (const Transfer& t : pass.transfers.exchanges) {
+  const std::vector<TransferMoments>& moments = pass.transfers.moments;
+  for (std::size_t k = 0; k < pass.transfers.exchanges.size(); ++k) {
+    const Transfer& t = pass.transfers.exchanges[k];
     const std::uint32_t receiver = at(owners, t.receiver), source = at(owners, t.source);
-    writers[receiver].put(t);
+    const auto put = [&](Writer& writer) {
+      writer.put(t);
+      if (!moments.empty()) {
+        writer.put(moments[k]);
+      }
+    };
+    put(writers[receiver]);
     if (source != receiver) {
-      writers[source].put(t);
+      put(writers[source]);
     }
   }
   return messages;
@@ -207,7 +232,15 @@ Pass joined_pass(std::span<const std::byte> message, const PatchRange& owned) {
   pass.transfers.direction = header.direction;
   pass.transfers.counts = header.counts;
   read_coverages(reader, header, owned.size(), pass.transfers);
-  pass.transfers.exchanges = reader.list<Transfer>(static_cast<std::size_t>(header.sent));
+  const auto sent = static_cast<std::size_t>(header.sent);
+  if (header.moments) {
+    for (std::size_t k = 0; k < sent; ++k) {
+      pass.transfers.exchanges.push_back(reader.get<Transfer>());
+      pass.transfers.moments.push_back(reader.get<TransferMoments>());
+    }
+  } else {
+    pass.transfers.exchanges = reader.list<Transfer>(sent);
+  }
   return pass;
 }
 

@@ -13,18 +13,19 @@
 namespace transillum {
 
 PassStatistics::PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
-                               const PatchShare& share)
+                               const PatchShare& share, std::size_t per_patch)
     : scene_(scene),
       two_way_(two_way),
       share_(share),
-      areas_(scene.patches().size()),
+      per_patch_(per_patch),
+      areas_(scene.patches().size(), per_patch),
       facing_area_(scene.patches().size()),
       back_seen_(scene.patches().size()),
       uncovered_(scene.patches().size()),
       light_(scene, two_way, shot) {}
 
 void PassStatistics::begin_set() {
-  areas_ = VisibleAreaSums(facing_area_.size());
+  areas_ = VisibleAreaSums(facing_area_.size(), per_patch_);
   quadrature_errors_.clear();
   complete_errors_ = 0;
 }
@@ -49,6 +50,7 @@ void PassStatistics::add(const Pass& pass) {
   covered_ += pass.covered;
   closure_relative_ = std::max(closure_relative_, pass.closure.relative);
   closure_grazing_ = std::max(closure_grazing_, pass.closure.grazing);
+  closure_moments_ = std::max(closure_moments_, pass.closure.moments);
   light_.add(transfers.exchanges);
   counts_ += transfers.counts;
   transfer_count_ += pass.exchanges;
@@ -83,6 +85,7 @@ void PassStatistics::write_to(SolveStatistics& statistics) const {
   statistics.light_directions = light_.mean();
   statistics.closure_defect_max = closure_relative_;
   statistics.closure_defect_grazing = closure_grazing_;
+  statistics.closure_defect_moments = closure_moments_;
   // Of a two-sided face, the side counts from which less escapes: not the outside of a sealed room.
   double outside = 0;
   for (PatchId i = 0; i < scene_.patch_count(); ++i) {

@@ -20,8 +20,9 @@ class PassStatistics {
   /// Keeps a reference to `scene`.
   /// @param shot its sources do not count as direct light
   /// @param share the patches of the coverages of passes
-  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot,
-                 const PatchShare& share);
+  /// @param per_patch unknowns per patch
+  PassStatistics(const Scene& scene, bool two_way, const DirectLight& shot, const PatchShare& share,
+                 std::size_t per_patch);
 
   /// Starts another set of directions (semi-iterative scheme): clears areas() and
   /// quadrature_errors(); all other figures go on over all sets.
@@ -48,9 +49,9 @@ class PassStatistics {
   static void visit_state(Archive& archive, Self& self) {
     auto& c = self.counts_;
     archive(self.areas_, self.quadrature_errors_, self.projected_, self.covered_,
-            self.closure_relative_, self.closure_grazing_, self.light_, self.transfer_count_,
-            c.pairs, c.cuts, c.decisions, c.exact_decisions, c.exact_queries, c.pixels, c.missed,
-            c.seconds_order, c.seconds_bins, c.seconds_clip);
+            self.closure_relative_, self.closure_grazing_, self.closure_moments_, self.light_,
+            self.transfer_count_, c.pairs, c.cuts, c.decisions, c.exact_decisions, c.exact_queries,
+            c.pixels, c.missed, c.seconds_order, c.seconds_bins, c.seconds_clip);
     archive.fixed(self.facing_area_, self.back_seen_, self.uncovered_);
   }
 
@@ -58,6 +59,7 @@ class PassStatistics {
   const Scene& scene_;
   bool two_way_;
   PatchShare share_;
+  std::size_t per_patch_;
   VisibleAreaSums areas_;
   std::vector<double> quadrature_errors_;
   std::size_t complete_errors_ = 0;  ///< number of them that are of all patches, in a group
@@ -66,7 +68,8 @@ class PassStatistics {
   std::vector<double> uncovered_;    ///< per patch: of that, with no patch above
   double projected_ = 0;             ///< projected area of all patches, m²
   double covered_ = 0;               ///< the part of it with a patch above, m²
-  double closure_relative_ = 0, closure_grazing_ = 0;  ///< largest ClosureDefect so far
+  /// Largest ClosureDefect so far
+  double closure_relative_ = 0, closure_grazing_ = 0, closure_moments_ = 0;
   LightDirections light_;
   std::int64_t transfer_count_ = 0;
   PassCounts counts_;

@@ -25,6 +25,15 @@ struct PatchShare {
         owned(group != nullptr ? group->owned(patch_count) : PatchRange{0, patch_count}),
         patches(patch_count) {}
 
+  /// The same share of a list of `per_patch` unknowns for each patch, numbered as patches.
+  PatchShare of_unknowns(std::size_t per_patch) const {
+    const auto factor = static_cast<PatchId>(per_patch);
+    PatchShare share = *this;
+    share.owned = {factor * owned.first, factor * owned.last};
+    share.patches = factor * patches;
+    return share;
+  }
+
   std::size_t first() const { return static_cast<std::size_t>(owned.first); }
   std::size_t last() const { return static_cast<std::size_t>(owned.last); }
 

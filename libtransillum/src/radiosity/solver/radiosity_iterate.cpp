@@ -4,40 +4,39 @@
 // iterations.
 //
 // Notation: M passes; S_ij the kept sum of areas of receiver i and source j; d the scales of the
-// symmetric normalization; a `row` is a receiver; `unshot` is B without the exitance of the first
-// shot.
+// symmetric normalization; a `row` is a receiver; u and v are unknowns; `unshot` is B without the
+// exitance of the first shot.
 #include "radiosity/solver/radiosity_iterate.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "radiosity/solver/conjugate_gradients.h"
-#include "transillum/at.h"
 
 namespace transillum {
-RadiosityIterate::RadiosityIterate(const Scene& scene, const SolveOptions& options,
-                                   const DirectLight& shot, const PatchShare& share)
-    : scene_(scene),
-      shot_(shot),
+
+RadiosityIterate::RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options,
+                                   const PatchShare& share)
+    : unknowns_(unknowns),
       share_(share),
       two_way_(options.two_way),
       normalization_(options.normalize),
       sky_(options.sky),
-      h_(shot.irradiance) {
-  const auto patches = scene.patches().size();
-  b_.resize(patches);
-  unshot_.resize(patches);
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    set_radiosity(i, radiosity(i, at(h_, i)));
+      h_(unknowns.shot_irradiance) {
+  const std::size_t count = unknowns.count();
+  b_.resize(count);
+  unshot_.resize(count);
+  for (std::size_t u = 0; u < count; ++u) {
+    set_radiosity(u, radiosity(u, h_[u]));
   }
-  gathered_.resize(patches);
-  projected_.resize(patches);
-  sky_areas_.resize(sky_.set() ? patches : 0);
+  gathered_.resize(count);
+  projected_.resize(count);
+  sky_areas_.resize(sky_.set() ? count : 0);
 }
 
 void RadiosityIterate::start_from(const Rgb& gathered) {
-  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    set_radiosity(i, radiosity(i, irradiance(i, gathered)));
+  for (std::size_t u = 0; u < b_.size(); ++u) {
+    set_radiosity(u, radiosity(u, irradiance(u, gathered)));
   }
 }
 
@@ -65,6 +64,10 @@ void RadiosityIterate::begin(const KeptSums& sums) {
 }
 
 void RadiosityIterate::add(const Transfers& transfers) {
+  if (unknowns_.per_patch > 1) {
+    add_moments(transfers);
+    return;
+  }
   for (const Transfer& t : transfers.exchanges) {
     const auto i = static_cast<std::size_t>(t.receiver);
     const auto j = static_cast<std::size_t>(t.source);
@@ -95,6 +98,54 @@ void RadiosityIterate::add_sky(const Transfers& transfers) {
     if (two_way_) {
       sky_areas_[i] += behind * transfers.backward[i - first].uncovered();
     }
+  }
+}
+
+void RadiosityIterate::add_moments(const Transfers& transfers) {
+  const std::size_t functions = unknowns_.per_patch;
+  for_each_moment(transfers, [&](const Transfer& t, std::size_t a, std::size_t b, double moment) {
+    const std::size_t u = unknowns_.mean_of(t.receiver) + a, v = unknowns_.mean_of(t.source) + b;
+    gathered_[u] += moment * unshot_[v];
+    if (two_way_) {
+      gathered_[v] += moment * unshot_[u];
+    }
+  });
+  const std::size_t first = share_.first();
+  for (std::size_t i = first; i < share_.last(); ++i) {
+    for (std::size_t u = functions * i; u < functions * (i + 1); ++u) {
+      projected_[u] += transfers.forward[i - first].projected;
+      if (two_way_) {
+        projected_[u] += transfers.backward[i - first].projected;
+      }
+    }
+  }
+  if (!sky_areas_.empty()) {
+    add_sky_moments(transfers);
+  }
+  ++passes_;
+}
+
+void RadiosityIterate::add_sky_moments(const Transfers& transfers) {
+  const std::size_t first = share_.first(), functions = unknowns_.per_patch;
+  const auto add = [&](const Vec3& omega, const std::vector<Coverage>& coverages,
+                       const std::vector<CoverageMoments>& moments) {
+    const double radiance = sky_.relative_radiance(omega);
+    for (std::size_t i = first; i < share_.last(); ++i) {
+      const double uncovered = coverages[i - first].uncovered();
+      if (uncovered == 0) {
+        continue;
+      }
+      const CoverageMoments& of_patch = moments[i - first];
+      sky_areas_[functions * i] += radiance * uncovered;
+      for (std::size_t a = 0; a < 2; ++a) {
+        sky_areas_[functions * i + 1 + a] +=
+            radiance * (of_patch.projected[a] - of_patch.covered[a]);
+      }
+    }
+  };
+  add(transfers.direction, transfers.forward, transfers.forward_moments);
+  if (two_way_) {
+    add(-transfers.direction, transfers.backward, transfers.backward_moments);
   }
 }
 
@@ -161,7 +212,7 @@ void RadiosityIterate::find_scales(const KeptSums& sums) {
   std::vector<double> wanted(patches), image(patches);
   add_symmetric_product(sums, scales_, image);
   for (std::size_t i = 0; i < patches; ++i) {
-    const double exact = directions / 4 * scene_.patches()[i].area;
+    const double exact = directions / 4 * unknowns_.area[i];
     wanted[i] = projected_[i] > 0 ? image[i] * exact / projected_[i] : 0.0;
   }
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
@@ -191,7 +242,7 @@ double RadiosityIterate::row_scale(std::size_t i, double projected, int passes) 
   if (normalization_ == Normalization::rows) {
     return projected > 0 ? 1 / projected : 0.0;
   }
-  return 4.0 / (passes * (two_way_ ? 2 : 1) * scene_.patches()[i].area);
+  return 4.0 / (passes * (two_way_ ? 2 : 1) * unknowns_.area[i]);
 }
 
 /// Symmetric scales give rows the sums that Normalization::rows gives them, so the sky's part of
@@ -203,54 +254,48 @@ double RadiosityIterate::sky_scale(std::size_t i, double projected, int passes) 
   return projected > 0 ? 1 / projected : 0.0;
 }
 
-double RadiosityIterate::sky_share(PatchId i, double uncovered, double projected,
+double RadiosityIterate::sky_share(std::size_t u, double uncovered, double projected,
                                    int passes) const {
-  return sky_scale(static_cast<std::size_t>(i), projected, passes) * uncovered;
+  return sky_scale(u, projected, passes) * uncovered;
 }
 
-Rgb RadiosityIterate::sky_irradiance(PatchId i) const {
-  const auto row = static_cast<std::size_t>(i);
+Rgb RadiosityIterate::sky_irradiance(std::size_t u) const {
   if (sky_areas_.empty() || passes_ == 0) {
     return {};
   }
-  return (sky_scale(row, projected_[row], passes_) * sky_areas_[row]) * sky_.exitance;
+  return (sky_scale(u, projected_[u], passes_) * sky_areas_[u]) * sky_.exitance;
 }
 
-Rgb RadiosityIterate::gathered_irradiance(PatchId i) const {
-  const auto row = static_cast<std::size_t>(i);
-  const Rgb from_patches = row_scale(row) * gathered_[row];
-  return sky_areas_.empty() ? from_patches : from_patches + sky_irradiance(i);
+Rgb RadiosityIterate::gathered_irradiance(std::size_t u) const {
+  const Rgb from_patches = row_scale(u) * gathered_[u];
+  return sky_areas_.empty() ? from_patches : from_patches + sky_irradiance(u);
 }
 
-Rgb RadiosityIterate::estimate(PatchId i) const {
-  return radiosity(i, irradiance(i, gathered_irradiance(i)));
+Rgb RadiosityIterate::estimate(std::size_t u) const {
+  return radiosity(u, irradiance(u, gathered_irradiance(u)));
 }
 
-Rgb RadiosityIterate::irradiance(PatchId i, const Rgb& gathered) const {
-  return at(shot_.irradiance, i) + gathered;
+Rgb RadiosityIterate::irradiance(std::size_t u, const Rgb& gathered) const {
+  return unknowns_.shot_irradiance[u] + gathered;
 }
 
-Rgb RadiosityIterate::radiosity(PatchId i, const Rgb& irradiance) const {
-  return scene_.exitance(i) + scene_.reflectance(i) * irradiance;
+Rgb RadiosityIterate::radiosity(std::size_t u, const Rgb& irradiance) const {
+  return unknowns_.exitance[u] + unknowns_.reflectance[u] * irradiance;
 }
 
-void RadiosityIterate::set_radiosity(PatchId i, const Rgb& b) {
-  const auto row = static_cast<std::size_t>(i);
-  b_[row] = b;
-  unshot_[row] = b - shot_.exitance[row];
+void RadiosityIterate::set_radiosity(std::size_t u, const Rgb& b) {
+  b_[u] = b;
+  unshot_[u] = b - unknowns_.shot_exitance[u];
 }
 
-double RadiosityIterate::form_factor_scale(PatchId i, PatchId j, double projected,
+double RadiosityIterate::form_factor_scale(std::size_t u, std::size_t v, double projected,
                                            int passes) const {
-  const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
-  return row_scale(row, projected, passes) *
-         (scales_.empty() ? 1.0 : scales_[row] * scales_[column]);
+  return row_scale(u, projected, passes) * (scales_.empty() ? 1.0 : scales_[u] * scales_[v]);
 }
 
-double RadiosityIterate::form_factor_sum(PatchId i, double row_areas, double projected,
+double RadiosityIterate::form_factor_sum(std::size_t u, double row_areas, double projected,
                                          int passes) const {
-  const auto row = static_cast<std::size_t>(i);
-  return row_scale(row, projected, passes) * (row_sums_.empty() ? row_areas : row_sums_[row]);
+  return row_scale(u, projected, passes) * (row_sums_.empty() ? row_areas : row_sums_[u]);
 }
 
 Rgb RadiosityIterate::sent(const std::vector<double>& column_areas) const {
@@ -264,12 +309,11 @@ Rgb RadiosityIterate::sent(const std::vector<double>& column_areas) const {
 
 double RadiosityIterate::finish() {
   double change = 0;
-  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    h_[row] = irradiance(i, gathered_irradiance(i));
-    const Rgb next = radiosity(i, h_[row]);
-    change = std::max(change, max_abs(next - b_[row]));
-    set_radiosity(i, next);
+  for (std::size_t u = 0; u < b_.size(); ++u) {
+    h_[u] = irradiance(u, gathered_irradiance(u));
+    const Rgb next = radiosity(u, h_[u]);
+    change = std::max(change, max_abs(next - b_[u]));
+    set_radiosity(u, next);
   }
   return change;
 }
@@ -277,9 +321,9 @@ double RadiosityIterate::finish() {
 void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
                                     const Cancellation& cancellation) {
   const double unit = 4.0 / (kept_passes_ * 2);
-  const auto patches = scene_.patches().size();
+  const std::size_t patches = unknowns_.count();
   std::vector<double> weights(patches), emitted(patches), unknown(patches), weighted(patches);
-  std::vector<Rgb> result(patches), given = shot_.irradiance;
+  std::vector<Rgb> result(patches), given = unknowns_.shot_irradiance;
   for (std::size_t i = 0; i < kept_sky_areas_.size(); ++i) {
     given[i] +=
         (sky_scale(i, kept_projected_[i], kept_passes_) * kept_sky_areas_[i]) * sky_.exitance;
@@ -287,12 +331,12 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
   const auto channel = [&](auto rho_of) {
     // With E the known part of B that was not shot, y_i = sqrt(rho_i A_i) H_i and w_i = d_i
     // sqrt(rho_i / A_i): y - unit w S (w y) = unit w S (d E), a symmetric matrix.
-    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const auto row = static_cast<std::size_t>(i);
+    for (std::size_t row = 0; row < patches; ++row) {
       const double scale = scales_.empty() ? 1.0 : scales_[row];
-      weights[row] = scale * std::sqrt(unit * rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      const Rgb known = radiosity(i, given[row]);
-      emitted[row] = scale * (rho_of(known) - rho_of(shot_.exitance[row]));
+      weights[row] =
+          scale * std::sqrt(unit * rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
+      const Rgb known = radiosity(row, given[row]);
+      emitted[row] = scale * (rho_of(known) - rho_of(unknowns_.shot_exitance[row]));
     }
     std::vector<double> right(patches);
     add_symmetric_product(sums, emitted, right);
@@ -311,11 +355,11 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
             y[i] = x[i] - weights[i] * image[i];
           }
         },
-        right, tolerance, unknown);
-    for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      const double share = std::sqrt(rho_of(scene_.reflectance(i)) / scene_.patch(i).area);
-      const Rgb known = radiosity(i, given[row]);
+        right, tolerance, unknowns_.per_patch > 1 ? Entries::any_sign : Entries::at_least_zero,
+        unknown);
+    for (std::size_t row = 0; row < patches; ++row) {
+      const double share = std::sqrt(rho_of(unknowns_.reflectance[row]) / unknowns_.area[row]);
+      const Rgb known = radiosity(row, given[row]);
       rho_of(result[row]) = rho_of(known) + share * unknown[row];
     }
   };
@@ -323,8 +367,8 @@ void RadiosityIterate::set_to_limit(const KeptSums& sums, double tolerance,
   for (const auto member : channels) {
     channel([member](auto& color) -> auto& { return color.*member; });
   }
-  for (PatchId i = 0; i < scene_.patch_count(); ++i) {
-    set_radiosity(i, at(result, i));
+  for (std::size_t row = 0; row < patches; ++row) {
+    set_radiosity(row, result[row]);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "radiosity/solver/exchange_sums.h"
 #include "radiosity/solver/patch_share.h"
-#include "transillum/first_shot.h"
+#include "radiosity/solver/unknowns.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
 #include "transillum/transfers.h"
@@ -16,18 +16,18 @@ namespace transillum {
 using KeptSums = std::vector<const ExchangeSums*>;
 
 /// B and H of one set of directions, iteration by iteration (eq. 11): of all passes, or of one
-/// replica's passes. Areas as in VisibleAreaSums.
+/// replica's passes. Areas as in VisibleAreaSums. All lists and indices are those of unknowns,
+/// which are patches but with a linear basis.
 class RadiosityIterate {
  public:
-  /// Keeps references to `scene` and `shot`. The light of the first shot is added to H, and the
-  /// exitance that it covers is not gathered again:
+  /// Keeps a reference to `unknowns`. The light of the first shot is added to H, and the exitance
+  /// that it covers is not gathered again:
   ///   B_i = E_i + rho_i (H_i of the shot + H_i of the sky + sum_j F_ij (B_j - E_j shot)).
   /// @param share passes are gathered for its patches; after them complete() must be called
-  RadiosityIterate(const Scene& scene, const SolveOptions& options, const DirectLight& shot,
-                   const PatchShare& share);
+  RadiosityIterate(const Unknowns& unknowns, const SolveOptions& options, const PatchShare& share);
 
   /// Memory that an iterate takes, with its mean over iterations.
-  static constexpr std::uint64_t bytes_per_patch = 8 * sizeof(Rgb);
+  static constexpr std::uint64_t bytes_per_unknown = 8 * sizeof(Rgb);
 
   const std::vector<Rgb>& b() const { return b_; }  ///< of the last finished iteration, W/m²
   const std::vector<Rgb>& h() const { return h_; }  ///< irradiance, W/m²: B = E + rho H
@@ -54,19 +54,19 @@ class RadiosityIterate {
   /// symmetric normalization it computes the scales and gathers again with them.
   void keep(const KeptSums& sums);
 
-  /// B_i of the iteration under way, estimated from the passes so far, W/m².
-  Rgb estimate(PatchId i) const;
-  /// The factor from entry (i, j) of kept sums to F_ij.
+  /// B of the iteration under way, estimated from the passes so far, W/m².
+  Rgb estimate(std::size_t u) const;
+  /// The factor from entry (u, v) of kept sums to F.
   /// @param projected, passes of the kept sums, as in VisibleAreaSums
-  double form_factor_scale(PatchId i, PatchId j, double projected, int passes) const;
+  double form_factor_scale(std::size_t u, std::size_t v, double projected, int passes) const;
   /// sum_j F_ij.
   /// @param row_areas, projected, passes of the kept sums, as in VisibleAreaSums
-  double form_factor_sum(PatchId i, double row_areas, double projected, int passes) const;
-  /// The share of what leaves patch i that escapes.
+  double form_factor_sum(std::size_t u, double row_areas, double projected, int passes) const;
+  /// The share of what leaves the patch of u that escapes.
   /// @param uncovered, projected, passes as in VisibleAreaSums
-  double sky_share(PatchId i, double uncovered, double projected, int passes) const;
-  /// What patch i receives from the sky in the passes so far, W/m².
-  Rgb sky_irradiance(PatchId i) const;
+  double sky_share(std::size_t u, double uncovered, double projected, int passes) const;
+  /// What u receives from the sky in the passes so far, W/m².
+  Rgb sky_irradiance(std::size_t u) const;
   /// Power sent by the part of B that is gathered, in the unit of gathered().
   /// @param column_areas as in VisibleAreaSums, unscaled
   Rgb sent(const std::vector<double>& column_areas) const;
@@ -80,25 +80,27 @@ class RadiosityIterate {
   /// For StateOutput and StateInput.
   template <class Archive, class Self>
   static void visit_state(Archive& archive, Self& self) {
-    const std::size_t patches = self.b_.size();
+    const std::size_t unknowns = self.b_.size();
     archive.fixed(self.b_, self.h_, self.unshot_, self.gathered_, self.projected_, self.sky_areas_);
-    archive.empty_or(patches, self.kept_projected_, self.scales_, self.row_sums_);
+    archive.empty_or(unknowns, self.kept_projected_, self.scales_, self.row_sums_);
     archive.empty_or(self.sky_areas_.size(), self.kept_sky_areas_);
     archive(self.passes_, self.kept_passes_);
     archive.require(self.passes_ >= 0 && self.kept_passes_ >= 0 &&
                     self.row_sums_.size() == self.scales_.size());
     archive.require(self.kept_passes_ == 0 ||
-                    (self.kept_projected_.size() == patches &&
+                    (self.kept_projected_.size() == unknowns &&
                      self.kept_sky_areas_.size() == self.sky_areas_.size()));
   }
 
  private:
-  /// H_i from what is gathered, the sky included, and B_i from H_i.
-  Rgb irradiance(PatchId i, const Rgb& gathered) const;
-  /// What patch i gathers from patches and sky, W/m².
-  Rgb gathered_irradiance(PatchId i) const;
-  Rgb radiosity(PatchId i, const Rgb& irradiance) const;
-  void set_radiosity(PatchId i, const Rgb& b);
+  /// H from what is gathered, the sky included, and B from H.
+  Rgb irradiance(std::size_t u, const Rgb& gathered) const;
+  /// What u gathers from patches and sky, W/m².
+  Rgb gathered_irradiance(std::size_t u) const;
+  Rgb radiosity(std::size_t u, const Rgb& irradiance) const;
+  void set_radiosity(std::size_t u, const Rgb& b);
+  /// As add(), of a linear basis.
+  void add_moments(const Transfers& transfers);
   void gather(const KeptSums& sums);
   /// image += S values, where S is the total of `sums`, a symmetric matrix.
   void add_symmetric_product(const KeptSums& sums, const std::vector<double>& values,
@@ -108,10 +110,10 @@ class RadiosityIterate {
   /// The factor from uncovered area in `passes` passes to a share of the hemisphere.
   double sky_scale(std::size_t i, double projected, int passes) const;
   void add_sky(const Transfers& transfers);
+  void add_sky_moments(const Transfers& transfers);
   double row_scale(std::size_t i) const { return row_scale(i, projected_[i], passes_); }
 
-  const Scene& scene_;
-  const DirectLight& shot_;
+  const Unknowns& unknowns_;
   PatchShare share_;
   bool two_way_;
   Normalization normalization_;

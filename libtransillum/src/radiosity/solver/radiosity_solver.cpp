@@ -60,15 +60,17 @@ void RadiositySolver::keep_form_factors() { impl_->kept.request(); }
 
 const std::vector<Vec3>& RadiositySolver::directions() const { return impl_->iteration.directions; }
 
-const std::vector<Rgb>& RadiositySolver::radiosity() const { return impl_->history.b(); }
-const std::vector<Rgb>& RadiositySolver::irradiance() const { return impl_->history.h(); }
+const std::vector<Rgb>& RadiositySolver::radiosity() const { return impl_->history.patch_b(); }
+const std::vector<Rgb>& RadiositySolver::irradiance() const { return impl_->history.patch_h(); }
 const std::vector<double>& RadiositySolver::estimate_changes() const {
   return impl_->iteration.changes;
 }
 const std::vector<double>& RadiositySolver::quadrature_errors() const {
   return impl_->statistics.quadrature_errors();
 }
-std::vector<Rgb> RadiositySolver::running_estimate() const { return impl_->iteration.estimate; }
+std::vector<Rgb> RadiositySolver::running_estimate() const {
+  return impl_->input.unknowns->means(impl_->iteration.estimate);
+}
 
 Vec3 RadiositySolver::direction(int iteration, int pass) const {
   const Impl& s = *impl_;

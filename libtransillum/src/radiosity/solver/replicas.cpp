@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "radiosity/solver/error_estimate.h"
-#include "transillum/at.h"
 
 namespace transillum {
 
@@ -13,13 +12,13 @@ Replicas::Replicas(const SolverInput& input) {
     return;
   }
   for (int r = 0; r < input.options.replicas; ++r) {
-    iterates_.emplace_back(*input.scene, input.options, *input.shot, input.share());
+    iterates_.emplace_back(*input.unknowns, input.options, input.share());
   }
   means_.resize(iterates_.size());
 }
 
 void Replicas::add_replica(const SolverInput& input, const RadiosityIterate& whole) {
-  iterates_.emplace_back(*input.scene, input.options, *input.shot, input.share());
+  iterates_.emplace_back(*input.unknowns, input.options, input.share());
   iterates_.back().start_from(whole);
   means_.emplace_back();
 }
@@ -52,19 +51,19 @@ ErrorEstimate Replicas::error_estimate(const Scene& scene, const std::vector<Rgb
   }
   std::vector<std::vector<Rgb>> radiosities;
   for (std::size_t r = 0; r < iterates_.size(); ++r) {
-    radiosities.push_back(radiosity(scene, r, kind));
+    radiosities.push_back(radiosity(r, kind));
   }
   return estimate_error(scene, b, radiosities);
 }
 
-std::vector<Rgb> Replicas::radiosity(const Scene& scene, std::size_t r, Radiosity kind) const {
+std::vector<Rgb> Replicas::radiosity(std::size_t r, Radiosity kind) const {
   if (kind == Radiosity::mean) {
     return means_[r].mean();
   }
   std::vector<Rgb> b = iterates_[r].b();
   if (kind == Radiosity::running_estimate) {
-    for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      at(b, i) = iterates_[r].estimate(i);
+    for (std::size_t u = 0; u < b.size(); ++u) {
+      b[u] = iterates_[r].estimate(u);
     }
   }
   return b;

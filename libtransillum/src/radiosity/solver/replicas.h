@@ -14,7 +14,7 @@ namespace transillum {
 /// estimate (eq. 47). Empty for one replica.
 class Replicas {
  public:
-  /// Keeps references to the scene and the first shot of `input`.
+  /// Keeps a reference to the unknowns of `input`.
   explicit Replicas(const SolverInput& input);
 
   /// Adds one replica, which starts from B of `whole`.
@@ -49,7 +49,7 @@ class Replicas {
   }
 
  private:
-  std::vector<Rgb> radiosity(const Scene& scene, std::size_t r, Radiosity kind) const;
+  std::vector<Rgb> radiosity(std::size_t r, Radiosity kind) const;
 
   std::vector<RadiosityIterate> iterates_;
   std::vector<RunningMean> means_;

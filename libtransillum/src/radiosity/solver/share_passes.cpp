@@ -9,6 +9,7 @@
 #include "base/worker_threads.h"
 #include "radiosity/solver/pass_plan.h"
 #include "radiosity/solver/pass_runner.h"
+#include "radiosity/solver/solver_input.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 #include "transillum/shares.h"
@@ -58,7 +59,8 @@ void make_passes(const std::shared_ptr<const Scene>& scene, const SolveOptions& 
                  const std::function<void(int, const Transfers&)>& add,
                  const Cancellation& cancellation) {
   check_can_be_shared(options, share);
-  const TransferEngine engine = make_engine(options.engine, scene, tree, options.engine_options);
+  const TransferEngine engine =
+      make_engine(options.engine, scene, tree, used_engine_options(options));
   const std::vector<Vec3> directions = PassPlan(options).directions(0);
   const auto pass_of = [&](int n) { return share.number - 1 + n * share.of; };
   const int count = (options.directions - share.number) / share.of + 1;

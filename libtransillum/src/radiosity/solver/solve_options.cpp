@@ -11,6 +11,30 @@
 namespace transillum {
 namespace {
 
+/// @throws InputError for what a linear basis cannot be combined with.
+void check_linear_basis(const SolveOptions& options) {
+  if (!has_moments(options.engine)) {
+    throw InputError(
+        fmt::format("basis: linear requires the moments of exchanges, which engine {} does not "
+                    "have; choose fast, local or exact",
+                    name_of(options.engine)));
+  }
+  if (options.normalize == Normalization::symmetric) {
+    throw InputError(
+        "basis: linear is not available with symmetric normalization, whose one factor per patch "
+        "cannot correct its moments");
+  }
+  if (options.scheme == Scheme::semi_iterative) {
+    throw InputError(
+        "basis: linear is not available with the semi-iterative scheme, whose error bounds "
+        "require form factors of at least 0");
+  }
+  if (options.first_shot) {
+    throw InputError(
+        "basis: linear is not available with a first shot, which has no moments of its exchanges");
+  }
+}
+
 /// @throws InputError where the spread of replicas of one set of directions would not show the
 /// error of B.
 void check_error_is_seen(const SolveOptions& options) {
@@ -44,6 +68,17 @@ Normalization normalization_from_name(const std::string& name) {
 const std::string& name_of(Normalization normalization) {
   return at(normalization_names(), normalization);
 }
+
+const std::vector<std::string>& basis_names() {
+  static const std::vector<std::string> names{"constant", "linear"};
+  return names;
+}
+
+Basis basis_from_name(const std::string& name) {
+  return choice_from_name<Basis>(basis_names(), "basis", name);
+}
+
+const std::string& name_of(Basis basis) { return at(basis_names(), basis); }
 
 const std::vector<std::string>& scheme_names() {
   static const std::vector<std::string> names{"fixed", "growing", "semi-iterative",
@@ -110,6 +145,9 @@ void SolveOptions::validate() const {
   }
   if (threads < 0 || threads > 4096) {
     throw InputError(fmt::format("threads: {} is not in the range 0 to 4096", threads));
+  }
+  if (basis == Basis::linear) {
+    check_linear_basis(*this);
   }
   sky.validate();
   goal.validate();

@@ -20,6 +20,12 @@ const SolveOptions& validated(const SolveOptions& options) {
 
 }  // namespace
 
+EngineOptions used_engine_options(const SolveOptions& options) {
+  EngineOptions used = options.engine_options;
+  used.moments = options.basis == Basis::linear;
+  return used;
+}
+
 SolverInput::SolverInput(std::shared_ptr<const Scene> solved_scene,
                          const SolveOptions& solve_options,
                          std::shared_ptr<const BspTree> ready_tree,
@@ -60,8 +66,9 @@ void SolverInput::prepare() {
     seconds_bsp = seconds_since(start);
   }
   if (!engine) {
-    engine = make_engine(options.engine, scene, tree, options.engine_options);
+    engine = make_engine(options.engine, scene, tree, used_engine_options(options));
   }
+  unknowns = std::make_shared<const Unknowns>(*scene, options.basis, *shot);
 }
 
 }  // namespace transillum

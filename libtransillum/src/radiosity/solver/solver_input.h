@@ -4,9 +4,13 @@
 #include <memory>
 
 #include "radiosity/solver/patch_share.h"
+#include "radiosity/solver/unknowns.h"
 #include "transillum/radiosity.h"
 
 namespace transillum {
+
+/// The options of the engine that makes the passes of a solve.
+EngineOptions used_engine_options(const SolveOptions& options);
 
 /// What a solve starts from; constant once constructed, so any thread may read it.
 struct SolverInput {
@@ -18,7 +22,8 @@ struct SolverInput {
   std::shared_ptr<const DirectLight> shot;  ///< light of the first shot; zeros without one
   std::shared_ptr<const BspTree> tree;
   TransferEngine engine;
-  std::shared_ptr<SolverGroup> group;              ///< null: this process alone
+  std::shared_ptr<SolverGroup> group;  ///< null: this process alone
+  std::shared_ptr<const Unknowns> unknowns;
   double seconds_first_shot = 0, seconds_bsp = 0;  ///< time spent here; 0 for what was passed in
 
   /// Makes what is null: the light of the first shot, the tree, the engine.

@@ -35,6 +35,17 @@ void add_scene_figures(const Scene& scene, const std::vector<Rgb>& h,
       contraction_bound(statistics.rho_max, quadrature_error_bound(statistics.directions));
 }
 
+/// SolveStatistics::negative_corners.
+std::int64_t negative_corners(const Solution& solution) {
+  std::int64_t count = 0;
+  for (PatchId i = 0; i < std::ssize(solution.linear_parts); ++i) {
+    for (const Rgb& b : corner_radiosity(solution, i)) {
+      count += b.r < 0 || b.g < 0 || b.b < 0 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
 SolveProgress RadiositySolver::Impl::progress() const {
@@ -76,7 +87,7 @@ SolveStatistics RadiositySolver::Impl::solve_statistics() const {
   result.iteration_records = history.records();
   result.converged = history.converged();
   result.energy_defect = iteration.energy_defect;
-  add_scene_figures(*input.scene, history.h(), sky_irradiance(), result);
+  add_scene_figures(*input.scene, history.patch_h(), sky_irradiance(), result);
   result.shot_sources = std::ssize(input.shot->sources);
   result.shot_power_share = input.shot->power_share;
   result.seconds_bsp = input.seconds_bsp;
@@ -122,13 +133,15 @@ ErrorEstimate RadiositySolver::error_estimate() const { return impl_->error_esti
 
 std::vector<double> RadiositySolver::form_factor_sums() const {
   const VisibleAreaSums& areas = impl_->statistics.areas();
-  std::vector<double> form_factor_sums(areas.rows.size());
+  std::vector<double> form_factor_sums(areas.projected.size());
   if (areas.passes == 0) {
     return form_factor_sums;
   }
+  const std::size_t per_patch = impl_->input.unknowns->per_patch;
   for (std::size_t i = 0; i < form_factor_sums.size(); ++i) {
-    form_factor_sums[i] = impl_->whole.form_factor_sum(static_cast<PatchId>(i), areas.rows[i],
-                                                       areas.projected[i], areas.passes);
+    const std::size_t u = per_patch * i;
+    form_factor_sums[i] =
+        impl_->whole.form_factor_sum(u, areas.rows[u], areas.projected[i], areas.passes);
   }
   return form_factor_sums;
 }
@@ -140,7 +153,7 @@ std::vector<double> RadiositySolver::sky_shares() const {
     return shares;
   }
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i] = impl_->whole.sky_share(static_cast<PatchId>(i), areas.uncovered[i],
+    shares[i] = impl_->whole.sky_share(impl_->input.unknowns->per_patch * i, areas.uncovered[i],
                                        areas.projected[i], areas.passes);
   }
   return shares;
@@ -150,7 +163,7 @@ std::vector<Rgb> RadiositySolver::Impl::sky_irradiance() const {
   std::vector<Rgb> received;
   if (input.options.sky.set()) {
     for (PatchId i = 0; i < input.scene->patch_count(); ++i) {
-      received.push_back(whole.sky_irradiance(i));
+      received.push_back(whole.sky_irradiance(input.unknowns->mean_of(i)));
     }
   }
   return received;
@@ -160,6 +173,32 @@ std::vector<Rgb> RadiositySolver::sky_irradiance() const { return impl_->sky_irr
 
 std::vector<double> RadiositySolver::back_seen_shares() const {
   return impl_->statistics.back_seen_shares();
+}
+
+std::vector<LinearPart> RadiositySolver::linear_parts() const {
+  std::vector<LinearPart> parts;
+  if (options().basis == Basis::linear) {
+    const std::vector<Rgb>& values =
+        impl_->passes_done() > 0 ? impl_->iteration.estimate : impl_->history.b();
+    for (std::size_t u = 0; u < values.size(); u += 3) {
+      parts.push_back({values[u + 1], values[u + 2]});
+    }
+  }
+  return parts;
+}
+
+std::vector<Rgb> corner_radiosity(const Solution& solution, PatchId i) {
+  const auto outline = solution.scene->outline(i);
+  std::vector<Rgb> corners(outline.size(), at(solution.radiosity, i));
+  if (!solution.linear_parts.empty()) {
+    const LinearBasis basis = linear_basis(*solution.scene, i);
+    const LinearPart& part = at(solution.linear_parts, i);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const auto [first, second] = basis.at(solution.scene->point(outline[k]));
+      corners[k] += first * part.first + second * part.second;
+    }
+  }
+  return corners;
 }
 
 Solution RadiositySolver::solution() const {
@@ -175,6 +214,8 @@ Solution RadiositySolver::solution() const {
   }
   solution.error = error_estimate();
   solution.statistics = statistics();
+  solution.linear_parts = linear_parts();
+  solution.statistics.negative_corners = negative_corners(solution);
   solution.complete = impl_->history.finished();
   return solution;
 }

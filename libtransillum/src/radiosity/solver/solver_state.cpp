@@ -21,10 +21,11 @@ using Clock = std::chrono::steady_clock;
 RadiositySolver::Impl::Impl(SolverInput solver_input)
     : input(std::move(solver_input)),
       plan(input.options),
-      whole(*input.scene, input.options, *input.shot, input.share()),
+      whole(*input.unknowns, input.options, input.share()),
       replicas(input),
       kept(input, plan.renews()),
-      statistics(*input.scene, input.options.two_way, *input.shot, input.share()),
+      statistics(*input.scene, input.options.two_way, *input.shot, input.share(),
+                 input.unknowns->per_patch),
       history(input, whole),
       share(input.share()) {
   iteration.directions = plan.directions(0);
@@ -125,7 +126,7 @@ Pass RadiositySolver::Impl::make_pass(int k, int known) const {
   pass.transfers = input.engine(at(iteration.directions, k), input.requested);
   if (is_first_along(k, known)) {
     if (kept.requested() && share.group == nullptr) {
-      pass.run = kept.make_run(pass.transfers.exchanges);
+      pass.run = kept.make_run(pass.transfers);
     }
     pass.closure = closure_defect(pass.transfers, *input.scene);
     pass.exchanges = std::ssize(pass.transfers.exchanges);
@@ -164,11 +165,12 @@ void RadiositySolver::Impl::add_pass(int k, Pass pass) {
 
 EstimateChange RadiositySolver::Impl::update_estimate() {
   EstimateChange result;
-  for (std::size_t i = share.first(); i < share.last(); ++i) {
-    const Rgb value = history.with(i, whole.estimate(static_cast<PatchId>(i)));
-    result.change = std::max(result.change, max_abs(value - iteration.estimate[i]));
+  const std::size_t per_patch = input.unknowns->per_patch;
+  for (std::size_t u = per_patch * share.first(); u < per_patch * share.last(); ++u) {
+    const Rgb value = history.with(u, whole.estimate(u));
+    result.change = std::max(result.change, max_abs(value - iteration.estimate[u]));
     result.largest = std::max(result.largest, max_abs(value));
-    iteration.estimate[i] = value;
+    iteration.estimate[u] = value;
   }
   return result;
 }
@@ -218,8 +220,9 @@ void RadiositySolver::Impl::append_replica() {
 
 double RadiositySolver::Impl::energy_defect() const {
   Rgb received;
-  for (const Rgb& value : whole.gathered()) {
-    received += value;
+  // The power is that of the means.
+  for (std::size_t u = 0; u < whole.gathered().size(); u += input.unknowns->per_patch) {
+    received += whole.gathered()[u];
   }
   const VisibleAreaSums& areas = statistics.areas();
   const Rgb sent = whole.sent(input.options.two_way ? areas.rows : areas.columns);

@@ -84,7 +84,7 @@ void StartRemainder::start(const RadiosityIterate& whole) {
 }
 
 void StartRemainder::make_upper() {
-  upper_.emplace(*input_.scene, input_.options, *input_.shot, input_.share());
+  upper_.emplace(*input_.unknowns, input_.options, input_.share());
 }
 
 double StartRemainder::contraction() const {

@@ -56,6 +56,7 @@ void set_cutter(Cutter& cutter, const GridPoint* corners, std::size_t count,
 /// (out_x, out_y). The parts outside are stored separately, as BoundarySegments.
 struct BoundaryCut {
   std::array<double, BoundarySegments::max_count> in_x, in_y, out_x, out_y;
+  std::uint64_t inside;  ///< the segments that have a part inside, one bit per segment
   /// Per edge of the cutter: the segments that enter and leave the cutter through it, one bit per
   /// segment.
   std::array<std::uint64_t, Cutter::max_edges> enters, leaves;

@@ -236,6 +236,7 @@ TRANSILLUM_AVX2 bool cut_avx2(const BoundarySegments& region, const Cutter& cutt
     const bool both = g + 4 < region.count;
     const Parts low = cut_four(region, g, cutter, cut, lines, twice_area[0]);
     const Parts high = both ? cut_four(region, g + 4, cutter, cut, lines, twice_area[1]) : Parts{};
+    cut.inside |= static_cast<std::uint64_t>(low.inside | high.inside << 4) << g;
     append_before(region, g, low, cut, outside);
     if (both) {
       append_before(region, g + 4, high, cut, outside);

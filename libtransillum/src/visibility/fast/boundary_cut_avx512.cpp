@@ -224,6 +224,7 @@ TRANSILLUM_AVX512 inline bool cut_vectors(const BoundarySegments& region, const 
       }
     }
     find_ends(line_count, g, eight, cut);
+    cut.inside |= static_cast<std::uint64_t>(eight.inside) << g;
     twice_area = store_parts(eight, g, cutter, twice_area, cut, outside);
   }
   if (is_outside(lines, line_count)) {

@@ -162,6 +162,7 @@ bool cut_scalar(const BoundarySegments& region, const Cutter& cutter, BoundaryCu
   if (is_outside(lines, cutter.count)) {
     return false;
   }
+  cut.inside = parts.inside;
   outside.count = 0;
   append_outside(region, parts, cut, outside);
   cut.twice_area = sum_of_eight(twice_area);

@@ -234,6 +234,7 @@ double BoundaryView::subtract(std::int32_t candidate) {
   if (!cut_boundary(*region_, cutter_, cut_, *next_region_)) {
     return 0;
   }
+  outside_count_ = next_region_->count;
   double twice_area = cut_.twice_area;
   // Of a convex cutter's outline, no more than the region's bounds can be in the region.
   const double noise = 0.25 * cutter_.tolerance * std::min(cutter_.perimeter, 8 * reach_);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "transillum/transfers.h"
@@ -19,6 +21,8 @@ namespace transillum {
 /// ExactView.
 class BoundaryView {
  public:
+  using Coordinate = double;
+
   /// @param backs_hidden candidates are of the opposite side, and so seldom neighbors.
   BoundaryView(const ProjectedFragments& projected, PassCounts& counts, bool backs_hidden)
       : projected_(projected), counts_(counts), backs_hidden_(backs_hidden) {}
@@ -42,6 +46,22 @@ class BoundaryView {
   /// far must be discarded.
   bool failed() const { return failed_; }
 
+  /// The point that coordinates are relative to.
+  const GridPoint& origin() const { return origin_; }
+  /// Calls visit(px, py, qx, qy) for each directed segment that bounds what the last subtract()
+  /// covered, if that was more than 0.
+  template <class Visit>
+  void for_each_covered_segment(Visit visit) const {
+    for (std::uint64_t bits = cut_.inside; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+      visit(cut_.in_x[k], cut_.in_y[k], cut_.out_x[k], cut_.out_y[k]);
+    }
+    // The edges of the candidate, reversed as they bound the rest.
+    for (std::size_t k = outside_count_; k < region_->count; ++k) {
+      visit(region_->bx[k], region_->by[k], region_->ax[k], region_->ay[k]);
+    }
+  }
+
  private:
   struct EdgeCrossings;
 
@@ -61,6 +81,7 @@ class BoundaryView {
   std::array<BoundarySegments, 2> segments_;
   Cutter cutter_;
   BoundaryCut cut_;
+  std::size_t outside_count_ = 0;  ///< segments that the last cut left of the region's own
 
   const ProjectedFragments& projected_;
   PassCounts& counts_;

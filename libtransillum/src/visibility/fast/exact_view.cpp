@@ -314,6 +314,7 @@ double ExactView::subtract(std::int32_t candidate) {
   bool loaded = false;
   Real area = 0;
   new_parts_.clear();
+  covered_parts_.clear();
   for (std::size_t p = 0; p < remaining_.size();) {
     const std::uint32_t index = remaining_[p];
     if (!polygons_[index].window.overlaps(box)) {
@@ -366,6 +367,9 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     return false;
   }
   if (cuts == 0) {
+    if (keep_covered_) {
+      covered_parts_.push_back(polygons_[index]);
+    }
     area += area_of(polygons_[index]);
     return true;
   }
@@ -403,6 +407,9 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     used = 1 - used;
   }
   kept_edges_ = edge_count_;
+  if (keep_covered_) {
+    covered_parts_.push_back(*rest);
+  }
   area += area_of(*rest);
   return true;
 }

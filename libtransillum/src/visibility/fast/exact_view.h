@@ -53,9 +53,12 @@ namespace transillum {
 /// Same use as BoundaryView; used where that fails. One query at a time.
 class ExactView {
  public:
+  using Coordinate = long double;
+
+  /// @param keep_covered whether for_each_covered_segment() will be called
   ExactView(const FragmentOutlines& outlines, const ProjectedFragments& projected,
-            PassCounts& counts)
-      : outlines_(outlines), projected_(projected), counts_(counts) {}
+            PassCounts& counts, bool keep_covered)
+      : outlines_(outlines), projected_(projected), counts_(counts), keep_covered_(keep_covered) {}
 
   /// Begins the query of a whole fragment.
   void begin_query(std::int32_t fragment);
@@ -67,6 +70,20 @@ class ExactView {
   double subtract(std::int32_t candidate);
   /// Bounds of what remains.
   const FragmentWindow& window() const { return window_; }
+
+  /// The point that coordinates are relative to.
+  const GridPoint& origin() const { return origin_; }
+  /// Calls visit(px, py, qx, qy) for each directed segment that bounds what the last subtract()
+  /// covered, convex polygon by convex polygon.
+  template <class Visit>
+  void for_each_covered_segment(Visit visit) const {
+    for (const Polygon& part : covered_parts_) {
+      for (std::size_t k = 0; k < part.count; ++k) {
+        const std::size_t next = k + 1 < part.count ? k + 1 : 0;
+        visit(part.x[k], part.y[k], part.x[next], part.y[next]);
+      }
+    }
+  }
 
   /// Never; for the same use as BoundaryView.
   static constexpr bool failed() { return false; }
@@ -170,6 +187,8 @@ class ExactView {
   FragmentWindow window_;          ///< of all remaining polygons
   std::vector<Polygon> polygons_;  ///< the pool; see the states above
   std::vector<std::uint32_t> remaining_, new_parts_, free_;
+  std::vector<Polygon> covered_parts_;  ///< by the last subtract(); if keep_covered_
+  const bool keep_covered_;
   Polygon candidate_;
   // Used by subtract_from_polygon() only.
   std::array<Polygon, 2> inside_;  ///< in turn: what is inside all edges so far

@@ -25,6 +25,7 @@
 #include "visibility/fast/exact_view.h"
 #include "visibility/fast/fast_engine.h"
 #include "visibility/fast/fragment_bins.h"
+#include "visibility/fast/fragment_moments.h"
 #include "visibility/fast/projected_fragments.h"
 
 namespace transillum {
@@ -42,6 +43,8 @@ struct FastScene {
   FragmentOutlines outlines;
   bool backs_hidden = false;        ///< fronts_see_no_backs()
   std::optional<PatchShaft> shaft;  ///< if set, only fragments in it take part
+  /// Of all patches, if passes have moments; else null.
+  std::shared_ptr<const std::vector<LinearBasis>> bases;
 
   FastScene(std::shared_ptr<const Scene> of_scene, std::shared_ptr<const BspTree> of_tree)
       : scene(std::move(of_scene)), tree(std::move(of_tree)), outlines(*scene, *tree) {}
@@ -134,8 +137,12 @@ class FastPass {
       : shared_(shared),
         bins_(projected_, shared.backs_hidden),
         search_(bins_),
-        exact_view_(shared.outlines, projected_, transfers_.counts),
-        boundary_view_(projected_, transfers_.counts, shared.backs_hidden) {}
+        exact_view_(shared.outlines, projected_, transfers_.counts, shared.bases != nullptr),
+        boundary_view_(projected_, transfers_.counts, shared.backs_hidden) {
+    if (shared.bases) {
+      moments_.emplace(*shared.scene, shared.bases, projected_);
+    }
+  }
 
   Transfers run(const Vec3& omega, const Cancellation& cancellation) {
     const Clock::time_point start = Clock::now();
@@ -187,11 +194,32 @@ class FastPass {
       auto& side = fragment.front ? transfers_.forward : transfers_.backward;
       at(side, fragment.patch).projected += area_unit_ * fragment.area;
     }
+    if (moments_) {
+      begin_moments();
+    }
+  }
+
+  void begin_moments() {
+    moments_->begin();
+    found_moments_.clear();
+    transfers_.forward_moments.resize(transfers_.forward.size());
+    transfers_.backward_moments.resize(transfers_.backward.size());
+    for (const ProjectedFragments::Fragment& fragment : projected_.fragments) {
+      auto& side = fragment.front ? transfers_.forward_moments : transfers_.backward_moments;
+      const std::array<double, 2> moments = moments_->of_fragment(fragment);
+      for (std::size_t a = 0; a < 2; ++a) {
+        at(side, fragment.patch).projected[a] += moments[a];
+      }
+    }
   }
 
   struct VisibleArea {
     std::int32_t fragment;
     double area;  ///< square grid units
+  };
+  /// An entry of found_ with its index.
+  struct NumberedTransfer : Transfer {
+    std::uint32_t number = 0;
   };
 
   /// Runs the queries bin by bin, for locality of memory accesses. A fragment in few bins gets one
@@ -245,6 +273,9 @@ class FastPass {
     for (const VisibleArea& visible : visible_areas_) {
       accumulate<toward>(fragment, visible);
     }
+    for (std::size_t k = 0; k < visible_moments_.size(); ++k) {
+      accumulate_moments<toward>(fragment, visible_areas_[k].fragment, visible_moments_[k]);
+    }
   }
 
   /// Fills visible_areas_. Returns false if the view fails.
@@ -252,6 +283,7 @@ class FastPass {
   bool query_with(View& view, std::int32_t fragment, const FragmentBins::Bin* bin,
                   FragmentBins::Entry entry) {
     visible_areas_.clear();
+    visible_moments_.clear();
     if (bin) {
       view.begin_query(fragment, *bin);
     } else {
@@ -266,6 +298,11 @@ class FastPass {
       }
       if (area > 0) {
         visible_areas_.push_back({candidate, area});
+        if (moments_) {
+          visible_moments_.push_back(
+              moments_->of_overlap(view, at(projected_.fragments, fragment).patch,
+                                   at(projected_.fragments, candidate).patch, area_unit_ * area));
+        }
       }
       if (view.done()) {
         break;
@@ -294,52 +331,105 @@ class FastPass {
     }
   }
 
+  /// As accumulate(), for the integrals with basis functions; the exchange is in found_ already.
+  template <Toward toward>
+  void accumulate_moments(std::int32_t fragment, std::int32_t visible,
+                          const TransferMoments& moments) {
+    const ProjectedFragments::Fragment& own = at(projected_.fragments, fragment);
+    const ProjectedFragments::Fragment& other = at(projected_.fragments, visible);
+    if (toward == Toward::receiver && other.front) {
+      return;
+    }
+    CoverageMoments& below = toward == Toward::source ? at(transfers_.forward_moments, own.patch)
+                                                      : at(transfers_.backward_moments, own.patch);
+    const bool exchanged = toward == Toward::source && !other.front;
+    for (std::size_t a = 0; a < 2; ++a) {
+      below.covered[a] += moments.of(a + 1, 0);
+      if (exchanged) {
+        at(transfers_.backward_moments, other.patch).covered[a] += moments.of(0, a + 1);
+      }
+    }
+    if (exchanged) {
+      found_moments_.push_back(moments);
+    }
+  }
+
   /// Sorts found_ by receiver, then source, into one entry per pair; parts are summed in the order
   /// in which they were found.
   void sort_exchanges(const Cancellation& cancellation) {
+    if (!moments_) {
+      sort_rows(found_, sorted_, cancellation, [](const Transfer&, bool) {});
+      return;
+    }
+    numbered_.clear();
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+      numbered_.push_back({found_[k], static_cast<std::uint32_t>(k)});
+    }
+    std::vector<TransferMoments>& moments = transfers_.moments;
+    sort_rows(numbered_, sorted_numbered_, cancellation,
+              [&](const NumberedTransfer& t, bool added) {
+                const TransferMoments& found = found_moments_[t.number];
+                if (!added) {
+                  moments.push_back(found);
+                  return;
+                }
+                for (std::size_t k = 0; k < found.value.size(); ++k) {
+                  moments.back().value[k] += found.value[k];
+                }
+              });
+  }
+
+  /// @tparam Entry Transfer, or derived from it
+  /// @param put called with each entry in order, and whether it was added to the entry before
+  template <class Entry, class Put>
+  void sort_rows(const std::vector<Entry>& found, std::vector<Entry>& sorted,
+                 const Cancellation& cancellation, Put put) {
     const std::size_t patches = transfers_.forward.size();
     row_ends_.assign(patches + 1, 0);
-    for (const Transfer& t : found_) {
+    for (const Transfer& t : found) {
       ++row_ends_[static_cast<std::size_t>(t.receiver) + 1];
     }
     for (std::size_t i = 0; i < patches; ++i) {
       row_ends_[i + 1] += row_ends_[i];
     }
-    sorted_.resize(found_.size());
-    for (const Transfer& t : found_) {
-      sorted_[at(row_ends_, t.receiver)++] = t;
+    sorted.resize(found.size());
+    for (const Entry& t : found) {
+      sorted[at(row_ends_, t.receiver)++] = t;
     }
     std::vector<Transfer>& exchanges = transfers_.exchanges;
-    exchanges.reserve(found_.size());
+    exchanges.reserve(found.size());
     std::size_t begin = 0;
     for (std::size_t i = 0; i < patches; ++i) {
       if (i % 4096 == 0) {
         cancellation.throw_if_canceled();
       }
-      sort_by_source(sorted_.data() + begin, sorted_.data() + row_ends_[i]);
+      sort_by_source(sorted.data() + begin, sorted.data() + row_ends_[i]);
       const std::size_t row = exchanges.size();
       for (; begin < row_ends_[i]; ++begin) {
-        const Transfer& t = sorted_[begin];
-        if (exchanges.size() > row && exchanges.back().source == t.source) {
+        const Entry& t = sorted[begin];
+        const bool added = exchanges.size() > row && exchanges.back().source == t.source;
+        if (added) {
           exchanges.back().area += t.area;
         } else {
           exchanges.push_back(t);
         }
+        put(t, added);
       }
     }
   }
 
   /// Stable.
-  static void sort_by_source(Transfer* first, Transfer* last) {
+  template <class Entry>
+  static void sort_by_source(Entry* first, Entry* last) {
     constexpr std::ptrdiff_t few = 24;
     if (last - first > few) {
       std::stable_sort(first, last,
                        [](const Transfer& a, const Transfer& b) { return a.source < b.source; });
       return;
     }
-    for (Transfer* next = first; next < last; ++next) {
-      const Transfer moved = *next;
-      Transfer* to = next;
+    for (Entry* next = first; next < last; ++next) {
+      const Entry moved = *next;
+      Entry* to = next;
       for (; to > first && to[-1].source > moved.source; --to) {
         *to = to[-1];
       }
@@ -353,8 +443,12 @@ class FastPass {
   std::vector<Transfer> found_, sorted_;  ///< one entry per visible area
   std::vector<std::uint32_t> row_ends_;
   std::vector<VisibleArea> visible_areas_;
+  // With moments: of visible_areas_ and found_; and found_, numbered.
+  std::vector<TransferMoments> visible_moments_, found_moments_;
+  std::vector<NumberedTransfer> numbered_, sorted_numbered_;
   Transfers transfers_;
   ProjectedFragments projected_;
+  std::optional<FragmentMoments> moments_;  ///< nothing: passes have no moments
   FragmentBins bins_;
   CandidateSearch search_;
   ExactView exact_view_;
@@ -430,10 +524,13 @@ TransferEngine engine_of(std::shared_ptr<const FastScene> shared) {
 
 }  // namespace
 
-TransferEngine fast_engine(std::shared_ptr<const Scene> scene,
-                           std::shared_ptr<const BspTree> tree) {
+TransferEngine fast_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+                           bool moments) {
   auto shared = std::make_shared<FastScene>(std::move(scene), std::move(tree));
   shared->backs_hidden = hides_all_backs(*shared);
+  if (moments) {
+    shared->bases = std::make_shared<const std::vector<LinearBasis>>(linear_bases(*shared->scene));
+  }
   return engine_of(std::move(shared));
 }
 

@@ -47,4 +47,15 @@ void GridProjection::project(const Scene& scene, const BspTree& tree, const Vec3
   }
 }
 
+GridPoint GridProjection::point_at(const Vec3& point) const {
+  using Wide = long double;
+  const Vec3& o = frame.origin;
+  const Wide x = static_cast<Wide>(point.x) - o.x, y = static_cast<Wide>(point.y) - o.y,
+             z = static_cast<Wide>(point.z) - o.z;
+  const auto along = [&](const Vec3& axis) {
+    return std::llrint((axis.x * x + axis.y * y + axis.z * z) / unit);
+  };
+  return {along(frame.u), along(frame.v)};
+}
+
 }  // namespace transillum

@@ -25,6 +25,8 @@ struct GridProjection {
   /// @throws Canceled
   void project(const Scene& scene, const BspTree& tree, const Vec3& omega,
                const Cancellation& cancellation);
+  /// A point of space, projected as the others.
+  GridPoint point_at(const Vec3& point) const;
 };
 
 }  // namespace transillum

@@ -27,6 +27,7 @@ inline double sum_of_eight(const std::array<double, 8>& v) {
 
 /// Clears what is recorded per line.
 inline void reset(LineCrossings& lines, BoundaryCut& cut, std::size_t count) {
+  cut.inside = 0;
   for (std::size_t m = 0; m < count; ++m) {
     lines[m] = {};
     cut.enters[m] = cut.leaves[m] = 0;

@@ -11,12 +11,15 @@
 
 namespace transillum {
 
-TransferEngine exact_engine(std::shared_ptr<const Scene> scene,
-                            std::shared_ptr<const BspTree> tree) {
+TransferEngine exact_engine(std::shared_ptr<const Scene> scene, std::shared_ptr<const BspTree> tree,
+                            bool moments) {
   let_exact_numbers_throw();
-  return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
-                                                            const Cancellation& cancellation) {
-    return LocalMap<Rational, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+  const auto bases =
+      moments ? std::make_shared<const std::vector<LinearBasis>>(linear_bases(*scene)) : nullptr;
+  return [scene = std::move(scene), tree = std::move(tree), bases](
+             const Vec3& omega, const Cancellation& cancellation) {
+    return LocalMap<Rational, NoRecorder>(*scene, *tree, omega, cancellation, {}, bases.get())
+        .run();
   };
 }
 

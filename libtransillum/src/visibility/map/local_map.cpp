@@ -9,10 +9,12 @@
 namespace transillum {
 
 TransferEngine local_map_engine(std::shared_ptr<const Scene> scene,
-                                std::shared_ptr<const BspTree> tree) {
-  return [scene = std::move(scene), tree = std::move(tree)](const Vec3& omega,
-                                                            const Cancellation& cancellation) {
-    return LocalMap<Real, NoRecorder>(*scene, *tree, omega, cancellation, {}).run();
+                                std::shared_ptr<const BspTree> tree, bool moments) {
+  const auto bases =
+      moments ? std::make_shared<const std::vector<LinearBasis>>(linear_bases(*scene)) : nullptr;
+  return [scene = std::move(scene), tree = std::move(tree), bases](
+             const Vec3& omega, const Cancellation& cancellation) {
+    return LocalMap<Real, NoRecorder>(*scene, *tree, omega, cancellation, {}, bases.get()).run();
   };
 }
 

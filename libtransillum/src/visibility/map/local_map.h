@@ -16,12 +16,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "transillum/at.h"
 #include "transillum/visibility_map.h"
 #include "visibility/plane/fragment_projector.h"
 #include "visibility/plane/plane_index.h"
+#include "visibility/plane/polygon_moments.h"
 #include "visibility/transfers/transfer_sums.h"
 
 namespace transillum {
@@ -43,8 +45,10 @@ struct Recorder {
 template <class Number, class RecorderType>
 class LocalMap {
  public:
+  /// @param bases of all patches, for Transfers::moments; null: it has none
   LocalMap(const Scene& scene, const BspTree& tree, const Vec3& omega,
-           const Cancellation& cancellation, RecorderType recorder)
+           const Cancellation& cancellation, RecorderType recorder,
+           const std::vector<LinearBasis>* bases = nullptr)
       : tree_(tree),
         cancellation_(cancellation),
         recorder_(recorder),
@@ -53,7 +57,11 @@ class LocalMap {
         projector_(tree, projection_),
         clipper_(projection_),
         index_(whole_plane(), tree.fragments().size()),
-        sums_(scene.patch_count()) {}
+        sums_(scene.patch_count(), bases != nullptr) {
+    if (bases) {
+      moments_.emplace(scene, *bases, projection_);
+    }
+  }
 
   Transfers run() {
     const std::vector<FragmentId> order = tree_.order(omega_, cancellation_);
@@ -91,6 +99,10 @@ class LocalMap {
     const BasicMapPolygon<Number>& outline = projector_.outline();
     const bool front_facing = projector_.front_facing();
     sums_.project(fragment.patch, front_facing, MapNumber<Number>::area(projector_.area()));
+    if (moments_) {
+      sums_.project_moments(fragment.patch, front_facing,
+                            moments_->of_polygon(fragment.patch, outline));
+    }
 
     // Clip each polygon of V that the fragment may lie below.
     const PlaneBox box = box_of(outline);
@@ -104,6 +116,11 @@ class LocalMap {
       }
       sums_.accumulate(fragment.patch, front_facing, above.patch, above.front_facing,
                        MapNumber<Number>::area(clipper_.inside_area()));
+      if (moments_) {
+        sums_.accumulate_moments(
+            fragment.patch, front_facing, above.patch, above.front_facing,
+            moments_->of_overlap(fragment.patch, above.patch, clipper_.inside()));
+      }
       replace_by_outside(id);
     }
 
@@ -191,6 +208,7 @@ class LocalMap {
   BasicMapClipper<Number> clipper_;
   PlaneIndex index_;
   TransferSums<typename MapNumber<Number>::Area> sums_;
+  std::optional<PolygonMoments<Number>> moments_;  ///< nothing: no moments
   std::int32_t step_ = 0;
   std::vector<PolygonOfV> polygons_;
   std::vector<std::int32_t> free_;   ///< unused entries of polygons_

@@ -46,7 +46,9 @@ class ExactArea {
 template <>
 struct MapNumber<Rational> {
   using Area = ExactArea;
+  using Moment = double;
 
+  static Moment moment(const Rational& number) { return CGAL::to_double(number); }
   static Area area(const Rational& number) { return ExactArea(number); }
   static std::pair<double, double> around(const Rational& number) {
     return CGAL::to_interval(number);

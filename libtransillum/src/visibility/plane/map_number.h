@@ -19,7 +19,10 @@ template <>
 struct MapNumber<Real> {
   using Area = double;  ///< type of sums of areas
 
+  using Moment = Real;  ///< type in which basis functions are integrated
+
   static Area area(Real number) { return static_cast<double>(number); }
+  static Moment moment(Real number) { return number; }
   /// Bounds of the number, up to rounding.
   static std::pair<double, double> around(Real number) {
     return {static_cast<double>(number), static_cast<double>(number)};

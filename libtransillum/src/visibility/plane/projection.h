@@ -82,6 +82,10 @@ class BasicProjection {
   }
 
   const BasicPlanePoint<Number>& point(PointId p) const { return at(points, p); }
+  /// A point of space, projected as the others.
+  BasicPlanePoint<Number> project(const Vec3& p) const {
+    return {along(frame.u, p), along(frame.v, p)};
+  }
   const BasicPlaneLine<Number>& line(LineId l) const { return at(lines, l); }
 
  private:

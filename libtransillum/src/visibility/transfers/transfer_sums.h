@@ -5,7 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "transillum/at.h"
@@ -20,7 +23,12 @@ namespace transillum {
 template <class Area>
 class TransferSums {
  public:
-  explicit TransferSums(PatchId patch_count) : patches_(static_cast<std::size_t>(patch_count)) {}
+  /// @param moments whether add_moments() and accumulate_moments() will be called, each after its
+  /// counterpart
+  explicit TransferSums(PatchId patch_count, bool moments = false)
+      : patches_(static_cast<std::size_t>(patch_count)),
+        forward_moments_(moments ? patches_.size() : 0),
+        backward_moments_(forward_moments_.size()) {}
 
   /// Adds a part of patch i's projected area.
   void project(PatchId i, bool front_facing, const Area& area) {
@@ -45,6 +53,31 @@ class TransferSums {
     }
   }
 
+  /// Adds the integrals of phi_1 and phi_2 over the part of patch i's projection that project()
+  /// was called with.
+  void project_moments(PatchId i, bool front_facing, const std::array<double, 2>& moments) {
+    CoverageMoments& sums = at(front_facing ? forward_moments_ : backward_moments_, i);
+    for (std::size_t a = 0; a < 2; ++a) {
+      sums.projected[a] += moments[a];
+    }
+  }
+
+  /// Adds the moments of what accumulate() was called with.
+  void accumulate_moments(PatchId below, bool below_front_facing, PatchId above,
+                          bool above_front_facing, const TransferMoments& moments) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      if (below_front_facing) {
+        at(forward_moments_, below).covered[a] += moments.of(a + 1, 0);
+      }
+      if (!above_front_facing) {
+        at(backward_moments_, above).covered[a] += moments.of(0, a + 1);
+      }
+    }
+    if (below_front_facing && !above_front_facing) {
+      moments_.push_back(moments);
+    }
+  }
+
   /// Returns the sums, each rounded once. The object must not be used afterwards.
   /// @throws Canceled
   Transfers finish(const Vec3& omega, const Cancellation& cancellation) {
@@ -59,8 +92,10 @@ class TransferSums {
       transfers.backward.push_back(rounded(patch.sides[1]));
       transfers.back_seen.push_back(nearest_double(patch.back_seen));
     }
-    add_exchanges(transfers.exchanges, cancellation);
+    add_exchanges(transfers, cancellation);
     exchanges_.clear();
+    transfers.forward_moments = std::move(forward_moments_);
+    transfers.backward_moments = std::move(backward_moments_);
     return transfers;
   }
 
@@ -83,7 +118,7 @@ class TransferSums {
 
   /// One entry per pair, by receiver and source; parts are summed in the order in which they were
   /// added.
-  void add_exchanges(std::vector<Transfer>& summed, const Cancellation& cancellation) const {
+  void add_exchanges(Transfers& transfers, const Cancellation& cancellation) const {
     // Counting sort by receiver, then each row by source.
     std::vector<std::size_t> end(patches_.size() + 1, 0);
     for (const Exchange& e : exchanges_) {
@@ -105,16 +140,35 @@ class TransferSums {
       while (begin != row_end) {
         const PatchId source = (*begin)->source;
         Area area{};
+        const auto first = begin;
         for (; begin != row_end && (*begin)->source == source; ++begin) {
           area += (*begin)->area;
         }
-        summed.push_back({static_cast<PatchId>(i), source, nearest_double(area)});
+        transfers.exchanges.push_back({static_cast<PatchId>(i), source, nearest_double(area)});
+        if (!moments_.empty()) {
+          transfers.moments.push_back(sum_of_moments(first, begin, nearest_double(area)));
+        }
       }
     }
   }
 
+  template <class Iterator>
+  TransferMoments sum_of_moments(Iterator first, Iterator last, double area) const {
+    TransferMoments sum;
+    for (; first != last; ++first) {
+      const TransferMoments& part = at(moments_, *first - exchanges_.data());
+      for (std::size_t k = 0; k < sum.value.size(); ++k) {
+        sum.value[k] += part.value[k];
+      }
+    }
+    sum.of(0, 0) = area;
+    return sum;
+  }
+
   std::vector<OfPatch> patches_;
   std::vector<Exchange> exchanges_;
+  std::vector<TransferMoments> moments_;  ///< of exchanges_; empty without moments
+  std::vector<CoverageMoments> forward_moments_, backward_moments_;
 };
 
 }  // namespace transillum

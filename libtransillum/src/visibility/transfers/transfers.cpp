@@ -22,6 +22,29 @@ PassCounts& PassCounts::operator+=(const PassCounts& other) {
   return *this;
 }
 
+namespace {
+
+/// The largest difference of projected and covered moments, over the projected area, of patches at
+/// no grazing angle.
+double moment_defect(const std::vector<Coverage>& coverages,
+                     const std::vector<CoverageMoments>& moments, const Scene& scene,
+                     double grazing_share) {
+  double largest = 0;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const double projected = coverages[i].projected;
+    if (projected < grazing_share * scene.patches()[i].area || projected == 0) {
+      continue;
+    }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double open = std::abs(moments[i].projected[a] - moments[i].covered[a]);
+      largest = std::max(largest, open / projected);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
 ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
   // Below this share of its area a patch is treated as grazing (ALGORITHM.md, oracle 1).
   constexpr double grazing_share = 1e-6;
@@ -42,6 +65,9 @@ ClosureDefect closure_defect(const Transfers& transfers, const Scene& scene) {
       }
     }
   }
+  defect.moments =
+      std::max(moment_defect(transfers.forward, transfers.forward_moments, scene, grazing_share),
+               moment_defect(transfers.backward, transfers.backward_moments, scene, grazing_share));
   return defect;
 }
 

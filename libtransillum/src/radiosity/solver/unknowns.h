@@ -1,0 +1,48 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "transillum/first_shot.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+#include "transillum/transfers.h"
+
+namespace transillum {
+
+/// The numbers that a solve computes: B_i of every patch, or with Basis::linear the coefficients
+/// b_ia of its functions, as unknown 3 i + a. What is the same for all functions of a patch is
+/// given for each of them, so that one equation serves both bases:
+///   b_u = e_u + rho_u (h_u of the shot + 4 / (M A_u) sum_d sum_v T(u,v,omega_d) b_v).
+struct Unknowns {
+  std::size_t per_patch;                            ///< 1, or 3
+  std::vector<double> area;                         ///< of its patch: ∫ phi_a², m²
+  std::vector<Rgb> exitance;                        ///< E_i for phi_0, 0 for the others
+  std::vector<Rgb> reflectance;                     ///< of its patch
+  std::vector<Rgb> shot_exitance, shot_irradiance;  ///< DirectLight's, of phi_0
+
+  Unknowns(const Scene& scene, Basis basis, const DirectLight& shot);
+
+  std::size_t count() const { return area.size(); }
+  /// The unknown of phi_0 on patch i: the mean of B.
+  std::size_t mean_of(PatchId i) const { return static_cast<std::size_t>(i) * per_patch; }
+  /// The values of phi_0, one per patch.
+  std::vector<Rgb> means(const std::vector<Rgb>& values) const;
+};
+
+/// Calls visit(k, a, b, T^ab) for exchange k and all functions a of its receiver and b of its
+/// source.
+template <class Visit>
+void for_each_moment(const Transfers& transfers, Visit visit) {
+  for (std::size_t k = 0; k < transfers.exchanges.size(); ++k) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        visit(transfers.exchanges[k], a, b, transfers.moments[k].of(a, b));
+      }
+    }
+  }
+}
+
+}  // namespace transillum

@@ -1,0 +1,251 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+// Basis::linear against known answers (ALGORITHM.md 6.12, oracles 3, 4 and 6).
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "support/scenes.h"
+#include "transillum/at.h"
+#include "transillum/linear_basis.h"
+#include "transillum/radiosity.h"
+#include "transillum/sky.h"
+
+namespace transillum {
+namespace {
+
+using testing::Sketch;
+
+SolveOptions linear(int directions) { return {.directions = directions, .basis = Basis::linear}; }
+
+double largest_part(const Solution& solution) {
+  double largest = 0;
+  for (const LinearPart& part : solution.linear_parts) {
+    largest = std::max({largest, max_abs(part.first), max_abs(part.second)});
+  }
+  return largest;
+}
+
+/// Oracle 3. Every direction brings a patch in uniform light the moments of its projection, 0.
+TEST(LinearFurnace, IsConstantWithRowNormalization) {
+  for (const double max_patch_area : {0.0, 0.3}) {
+    const auto scene = load_scene("furnace", {.max_patch_area = max_patch_area});
+    for (const bool two_way : {true, false}) {
+      SolveOptions options = linear(40);
+      options.two_way = two_way;
+      options.normalize = Normalization::rows;
+      options.tolerance = 1e-13;
+      const Solution solution = solve(scene, options);
+      ASSERT_EQ(solution.linear_parts.size(), scene->patches().size());
+      for (const Rgb& b : solution.radiosity) {
+        EXPECT_NEAR(b.r, 2, 1e-11);
+      }
+      EXPECT_LE(largest_part(solution), 1e-10);
+      EXPECT_EQ(solution.statistics.negative_corners, 0);
+      EXPECT_LE(solution.statistics.closure_defect_moments, 1e-10);
+      EXPECT_GT(solution.statistics.closure_defect_moments, 0);
+    }
+  }
+}
+
+/// Oracle 4: the power received is the power sent, which the linear parts share in.
+TEST(LinearEnergy, ReceivedIsSent) {
+  for (const char* spec : {"cornell-box", "rooms"}) {
+    for (const Scheme scheme : {Scheme::fixed, Scheme::growing, Scheme::conjugate_gradients}) {
+      SolveOptions options = linear(256);
+      options.scheme = scheme;
+      const Solution solution = solve(load_scene(spec), options);
+      EXPECT_LE(solution.statistics.energy_defect, 1e-13) << spec << name_of(scheme);
+      EXPECT_NEAR(solution.statistics.energy_balance, 1, 1e-2) << spec;
+      EXPECT_GT(largest_part(solution), 0.01) << spec;
+    }
+  }
+}
+
+/// The same from kept sums, from passes in every iteration, and by conjugate gradients.
+TEST(LinearSchemes, LeadToTheSameFunction) {
+  const auto scene = load_scene("cornell-box");
+  SolveOptions options = linear(64);
+  options.tolerance = 1e-12;
+  const Solution kept = solve(scene, options);
+  EXPECT_TRUE(kept.statistics.kept_form_factors);
+  const auto expect_same = [&](const SolveOptions& other, double accuracy) {
+    const Solution solution = solve(scene, other);
+    for (PatchId i = 0; i < scene->patch_count(); ++i) {
+      EXPECT_NEAR(max_abs(at(solution.radiosity, i) - at(kept.radiosity, i)), 0, accuracy);
+      EXPECT_NEAR(max_abs(at(solution.linear_parts, i).first - at(kept.linear_parts, i).first), 0,
+                  accuracy);
+      EXPECT_NEAR(max_abs(at(solution.linear_parts, i).second - at(kept.linear_parts, i).second), 0,
+                  accuracy);
+    }
+  };
+  SolveOptions again = options;
+  again.memory = 1000;
+  expect_same(again, 1e-11);
+  SolveOptions gradients = options;
+  gradients.scheme = Scheme::conjugate_gradients;
+  expect_same(gradients, 1e-9);
+  SolveOptions growing = options;
+  growing.scheme = Scheme::growing;
+  expect_same(growing, 1e-9);
+  SolveOptions threads = options;
+  threads.threads = 3;
+  expect_same(threads, 0);
+  SolveOptions local = options;
+  local.engine = Engine::local;
+  expect_same(local, 1e-10);
+}
+
+/// Form factor from a point with the normal +z to the rectangle (x0, x1) × (y0, y1) at height h, in
+/// closed form: Lambert's sum over the edges.
+double point_to_rectangle(double x, double y, double h, double x0, double x1, double y0,
+                          double y1) {
+  const std::array<Vec3, 4> corners{Vec3{x0 - x, y0 - y, h}, Vec3{x1 - x, y0 - y, h},
+                                    Vec3{x1 - x, y1 - y, h}, Vec3{x0 - x, y1 - y, h}};
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec3 a = normalized(corners[k]), b = normalized(corners[(k + 1) % 4]);
+    const Vec3 normal = cross(a, b);
+    sum += std::atan2(norm(normal), dot(a, b)) * normal.z / norm(normal);
+  }
+  return sum / (2 * std::numbers::pi);
+}
+
+/// Oracle 6: the irradiance from a rectangle at points of another, integrated against the basis by
+/// Gauss points.
+TEST(LinearClosedForms, IrradianceFromARectangleIntegratedAgainstTheBasis) {
+  Sketch sketch;
+  const int dark = sketch.material(0.5, 0), light = sketch.material(0, 1);
+  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, dark);
+  sketch.face({{1, 0, 1}, {1, 1, 1}, {3, 1, 1}, {3, 0, 1}}, light);
+  const auto scene = sketch.scene();
+  const LinearBasis basis = linear_basis(*scene, 0);
+  double expected[3] = {};
+  constexpr int points = 200;
+  for (int i = 0; i < points; ++i) {
+    for (int k = 0; k < points; ++k) {
+      const double x = 2 * (i + 0.5) / points, y = (k + 0.5) / points;
+      const double h = point_to_rectangle(x, y, 1, 1, 3, 0, 1) / (points * points);
+      const auto phi = basis.at({x, y, 0});
+      expected[0] += h;
+      expected[1] += h * phi[0];
+      expected[2] += h * phi[1];
+    }
+  }
+  EXPECT_GT(std::abs(expected[1]), 0.03);  // the light is not above the middle
+  for (const auto& [directions, accuracy] : {std::pair{1000, 1e-3}, {30000, 8e-5}}) {
+    const Solution solution = solve(scene, linear(directions));
+    EXPECT_NEAR(solution.irradiance[0].r, expected[0], accuracy);
+    EXPECT_NEAR(solution.linear_parts[0].first.r, 0.5 * expected[1], accuracy);
+    EXPECT_NEAR(solution.linear_parts[0].second.r, 0.5 * expected[2], accuracy);
+    // E is constant.
+    EXPECT_EQ(solution.linear_parts[1].first.r, 0);
+    EXPECT_EQ(solution.radiosity[1].r, 1);
+  }
+}
+
+/// Half of a patch below a screen: the Galerkin projection of a step. B falls below 0 at the dark
+/// end, is kept so, and is counted.
+TEST(LinearCorners, BelowZeroAreKeptAndCounted) {
+  Sketch sketch;
+  const int dark = sketch.material(0.5, 0), light = sketch.material(0, 1),
+            black = sketch.material(0, 0);
+  sketch.face({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, dark);
+  sketch.face({{1.7, 0, 0.2}, {1.7, 1, 0.2}, {2, 1, 0.2}, {2, 0, 0.2}}, light);
+  sketch.face({{-1, -1, -1}, {-1, 2, -1}, {3, 2, -1}, {3, -1, -1}}, black);
+  const Solution solution = solve(sketch.scene(), linear(2000));
+  const std::vector<Rgb> corners = corner_radiosity(solution, 0);
+  EXPECT_LT(corners[0].r, 0);
+  EXPECT_LT(corners[3].r, 0);
+  EXPECT_GT(corners[1].r, 0);
+  EXPECT_EQ(solution.statistics.negative_corners, 2);
+}
+
+/// Oracle 4b: a uniform sky is a black enclosure of its exitance.
+TEST(LinearSky, IsLikeAnEnclosure) {
+  const auto scene = [](bool enclosed) {
+    Sketch sketch;
+    const int gray = sketch.material(0.6, 0.2), sky = sketch.material(0, 1);
+    sketch.box({0, 0, 0}, {1, 1, 1}, false, gray);
+    sketch.face({{-1, 0, -0.5}, {2, 0, -0.5}, {2, 1, -0.5}, {-1, 1, -0.5}}, gray);
+    sketch.face({{-1, 1, -0.5}, {2, 1, -0.5}, {2, 0, -0.5}, {-1, 0, -0.5}}, gray);
+    if (enclosed) {
+      sketch.box({-9, -9, -9}, {9, 9, 9}, true, sky);
+    }
+    return sketch.scene();
+  };
+  for (const Normalization normalize : {Normalization::none, Normalization::rows}) {
+    SolveOptions options = linear(200);
+    options.normalize = normalize;
+    options.tolerance = 1e-12;
+    const Solution enclosed = solve(scene(true), options);
+    options.sky.exitance = {1, 1, 1};
+    const Solution open = solve(scene(false), options);
+    for (PatchId i = 0; i < open.scene->patch_count(); ++i) {
+      EXPECT_NEAR(at(open.radiosity, i).r, at(enclosed.radiosity, i).r, 1e-10);
+      EXPECT_NEAR(at(open.linear_parts, i).first.r, at(enclosed.linear_parts, i).first.r, 1e-10);
+      EXPECT_NEAR(at(open.linear_parts, i).second.r, at(enclosed.linear_parts, i).second.r, 1e-10);
+    }
+  }
+}
+
+/// Of replicas, errors of the functions.
+TEST(LinearReplicas, EstimateTheError) {
+  SolveOptions options = linear(256);
+  options.replicas = 8;
+  const auto scene = load_scene("cornell-box");
+  const Solution solution = solve(scene, options);
+  ASSERT_EQ(solution.error.standard_error.size(), scene->patches().size());
+  EXPECT_GT(solution.error.rms, 0);
+  EXPECT_LT(solution.error.rms, 0.2);
+}
+
+/// A state that is saved and restored leads to the same bits.
+TEST(LinearState, IsRestoredToTheSameBits) {
+  const auto scene = load_scene("cornell-box");
+  for (const int replicas : {1, 4}) {
+    SolveOptions options = linear(60);
+    options.replicas = replicas;
+    RadiositySolver solver(scene, options);
+    for (int k = 0; k < 17; ++k) {
+      solver.advance(RadiositySolver::Until::direction);
+    }
+    std::ostringstream saved;
+    solver.save(saved);
+    RadiositySolver restored(scene, options);
+    std::istringstream in(saved.str());
+    restored.restore(in, saved.str().size());
+    const auto finished = [](RadiositySolver& of) {
+      of.advance(RadiositySolver::Until::finished);
+      return of.solution();
+    };
+    const Solution a = finished(solver), b = finished(restored);
+    EXPECT_EQ(a.radiosity, b.radiosity);
+    for (std::size_t i = 0; i < a.linear_parts.size(); ++i) {
+      EXPECT_EQ(a.linear_parts[i].first, b.linear_parts[i].first);
+      EXPECT_EQ(a.linear_parts[i].second, b.linear_parts[i].second);
+    }
+  }
+}
+
+/// The means of a linear solve of form factors that constant functions have: F_ij are the same.
+TEST(LinearFormFactors, AreThoseOfConstantFunctions) {
+  const auto scene = load_scene("cornell-box");
+  const auto factors = [&](Basis basis) {
+    SolveOptions options = linear(32);
+    options.basis = basis;
+    RadiositySolver solver(scene, options);
+    solver.advance(RadiositySolver::Until::finished);
+    return solver.form_factors();
+  };
+  const FormFactors linear_factors = factors(Basis::linear), constant = factors(Basis::constant);
+  EXPECT_EQ(linear_factors.row_begin, constant.row_begin);
+  EXPECT_EQ(linear_factors.source, constant.source);
+  EXPECT_EQ(linear_factors.value, constant.value);
+}
+
+}  // namespace
+}  // namespace transillum

@@ -1,0 +1,174 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// `solve --basis linear` as a program: what it is refused with, its files, shards and checkpoints.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program_run.h"
+#include "transillum/files.h"
+#include "transillum/linear_basis.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const Arguments box{"solve", "cornell-box", "-q", "--basis", "linear"};
+
+TEST(CliLinearBasis, IsRefusedInOneLineWhereItIsNotAvailable) {
+  const std::pair<Arguments, const char*> calls[] = {
+      {{"--engine", "global"}, "engine global does not have"},
+      {{"--engine", "zbuffer"}, "engine zbuffer does not have"},
+      {{"--engine", "painter"}, "engine painter does not have"},
+      {{"--engine", "rays"}, "engine rays does not have"},
+      {{"--engine", "corrected"}, "engine corrected does not have"},
+      {{"--engine", "hemicube"}, "engine hemicube does not have"},
+      {{"--engine", "pairs"}, "engine pairs does not have"},
+      {{"--normalize", "symmetric"}, "not available with symmetric normalization"},
+      {{"--scheme", "semi-iterative"}, "not available with the semi-iterative scheme"},
+      {{"--first-shot", "auto"}, "not available with a first shot"},
+      {{"--factors", "f.npz"}, "not used with --factors"},
+  };
+  for (const auto& [options, message] : calls) {
+    SCOPED_TRACE(::testing::PrintToString(options));
+    const ProgramResult result = run_program(box + Arguments{"-m", "8"} + options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  }
+  const ProgramResult unknown = run_program({"solve", "furnace", "--basis", "quadratic"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("choose one of constant, linear"));
+}
+
+TEST(CliLinearBasis, WorksWithTheOtherOptions) {
+  const Arguments options[] = {{"--one-way"},           {"--normalize", "rows"},
+                               {"--scheme", "growing"}, {"--scheme", "conjugate-gradients"},
+                               {"--replicas", "4"},     {"--memory", "1M", "--iterations", "3"},
+                               {"--sky", "1"},          {"--two-sided"},
+                               {"--engine", "local"},   {"--by", "material"}};
+  for (const Arguments& option : options) {
+    SCOPED_TRACE(::testing::PrintToString(option));
+    const ProgramResult result = run_program(box + Arguments{"-m", "16"} + option);
+    EXPECT_EQ(result.status, 0) << result.err;
+  }
+  const ProgramResult accuracy = run_program(box + Arguments{"--accuracy", "10%"});
+  EXPECT_EQ(accuracy.status, 0) << accuracy.err;
+}
+
+/// The value of column `name` in the first line of a CSV text.
+double column(const std::string& csv, const std::string& name) {
+  std::istringstream lines(csv);
+  std::string header, values;
+  std::getline(lines, header);
+  std::getline(lines, values);
+  std::istringstream names(header), cells(values);
+  for (std::string cell, entry; std::getline(names, entry, ',');) {
+    std::getline(cells, cell, ',');
+    if (entry == name) {
+      return std::stod(cell);
+    }
+  }
+  ADD_FAILURE() << "no column " << name;
+  return 0;
+}
+
+TEST(CliLinearBasis, FilesHoldTheFunctionsBitForBit) {
+  const TemporaryFolder folder;
+  Arguments call = box + Arguments{"-m", "16", "--stats", folder / "r.json"};
+  for (const char* ending : {"csv", "vtp", "ply", "obj", "glb", "gltf"}) {
+    call = call + Arguments{"--out", folder / (std::string("r.") + ending)};
+  }
+  const ProgramResult solved = run_program(call);
+  ASSERT_EQ(solved.status, 0) << solved.err;
+  const Solution solution = read_result(folder / "r.vtp");
+  ASSERT_EQ(solution.linear_parts.size(), solution.radiosity.size());
+  const std::string csv = read_file(folder / "r.csv");
+  EXPECT_EQ(column(csv, "B_r"), solution.radiosity[0].r);
+  EXPECT_EQ(column(csv, "B1_r"), solution.linear_parts[0].first.r);
+  EXPECT_EQ(column(csv, "B2_b"), solution.linear_parts[0].second.b);
+  const LinearBasis basis = linear_basis(*solution.scene, 0);
+  EXPECT_EQ(column(csv, "c_x"), basis.center.x);
+  EXPECT_EQ(column(csv, "g2_z"), basis.gradient[1].z);
+  std::ostringstream again;
+  write_result_csv(again, solution);
+  EXPECT_EQ(again.str().substr(0, again.str().find('\n')), csv.substr(0, csv.find('\n')));
+  EXPECT_THAT(read_file(folder / "r.ply"), HasSubstr("property uchar blue\nproperty double B_r"));
+  EXPECT_THAT(read_file(folder / "r.obj"), HasSubstr("at that corner"));
+  // B at corners: no sharing across patches.
+  const std::string vtp = read_file(folder / "r.vtp");
+  EXPECT_THAT(vtp.substr(0, 20'000), HasSubstr("B_corner"));
+  std::size_t corners = 0;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    corners += solution.scene->outline(i).size();
+  }
+  EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"" + std::to_string(corners) + "\""));
+  const auto statistics = nlohmann::json::parse(read_file(folder / "r.json"));
+  EXPECT_EQ(statistics["options"]["basis"], "linear");
+  EXPECT_LE(statistics["closure_defect_moments"], 1e-10);
+  EXPECT_GE(statistics["negative_corners"], 0);
+}
+
+TEST(CliLinearBasis, ShardsCheckpointsAndThreadsGiveTheSameBits) {
+  const TemporaryFolder folder;
+  const Arguments solve = box + Arguments{"-m", "60", "--max-patch-area", "0.3"};
+  const auto expect_ok = [](const Arguments& arguments) {
+    const ProgramResult result = run_program(arguments);
+    ASSERT_EQ(result.status, 0) << result.err;
+  };
+  expect_ok(solve + Arguments{"--out", folder / "whole.csv", "--threads", "1"});
+  const std::string whole = read_file(folder / "whole.csv");
+  expect_ok(solve + Arguments{"--out", folder / "threads.csv", "--threads", "3"});
+  EXPECT_TRUE(read_file(folder / "threads.csv") == whole);
+  for (const char* share : {"1", "2"}) {
+    expect_ok(solve + Arguments{"--shard", std::string(share) + "/2", "--out",
+                                folder / (std::string(share) + ".tsh")});
+  }
+  expect_ok({"merge", folder / "1.tsh", folder / "2.tsh", "--out", folder / "merged.csv", "-q"});
+  EXPECT_TRUE(read_file(folder / "merged.csv") == whole);
+  expect_ok(solve + Arguments{"--checkpoint", folder / "c.tck", "--out", folder / "a.csv"});
+  expect_ok(solve +
+            Arguments{"--checkpoint", folder / "c.tck", "--resume", "--out", folder / "b.csv"});
+  EXPECT_TRUE(read_file(folder / "b.csv") == whole);
+  // A checkpoint of the other basis is refused.
+  const ProgramResult other = run_program({"solve", "cornell-box", "-m", "60", "--max-patch-area",
+                                           "0.3", "--checkpoint", folder / "c.tck", "--resume"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("basis is \"linear\" there and \"constant\" here"));
+}
+
+TEST(CliLinearBasis, CompareMeasuresFunctionsOfDifferentPatches) {
+  const TemporaryFolder folder;
+  const auto solve = [&](const std::string& basis, const std::string& area,
+                         const std::string& name) {
+    const ProgramResult result =
+        run_program({"solve", "cornell-box", "-q", "-m", "64", "--basis", basis, "--max-patch-area",
+                     area, "--out", folder / name});
+    ASSERT_EQ(result.status, 0) << result.err;
+  };
+  solve("constant", "0.01", "fine.vtp");
+  solve("constant", "0.3", "constant.vtp");
+  solve("linear", "0.3", "linear.vtp");
+  const auto error = [&](const std::string& name) {
+    const ProgramResult result =
+        run_program({"compare", folder / "fine.vtp", folder / name, "--functions"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::size_t at = result.out.find("that of A; ");
+    return at == std::string::npos ? -1.0 : std::stod(result.out.substr(at + 11));
+  };
+  EXPECT_EQ(error("fine.vtp"), 0);
+  EXPECT_GT(error("linear.vtp"), 0.005);
+  EXPECT_LT(error("linear.vtp"), 0.6 * error("constant.vtp"));
+}
+
+}  // namespace
+}  // namespace transillum::testing
