@@ -17,7 +17,7 @@
 #include <limits>
 #include <random>
 
-#include "io/results/vtp_output.h"
+#include "io/vtk/vtp_output.h"
 #include "program_run.h"
 #include "support/refusal.h"
 #include "support/scenes.h"

@@ -1,9 +1,10 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include "transillum/export.h"
 #include "transillum/radiosity.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// How far the radiosity of one result is from that of another, as functions on the surfaces.
 struct FunctionDifference {
@@ -24,4 +25,4 @@ struct FunctionDifference {
 /// @throws InputError where the faces of the two differ in number or area.
 FunctionDifference compare_functions(const Solution& reference, const Solution& other);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

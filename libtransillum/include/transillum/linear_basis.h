@@ -7,10 +7,11 @@
 #include <array>
 #include <vector>
 
+#include "transillum/export.h"
 #include "transillum/scene.h"
 #include "transillum/vec3.h"
 
-namespace transillum {
+namespace TRANSILLUM_API transillum {
 
 /// Two functions on a patch that span, with the constant 1, its linear functions, and are
 /// orthogonal to it and to each other: with phi_0 = 1, ∫ phi_a phi_b = A if a = b, else 0. phi_1
@@ -39,4 +40,4 @@ LinearBasis linear_basis(const Scene& scene, PatchId i);
 /// The bases of all patches, by PatchId.
 std::vector<LinearBasis> linear_bases(const Scene& scene);
 
-}  // namespace transillum
+}  // namespace TRANSILLUM_API transillum

@@ -53,6 +53,7 @@ const std::map<std::string, Setter>& setters() {
        [](Options& o, Value v) { o.engine_options.order = painters_order_from_name(text(v)); }},
       {"random-lines", [](Options& o, Value v) { o.engine_options.gridded = !number<bool>(v); }},
       {"two-way", [](Options& o, Value v) { o.two_way = number<bool>(v); }},
+      {"basis", [](Options& o, Value v) { o.basis = basis_from_name(text(v)); }},
       {"normalize", [](Options& o, Value v) { o.normalize = normalization_from_name(text(v)); }},
       {"scheme", [](Options& o, Value v) { o.scheme = scheme_from_name(text(v)); }},
       {"first-shot",

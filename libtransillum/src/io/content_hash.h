@@ -1,12 +1,8 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
-#include <vtksys/MD5.h>
-
-#include <algorithm>
-#include <array>
+#include <boost/uuid/detail/md5.hpp>
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <type_traits>
 
@@ -17,8 +13,6 @@ namespace transillum {
 /// MD5: detects accidental changes, not deliberate ones.
 class ContentHash {
  public:
-  ContentHash() : md5_(vtksysMD5_New(), vtksysMD5_Delete) { vtksysMD5_Initialize(md5_.get()); }
-
   template <typename Value>
   void add(const Value& value) {
     static_assert(std::has_unique_object_representations_v<Value> ||
@@ -61,24 +55,12 @@ class ContentHash {
     }
   }
   /// The hash as 32 hexadecimal digits; may be called once.
-  std::string digits() {
-    std::array<char, 32> text{};
-    vtksysMD5_FinalizeHex(md5_.get(), text.data());
-    return {text.data(), text.size()};
-  }
+  std::string digits();
 
  private:
-  void append(const void* data, std::size_t size) {
-    // MD5.h counts in int, and a negative length means "up to the final zero".
-    constexpr std::size_t max_block = 1U << 30;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t done = 0; done < size; done += max_block) {
-      vtksysMD5_Append(md5_.get(), bytes + done,
-                       static_cast<int>(std::min(max_block, size - done)));
-    }
-  }
+  void append(const void* data, std::size_t size);
 
-  std::unique_ptr<vtksysMD5, void (*)(vtksysMD5*)> md5_;
+  boost::uuids::detail::md5 md5_;
 };
 
 }  // namespace transillum

@@ -4,7 +4,6 @@
 // (COLOR_0), or with a light map and its coordinates (TEXCOORD_0), and a material without lighting
 // (KHR_materials_unlit), a node per group. Input: the convex pieces of the patches.
 #include <fmt/format.h>
-#include <vtkBase64Utilities.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include <optional>
 #include <ostream>
 
+#include "base/base64.h"
 #include "io/results/light_map.h"
 #include "io/results/result_writers.h"
 #include "transillum/at.h"
@@ -258,12 +258,8 @@ void write_result_glb(std::ostream& out, const Solution& solution, const Display
 
 void write_result_gltf(std::ostream& out, const Solution& solution, const DisplayOptions& display) {
   GltfDocument document(solution, display);
-  const std::string& buffer = document.buffer();
-  std::string base64(4 * ((buffer.size() + 2) / 3), '\0');
-  vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(buffer.data()),
-                             static_cast<unsigned long>(buffer.size()),
-                             reinterpret_cast<unsigned char*>(base64.data()), 0);
-  out << document.text("data:application/octet-stream;base64," + base64) << '\n';
+  out << document.text("data:application/octet-stream;base64," + to_base64(document.buffer()))
+      << '\n';
 }
 
 }  // namespace transillum

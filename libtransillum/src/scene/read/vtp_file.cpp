@@ -7,7 +7,6 @@
 
 #include <expat.h>
 #include <fmt/format.h>
-#include <vtkBase64Utilities.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <cstring>
 #include <memory>
 
+#include "base/base64.h"
 #include "base/text_file.h"
 #include "transillum/errors.h"
 
@@ -463,7 +463,7 @@ std::vector<Value> VtpFile::values_in_text(const Array& array, std::size_t most)
 std::vector<unsigned char> VtpFile::bytes_at(const Array& array, std::size_t begin,
                                              std::size_t count) const {
   const std::size_t left = array.end - std::min(begin, array.end);
-  const auto* const from = reinterpret_cast<const unsigned char*>(text_.data()) + begin;
+  const char* const from = text_.data() + begin;
   if (array.form == Form::raw) {
     if (count > left) {
       refuse();
@@ -473,12 +473,10 @@ std::vector<unsigned char> VtpFile::bytes_at(const Array& array, std::size_t beg
   if (count > left / 4 * 3) {
     refuse();
   }
-  const std::size_t letters = base64_size(count);
-  std::vector<unsigned char> decoded(letters / 4 * 3);
-  if (vtkBase64Utilities::DecodeSafely(from, letters, decoded.data(), decoded.size()) < count) {
+  std::vector<unsigned char> decoded(count);
+  if (!from_base64({from, base64_size(count)}, decoded)) {
     refuse();
   }
-  decoded.resize(count);
   return decoded;
 }
 

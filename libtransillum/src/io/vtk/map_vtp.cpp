@@ -5,7 +5,7 @@
 #include <vtkPolyData.h>
 
 #include "io/maps/map_writers.h"
-#include "io/results/vtp_output.h"
+#include "io/vtk/vtp_output.h"
 #include "transillum/at.h"
 
 namespace transillum {

@@ -12,7 +12,7 @@
 
 #include "io/results/result_figures.h"
 #include "io/results/result_writers.h"
-#include "io/results/vtp_output.h"
+#include "io/vtk/vtp_output.h"
 #include "transillum/at.h"
 
 namespace transillum {

@@ -1,7 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
 // From the description of a LineChart to the axes and plots of a vtkChartXY.
-#include "io/charts/chart_plots.h"
+#include "io/vtk/chart_plots.h"
 
 #include <vtkAxis.h>
 #include <vtkBrush.h>
@@ -16,7 +16,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/charts/cairo_context_device.h"
+#include "io/vtk/cairo_context_device.h"
 
 namespace transillum {
 namespace {

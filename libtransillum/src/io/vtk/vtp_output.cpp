@@ -1,5 +1,5 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
-#include "io/results/vtp_output.h"
+#include "io/vtk/vtp_output.h"
 
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/charts/chart_painter.h"
 #include "io/clean_text.h"
 #include "io/file_ending.h"
+#include "io/vtk/chart_painter.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/line_chart.h"

@@ -2,7 +2,7 @@
 //
 // Lays out a LineChart (title, axes, plot, legend) and paints it: the plot by VTK's chart, all text
 // and the legend directly. Lengths are in user units of the Cairo context.
-#include "io/charts/chart_painter.h"
+#include "io/vtk/chart_painter.h"
 
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
@@ -14,9 +14,9 @@
 #include <numeric>
 #include <string>
 
-#include "io/charts/cairo_context_device.h"
-#include "io/charts/chart_plots.h"
 #include "io/clean_text.h"
+#include "io/vtk/cairo_context_device.h"
+#include "io/vtk/chart_plots.h"
 
 namespace transillum {
 namespace {

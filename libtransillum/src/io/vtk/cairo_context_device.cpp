@@ -2,7 +2,7 @@
 //
 // The drawing primitives that VTK's charts call, on Cairo. Colors, widths and fonts come from the
 // pen, brush and text properties of vtkContextDevice2D.
-#include "io/charts/cairo_context_device.h"
+#include "io/vtk/cairo_context_device.h"
 
 #include <vtkBrush.h>
 #include <vtkMatrix3x3.h>
