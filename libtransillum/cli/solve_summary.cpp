@@ -187,9 +187,11 @@ std::vector<std::string> solve_warnings(const Solution& solution) {
   if (solution.error.replicas > 0 && met > 0 && met < least_light_directions) {
     warnings.push_back(
         fmt::format("the error estimate cannot be trusted: in a replica, a patch is lit directly "
-                    "along only {:.2g} directions, as an average by light; {} are needed. "
-                    "--first-shot 0 treats the sources separately; or give more --directions",
-                    met, least_light_directions));
+                    "along only {:.2g} directions, as an average by light; {} are needed. {}",
+                    met, least_light_directions,
+                    solution.linear_parts.empty()
+                        ? "--first-shot 0 treats the sources separately; or give more --directions"
+                        : "Give more --directions"));
   }
   return warnings;
 }

@@ -45,6 +45,7 @@ struct StudyCall {
   std::vector<Scheme> schemes{Scheme::fixed};
   std::vector<std::optional<double>> first_shots{std::nullopt};
   std::vector<StudiedEngine> engines{{Engine::fast, 0}};
+  std::vector<Basis> bases{Basis::constant};
   bool one_way = false, two_way = false;
   StudyOptions study;
   StudyAxis against = StudyAxis::passes;
@@ -84,8 +85,10 @@ std::vector<StudySeries> all_combinations(const StudyCall& call) {
         for (const Scheme scheme : call.schemes) {
           for (const std::optional<double>& first_shot : call.first_shots) {
             for (const StudiedEngine& studied : call.engines) {
-              all.push_back({sampling, two_way, normalize, scheme, first_shot, studied.engine,
-                             resolution_of(studied)});
+              for (const Basis basis : call.bases) {
+                all.push_back({sampling, two_way, normalize, scheme, first_shot, studied.engine,
+                               resolution_of(studied), basis});
+              }
             }
           }
         }
@@ -382,6 +385,12 @@ void add_series_options(CLI::App& command, StudyCall& call) {
   add_list_option(command, "--scheme", "NAME,...",
                   fmt::format("{} (default fixed)", fmt::join(scheme_names(), " | ")), call.schemes,
                   [](const std::string& text) { return std::vector{scheme_from_name(text)}; });
+  add_list_option(command, "--basis", "NAME,...",
+                  fmt::format("{} (default constant); with linear, errors are L2 norms of "
+                              "functions, against a linear reference",
+                              fmt::join(basis_names(), " | ")),
+                  call.bases,
+                  [](const std::string& text) { return std::vector{basis_from_name(text)}; });
   add_list_option(command, "--first-shot", "RATIO,...",
                   "none | auto | a number: treat small bright sources separately, as in solve; the "
                   "reference does so if any series does (default none)",

@@ -147,6 +147,55 @@ TEST(LinearClosedForms, IrradianceFromARectangleIntegratedAgainstTheBasis) {
   }
 }
 
+/// L2 error of B on the unit square z = 0 below a rectangle, over the L2 norm of B.
+double error_below_a_rectangle(Basis basis, double max_patch_area) {
+  Sketch sketch;
+  const int dark = sketch.material(0.5, 0), light = sketch.material(0, 1);
+  sketch.face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, dark);
+  sketch.face({{0.2, 0.9, 0.8}, {0.8, 0.9, 0.8}, {0.8, 0.3, 0.8}, {0.2, 0.3, 0.8}}, light);
+  const auto scene = sketch.scene({.max_patch_area = max_patch_area});
+  const Solution solution = solve(scene, {.directions = 8192, .basis = basis});
+  double errors = 0, values = 0;
+  for (PatchId i = 0; i < scene->patch_count(); ++i) {
+    if (scene->exitance(i).r > 0) {
+      continue;
+    }
+    Bounds box;
+    for (const PointId p : scene->outline(i)) {
+      box.add(scene->point(p));
+    }
+    const LinearBasis functions = linear_basis(*scene, i);
+    constexpr int points = 20;
+    for (int k = 0; k < points * points; ++k) {
+      const double x = box.low.x + (box.high.x - box.low.x) * (k % points + 0.5) / points;
+      const double y = box.low.y + (box.high.y - box.low.y) * (k / points + 0.5) / points;
+      const double expected = 0.5 * point_to_rectangle(x, y, 0.8, 0.2, 0.8, 0.3, 0.9);
+      double b = at(solution.radiosity, i).r;
+      if (basis == Basis::linear) {
+        const auto phi = functions.at({x, y, 0});
+        b += phi[0] * at(solution.linear_parts, i).first.r +
+             phi[1] * at(solution.linear_parts, i).second.r;
+      }
+      const double weight = scene->patch(i).area;
+      errors += weight * (b - expected) * (b - expected);
+      values += weight * expected * expected;
+    }
+  }
+  return std::sqrt(errors / values);
+}
+
+/// Where light is smooth, halving the patches' size divides the error by 4 instead of 2.
+TEST(LinearConvergence, IsOfSecondOrderWhereLightIsSmooth) {
+  const double coarse = error_below_a_rectangle(Basis::linear, 0.25);
+  const double fine = error_below_a_rectangle(Basis::linear, 0.0625);
+  EXPECT_NEAR(coarse / fine, 4, 0.5);
+  EXPECT_LT(coarse, 0.05);
+  const double coarse_steps = error_below_a_rectangle(Basis::constant, 0.25);
+  const double fine_steps = error_below_a_rectangle(Basis::constant, 0.0625);
+  EXPECT_NEAR(coarse_steps / fine_steps, 2, 0.2);
+  EXPECT_LT(8 * fine, fine_steps);
+}
+
 /// Half of a patch below a screen: the Galerkin projection of a step. B falls below 0 at the dark
 /// end, is kept so, and is counted.
 TEST(LinearCorners, BelowZeroAreKeptAndCounted) {

@@ -274,6 +274,22 @@ TEST(Study, RejectsInvalidOptions) {
                InputError);
 }
 
+/// The error of a constant on a patch where the reference is linear is the norm of its linear part.
+TEST(FunctionError, IsTheL2NormOfFunctions) {
+  const Scene& scene = *box().scene;
+  const std::size_t patches = scene.patches().size();
+  std::vector<Rgb> reference(3 * patches), constant(patches, {2, 2, 2});
+  for (std::size_t i = 0; i < patches; ++i) {
+    reference[3 * i] = {2, 2, 2};
+    reference[3 * i + 1] = {0.3, 0.3, 0.3};
+    reference[3 * i + 2] = {-0.4, -0.4, -0.4};
+  }
+  EXPECT_EQ(function_error(scene, reference, reference).rms, 0);
+  const RadiosityError error = function_error(scene, constant, reference);
+  EXPECT_NEAR(error.rms, 0.5 / std::sqrt(4.25), 1e-12);
+  EXPECT_NEAR(error.max, 0.2, 1e-12);
+}
+
 /// A difference in any byte of the key is a miss.
 TEST(ReferenceCache, FindsWhatItStoredAndNothingElse) {
   const TemporaryFolder folder;

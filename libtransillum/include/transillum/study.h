@@ -33,6 +33,13 @@ struct RadiosityError {
 /// @param reference W/m², one per patch.
 RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>& reference);
 
+/// The same of functions: `rms` is the L2 norm of the difference over that of the reference, `max`
+/// the largest magnitude of a coefficient's difference over the largest of the reference.
+/// @param b the coefficients of each patch: its mean, or also those of a LinearPart.
+/// @param reference three coefficients for each patch.
+RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
+                              const std::vector<Rgb>& reference);
+
 /// A member of RadiosityError.
 enum class ErrorMeasure {
   rms,  ///< RadiosityError::rms
@@ -57,6 +64,7 @@ struct StudySeries {
   std::optional<double> first_shot = {};          ///< SolveOptions::first_shot
   Engine engine = Engine::fast;                   ///< SolveOptions::engine
   int resolution = 0;  ///< EngineOptions::resolution; of engine pairs EngineOptions::points
+  Basis basis = Basis::constant;  ///< SolveOptions::basis
 
   /// Exact comparison of all members.
   friend bool operator==(const StudySeries&, const StudySeries&) = default;
@@ -89,7 +97,10 @@ struct StudyOptions {
 
   /// The options of one solve.
   SolveOptions solve_options(const StudySeries& of, int passes, int rotation = 0) const;
-  /// The options of the reference solve, with a first shot if any series has one.
+  /// Whether errors are those of functions, because the basis of any series is linear.
+  bool of_functions() const;
+  /// The options of the reference solve, with a first shot, or a linear basis, if any series has
+  /// one.
   /// @param passes 0: four times the largest number studied.
   SolveOptions reference(int passes = 0) const;
   /// @throws InputError, also for series that SolveOptions::validate rejects.
@@ -145,7 +156,7 @@ struct Study {
 /// @param options StudyOptions::reference().
 /// @param observer if set, called after every pass.
 /// @param cancellation checked during the solve.
-/// @returns B, W/m², one per patch.
+/// @returns B, W/m², one per patch; with Basis::linear three coefficients per patch.
 /// @throws InputError, Canceled, std::runtime_error
 std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
                                  const std::shared_ptr<const BspTree>& tree,
@@ -157,7 +168,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
 /// @param scene the scene.
 /// @param tree BSP tree of `scene`, used by all solves.
 /// @param options series, values of M and common settings.
-/// @param reference B, W/m², one per patch.
+/// @param reference of solve_reference().
 /// @param observer if set, called after every pass and every point.
 /// @param cancellation when set, the points done so far are returned.
 /// @param done points of an earlier call with the same arguments, in the order of

@@ -47,6 +47,9 @@ void add_options(ContentHash& hash, const SolveOptions& options) {
   constexpr double no_shot = -2;  // no value that the option can have
   hash.add(options.first_shot.value_or(no_shot));
   hash.add(options.tolerance);
+  if (options.basis != Basis::constant) {
+    hash.add(name_of(options.basis));
+  }
   if (options.sky.set()) {
     hash.add(options.sky.exitance);
     hash.add(name_of(options.sky.model));
@@ -103,7 +106,8 @@ std::optional<std::vector<Rgb>> ReferenceCache::find(const Scene& scene,
   }
   const std::string key = key_of(scene, options);
   const std::string head = first_line(key);
-  std::vector<Rgb> radiosity(static_cast<std::size_t>(scene.patch_count()));
+  const std::size_t per_patch = options.basis == Basis::linear ? 3 : 1;
+  std::vector<Rgb> radiosity(per_patch * static_cast<std::size_t>(scene.patch_count()));
   const std::size_t size = radiosity.size() * sizeof(Rgb);
   std::string found_head(head.size(), '\0'), digits(32, '\0');
 

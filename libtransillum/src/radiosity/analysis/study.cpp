@@ -42,15 +42,29 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The values of patches that do not emit.
-std::vector<Rgb> of_dark_patches(const Scene& scene, const std::vector<Rgb>& values) {
-  std::vector<Rgb> dark;
-  for (PatchId i = 0; i < scene.patch_count(); ++i) {
-    if (max_abs(scene.exitance(i)) == 0) {
-      dark.push_back(at(values, i));
+/// The values with 0 for patches that emit.
+std::vector<Rgb> of_dark_patches(const Scene& scene, std::vector<Rgb> values) {
+  const std::size_t per_patch = values.size() / scene.patches().size();
+  for (std::size_t u = 0; u < values.size(); ++u) {
+    if (max_abs(scene.exitance(static_cast<PatchId>(u / per_patch))) > 0) {
+      values[u] = {};
     }
   }
-  return dark;
+  return values;
+}
+
+/// B of each patch, with a linear basis followed by its linear part.
+std::vector<Rgb> coefficients_of(const RadiositySolver& solver) {
+  const std::vector<LinearPart> parts = solver.linear_parts();
+  if (parts.empty()) {
+    return solver.radiosity();
+  }
+  std::vector<Rgb> coefficients;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    coefficients.insert(coefficients.end(),
+                        {solver.radiosity()[i], parts[i].first, parts[i].second});
+  }
+  return coefficients;
 }
 
 /// As on the command line: `zbuffer:256`, or `fast`.
@@ -83,7 +97,8 @@ class StudyRun {
     if (std::all_of(reference_.begin(), reference_.end(),
                     [](const Rgb& b) { return max_abs(b) == 0; })) {
       throw InputError(fmt::format("{}: the reference is 0{}, so relative errors are undefined",
-                                   scene_->name(), reference_.empty() ? " except on sources" : ""));
+                                   scene_->name(),
+                                   options.without_sources ? " except on sources" : ""));
     }
   }
 
@@ -164,7 +179,9 @@ class StudyRun {
           report(series, static_cast<int>(point.passes));
         });
     point.directions = solution.statistics.directions;
-    const RadiosityError error = radiosity_error(compared(solution.radiosity), reference_);
+    const std::vector<Rgb> b = compared(solution.radiosity);
+    const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
+                                                         : radiosity_error(b, reference_);
     point.rms_error = error.rms;
     point.max_error = error.max;
     point.seconds = processor_seconds() - start;
@@ -188,7 +205,9 @@ class StudyRun {
       return true;
     });
     done_passes_ = before + expected;
-    const RadiosityError error = radiosity_error(compared(solver.radiosity()), reference_);
+    const std::vector<Rgb> b = compared(coefficients_of(solver));
+    const RadiosityError error = options_.of_functions() ? function_error(*scene_, b, reference_)
+                                                         : radiosity_error(b, reference_);
     const double share = 1.0 / options_.rotations;
     point.rms_error += share * error.rms * error.rms;
     point.max_error = std::max(point.max_error, error.max);
@@ -255,6 +274,30 @@ RadiosityError radiosity_error(const std::vector<Rgb>& b, const std::vector<Rgb>
   return {std::sqrt(squares / reference_squares), largest / reference_largest};
 }
 
+RadiosityError function_error(const Scene& scene, const std::vector<Rgb>& b,
+                              const std::vector<Rgb>& reference) {
+  const std::size_t patches = scene.patches().size(), per_patch = b.size() / patches;
+  constexpr std::size_t functions = 3;
+  double area = 0;
+  for (const Patch& patch : scene.patches()) {
+    area += patch.area;
+  }
+  // By Parseval, ∫ B² = A (b_0² + b_1² + b_2²).
+  std::vector<Rgb> values(reference.size()), weighted(reference.size()),
+      weighted_reference(reference.size());
+  for (std::size_t i = 0; i < patches; ++i) {
+    const double weight = std::sqrt(scene.patches()[i].area / area);
+    for (std::size_t a = 0; a < functions; ++a) {
+      const std::size_t u = functions * i + a;
+      values[u] = a < per_patch ? b[per_patch * i + a] : Rgb{};
+      weighted[u] = weight * values[u];
+      weighted_reference[u] = weight * reference[u];
+    }
+  }
+  return {radiosity_error(weighted, weighted_reference).rms,
+          radiosity_error(values, reference).max};
+}
+
 const std::vector<std::string>& error_measure_names() {
   static const std::vector<std::string> names{"rms", "max"};
   return names;
@@ -293,6 +336,8 @@ std::vector<std::string> names_of(std::span<const StudySeries> series) {
                       [](Normalization n) { return name_of(n); });
   append_if_different([](const StudySeries& s) { return s.scheme; },
                       [](Scheme s) { return name_of(s); });
+  append_if_different([](const StudySeries& s) { return s.basis; },
+                      [](Basis basis) { return name_of(basis); });
   append_if_different([](const StudySeries& s) { return std::pair(s.engine, s.resolution); },
                       [](const auto& how) { return engine_text(how.first, how.second); });
   append_if_different([](const StudySeries& s) { return s.first_shot; },
@@ -318,6 +363,7 @@ SolveOptions StudyOptions::solve_options(const StudySeries& of, int passes, int 
   options.scheme = of.scheme;
   options.first_shot = of.first_shot;
   options.engine = of.engine;
+  options.basis = of.basis;
   (of.engine == Engine::pairs ? options.engine_options.points : options.engine_options.resolution) =
       of.resolution;
   if (of.scheme == Scheme::semi_iterative && options.averaged_iterations == 0) {
@@ -345,6 +391,11 @@ double expected_iterations_with_passes(const SolveOptions& options, double rho_m
   return burn_in + options.averaged_iterations;
 }
 
+bool StudyOptions::of_functions() const {
+  return std::any_of(series.begin(), series.end(),
+                     [](const StudySeries& one) { return one.basis == Basis::linear; });
+}
+
 SolveOptions StudyOptions::reference(int passes) const {
   if (passes == 0) {
     const int most = *std::max_element(directions.begin(), directions.end());
@@ -353,6 +404,10 @@ SolveOptions StudyOptions::reference(int passes) const {
   SolveOptions options = reference_options(passes);
   options.memory = solve.memory;
   options.threads = solve.threads;
+  if (of_functions()) {
+    options.basis = Basis::linear;
+    return options;  // a linear basis has no first shot
+  }
   for (const StudySeries& one : series) {
     if (!one.first_shot) {
       continue;
@@ -394,7 +449,7 @@ std::vector<Rgb> solve_reference(const std::shared_ptr<const Scene>& scene,
     }
     return true;
   });
-  return solver.radiosity();
+  return coefficients_of(solver);
 }
 
 Study run_study(const std::shared_ptr<const Scene>& scene,
@@ -402,9 +457,10 @@ Study run_study(const std::shared_ptr<const Scene>& scene,
                 const std::vector<Rgb>& reference, const StudyObserver& observer,
                 const Cancellation& cancellation, std::span<const StudyPoint> done) {
   options.validate();
-  if (reference.size() != scene->patches().size()) {
+  const std::size_t per_patch = options.of_functions() ? 3 : 1;
+  if (reference.size() != per_patch * scene->patches().size()) {
     throw InputError(fmt::format("study: the reference has {} patches, the scene {}",
-                                 reference.size(), scene->patch_count()));
+                                 reference.size() / per_patch, scene->patch_count()));
   }
   std::vector<int> ascending = options.directions;
   std::sort(ascending.begin(), ascending.end());

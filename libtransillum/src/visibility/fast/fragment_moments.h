@@ -20,7 +20,11 @@ class FragmentMoments {
   /// @param bases of all patches of `scene`
   FragmentMoments(const Scene& scene, std::shared_ptr<const std::vector<LinearBasis>> bases,
                   const ProjectedFragments& projected)
-      : scene_(scene), bases_(std::move(bases)), projected_(projected), patches_(bases_->size()) {}
+      : scene_(scene),
+        bases_(std::move(bases)),
+        projected_(projected),
+        largest_(largest_values(scene, *bases_)),
+        patches_(bases_->size()) {}
 
   /// Carries the functions of all patches that have fragments to the plane of the direction.
   void begin() {
@@ -84,7 +88,8 @@ class FragmentMoments {
     OfPatch& patch = at(patches_, i);
     const LinearBasis& basis = at(*bases_, i);
     const PlaneFrame& frame = projected_.grid.frame;
-    patch.gradient = gradient_on_plane(basis, scene_.patch(i).normal, frame, projected_.grid.unit);
+    patch.gradient = gradient_on_plane(basis, at(largest_, i), scene_.patch(i).normal, frame,
+                                       projected_.grid.unit);
     patch.center = projected_.grid.point_at(basis.center);
     patch.ready = true;
   }
@@ -102,6 +107,7 @@ class FragmentMoments {
   const Scene& scene_;
   std::shared_ptr<const std::vector<LinearBasis>> bases_;
   const ProjectedFragments& projected_;
+  std::vector<std::array<double, 2>> largest_;
   std::vector<OfPatch> patches_;
   double unit_ = 1;  ///< m² per square grid unit
 };

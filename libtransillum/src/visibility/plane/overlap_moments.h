@@ -14,10 +14,13 @@
 // triangle of the apex, p and q. `rise` of a function is its value less that at the apex.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
+#include "transillum/at.h"
 #include "transillum/linear_basis.h"
 #include "transillum/transfers.h"
 #include "transillum/visibility_map.h"
@@ -27,14 +30,34 @@ namespace transillum {
 /// Gradients of phi_1 and phi_2 of a patch on the transillumination plane, along its x and y.
 struct BasisGradient {
   std::array<double, 2> x{}, y{};
+  std::array<double, 2> largest{};  ///< magnitudes on the patch
 };
 
+/// The largest magnitudes of phi_1 and phi_2 on each patch: those at its corners. They bound the
+/// moments of an overlap by its area, also where it is narrower than the rounding of its corners.
+inline std::vector<std::array<double, 2>> largest_values(const Scene& scene,
+                                                         const std::vector<LinearBasis>& bases) {
+  std::vector<std::array<double, 2>> largest(bases.size());
+  for (PatchId i = 0; i < scene.patch_count(); ++i) {
+    for (const PointId p : scene.outline(i)) {
+      const std::array<double, 2> values = at(bases, i).at(scene.point(p));
+      for (std::size_t a = 0; a < 2; ++a) {
+        at(largest, i)[a] = std::max(at(largest, i)[a], std::abs(values[a]));
+      }
+    }
+  }
+  return largest;
+}
+
 /// The functions of a patch, carried along omega from its plane to the transillumination plane.
+/// @param largest of largest_values()
 /// @param unit of the plane's coordinates, m
-inline BasisGradient gradient_on_plane(const LinearBasis& basis, const Vec3& normal,
+inline BasisGradient gradient_on_plane(const LinearBasis& basis,
+                                       const std::array<double, 2>& largest, const Vec3& normal,
                                        const PlaneFrame& frame, double unit = 1) {
   constexpr double edge_on = 1e-14;
   BasisGradient gradient;
+  gradient.largest = largest;
   const double cosine = dot(normal, frame.omega);
   if (std::abs(cosine) < edge_on) {
     return gradient;
@@ -54,10 +77,11 @@ template <class Real>
 struct BasisAtApex {
   std::array<Real, 2> value;  ///< at the apex
   std::array<Real, 2> x, y;   ///< gradient
+  std::array<double, 2> largest;
 
   /// @param dx, dy the apex less the projected center of the patch
   template <class Wide>
-  BasisAtApex(const BasisGradient& gradient, Wide dx, Wide dy) {
+  BasisAtApex(const BasisGradient& gradient, Wide dx, Wide dy) : largest(gradient.largest) {
     for (std::size_t a = 0; a < 2; ++a) {
       value[a] = static_cast<Real>(gradient.x[a] * dx + gradient.y[a] * dy);
       x[a] = static_cast<Real>(gradient.x[a]);
@@ -66,6 +90,13 @@ struct BasisAtApex {
   }
   Real rise(std::size_t a, Real px, Real py) const { return x[a] * px + y[a] * py; }
 };
+
+/// An integral, which no rounding may take beyond `bound` >= 0 in magnitude.
+template <class Real>
+double bounded(Real integral, double bound) {
+  const auto value = static_cast<double>(integral);
+  return value < -bound ? -bound : value > bound ? bound : value;
+}
 
 /// Integrals of phi_1 and phi_2 over a region.
 template <class Real>
@@ -85,8 +116,9 @@ class RegionMoments {
   std::array<double, 2> finish(double area, double unit) const {
     std::array<double, 2> moments;
     for (std::size_t a = 0; a < 2; ++a) {
-      moments[a] = static_cast<double>(basis_.value[a] * static_cast<Real>(area) +
-                                       first_[a] * static_cast<Real>(unit) / 6);
+      moments[a] = bounded(
+          basis_.value[a] * static_cast<Real>(area) + first_[a] * static_cast<Real>(unit) / 6,
+          basis_.largest[a] * area);
     }
     return moments;
   }
@@ -135,13 +167,14 @@ class OverlapMoments {
     moments.of(0, 0) = area;
     for (std::size_t a = 0; a < 2; ++a) {
       const Real own = first_own_[a] * sixth;
-      moments.of(a + 1, 0) = static_cast<double>(own_.value[a] * m0 + own);
-      moments.of(0, a + 1) = static_cast<double>(other_.value[a] * m0 + first_other_[a] * sixth);
+      moments.of(a + 1, 0) = bounded(own_.value[a] * m0 + own, own_.largest[a] * area);
+      moments.of(0, a + 1) =
+          bounded(other_.value[a] * m0 + first_other_[a] * sixth, other_.largest[a] * area);
       for (std::size_t b = 0; b < 2; ++b) {
         const Real other = first_other_[b] * sixth;
-        moments.of(a + 1, b + 1) =
-            static_cast<double>((own_.value[a] * m0 + own) * other_.value[b] +
-                                own_.value[a] * other + second_[a][b] * twelfth);
+        moments.of(a + 1, b + 1) = bounded((own_.value[a] * m0 + own) * other_.value[b] +
+                                               own_.value[a] * other + second_[a][b] * twelfth,
+                                           own_.largest[a] * other_.largest[b] * area);
       }
     }
     return moments;

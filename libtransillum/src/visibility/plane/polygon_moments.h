@@ -17,10 +17,12 @@ class PolygonMoments {
  public:
   PolygonMoments(const Scene& scene, const std::vector<LinearBasis>& bases,
                  const BasicProjection<Number>& projection) {
+    const std::vector<std::array<double, 2>> largest = largest_values(scene, bases);
     patches_.reserve(bases.size());
     for (PatchId i = 0; i < scene.patch_count(); ++i) {
-      patches_.push_back({gradient_on_plane(at(bases, i), scene.patch(i).normal, projection.frame),
-                          projection.project(at(bases, i).center)});
+      patches_.push_back(
+          {gradient_on_plane(at(bases, i), at(largest, i), scene.patch(i).normal, projection.frame),
+           projection.project(at(bases, i).center)});
     }
   }
 
