@@ -227,6 +227,8 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+void with_definitions(const std::function<void(const CLI::App&)>& use) { use(Program().app); }
+
 void prepare_process() {
   occupy_closed_streams();
   load_unwinder();

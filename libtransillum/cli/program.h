@@ -1,7 +1,12 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <string_view>
+
+namespace CLI {
+class App;
+}
 
 namespace transillum::cli {
 
@@ -15,5 +20,8 @@ inline constexpr int failed_elsewhere = -1;
 /// @param report prints the message of an error
 /// @returns the exit status, or failed_elsewhere
 int run_program(int argc, char** argv, void (*report)(std::string_view) noexcept);
+
+/// Passes the definitions of all commands and options on, for manual pages and completions.
+void with_definitions(const std::function<void(const CLI::App&)>& use);
 
 }  // namespace transillum::cli

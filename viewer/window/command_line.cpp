@@ -228,41 +228,59 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   }
 }
 
-}  // namespace
-
-ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
-                                     std::ostream& error) {
-  ParsedCommandLine parsed;
-  CommandLine& line = parsed.command_line;
-  Names names;
-  names.engine = name_of(line.solve_options.engine);
-  names.normalize = name_of(line.solve_options.normalize);
-  names.scheme = name_of(line.solve_options.scheme);
-
-  CLI::App app("Shows how the light in a diffuse scene converges, direction by direction.",
-               "transillum-viewer");
-  app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
-  app.add_option("SCENE", line.scene,
-                 "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
-                 "result (.vtp), a session or a lesson (.json)");
-  add_solve_options(app, line, names);
-  add_scene_options(app, line);
+/// The lesson and the screenshot.
+void add_window_options(CLI::App& app, CommandLine& line) {
   auto* lesson =
-      app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson");
+      app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson")
+          ->type_name("FILE.json|N");
   app.add_option("--page", line.page, "page of the lesson to start at")
       ->needs(lesson)
       ->check(CLI::PositiveNumber);
   auto* screenshot =
-      app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit");
+      app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit")
+          ->type_name("FILE.png");
   app.add_option(
          "--after", line.after,
          "number of directions before the screenshot (default: until the solve has converged, "
          "with 128 directions if -m is not given; none for a result)")
       ->needs(screenshot)
       ->check(CLI::PositiveNumber);
+}
+
+/// The definitions, and where they put what they parse.
+struct Definitions {
+  CLI::App app{"Shows how the light in a diffuse scene converges, direction by direction.",
+               "transillum-viewer"};
+  CommandLine line;
+  Names names;
+
+  Definitions() {
+    names.engine = name_of(line.solve_options.engine);
+    names.normalize = name_of(line.solve_options.normalize);
+    names.scheme = name_of(line.solve_options.scheme);
+    app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
+    app.add_option("SCENE", line.scene,
+                   "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "
+                   "result (.vtp), a session or a lesson (.json)");
+    add_solve_options(app, line, names);
+    add_scene_options(app, line);
+    add_window_options(app, line);
+  }
+};
+
+}  // namespace
+
+void with_definitions(const std::function<void(const CLI::App&)>& use) { use(Definitions().app); }
+
+ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
+                                     std::ostream& error) {
+  ParsedCommandLine parsed;
+  Definitions definitions;
+  CLI::App& app = definitions.app;
   try {
     app.parse(argc, argv);
-    finish(line, names, app);
+    finish(definitions.line, definitions.names, app);
+    parsed.command_line = definitions.line;
   } catch (const CLI::Success& request) {  // --help, --version
     parsed.exit_now = true;
     parsed.exit_status = app.exit(request, out, error);

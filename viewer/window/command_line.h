@@ -1,12 +1,17 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 
 #include "model/run_options.h"
 #include "transillum/radiosity.h"
 #include "transillum/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace transillum::viewer {
 
@@ -33,5 +38,8 @@ struct ParsedCommandLine {
 /// Writes help to `out`, and an error in the arguments as one line to `error` (status 2).
 ParsedCommandLine parse_command_line(int argc, const char* const* argv, std::ostream& out,
                                      std::ostream& error);
+
+/// Passes the definitions of the options on, for the manual page and completions.
+void with_definitions(const std::function<void(const CLI::App&)>& use);
 
 }  // namespace transillum::viewer
