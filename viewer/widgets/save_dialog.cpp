@@ -7,11 +7,11 @@
 namespace transillum::viewer {
 
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,
-                           const QString& proposed) {
+                           const QString& proposed, const QString& suffix) {
   static QString folder;
   QFileDialog dialog(parent, title, folder, filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(QFileInfo(proposed).suffix());
+  dialog.setDefaultSuffix(suffix.isEmpty() ? QFileInfo(proposed).suffix() : suffix);
   dialog.selectFile(proposed);
   if (dialog.exec() == QDialog::Rejected || dialog.selectedFiles().isEmpty()) {
     return {};

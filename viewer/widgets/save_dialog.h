@@ -8,9 +8,10 @@ class QWidget;
 namespace transillum::viewer {
 
 /// Shows a file dialog for a file to write. Starts in the last chosen folder with the name
-/// `proposed`, whose suffix is appended to a name without one; existing files need confirmation.
+/// `proposed`; existing files need confirmation.
+/// @param suffix appended to a name without one; empty: that of `proposed`
 /// @return the path; empty if the dialog was canceled
 QString ask_where_to_write(QWidget* parent, const QString& title, const QString& filter,
-                           const QString& proposed);
+                           const QString& proposed, const QString& suffix = {});
 
 }  // namespace transillum::viewer

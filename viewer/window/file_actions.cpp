@@ -283,8 +283,9 @@ void FileActions::open_session(const QString& path) {
 }
 
 void FileActions::choose_session() {
-  const QString path = ask_where_to_write(&parts_.window, tr("Save session"),
-                                          tr("Sessions (*.json)"), QStringLiteral("session.json"));
+  const QString path = ask_where_to_write(
+      &parts_.window, tr("Save session"), tr("Sessions (*.json)"),
+      QStringLiteral("session.transillum.json"), QStringLiteral("transillum.json"));
   if (path.isEmpty()) {
     return;
   }

@@ -1,6 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <QVTKOpenGLNativeWidget.h>
 
+#include <QIcon>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QSurfaceFormat>
@@ -226,6 +227,8 @@ int main(int argc, char** argv) {
   use_decimal_point();
   QApplication::setOrganizationName("transillum");
   QApplication::setApplicationName("transillum-viewer");
+  QGuiApplication::setDesktopFileName("org.transillum.Viewer");
+  QApplication::setWindowIcon(QIcon(":/icons/transillum-viewer.svg"));
   theme::apply(application);
   try {
     return run(application, command_line);
