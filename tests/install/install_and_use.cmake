@@ -40,3 +40,9 @@ cmake_path(GET LIBRARY PARENT_PATH library_folder)
 run_step(${CXX_COMPILER} -std=c++20 ${SOURCE_DIR}/consumer.cpp -o ${WORK_DIR}/by_pkg_config ${flags}
          -Wl,-rpath,${library_folder})
 run_step(${WORK_DIR}/by_pkg_config)
+
+# The packages have the same version.
+file(STRINGS ${SOURCE_DIR}/../../debian/changelog changelog LIMIT_COUNT 1)
+if(NOT changelog MATCHES "^transillum \\(${VERSION}\\)")
+  message(FATAL_ERROR "debian/changelog begins with \"${changelog}\", not with version ${VERSION}")
+endif()
