@@ -113,6 +113,22 @@ class Solves(unittest.TestCase):
         solution = transillum.solve(room(), accuracy="5%")
         self.assertLessEqual(solution.rms_error, 0.05)
 
+    def test_linear_functions(self):
+        scene = room()
+        constant = transillum.solve(scene, directions=64)
+        self.assertEqual(len(constant.corner_radiosity), len(scene))
+        for corners, b in zip(constant.corner_radiosity, constant.radiosity):
+            np.testing.assert_array_equal(corners, np.tile(b, (len(corners), 1)))
+        linear = transillum.solve(scene, directions=64, basis="linear")
+        for corners, outline in zip(linear.corner_radiosity, scene.outlines):
+            self.assertEqual(corners.shape, (len(outline), 3))
+        # The mean over a parallelogram is the mean over its corners.
+        four = [i for i, outline in enumerate(scene.outlines) if len(outline) == 4]
+        means = np.array([linear.corner_radiosity[i].mean(axis=0) for i in four])
+        scale = np.abs(linear.radiosity).max()
+        close = np.abs(means - linear.radiosity[four]).max(axis=1) < 1e-9 * scale
+        self.assertGreater(close.mean(), 0.5)
+
     def test_sky(self):
         floor = transillum.Scene(CORNERS[:4], [[0, 1, 2, 3]], reflectance=0.5)
         for sky, expected in ((10, [5, 5, 5]), ((2, 4, 6), [1, 2, 3])):

@@ -191,6 +191,16 @@ class Run {
   std::unique_ptr<RadiositySolver> solver_;
 };
 
+/// B at the corners of all outlines, one outline after the other.
+py::array_t<double> corners_of(const Solution& solution) {
+  std::vector<Rgb> all;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    const std::vector<Rgb> of_patch = corner_radiosity(solution, i);
+    all.insert(all.end(), of_patch.begin(), of_patch.end());
+  }
+  return to_table<3>(all);
+}
+
 py::object standard_error_of(const ErrorEstimate& error) {
   return error.replicas > 0 ? py::object(to_table<3>(error.standard_error)) : py::none();
 }
@@ -201,6 +211,7 @@ void bind_solution(py::module_& module) {
           "scene", [](const Solution& s) { return std::const_pointer_cast<Scene>(s.scene); })
       .def_property_readonly("radiosity",
                              [](const Solution& s) { return to_table<3>(s.radiosity); })
+      .def_property_readonly("corner_radiosity", &corners_of)
       .def_property_readonly("irradiance",
                              [](const Solution& s) { return to_table<3>(s.irradiance); })
       .def_property_readonly("standard_error",

@@ -34,6 +34,7 @@ class Scene:
 class Solution:
     scene: Scene
     radiosity: Values
+    corner_radiosity: Values
     irradiance: Values
     standard_error: Optional[Values]
     quantile: float

@@ -40,6 +40,13 @@ class Solution:
         return self._core.radiosity
 
     @property
+    def corner_radiosity(self) -> list[Values]:
+        """B at the corners of each patch, (K, 3), W/m²: with basis="linear" its linear function,
+        which may be below 0; else B of the patch."""
+        begin, _ = self._scene._core.outlines
+        return np.split(self._core.corner_radiosity, begin[1:-1])
+
+    @property
     def irradiance(self) -> Values:
         """H, (N, 3), W/m²."""
         return self._core.irradiance
