@@ -157,18 +157,12 @@ int run_solve(const SolveCall& call) {
   const SolveOptions& options = prepared.options;
   std::optional<Checkpoint>& checkpoint = prepared.checkpoint;
   const double seconds_load = seconds_since(start);
-  const SolveJob job{prepared.scene,
-                     options,
-                     cancellation,
-                     display,
-                     call.by.has_value(),
-                     !call.colors.series.empty(),
-                     prepared.series ? &*prepared.series : nullptr,
-                     call.colors.series_every,
-                     checkpoint ? &*checkpoint : nullptr,
-                     call.checkpoint_every,
-                     prepared.resume,
-                     call.shards,
+  const SolveJob job{prepared.scene, options, cancellation, display,
+                     // Those of constant functions are not what linear ones exchange.
+                     call.by.has_value() && options.basis == Basis::constant,
+                     !call.colors.series.empty(), prepared.series ? &*prepared.series : nullptr,
+                     call.colors.series_every, checkpoint ? &*checkpoint : nullptr,
+                     call.checkpoint_every, prepared.resume, call.shards,
                      shared ? processes().group : nullptr};
   Solution solution = !call.factors.empty()              ? solve_with_stored(call.factors, job)
                       : takes_directions(options.engine) ? solve_by_passes(job)

@@ -15,6 +15,7 @@ namespace transillum::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Arguments = std::vector<std::string>;
 
 Arguments operator+(Arguments a, const Arguments& b) {
@@ -61,6 +62,10 @@ TEST(CliLinearBasis, WorksWithTheOtherOptions) {
     const ProgramResult result = run_program(box + Arguments{"-m", "16"} + option);
     EXPECT_EQ(result.status, 0) << result.err;
   }
+  // Exchanges by form factors of constant functions would be others.
+  const ProgramResult table = run_program(box + Arguments{"-m", "16", "--by", "material"});
+  EXPECT_THAT(table.out, HasSubstr("absorbed, W"));
+  EXPECT_THAT(table.out, Not(HasSubstr("power, W")));
   const ProgramResult accuracy = run_program(box + Arguments{"--accuracy", "10%"});
   EXPECT_EQ(accuracy.status, 0) << accuracy.err;
 }

@@ -1,4 +1,7 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Moments for engine fast: the functions of the patches on the grid of one direction, and their
+// integrals over what BoundaryView or ExactView has found, segment by segment.
 #pragma once
 
 #include <array>
