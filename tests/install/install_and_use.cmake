@@ -41,8 +41,14 @@ run_step(${CXX_COMPILER} -std=c++20 ${SOURCE_DIR}/consumer.cpp -o ${WORK_DIR}/by
          -Wl,-rpath,${library_folder})
 run_step(${WORK_DIR}/by_pkg_config)
 
-# The packages have the same version.
+# The packages, the citation and the Python module have the same version.
 file(STRINGS ${SOURCE_DIR}/../../debian/changelog changelog LIMIT_COUNT 1)
 if(NOT changelog MATCHES "^transillum \\(${VERSION}\\)")
   message(FATAL_ERROR "debian/changelog begins with \"${changelog}\", not with version ${VERSION}")
 endif()
+foreach(file IN ITEMS CITATION.cff libtransillum/python/pyproject.toml)
+  file(STRINGS ${SOURCE_DIR}/../../${file} version REGEX "^version(:| =)")
+  if(NOT version MATCHES "[ \"]${VERSION}\"?$")
+    message(FATAL_ERROR "${file} says \"${version}\", not version ${VERSION}")
+  endif()
+endforeach()
