@@ -3,9 +3,11 @@
 // chosen for a number of patches comes near it.
 #include "transillum/patch_count.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "support/random_scenes.h"
 #include "support/refusal.h"
@@ -89,6 +91,17 @@ TEST(MaxPatchAreaFor, ComesNearWhereFacesAreManyAndDiffer) {
       const auto made = static_cast<double>(count_patches(*whole, limit));
       EXPECT_NEAR(made / static_cast<double>(wanted), 1, 0.1) << name << " " << factor;
     }
+  }
+}
+
+/// It stands in a field of the viewer and in result files.
+TEST(MaxPatchAreaFor, HasFewDigits) {
+  const auto scene = load_scene("cornell-box");
+  for (const std::int64_t wanted : {100, 600, 3000}) {
+    const double limit = max_patch_area_for(*scene, wanted);
+    EXPECT_LE(fmt::format("{}", limit).size(), std::string("0.000123").size()) << limit;
+    EXPECT_NEAR(static_cast<double>(count_patches(*scene, limit)), static_cast<double>(wanted),
+                0.1 * static_cast<double>(wanted));
   }
 }
 

@@ -15,6 +15,8 @@
 #include "map/compare_view.h"
 #include "solve/study_dialog.h"
 #include "solved_window.h"
+#include "transillum/first_shot.h"
+#include "transillum/patch_count.h"
 #include "window/view_state_applier.h"
 
 using namespace transillum;
@@ -197,21 +199,18 @@ class PicturesTest : public QObject {
       }
       PictureWindow window;
       SolveOptions options;
-      options.directions = name == "sphere-flake" ? 16 : 128;
-      options.first_shot = name == "stars" ? std::optional<double>(1000) : std::nullopt;
+      options.directions = name == "sphere-flake" ? 128 : 1024;
+      options.first_shot = first_shot_where_it_pays;
       SceneOptions refined;
-      if (name == "cornell-box") {
-        refined.max_patch_area = 0.0025;
-      }
-      if (name == "stars" || name == "rooms") {
-        refined.max_patch_area = 0.25;
+      if (name == "cornell-box" || name == "stars" || name == "rooms") {
+        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 10000);
       }
       window.set_options(options, refined);
-      // One iteration shows the light of a sky; a room requires all of them.
-      window.open(name, {name == "sphere-flake" ? Goal::Kind::iteration : Goal::Kind::finished});
+      window.open(name, {Goal::Kind::finished});
       QVERIFY(settles(window));
       auto* view = window.findChild<SceneView*>();
       view->set_outlines_shown(name == "furnace" || name == "boards");
+      view->set_smooth_shading(refined.max_patch_area > 0);
       view->set_direction_shown(false);
       const QImage picture = view->picture(1);
       // The center, cropped to the aspect ratio of the card.

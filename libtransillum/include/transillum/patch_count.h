@@ -39,7 +39,8 @@ void check_memory(const std::string& name, std::int64_t patches, int replicas = 
 /// Faces are cut into grids of nearly equal cells, all by the same limit, so not every number is
 /// possible: a cube has 6, 12, 24 … Of triangles and quadrilaterals, the number reached is between
 /// half and twice the number asked for, and nearer where faces are many or differ. A face with more
-/// corners is first cut into triangles if it is cut at all, which may exceed that.
+/// corners is first cut into triangles if it is cut at all, which may exceed that. The limit has as
+/// few digits as give the same number.
 /// @param unrefined a scene made with max_patch_area = 0.
 /// @param patches > 0; where the unrefined scene has as many or more, the result is 0: no limit.
 /// @throws InputError where `patches` is less than 1 or more than a Scene may have

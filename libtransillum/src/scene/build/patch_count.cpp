@@ -6,9 +6,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "base/free_memory.h"
 #include "scene/build/patch_builder.h"
@@ -115,6 +118,24 @@ struct Nearest {
   }
 };
 
+/// The limit with the fewest decimal digits that makes as many patches as `area`.
+double with_few_digits(double area, const PatchCounter& counter, const Cancellation& cancellation) {
+  if (area == 0) {
+    return area;
+  }
+  const std::int64_t count = counter.count(area);
+  for (int digits = 1; digits < std::numeric_limits<double>::digits10; ++digits) {
+    cancellation.throw_if_canceled();
+    const std::string text = fmt::format("{:.{}e}", area, digits - 1);
+    double shorter = 0;
+    std::from_chars(text.data(), text.data() + text.size(), shorter);
+    if (shorter > 0 && counter.count(shorter) == count) {
+      return shorter;
+    }
+  }
+  return area;
+}
+
 }  // namespace
 
 std::int64_t count_patches(const Scene& unrefined, double max_patch_area) {
@@ -170,7 +191,7 @@ double max_patch_area_for(const Scene& unrefined, std::int64_t patches,
     try_area(middle);
     (count < patches ? few : many) = middle;
   }
-  return nearest.area;
+  return with_few_digits(nearest.area, counter, cancellation);
 }
 
 }  // namespace transillum
