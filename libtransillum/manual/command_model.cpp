@@ -39,6 +39,7 @@ Names choices_of(const std::string& command, const std::string& option) {
   static const std::map<std::string, Names> known{
       {"sampling", sampling_names()},
       {"normalize", normalization_names()},
+      {"basis", basis_names()},
       {"scheme", scheme_names()},
       {"sky-model", sky_model_names()},
       {"order", painters_order_names()},
