@@ -95,21 +95,23 @@ int exit_status(double worst, const CompareCall& call) {
 int run(const CompareCall& call) {
   const Cancellation& cancellation = cancel_on_signals();
   const Solution first = read(call.first, cancellation), second = read(call.second, cancellation);
+  FunctionDifference difference;
+  ResultComparison comparison;
+  try {
+    if (!call.functions) {
+      comparison = compare_results(first, second);
+    }
+    difference = compare_functions(first, second);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
+  }
   if (call.functions) {
-    const FunctionDifference difference = compare_functions(first, second);
     print_results(report_row("patches", fmt::format("{} and {}", first.scene->patch_count(),
                                                     second.scene->patch_count())) +
                   function_text(difference));
     return exit_status(difference.l2, call);
   }
-  ResultComparison comparison;
-  try {
-    comparison = compare_results(first, second);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} and {}: {}", call.first, call.second, error.what()));
-  }
-  print_results(comparison_text(*first.scene, comparison) +
-                function_text(compare_functions(first, second)));
+  print_results(comparison_text(*first.scene, comparison) + function_text(difference));
   return exit_status(std::max(comparison.whole.rms, comparison.whole.largest), call);
 }
 

@@ -170,6 +170,9 @@ int run_solve(const SolveCall& call) {
   display.clear();
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
+  if (call.by && options.basis != Basis::constant) {
+    print_message("exchanges between groups are not available with --basis linear");
+  }
   for (const std::string& warning : solve_warnings(solution)) {
     print_message("warning: " + warning);
   }

@@ -11,6 +11,10 @@ namespace transillum::manual {
 std::string short_text(const std::string& description) {
   constexpr std::size_t longest = 72;
   std::string text = description.substr(0, description.find_first_of(":;("));
+  if (text.find(' ') == std::string::npos) {  // a choice, which the description explains
+    text = description;
+    std::replace(text.begin(), text.end(), ':', ',');
+  }
   while (!text.empty() && (text.back() == ' ' || text.back() == ',')) {
     text.pop_back();
   }

@@ -19,7 +19,7 @@ std::string fish_completion(const Program& program);
 std::string short_text(const std::string& description);
 /// The program's name in names of shell functions.
 std::string function_name(const Program& program);
-/// What opens a list of a built-in scene's names, and of the endings of scene files.
+/// Names of the built-in scenes.
 std::vector<std::string> scene_names();
 /// Endings of what a program opens as SCENE, as ".obj".
 std::vector<std::string> scene_endings(const Program& program);

@@ -225,7 +225,7 @@ std::array<double, 3> on_part(const LinearBasis& whole, std::size_t a, const Lin
   return coefficients;
 }
 
-/// Oracle 5: the moments of a concave wall are those of the four parts it is cut into by hand.
+/// Oracle 5: the moments of a concave wall are those of the three parts it is cut into by hand.
 TEST(MomentInvariance, MomentsOfPartsAddUp) {
   const auto scene = [](bool cut) {
     Sketch sketch;

@@ -59,7 +59,9 @@ class Scenes(unittest.TestCase):
             transillum.Scene(CORNERS, CUBE + [[0, 1, 1]])
 
     def test_built_in_scenes_load(self):
-        self.assertIn("cornell-box", transillum.built_in_scenes())
+        for name, summary in transillum.built_in_scenes().items():
+            self.assertGreater(len(transillum.load(name)), 5)
+            self.assertGreater(len(summary), 10)
 
 
 class Solves(unittest.TestCase):
@@ -112,6 +114,8 @@ class Solves(unittest.TestCase):
     def test_accuracy(self):
         solution = transillum.solve(room(), accuracy="5%")
         self.assertLessEqual(solution.rms_error, 0.05)
+        # Small lamps are shot first, as by the program.
+        self.assertTrue(np.isfinite(solution.radiosity).all())
 
     def test_linear_functions(self):
         scene = room()
@@ -128,6 +132,8 @@ class Solves(unittest.TestCase):
         scale = np.abs(linear.radiosity).max()
         close = np.abs(means - linear.radiosity[four]).max(axis=1) < 1e-9 * scale
         self.assertGreater(close.mean(), 0.5)
+        slopes = [np.ptp(linear.corner_radiosity[i]) for i in four]
+        self.assertGreater(max(slopes), 0.01 * scale)
 
     def test_sky(self):
         floor = transillum.Scene(CORNERS[:4], [[0, 1, 2, 3]], reflectance=0.5)
@@ -143,13 +149,13 @@ class FormFactors(unittest.TestCase):
         flow = f.multiply(scene.area[:, None])
         self.assertLess(abs(flow - flow.T).max(), 1e-15)
         np.testing.assert_allclose(f.sum(axis=1), 1, atol=1e-8)
-        # What the lamp, small, gives to the floor, large, is more than it gets from there.
-        lamp = int(scene.exitance.sum(axis=1).argmax())
-        others = scene.area > 4 * scene.area[lamp]
-        sent = np.asarray(f[lamp].todense())[0, others].sum()
-        received = np.asarray(f[:, [lamp]].todense())[others, 0].sum()
-        if others.any():
-            self.assertGreater(sent, received)
+        # What a small patch sends to larger ones is more of its light than it gets of theirs.
+        small = int(scene.area.argmin())
+        others = scene.area > 1.5 * scene.area[small]
+        sent = np.asarray(f[small].todense())[0, others].sum()
+        received = np.asarray(f[:, [small]].todense())[others, 0].sum()
+        self.assertTrue(others.any())
+        self.assertGreater(sent, received)
 
     def test_they_solve_the_scene(self):
         scene = room()
@@ -234,6 +240,12 @@ class Errors(unittest.TestCase):
             "(n, 3)": lambda: transillum.Scene([[0, 0]], []),
             "reflectance": lambda: transillum.Scene(CORNERS, CUBE, reflectance=[1, 2]),
             "options of solve()": lambda: transillum.Run(scene, accuracy=0.1),
+            "not an option of form_factors()": lambda: transillum.form_factors(scene, accuracy=0.1),
+            "not an option of transfers()": lambda: transillum.transfers(
+                scene, (0, 0, 1), directions=5
+            ),
+            "memory: expected a number of bytes": lambda: transillum.solve(scene, memory="2G"),
+            "two_way: expected True or False": lambda: transillum.solve(scene, two_way="yes"),
             "neither": lambda: transillum.Run(scene).advance("end"),
         }
         for message, call in cases.items():
@@ -267,6 +279,18 @@ class Errors(unittest.TestCase):
         self.assertGreater(made, 0)
         self.assertTrue(run.advance("direction"))
         self.assertEqual(run.progress["direction"], made + 1)
+
+    def test_a_run_is_not_read_while_it_works(self):
+        run = transillum.Run(room(), directions=10**5)
+
+        def look(progress):
+            with self.assertRaises(RuntimeError):
+                run.radiosity
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            run.advance("finished", progress=look)
+        self.assertEqual(run.radiosity.shape[1], 3)
 
     def test_other_threads_work_meanwhile(self):
         class Enough(Exception):

@@ -22,7 +22,8 @@ struct FunctionDifference {
 /// lies in one patch of the other.
 /// @param reference what differences are relative to.
 /// @param other a result of the same faces.
-/// @throws InputError where the faces of the two differ in number or area.
+/// @throws InputError where the total areas differ, or a face of the finer result has no patches in
+/// the other.
 FunctionDifference compare_functions(const Solution& reference, const Solution& other);
 
 }  // namespace TRANSILLUM_API transillum

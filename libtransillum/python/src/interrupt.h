@@ -20,13 +20,13 @@ template <class Body>
 auto run_interruptibly(Body&& body, const std::function<void()>& tick,
                        const std::function<void()>& stop) {
   namespace py = pybind11;
-  constexpr std::chrono::milliseconds between_looks{50};
+  constexpr std::chrono::milliseconds polling_interval{50};
   auto running = std::async(std::launch::async, std::forward<Body>(body));
   std::exception_ptr reason;
   for (bool done = false; !done;) {
     {
       const py::gil_scoped_release released;
-      done = running.wait_for(between_looks) == std::future_status::ready;
+      done = running.wait_for(polling_interval) == std::future_status::ready;
     }
     if (reason) {
       continue;

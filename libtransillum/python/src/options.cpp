@@ -23,6 +23,9 @@ T number(const py::handle& value) {
   return py::cast<T>(value);
 }
 std::string text(const py::handle& value) { return py::cast<std::string>(value); }
+bool is_text(const py::handle& value, const char* expected) {
+  return PyUnicode_Check(value.ptr()) && text(value) == expected;
+}
 
 Rgb color(const py::handle& value, const std::string& name) {
   if (PyFloat_Check(value.ptr()) || PyLong_Check(value.ptr())) {
@@ -61,7 +64,10 @@ const std::map<std::string, Setter>& setters() {
          o.first_shot = PyUnicode_Check(v.ptr()) ? first_shot_from_name(text(v))
                                                  : std::optional(number<double>(v));
        }},
-      {"burn-in", [](Options& o, Value v) { o.burn_in = number<int>(v); }},
+      {"burn-in",
+       [](Options& o, Value v) {
+         o.burn_in = is_text(v, "auto") ? std::optional<int>() : number<int>(v);
+       }},
       {"replicas", [](Options& o, Value v) { o.replicas = number<int>(v); }},
       {"accuracy",
        [](Options& o, Value v) {
@@ -91,10 +97,19 @@ std::string with(std::string name, char from, char to) {
   return name;
 }
 
-const Setting* setting_of(const std::string& name) {
-  const auto found = std::find_if(settings().begin(), settings().end(),
-                                  [&](const Setting& s) { return s.name == name; });
-  return found == settings().end() ? nullptr : &*found;
+/// The values that an option accepts; some differ from those on the command line.
+std::string type_of(const std::string& name) {
+  static const std::map<std::string, std::string> of_python{
+      {"memory", "a number of bytes"},      {"rotate", "a number, or None"},
+      {"random-lines", "True or False"},    {"two-way", "True or False"},
+      {"sky", "one number or three, W/m²"}, {"up", "three numbers"}};
+  const auto own = of_python.find(name);
+  if (own != of_python.end()) {
+    return own->second;
+  }
+  return std::find_if(settings().begin(), settings().end(),
+                      [&](const Setting& s) { return s.name == name; })
+      ->type;
 }
 
 }  // namespace
@@ -119,9 +134,8 @@ SolveOptions options_from(const py::dict& keywords) {
     try {
       setter->second(options, value);
     } catch (const py::cast_error&) {
-      const Setting* setting = setting_of(name);
-      throw InputError(keyword + ": expected " + (setting != nullptr ? setting->type : "a value") +
-                       ", not " + py::cast<std::string>(py::repr(value)));
+      throw InputError(keyword + ": expected " + type_of(name) + ", not " +
+                       py::cast<std::string>(py::repr(value)));
     }
     given.push_back(name);
   }
@@ -131,7 +145,31 @@ SolveOptions options_from(const py::dict& keywords) {
     }
   }
   options.validate();
+  // As in the programs.
+  const bool shot_given = std::find(given.begin(), given.end(), "first-shot") != given.end();
+  if (options.goal.set() && !shot_given && takes_directions(options.engine) &&
+      options.basis == Basis::constant) {
+    options.first_shot = first_shot_where_it_pays;
+  }
   return options;
+}
+
+void refuse(const py::dict& keywords, const std::vector<std::string>& names,
+            const std::string& function) {
+  for (const auto& [key, value] : keywords) {
+    if (!value.is_none() && std::find(names.begin(), names.end(), text(key)) != names.end()) {
+      throw InputError(text(key) + " is not an option of " + function);
+    }
+  }
+}
+
+void refuse_others(const py::dict& keywords, const std::vector<std::string>& names,
+                   const std::string& function) {
+  for (const auto& [key, value] : keywords) {
+    if (!value.is_none() && std::find(names.begin(), names.end(), text(key)) == names.end()) {
+      throw InputError(text(key) + " is not an option of " + function);
+    }
+  }
 }
 
 py::list option_list() {
@@ -144,7 +182,7 @@ py::list option_list() {
     if (setters().count(name) == 0) {
       throw std::logic_error("option " + name + " is missing in Python");
     }
-    list.append(py::make_tuple(with(name, '-', '_'), setting.type, setting.description,
+    list.append(py::make_tuple(with(name, '-', '_'), type_of(name), setting.description,
                                setting.default_value));
   }
   return list;

@@ -3,6 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+#include <vector>
+
 #include "transillum/radiosity.h"
 
 namespace transillum::python {
@@ -10,6 +13,13 @@ namespace transillum::python {
 /// Options of a solve from keywords: the names of settings(), with underscores.
 /// @throws InputError for a name or value that does not exist, or that would have no effect
 SolveOptions options_from(const pybind11::dict& keywords);
+
+/// @throws InputError where a keyword is one of `names`
+void refuse(const pybind11::dict& keywords, const std::vector<std::string>& names,
+            const std::string& function);
+/// @throws InputError where a keyword is none of `names`
+void refuse_others(const pybind11::dict& keywords, const std::vector<std::string>& names,
+                   const std::string& function);
 
 /// Keyword, type, description and default of every option of a solve.
 pybind11::list option_list();

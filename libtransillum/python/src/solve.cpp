@@ -42,6 +42,8 @@ py::dict to_dict(const SolveStatistics& s) {
   dict["transfers"] = s.transfers;
   dict["form_factors"] = s.form_factors;
   dict["closure_defect"] = s.closure_defect_max;
+  dict["closure_defect_moments"] = s.closure_defect_moments;
+  dict["negative_corners"] = s.negative_corners;
   dict["escaped"] = s.escaped;
   dict["energy_defect"] = s.energy_defect;
   dict["energy_balance"] = s.energy_balance;
@@ -108,6 +110,10 @@ py::tuple to_arrays(const FormFactors& f) {
 
 py::tuple form_factors(const ScenePtr& scene, const py::dict& keywords,
                        const py::object& progress) {
+  refuse(keywords,
+         {"accuracy", "accuracy_of", "seconds", "iterations", "tolerance", "scheme", "burn_in",
+          "first_shot", "basis", "sky", "sky_model", "up"},
+         "form_factors()");
   SolveOptions options = options_from(keywords);
   const Cancellation cancellation;
   ProgressRelay relay(progress);
@@ -142,7 +148,7 @@ RadiositySolver::Until until_from(const std::string& name) {
   throw InputError("until: \"" + name + "\" is neither direction, iteration nor finished");
 }
 
-/// A solve in steps. Ctrl-C pauses it after the pass under way.
+/// A solve that is advanced pass by pass. Ctrl-C pauses it after the pass under way.
 class Run {
  public:
   Run(const ScenePtr& scene, const py::dict& keywords) {
@@ -160,10 +166,7 @@ class Run {
 
   bool advance(const std::string& until, const py::object& progress) {
     const RadiositySolver::Until where = until_from(until);
-    const std::unique_lock lock(busy_, std::try_to_lock);
-    if (!lock) {
-      throw std::runtime_error("the run is being advanced by another thread");
-    }
+    const Use use(busy_);
     std::atomic<bool> going = true;
     ProgressRelay relay(progress);
     return run_interruptibly(
@@ -176,17 +179,32 @@ class Run {
         [&] { relay.tell(); }, [&] { going = false; });
   }
 
+  /// What `get` returns of the solver, found without Python's lock.
   template <class Get>
   auto read(Get get) {
-    const std::unique_lock lock(busy_, std::try_to_lock);
-    if (!lock) {
-      throw std::runtime_error("the run is being advanced");
-    }
+    const Use use(busy_);
+    const py::gil_scoped_release released;
     return get(*solver_);
   }
 
  private:
-  std::mutex busy_;
+  /// One use at a time: the solver is not to be read while it works, nor from `progress`.
+  class Use {
+   public:
+    explicit Use(std::atomic<bool>& busy) : busy_(busy) {
+      if (busy_.exchange(true)) {
+        throw std::runtime_error("the run is being advanced or read");
+      }
+    }
+    ~Use() { busy_ = false; }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+   private:
+    std::atomic<bool>& busy_;
+  };
+
+  std::atomic<bool> busy_ = false;
   Cancellation cancellation_;
   std::unique_ptr<RadiositySolver> solver_;
 };
@@ -235,23 +253,23 @@ void bind_run(py::module_& module) {
       .def_property_readonly(
           "progress",
           [](Run& run) {
-            return run.read([](const RadiositySolver& s) { return to_dict(s.progress()); });
+            return to_dict(run.read([](const RadiositySolver& s) { return s.progress(); }));
           })
       .def_property_readonly("radiosity",
                              [](Run& run) {
-                               return run.read([](const RadiositySolver& s) {
-                                 return to_table<3>(s.running_estimate());
-                               });
+                               return to_table<3>(run.read(
+                                   [](const RadiositySolver& s) { return s.running_estimate(); }));
                              })
-      .def_property_readonly(
-          "directions",
-          [](Run& run) {
-            return run.read([](const RadiositySolver& s) { return to_table<3>(s.directions()); });
-          })
+      .def_property_readonly("directions",
+                             [](Run& run) {
+                               return to_table<3>(run.read([](const RadiositySolver& s) {
+                                 return std::vector<Vec3>(s.directions());
+                               }));
+                             })
       .def("solution",
            [](Run& run) { return run.read([](const RadiositySolver& s) { return s.solution(); }); })
       .def("form_factors", [](Run& run) {
-        return run.read([](const RadiositySolver& s) { return to_arrays(s.form_factors()); });
+        return to_arrays(run.read([](const RadiositySolver& s) { return s.form_factors(); }));
       });
 }
 

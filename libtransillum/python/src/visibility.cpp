@@ -25,6 +25,8 @@ Vec3 unit(const py::handle& direction) {
 }
 
 py::dict transfers(const ScenePtr& scene, const py::handle& direction, const py::dict& keywords) {
+  refuse_others(keywords, {"engine", "resolution", "lines", "order", "random_lines", "seed"},
+                "transfers()");
   const SolveOptions options = options_from(keywords);
   const Vec3 omega = unit(direction);
   const Cancellation cancellation;
@@ -78,6 +80,7 @@ py::list polygons(const VisibilityMap& map) {
 }
 
 std::string svg(const Map& map, int size) {
+  const py::gil_scoped_release released;
   std::ostringstream out;
   MapPictureOptions options;
   options.size = size;

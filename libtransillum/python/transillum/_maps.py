@@ -32,7 +32,7 @@ class Transfers:
     backward: tuple[Values, Values]
     """The same along -omega."""
     closure_defect: float
-    """Largest relative difference between the two in a closed scene; rounding."""
+    """Largest difference between the two over the projected area; only rounding in a closed scene."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def transfers(scene: Scene, direction: npt.ArrayLike, **options: Any) -> Transfe
 def visibility_map(
     scene: Scene, direction: npt.ArrayLike, patch: Union[int, None] = None
 ) -> VisibilityMap:
-    """The exact visibility map along a direction.
+    """The visibility map along a direction.
 
     patch: what that patch sees; None: what is visible from below the scene.
     """

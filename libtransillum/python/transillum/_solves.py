@@ -94,15 +94,17 @@ def form_factors(
     scene: Scene, *, progress: Union[Progress, None] = None, **options: Any
 ) -> scipy.sparse.csr_matrix:
     """The matrix F of form factors, (N, N): F[i, j] is the share of what leaves patch i that
-    reaches patch j, so that A_i F[i, j] = A_j F[j, i] and B = E + rho * (F @ B).
+    reaches patch j. Without a sky, B = E + rho * (F @ B); with two-way passes, and unless rows are
+    normalized, A_i F[i, j] = A_j F[j, i].
 
-    progress, options: as for solve().
+    progress: as for solve().
+    options: those of options() that belong to directions, engine, normalization and memory.
     """
     return _to_csr(_core.form_factors(scene._core, options, progress), len(scene))
 
 
 class Run:
-    """A solve in steps.
+    """A solve that is advanced pass by pass.
 
     >>> run = transillum.Run(scene, directions=4096)
     >>> while run.advance("direction"):
@@ -125,7 +127,7 @@ class Run:
         """Goes on until the end of a "direction" (one pass), an "iteration", or "finished".
 
         Returns whether the solve is unfinished. Ctrl-C, and what progress raises, pause it after
-        the pass under way: the next call goes on.
+        the pass under way: the next call goes on. progress must not read the run.
         """
         return self._core.advance(until, progress)
 

@@ -1,7 +1,9 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 //
-// Colors, layout and line widths that the SVG and PNG pictures of a map share.
+// Colors, layout, line widths and texts that the SVG and PNG pictures of a map share.
 #include "io/maps/map_drawing.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -109,6 +111,21 @@ double line_width(const VisibilityMap& map, double scale) {
 double difference_share(const VisibilityMap& map) {
   const double shown = total_area(map.window.empty() ? map.polygons : map.window);
   return shown > 0 ? total_area(map.pixels.differences) / shown : 0;
+}
+
+std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
+  if (!map.polygons.empty()) {
+    return {};
+  }
+  if (map.receiver == no_patch) {
+    return "every patch that was processed is edge-on to the direction";
+  }
+  if (!map.window.empty()) {
+    return fmt::format("nothing is above patch {}", map.receiver);
+  }
+  const double cosine = dot(scene.patch(map.receiver).normal, map.frame.omega);
+  return fmt::format("patch {} is {} the direction and sees nothing", map.receiver,
+                     cosine < -1e-9 ? "back-facing along" : "edge-on to");
 }
 
 }  // namespace transillum

@@ -11,7 +11,7 @@ namespace transillum {
 
 /// Radiosity as a picture, with a square of texels for each patch and the coordinates of its points
 /// there. All texels of a square have the color of the patch, or of its linear function, and no
-/// point lies within half a texel of the square's border: linear filtering of the picture gives
+/// point lies within a texel of the square's border: linear filtering of the picture gives
 /// this color and no other; of its first reduction too, where it is constant.
 class LightMap {
  public:

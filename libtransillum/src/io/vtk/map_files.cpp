@@ -37,21 +37,6 @@ MapWriter writer_for(const std::filesystem::path& path, const MapPictureOptions&
 
 }  // namespace
 
-std::string empty_map_reason(const Scene& scene, const VisibilityMap& map) {
-  if (!map.polygons.empty()) {
-    return {};
-  }
-  if (map.receiver == no_patch) {
-    return "every patch that was processed is edge-on to the direction";
-  }
-  if (!map.window.empty()) {
-    return fmt::format("nothing is above patch {}", map.receiver);
-  }
-  const double cosine = dot(scene.patch(map.receiver).normal, map.frame.omega);
-  return fmt::format("patch {} is {} the direction and sees nothing", map.receiver,
-                     cosine < -1e-9 ? "back-facing along" : "edge-on to");
-}
-
 void check_map_path(const std::filesystem::path& path) {
   writer_for(path, {});
   check_writable(path);

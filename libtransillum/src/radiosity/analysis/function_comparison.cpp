@@ -2,8 +2,6 @@
 //
 // The L2 difference of two results whose patches may differ. Input: two Solutions of the same
 // faces, which Patch::face connects.
-//
-// Notation: a surface is one side of a face: its number and, of two-sided faces, which side.
 #include "transillum/function_comparison.h"
 
 #include <fmt/format.h>
@@ -12,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "transillum/at.h"

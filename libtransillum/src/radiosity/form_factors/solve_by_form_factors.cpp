@@ -143,6 +143,9 @@ void refuse_directions(const SolveOptions& options, const std::string& who) {
                      " no directions, and therefore no schemes, normalizations, replicas or "
                      "first shot");
   }
+  if (options.basis != Basis::constant) {
+    throw InputError(who + " no directions, and therefore no moments for linear functions");
+  }
   if (options.sky.set()) {
     throw InputError(who + " no directions, and cannot tell the sky from the backs of patches");
   }

@@ -104,7 +104,8 @@ void solve_by_conjugate_gradients(const std::function<void(const double* x, doub
   if (solver.info() != Eigen::Success || !solution.allFinite() || negative || indefinite) {
     throw NotConvergent(
         "conjugate gradients do not converge: the row sums of the form factors are too large",
-        Remedy::directions_or_symmetric_normalization);
+        entries == Entries::any_sign ? Remedy::directions
+                                     : Remedy::directions_or_symmetric_normalization);
   }
   x.assign(solution.data(), solution.data() + size);
 }

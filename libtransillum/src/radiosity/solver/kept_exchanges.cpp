@@ -22,10 +22,10 @@ namespace {
 /// Entries of sums that are of constant functions, as receiver, source and entry.
 template <class Visit>
 void for_each_constant(const ExchangeSums& sums, std::size_t per_patch, Visit visit) {
-  const auto step = static_cast<PatchId>(per_patch);
+  const auto stride = static_cast<PatchId>(per_patch);
   sums.for_each([&](PatchId u, PatchId v, double entry) {
-    if (step == 1 || (u % step == 0 && v % step == 0)) {
-      visit(u / step, v / step, entry);
+    if (stride == 1 || (u % stride == 0 && v % stride == 0)) {
+      visit(u / stride, v / stride, entry);
     }
   });
 }
