@@ -139,7 +139,7 @@ Run add_compare_command(CLI::App& program) {
   command.footer(
       "Differences of B: their RMS over the RMS of A's, and the largest over the largest of A's;\n"
       "by group relative to the group. With --basis linear, B of a patch is its mean; L2 is that "
-      "of "
+      "of\n"
       "the functions.\n"
       "Results of different scenes are refused.\n"
       "Example: transillum compare coarse.vtp fine.vtp --tolerance 0.01");
