@@ -203,7 +203,8 @@ class PicturesTest : public QObject {
       options.first_shot = first_shot_where_it_pays;
       SceneOptions refined;
       if (name == "cornell-box" || name == "stars" || name == "rooms") {
-        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), 10000);
+        const int patches = name == "cornell-box" ? 10000 : 3000;
+        refined.max_patch_area = max_patch_area_for(*load_scene(scene.name), patches);
       }
       window.set_options(options, refined);
       window.open(name, {Goal::Kind::finished});
