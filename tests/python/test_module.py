@@ -268,6 +268,9 @@ class Errors(unittest.TestCase):
             transillum.solve(room(), directions=10**5, progress=fail)
 
     def test_interruption_pauses_a_run(self):
+        # It may be ignored, as in programs that a shell has started in the background.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         run = transillum.Run(room(), directions=10**5)
 
         def press(progress):
