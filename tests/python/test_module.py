@@ -114,8 +114,12 @@ class Solves(unittest.TestCase):
     def test_accuracy(self):
         solution = transillum.solve(room(), accuracy="5%")
         self.assertLessEqual(solution.rms_error, 0.05)
-        # Small lamps are shot first, as by the program.
-        self.assertTrue(np.isfinite(solution.radiosity).all())
+
+    def test_an_accuracy_shoots_small_lamps_first_as_the_program_does(self):
+        scene = room()
+        for options, shot in (({}, True), ({"first_shot": "none"}, False)):
+            solution = transillum.solve(scene, accuracy="0.5%", **options)
+            self.assertEqual(solution.statistics["shot_sources"] > 0, shot)
 
     def test_linear_functions(self):
         scene = room()

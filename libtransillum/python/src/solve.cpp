@@ -48,6 +48,7 @@ py::dict to_dict(const SolveStatistics& s) {
   dict["energy_defect"] = s.energy_defect;
   dict["energy_balance"] = s.energy_balance;
   dict["rho_max"] = s.rho_max;
+  dict["shot_sources"] = s.shot_sources;
   dict["light_directions"] = s.light_directions;
   dict["seconds"] = s.seconds_total;
   return dict;
