@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kind = "checkpoint";
+constexpr const char* checkpoint_kind = "checkpoint";
 /// Longest share of the time that saving may take.
 constexpr double cost_share = 0.01;
 
@@ -113,7 +113,7 @@ void Checkpoint::save(const RadiositySolver& solver, const AccuracyPlan* plan) {
   }
   bool begun = false;
   try {
-    write_sealed(impl_->file, kind, head, [&](std::ostream& out) {
+    write_sealed(impl_->file, checkpoint_kind, head, [&](std::ostream& out) {
       out << plan_bytes;
       begun = true;
       solver.save(out);
@@ -148,7 +148,9 @@ bool Checkpoint::is_due(double interval) const {
   return seconds_since(impl_->saved) >= std::max(interval, least);
 }
 
-void Checkpoint::check() const { check_identity(SealedFile(impl_->file, kind), impl_->identity); }
+void Checkpoint::check() const {
+  check_identity(SealedFile(impl_->file, checkpoint_kind), impl_->identity);
+}
 
 Checkpoint::Resumed Checkpoint::resume(const std::shared_ptr<const Scene>& scene,
                                        const SolveOptions& options,
@@ -160,7 +162,7 @@ Checkpoint::Resumed Checkpoint::resume(const std::shared_ptr<const Scene>& scene
   std::optional<AccuracyPlan> plan;
   std::uint64_t left = 0;
   in_all_members(group, [&] {
-    file.emplace(impl_->file, kind);
+    file.emplace(impl_->file, checkpoint_kind);
     plan = impl_->read_plan(*file, *scene, options, cancellation);
     const Json plan_size = file->head().value("plan", Json());
     left = file->size() - (plan ? plan_size.get<std::uint64_t>() : 0);

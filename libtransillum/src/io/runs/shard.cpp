@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kind = "shard";
+constexpr const char* shard_kind = "shard";
 
 /// The entries of a list whose bits are not all 0, and where they are.
 struct SparseList {
@@ -175,7 +175,7 @@ class OpenShards {
   explicit OpenShards(std::size_t patches) : patches_(patches) {}
 
   void add(const std::string& name, const Json& identity, const Cancellation& cancellation) {
-    auto file = std::make_unique<Shard>(SealedFile(name, kind));
+    auto file = std::make_unique<Shard>(SealedFile(name, shard_kind));
     check_identity(file->file, identity);
     const ShardInfo info = info_of(file->file);
     if (!shards_.empty() && info.share.of != count_) {
@@ -278,7 +278,7 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
   check_can_be_shared(options, share);
   const Json head = {
       {"run", run_identity(*scene, options)}, {"share", share.text()}, {"notes", notes}};
-  write_sealed(file, kind, head, [&](std::ostream& out) {
+  write_sealed(file, shard_kind, head, [&](std::ostream& out) {
     int done = 0;
     make_passes(
         scene, options, tree, share,
@@ -301,7 +301,7 @@ void write_shard(const std::filesystem::path& file, const std::shared_ptr<const 
 }
 
 ShardInfo read_shard_info(const std::filesystem::path& file) {
-  return info_of(SealedFile(file, kind));
+  return info_of(SealedFile(file, shard_kind));
 }
 
 TransferEngine engine_of_shards(const std::vector<std::string>& files, const Scene& scene,

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kind = "study";
+constexpr const char* study_kind = "study";
 
 /// A point as it is stored.
 struct StoredPoint {
@@ -71,7 +71,7 @@ StudyCheckpoint::StudyCheckpoint(std::filesystem::path file, const Scene& scene,
 StudyCheckpoint::~StudyCheckpoint() = default;
 
 void StudyCheckpoint::save(std::span<const StudyPoint> points) const {
-  write_sealed(impl_->file, kind, {{"run", impl_->identity}}, [&](std::ostream& out) {
+  write_sealed(impl_->file, study_kind, {{"run", impl_->identity}}, [&](std::ostream& out) {
     std::vector<StoredPoint> stored;
     for (const StudyPoint& point : points) {
       stored.push_back({point});
@@ -82,7 +82,7 @@ void StudyCheckpoint::save(std::span<const StudyPoint> points) const {
 }
 
 std::vector<StudyPoint> StudyCheckpoint::resume() const {
-  SealedFile file(impl_->file, kind);
+  SealedFile file(impl_->file, study_kind);
   check_identity(file, impl_->identity);
   file.check();
   std::vector<StoredPoint> stored;

@@ -12,6 +12,7 @@
 #include <map>
 #include <vector>
 
+#include "radiosity/sum_of_squares.h"
 #include "transillum/at.h"
 #include "transillum/errors.h"
 
@@ -102,8 +103,6 @@ double area_of(const Scene& scene) {
   return area;
 }
 
-double squares(const Rgb& b) { return b.r * b.r + b.g * b.g + b.b * b.b; }
-
 /// Integrals of squares.
 struct Squares {
   double difference = 0, reference = 0;
@@ -146,8 +145,8 @@ FunctionDifference compare_functions(const Solution& reference, const Solution& 
               "the results are of different scenes: face {} has patches in one only", patch.face));
         }
         const Rgb one = of_fine.at_point(piece.patch, point), two = of_coarse.at_point(near, point);
-        const double difference = weight * squares(one - two);
-        const double value = weight * squares(other_is_finer ? two : one);
+        const double difference = weight * sum_of_squares(one - two);
+        const double value = weight * sum_of_squares(other_is_finer ? two : one);
         all.difference += difference;
         all.reference += value;
         if (max_abs(fine.scene->exitance(piece.patch)) == 0) {

@@ -17,6 +17,7 @@
 #include "base/bit_mixing.h"
 #include "base/choice.h"
 #include "base/power_of_two.h"
+#include "radiosity/sum_of_squares.h"
 #include "transillum/at.h"
 #include "transillum/bounds.h"
 #include "transillum/errors.h"
@@ -32,8 +33,6 @@ using Clock = std::chrono::steady_clock;
 /// with the reference.
 constexpr std::uint64_t reference_rotation = 0xf3a9c51e0b7d2648U;
 constexpr double reference_tolerance = 1e-10;
-
-double sum_of_squares(const Rgb& v) { return v.r * v.r + v.g * v.g + v.b * v.b; }
 
 /// CPU time of all threads of this process, s; independent of other load on the machine.
 double processor_seconds() {

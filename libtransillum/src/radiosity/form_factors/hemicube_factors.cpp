@@ -27,7 +27,7 @@ namespace {
 /// A point is treated as in a plane within this distance, relative to the scene's diagonal.
 constexpr double coplanar_tolerance = 1e-12;
 /// Hemicubes per thread between reports of progress.
-constexpr PatchId batch = 4;
+constexpr PatchId hemicube_batch = 4;
 
 /// A piece to draw; its plane is normal · x = offset, and a sphere around center holds it.
 struct DrawnPiece {
@@ -237,7 +237,7 @@ FormFactors hemicube_form_factors(const Scene& scene, const HemicubeOptions& opt
                                       options.threads),
       options.resolution, cancellation);
   return gather_rows(
-      scene.patch_count(), options.threads, batch, memory_limit(options.memory),
+      scene.patch_count(), options.threads, hemicube_batch, memory_limit(options.memory),
       [&shared] { return HemicubeRows(shared); }, cancellation, progress);
 }
 

@@ -13,7 +13,7 @@ namespace transillum {
 namespace {
 
 /// Rows per thread between reports of progress.
-constexpr PatchId batch = 4;
+constexpr PatchId pair_batch = 4;
 
 /// Rows of the upper triangle: the exchanges of patch i and every j > i, m².
 class UpperRows {
@@ -86,7 +86,7 @@ FormFactors pair_form_factors(const Scene& scene, const PairOptions& options,
   const auto show = [&](double rows) { progress(rows * (2 - rows)); };
   // Both triangles take twice the memory, beside the upper one.
   const FormFactors upper = gather_rows(
-      scene.patch_count(), options.threads, batch, memory_limit(options.memory) / 3,
+      scene.patch_count(), options.threads, pair_batch, memory_limit(options.memory) / 3,
       [&] { return UpperRows(exchange, cancellation); }, cancellation,
       progress ? std::function<void(double)>(show) : std::function<void(double)>());
   return both_ways(scene, upper);

@@ -8,7 +8,7 @@
 namespace transillum {
 namespace {
 
-constexpr double confidence = 0.95;
+constexpr double mean_confidence = 0.95;
 
 /// Variance of the mean of n values of variance 1 whose correlation is r at distance 1, r² at 2, …
 double variance_of_mean(double n, double r) {
@@ -68,7 +68,7 @@ std::optional<double> BatchMeans::largest_half_width(double correlation, double 
     largest = std::max(largest, max_abs(squares));
   }
   const boost::math::students_t student(m - 1);
-  return quantile(student, (1 + confidence) / 2) * std::sqrt(largest / m * factor);
+  return quantile(student, (1 + mean_confidence) / 2) * std::sqrt(largest / m * factor);
 }
 
 }  // namespace transillum

@@ -20,10 +20,6 @@
 namespace transillum {
 namespace {
 
-constexpr double epsilon = 0x1p-52;
-/// Distance of a corner from the plane of its region, relative to the rounding of a coordinate: up
-/// to sqrt(3) each for the corner and the plane.
-constexpr double bend_by_rounding = 4;
 /// Largest sine of the angle between a face and the plane of its region, when rounding explains it.
 constexpr double largest_sine = 0.02;
 /// The same where the coordinates are exact.

@@ -19,16 +19,12 @@
 namespace transillum {
 namespace {
 
-constexpr double epsilon = 0x1p-52;
 /// Largest deviation of a planar face from its plane, relative to its diameter and to its width.
 constexpr double largest_deviation_by_diameter = 1e-6;
 constexpr double largest_deviation_by_width = 1e-3;
 /// The same of a face that is planar but for the rounding of its file: a larger deviation is a
 /// feature, however few digits there are.
 constexpr double largest_rounding_by_width = 0.02;
-/// Distance of a corner from its face's plane by rounding, relative to that of a coordinate: up to
-/// sqrt(3) each for the corner and the plane.
-constexpr double bend_by_rounding = 4;
 constexpr std::size_t faces_between_cancellation_checks = 256;
 
 CornerList all_corners(std::size_t n) {

@@ -5,12 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "scene/build/precision.h"
 #include "transillum/at.h"
 
 namespace transillum {
 namespace {
-
-constexpr double epsilon = 0x1p-52;
 
 Vec3 centroid(std::span<const Vec3> points, std::span<const PointId> outline, const Vec3& normal) {
   const Vec3 origin = at(points, outline[0]);

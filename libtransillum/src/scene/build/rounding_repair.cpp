@@ -15,12 +15,12 @@
 
 #include "scene/build/plane_incidences.h"
 #include "scene/build/point_table.h"
+#include "scene/build/precision.h"
 #include "transillum/at.h"
 
 namespace transillum {
 namespace {
 
-constexpr double epsilon = 0x1p-52;
 constexpr int most_steps = 8;        ///< of Newton's method
 constexpr int most_rounds = 6;       ///< of giving up incidences
 constexpr double farthest_move = 8;  ///< of a point, relative to the rounding of a coordinate

@@ -9,7 +9,7 @@
 namespace transillum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 SceneMaker::Block upright(const Vec3& corner, const Vec3& size) {
   return {corner, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}};
@@ -22,13 +22,13 @@ SceneMaker::Block board(int k, int n, const Vec3& middle) {
   const double crossing =
       radius * std::tan(pi / n);  // from its center to where it crosses the next
   const double half_length = 1.5 * crossing;
-  const double width = std::min(0.35 * crossing, 0.3);
+  const double breadth = std::min(0.35 * crossing, 0.3);
   const Vec3 out{std::cos(angle), std::sin(angle), 0};
   const Vec3 along = normalized(Vec3{-std::sin(angle), std::cos(angle), rise / crossing});
   const Vec3 up = cross(out, along);
   const Vec3 corner =
-      middle + (radius - width / 2) * out - half_length * along - (thickness / 2) * up;
-  return {corner, width * out, 2 * half_length * along, thickness * up};
+      middle + (radius - breadth / 2) * out - half_length * along - (thickness / 2) * up;
+  return {corner, breadth * out, 2 * half_length * along, thickness * up};
 }
 
 void add_octahedron(SceneMaker& maker, const Vec3& center, double radius, int material) {

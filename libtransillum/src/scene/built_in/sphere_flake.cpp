@@ -13,7 +13,7 @@
 namespace transillum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double child_size = 1.0 / 3;
 constexpr double sky_radius = 3;
 constexpr int sky_slices = 32, sky_stacks = 8;

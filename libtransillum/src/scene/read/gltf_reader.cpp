@@ -27,7 +27,7 @@ namespace {
 /// Vertices and triangles of a scene, each: with instances, a small file can have any number.
 constexpr std::size_t most_elements = 20'000'000;
 /// rho and E of textured faces are rounded to this many parts, so that they share materials.
-constexpr double color_parts = 1024;
+constexpr double emission_parts = 1024;
 
 /// An affine map: columns, then the origin.
 struct Placement {
@@ -424,7 +424,7 @@ class GltfReader {
     const auto rounded = [](const Rgb& value, const Rgb& whole) {
       const auto channel = [](double v, double of) {
         return of > 0 && std::abs(v - of) > 1e-9 * of
-                   ? of * std::round(v / of * color_parts) / color_parts
+                   ? of * std::round(v / of * emission_parts) / emission_parts
                    : of;
       };
       return Rgb{channel(value.r, whole.r), channel(value.g, whole.g), channel(value.b, whole.b)};

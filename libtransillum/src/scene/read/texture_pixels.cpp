@@ -11,7 +11,7 @@ namespace transillum {
 namespace {
 
 /// Larger images are reduced as they are decoded.
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 24;
+constexpr std::uint64_t most_kept_pixels = std::uint64_t{1} << 24;
 /// Most pixels of a triangle along either axis that are averaged.
 constexpr double widest_triangle = 64;
 
@@ -39,7 +39,7 @@ TexturePixels::TexturePixels(std::span<const unsigned char> bytes, bool linear,
     return;
   }
   std::int64_t step = 1;
-  while (image.width * image.height / static_cast<std::uint64_t>(step * step) > most_pixels) {
+  while (image.width * image.height / static_cast<std::uint64_t>(step * step) > most_kept_pixels) {
     step *= 2;
   }
   const auto width = static_cast<std::int64_t>(image.width);

@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t max_arrays = 256, max_string_bytes = 16 << 20;
 /// Upper bound of deflate's compression ratio.
 constexpr std::size_t max_compression = 1032;
-constexpr std::string_view blanks = " \t\r\n\v\f";
+constexpr std::string_view xml_blanks = " \t\r\n\v\f";
 
 constexpr std::array<std::string_view, 8> sections{"FieldData", "PointData", "CellData", "Points",
                                                    "Verts",     "Lines",     "Strips",   "Polys"};
@@ -228,7 +228,7 @@ class VtpFile::HeaderParser {
       return;
     }
     const std::size_t end = std::min(position(), file_.text_.size());
-    const std::size_t begin = std::min(file_.text_.find_first_not_of(blanks, text_begin_), end);
+    const std::size_t begin = std::min(file_.text_.find_first_not_of(xml_blanks, text_begin_), end);
     if (begin < end) {
       array_->begin = begin;
       array_->end = end;
@@ -438,12 +438,12 @@ std::vector<Value> VtpFile::values_in_text(const Array& array, std::size_t most)
   const std::string_view text =
       std::string_view(text_).substr(array.begin, array.end - array.begin);
   std::vector<Value> values;
-  std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
+  std::size_t begin = std::min(text.find_first_not_of(xml_blanks), text.size());
   while (begin < text.size()) {
     if (values.size() % 65536 == 0) {
       cancellation_.throw_if_canceled();
     }
-    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    const std::size_t end = std::min(text.find_first_of(xml_blanks, begin), text.size());
     const std::string_view word = text.substr(begin, end - begin);
     const std::optional<double> number = parse_number(word);
     if (!number || values.size() == most) {
@@ -455,7 +455,7 @@ std::vector<Value> VtpFile::values_in_text(const Array& array, std::size_t most)
     } else {
       values.push_back(value_of<Value>(*number));
     }
-    begin = std::min(text.find_first_not_of(blanks, end), text.size());
+    begin = std::min(text.find_first_not_of(xml_blanks, end), text.size());
   }
   return values;
 }

@@ -15,9 +15,9 @@
 namespace transillum {
 namespace {
 
-/// Bound on the rounding error of positions derived from a polygon's coordinates, relative to the
-/// largest coordinate.
-constexpr double rounding = 0x1p-49;
+/// Bound on the rounding error of positions derived from a polygon's coordinates, relative to
+/// the largest coordinate.
+constexpr double view_rounding = 0x1p-49;
 
 /// A point relative to a bin's center.
 struct WidePoint {
@@ -79,7 +79,7 @@ void BoundaryView::start(double area, double reach) {
   const auto x = static_cast<double>(origin_.x), y = static_cast<double>(origin_.y);
   origin_extent_ = {x, y, x + y, x - y, -x, -y, -x - y, y - x};
   area_ = region_area_ = area;
-  cutter_.tolerance = rounding * reach;
+  cutter_.tolerance = view_rounding * reach;
   reach_ = reach;
   set_own_edges();
   failed_ = subject_->cut_needle || is_inaccurate(cutter_.tolerance * reach, *subject_);
@@ -140,8 +140,8 @@ void BoundaryView::find_window() {
   }
 }
 
-/// Whether the rounding error of an area is so large, relative to a fragment and to its patch, that
-/// ExactView is required.
+/// Whether the rounding error of an area is so large, relative to a fragment and to its patch,
+/// that ExactView is required.
 bool BoundaryView::is_inaccurate(double error, const ProjectedFragments::Fragment& fragment) const {
   const double limit = error / ProjectedFragments::accuracy;
   return limit > fragment.area && limit > projected_.patch_area(fragment.patch);
@@ -161,8 +161,8 @@ void BoundaryView::set_own_edges() {
   }
 }
 
-/// Whether a candidate has nothing but rounding on the inner side of one of the fragment's edges,
-/// as neighbors that share the edge have.
+/// Whether a candidate has nothing but rounding on the inner side of one of the fragment's
+/// edges, as neighbors that share the edge have.
 bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) const {
   const GridPoint* const corners = projected_.corners.data() + by.begin;
   const std::size_t count = by.end - by.begin;
@@ -174,7 +174,7 @@ bool BoundaryView::is_outside_own_edge(const ProjectedFragments::Fragment& by) c
     far = std::max(far, std::abs(x[k]) + std::abs(y[k]));
   }
   // Far from the fragment rounding is larger: only what is certain counts.
-  const double limit = far <= 4 * reach_ ? rounding * reach_ : -rounding * far;
+  const double limit = far <= 4 * reach_ ? view_rounding * reach_ : -view_rounding * far;
   for (std::size_t m = 0; m < own_edges_.count; ++m) {
     counts_.decisions += static_cast<std::int64_t>(count);
     const double from_x = own_edges_.x[m], from_y = own_edges_.y[m];
@@ -272,8 +272,8 @@ struct BoundaryView::EdgeCrossings {
 };
 
 /// Adds the parts of the cutter's edges that lie in the region: their contribution to twice_area,
-/// and, reversed, to the next region's boundary. Returns false if rounding has made the ends of
-/// such parts inconsistent.
+/// and, reversed, to the next region's boundary. Returns false if rounding has made the ends
+/// of such parts inconsistent.
 bool BoundaryView::add_edges(double& twice_area) {
   EdgeCrossings crossings;
   int winding = cut_.winding[0];

@@ -17,7 +17,7 @@ namespace transillum {
 namespace {
 
 /// Bound on the relative error of a determinant of differences.
-constexpr long double rounding = 8 * std::numeric_limits<long double>::epsilon();
+constexpr long double long_rounding = 8 * std::numeric_limits<long double>::epsilon();
 
 /// Bound on the distance of a fragment's corners from their lines, in grid units.
 constexpr long double corner_offset = 2;
@@ -166,7 +166,7 @@ void ExactView::load_edges(const ProjectedFragments::Fragment& fragment, Polygon
 ExactView::EdgeRef ExactView::add_edge(Real x, Real y, Real dx, Real dy, LineId line, PointId from,
                                        PointId to) {
   const Real length = std::abs(dx) + std::abs(dy);
-  const Real slack = rounding * (reach_ + std::abs(x) + std::abs(y)) + corner_offset;
+  const Real slack = long_rounding * (reach_ + std::abs(x) + std::abs(y)) + corner_offset;
   // Never shrinks, so that memory is reused.
   if (edges_.size() <= edge_count_) {
     edges_.resize(2 * edge_count_ + 16);
@@ -373,7 +373,8 @@ bool ExactView::subtract_from_polygon(std::uint32_t index, Real& area) {
     area += area_of(polygons_[index]);
     return true;
   }
-  if (!find_cuts(candidate_, polygons_[index], rounding * candidate_reach_, cuts_of_candidate)) {
+  if (!find_cuts(candidate_, polygons_[index], long_rounding * candidate_reach_,
+                 cuts_of_candidate)) {
     return false;
   }
   const std::size_t parts = new_parts_.size();
@@ -508,7 +509,7 @@ void ExactView::add_crossing(const Polygon& polygon, std::size_t from, std::size
   const Edge& cutting = edge_of(by);
   // The crossing lies near both lines, whatever the errors of the corners along them; the smaller
   // the angle, the farther it may be from the point where the lines meet.
-  const Real nearness = edge.slack + cutting.slack + rounding * (std::abs(x) + std::abs(y));
+  const Real nearness = edge.slack + cutting.slack + long_rounding * (std::abs(x) + std::abs(y));
   const Real flatness =
       edge.length * cutting.length / std::abs(edge.dx * cutting.dy - edge.dy * cutting.dx);
   Real error = nearness * flatness;
