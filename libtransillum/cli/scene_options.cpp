@@ -104,7 +104,7 @@ void orient_input(const SceneInput& input, SceneDescription& description,
 SceneOptions division(const SceneInput& input, const SceneDescription& description,
                       const Cancellation& cancellation) {
   SceneOptions options = input.options;
-  if (input.patches == 0 && options.max_patch_area == 0) {
+  if (input.in_rounds || (input.patches == 0 && options.max_patch_area == 0)) {
     return options;
   }
   options.max_patch_area = 0;

@@ -25,6 +25,7 @@ struct SceneInput {
   SceneOptions options;
   std::int64_t patches = 0;  ///< about this number of patches; 0: not given
   bool orient = false;       ///< turn parts so that what is seen is lit
+  bool in_rounds = false;    ///< `patches` is for rounds of refinement: faces are left whole
   const CLI::App* command = nullptr;
 };
 

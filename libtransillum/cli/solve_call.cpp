@@ -8,6 +8,7 @@
 
 #include "option_values.h"
 #include "output_files.h"
+#include "processes.h"
 #include "transillum/errors.h"
 #include "transillum/files.h"
 #include "transillum/study.h"
@@ -87,6 +88,24 @@ void add_scheme(CLI::App& command, SolveCall& call) {
                       options.replicas =
                           static_cast<int>(parse_whole_number("--replicas", text, 1, 64));
                     });
+}
+
+void add_refinement(CLI::App& command, SolveCall& call) {
+  auto* by = add_parsed_option(
+      command, "--refine-by", "NAME",
+      "divide faces in rounds, worst patches first, until there are --patches of them; jump: where "
+      "B jumps across edges; error: where a solve with every patch divided differs most",
+      [&call](const std::string& text) {
+        call.refine_by = refine_by_from_name(text);
+        call.scene.in_rounds = true;
+      });
+  add_parsed_option(command, "--refine-until", "P%|X",
+                    "end the rounds when their figure is this small: relative RMS jump, or "
+                    "relative L2 error",
+                    [&call](const std::string& text) {
+                      call.refine_until = parse_accuracy("--refine-until", text);
+                    })
+      ->needs(by);
 }
 
 void add_goal(CLI::App& command, AccuracyGoal& goal) {
@@ -184,6 +203,23 @@ void check_share(const SolveCall& call) {
   }
 }
 
+/// Refuses what rounds of refinement cannot have.
+void check_refinement(const SolveCall& call) {
+  if (!call.refine_by) {
+    return;
+  }
+  if (call.scene.patches == 0) {
+    throw InputError("--refine-by: requires --patches N, the most patches to make");
+  }
+  for (const char* option : {"--shard", "--factors", "--seconds"}) {
+    refuse_unless(false, *call.command, option, "not used with --refine-by");
+  }
+  refuse_unless(takes_directions(call.options.engine), *call.command, "--refine-by",
+                fmt::format("not used with engine {}", name_of(call.options.engine)));
+  refuse_unless(!processes().group, *call.command, "--refine-by",
+                "not available with several processes");
+}
+
 /// Refuses checkpoints where there are no passes.
 void check_run(const SolveCall& call) {
   check_checkpoint(call.checkpoint);
@@ -202,6 +238,7 @@ std::vector<std::string> checked_outputs(const SolveCall& call) {
     throw InputError("--out: standard output (-) is given twice");
   }
   check_share(call);
+  check_refinement(call);
   check_run(call);
   std::vector<std::string> files = given_files(call.out);
   if (!call.share) {
@@ -263,6 +300,7 @@ void add_solve_options(CLI::App& command, SolveCall& call) {
   add_sequence_options(command, call.sequence);
   add_estimator(command, call);
   add_scheme(command, call);
+  add_refinement(command, call);
   add_goal(command, call.options.goal);
   add_stopping_rules(command, call);
   add_scene_options(command, call.scene);

@@ -14,6 +14,7 @@
 #include "sequence_options.h"
 #include "transillum/power_table.h"
 #include "transillum/radiosity.h"
+#include "transillum/refinement.h"
 #include "transillum/shares.h"
 
 namespace transillum::cli {
@@ -28,8 +29,10 @@ struct SolveCall {
   bool shot_given = false;  ///< --first-shot
   std::vector<std::string> out;
   std::string stats;
-  std::optional<PartsBy> by;  ///< --by
-  std::string factors;        ///< --factors
+  std::optional<PartsBy> by;          ///< --by
+  std::string factors;                ///< --factors
+  std::optional<RefineBy> refine_by;  ///< --refine-by, until scene.patches are made
+  double refine_until = 0;            ///< --refine-until
   ColorOutputs colors;
   CheckpointCall checkpoint;
   double checkpoint_every = 60;     ///< --checkpoint-every, s

@@ -15,6 +15,7 @@
 #include "power_report.h"
 #include "processes.h"
 #include "progress_display.h"
+#include "refine_rounds.h"
 #include "solve_call.h"
 #include "solve_job.h"
 #include "solve_summary.h"
@@ -95,6 +96,7 @@ void print_cost(const SolveCall& call, const Checkpoint& checkpoint) {
 struct Preparation {
   SolveOptions options;
   std::shared_ptr<const Scene> scene;
+  std::vector<RefinementRound> rounds;  ///< that led to the scene
   std::optional<ResultSeries> series;
   std::optional<Checkpoint> checkpoint;
   bool resume = false;
@@ -109,6 +111,11 @@ Preparation prepare_call(const SolveCall& call, const Cancellation& cancellation
   prepared.options = solve_options(call);
   prepared.scene = load_input_scene(call.scene, outputs, cancellation,
                                     prepared.options.sky.set() ? Light::optional : Light::required);
+  if (call.refine_by) {
+    Refinement refined = refine_in_rounds(call, prepared.scene, prepared.options, cancellation);
+    prepared.scene = std::move(refined.scene);
+    prepared.rounds = std::move(refined.rounds);
+  }
   if (!call.colors.series.empty() && is_first_process()) {
     prepared.series.emplace(call.colors.series);
   }
@@ -168,6 +175,7 @@ int run_solve(const SolveCall& call) {
                       : takes_directions(options.engine) ? solve_by_passes(job)
                                                          : solve_without_directions(job);
   display.clear();
+  solution.statistics.refinement = prepared.rounds;
   solution.statistics.seconds_load = seconds_load;
   solution.statistics.seconds_total = seconds_since(start);
   if (call.by && options.basis != Basis::constant) {

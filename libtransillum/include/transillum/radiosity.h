@@ -139,6 +139,16 @@ struct IterationRecord {
   double remainder = 0;
 };
 
+/// A solve of an adaptive refinement (refinement.h), after which patches are divided.
+struct RefinementRound {
+  std::int64_t patches = 0;  ///< of the scene so far
+  /// Root of the sum of squares over patches, relative to that of the radiosity of all patches that
+  /// emit nothing: by RefineBy::jump of the jump times the root of the area, by RefineBy::error of
+  /// what the functions of a patch cannot represent
+  double figure = 0;
+  double seconds = 0;  ///< wall time of the round
+};
+
 /// The state of a solver.
 struct SolveProgress {
   int iteration = 0;      ///< iterations finished
@@ -211,6 +221,7 @@ struct SolveStatistics {
   double predicted_contraction = 0;                ///< rho_max (1 + eps(M)/pi), eq. 22 with eq. 21
   PassCounts counts;                               ///< sum over all different directions
   std::vector<IterationRecord> iteration_records;  ///< one per iteration
+  std::vector<RefinementRound> refinement;  ///< rounds that led to the scene; set by the caller
   std::int64_t shot_sources = 0;  ///< patches whose emission was shot before the iteration
   double shot_power_share = 0;    ///< their power over all power emitted
   double seconds_load = 0;        ///< reading the scene; set by the caller

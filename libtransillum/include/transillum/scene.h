@@ -226,6 +226,11 @@ class Scene {
   const SceneOptions& options() const { return options_; }
 
  private:
+  friend class PatchDivision;  // makes a scene from another, for divide()
+  /// With the name, files, materials, groups, report and options of another, and no patches.
+  struct WithoutPatches {};
+  Scene(const Scene& other, WithoutPatches);
+
   std::string name_;
   std::vector<std::string> files_;
   SceneOptions options_;

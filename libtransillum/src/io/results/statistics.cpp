@@ -15,10 +15,10 @@ using Json = nlohmann::ordered_json;
 
 Json list_of(const Rgb& color) { return {color.r, color.g, color.b}; }
 
-template <typename ValueOf>
-Json list_of(const std::vector<IterationRecord>& steps, ValueOf value_of) {
+template <typename Record, typename ValueOf>
+Json list_of(const std::vector<Record>& steps, ValueOf value_of) {
   Json list = Json::array();
-  for (const IterationRecord& step : steps) {
+  for (const Record& step : steps) {
     list.push_back(value_of(step));
   }
   return list;
@@ -97,6 +97,9 @@ Json statistics_json(const SolveStatistics& statistics) {
       list_of(steps, [](const IterationRecord& s) { return s.error ? Json(*s.error) : Json(); });
   json["remainder"] = list_of(steps, [](const IterationRecord& s) { return s.remainder; });
   json["step_seconds"] = list_of(steps, [](const IterationRecord& s) { return s.seconds; });
+  json["refinement"] = list_of(statistics.refinement, [](const RefinementRound& round) {
+    return Json{{"patches", round.patches}, {"figure", round.figure}, {"seconds", round.seconds}};
+  });
   const PassCounts& counts = statistics.counts;
   json["counters"] = {{"pairs", counts.pairs},
                       {"cuts", counts.cuts},

@@ -44,6 +44,15 @@ Scene::Scene(const SceneDescription& description, const SceneOptions& options,
   }
 }
 
+Scene::Scene(const Scene& other, WithoutPatches)
+    : name_(other.name_),
+      files_(other.files_),
+      options_(other.options_),
+      materials_(other.materials_),
+      groups_(other.groups_),
+      bounds_(other.bounds_),
+      report_(other.report_) {}
+
 bool Scene::has_light() const {
   return std::any_of(patches_.begin(), patches_.end(), [this](const Patch& patch) {
     return max_abs(at(materials_, patch.material).exitance) > 0;

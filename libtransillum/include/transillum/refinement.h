@@ -1,0 +1,79 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Adaptive refinement: patches are divided where the radiosity is represented worst, in a few
+// rounds (ALGORITHM.md 6.13).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transillum/cancellation.h"
+#include "transillum/export.h"
+#include "transillum/radiosity.h"
+#include "transillum/scene.h"
+
+namespace TRANSILLUM_API transillum {
+
+/// What says that a patch is to be divided.
+enum class RefineBy {
+  jump,   ///< the jump of the radiosity across its edges; costs no solve of its own
+  error,  ///< the part of the radiosity that the functions of the patch cannot represent, from a
+          ///< solve in which every patch is divided
+};
+/// The names of the criteria as in options, in the order of the enumeration.
+const std::vector<std::string>& refine_by_names();
+/// The criterion called `name`.
+/// @throws InputError listing the choices.
+RefineBy refine_by_from_name(const std::string& name);
+/// The name in refine_by_names().
+const std::string& name_of(RefineBy by);
+
+/// Per patch: root of the mean square, along its edges, of the jump of its radiosity to that of the
+/// patches beyond them, W/m², as the length of an RGB vector. Light alone is compared: beyond an
+/// edge, the irradiance of the neighbor times the reflectance of the patch, so that neither paint
+/// nor lamps count as jumps. Taken at two points of each edge.
+///
+/// Neighbors are the patches of the same plane that touch the edge. Where a patch has none of these
+/// they are those that touch it at an angle; where it has none of these either, the jump is the
+/// radiosity itself: nothing is known about how it varies.
+/// @throws Canceled
+std::vector<double> radiosity_jumps(const Solution& solution,
+                                    const Cancellation& cancellation = {});
+
+/// What refine() does.
+struct RefineOptions {
+  RefineBy by = RefineBy::jump;  ///< what patches are divided by
+  std::int64_t patches = 0;      ///< N > 0: the most patches to make
+  double until = 0;              ///< RefinementRound::figure to reach, [0,1); 0: N decides alone
+  /// @throws InputError naming the option and its range.
+  void validate() const;
+};
+
+/// A refined scene and how it was reached.
+struct Refinement {
+  std::shared_ptr<const Scene> scene;   ///< to be solved by the caller
+  std::vector<RefinementRound> rounds;  ///< in order; by RefineBy::error the last is of `scene`
+};
+
+/// Called after each round with what was solved: the scene so far, or by RefineBy::error that scene
+/// with every patch divided.
+using RoundObserver = std::function<void(const RefinementRound&, const Solution&)>;
+
+/// Refines a scene in rounds: each solves it and divides the patches that are worst, until the
+/// number of patches or the figure is reached, or nothing is left to divide. The number of patches
+/// at most doubles in a round, so that each decision is made by a solve that can see it.
+/// @param scene to start from.
+/// @param options of the solves. Engines that make no passes are refused.
+/// @param refine criterion and limits.
+/// @param rounds called after each round.
+/// @param observer of the solves, as for solve().
+/// @throws InputError, Canceled; those of solve()
+Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                  const RefineOptions& refine, const RoundObserver& rounds = {},
+                  const RadiositySolver::Observer& observer = {},
+                  const Cancellation& cancellation = {});
+
+}  // namespace TRANSILLUM_API transillum

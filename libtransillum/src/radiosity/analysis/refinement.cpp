@@ -1,0 +1,264 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Rounds of adaptive refinement. Input: a scene and options of solves; output: a scene whose
+// patches are divided where their functions represent the radiosity worst.
+#include "transillum/refinement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "base/choice.h"
+#include "radiosity/sum_of_squares.h"
+#include "transillum/at.h"
+#include "transillum/division.h"
+#include "transillum/engine.h"
+#include "transillum/errors.h"
+#include "transillum/patch_count.h"
+
+namespace transillum {
+namespace {
+
+/// Number of patches after a round, over that before it, at most.
+constexpr double growth = 2;
+
+/// Integral of |B|² over patch i.
+double square_integral(const Solution& solution, PatchId i) {
+  double sum = sum_of_squares(at(solution.radiosity, i));
+  if (!solution.linear_parts.empty()) {
+    const LinearPart& part = at(solution.linear_parts, i);
+    sum += sum_of_squares(part.first) + sum_of_squares(part.second);
+  }
+  return solution.scene->patch(i).area * sum;
+}
+
+/// Integral of |B|² over all patches that emit nothing; over all if each emits.
+double square_integral(const Solution& solution) {
+  double passive = 0, all = 0;
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    const double square = square_integral(solution, i);
+    all += square;
+    passive += max_abs(solution.scene->exitance(i)) > 0 ? 0 : square;
+  }
+  return passive > 0 ? passive : all;
+}
+
+/// Integrals of B over a patch, times its functions, from the patches that it is divided into.
+struct Projection {
+  double square = 0;                ///< of |B|²
+  std::array<Rgb, 3> coefficients;  ///< of B phi_a, over the area
+};
+
+/// Adds what patch k of the divided scene contributes to the projection onto patch i.
+void add_to(Projection& projection, const Solution& fine, PatchId k, const LinearBasis* own,
+            const LinearBasis* basis, double whole_area) {
+  const Patch& patch = fine.scene->patch(k);
+  const double share = patch.area / whole_area;
+  const Rgb& mean = at(fine.radiosity, k);
+  projection.square += square_integral(fine, k);
+  projection.coefficients[0] += share * mean;
+  if (basis == nullptr) {
+    return;
+  }
+  const auto at_center = basis->at(own->center);
+  const LinearPart& part = at(fine.linear_parts, k);
+  for (std::size_t a = 0; a < 2; ++a) {
+    // The function of the whole in terms of those of the part: phi = value + s1 psi_1 + s2 psi_2.
+    // Their gradients need not be orthogonal: psi_1 is constant across the longest edge.
+    const Vec3 &g = basis->gradient[a], &h1 = own->gradient[0], &h2 = own->gradient[1];
+    const double h11 = dot(h1, h1), h12 = dot(h1, h2), h22 = dot(h2, h2);
+    const double g1 = dot(g, h1), g2 = dot(g, h2);
+    const double determinant = h11 * h22 - h12 * h12;
+    const double s1 = (g1 * h22 - g2 * h12) / determinant;
+    const double s2 = (g2 * h11 - g1 * h12) / determinant;
+    projection.coefficients[a + 1] +=
+        share * (at_center[a] * mean + s1 * part.first + s2 * part.second);
+  }
+}
+
+/// Per patch of `whole`: integral of the square of what its functions cannot represent of B.
+std::vector<double> squares_by_error(const Scene& whole, const DividedScene& divided,
+                                     const Solution& fine) {
+  const bool linear = !fine.linear_parts.empty();
+  const std::vector<LinearBasis> own = linear ? linear_bases(*divided.scene)
+                                              : std::vector<LinearBasis>(),
+                                 bases = linear ? linear_bases(whole) : std::vector<LinearBasis>();
+  std::vector<Projection> projections(whole.patches().size());
+  for (PatchId k = 0; k < divided.scene->patch_count(); ++k) {
+    const PatchId i = at(divided.parent, k);
+    add_to(at(projections, i), fine, k, linear ? &at(own, k) : nullptr,
+           linear ? &at(bases, i) : nullptr, whole.patch(i).area);
+  }
+  std::vector<double> errors;
+  for (PatchId i = 0; i < whole.patch_count(); ++i) {
+    const Projection& p = at(projections, i);
+    double represented = 0;
+    for (const Rgb& c : p.coefficients) {
+      represented += sum_of_squares(c);
+    }
+    errors.push_back(std::max(0.0, p.square - whole.patch(i).area * represented));
+  }
+  return errors;
+}
+
+std::vector<double> squares_by_jump(const Solution& solution, const Cancellation& cancellation) {
+  std::vector<double> result = radiosity_jumps(solution, cancellation);
+  for (PatchId i = 0; i < solution.scene->patch_count(); ++i) {
+    double& jump = at(result, i);
+    jump *= jump * solution.scene->patch(i).area;
+  }
+  return result;
+}
+
+std::vector<PatchId> all_patches(const Scene& scene) {
+  std::vector<PatchId> patches(scene.patches().size());
+  std::iota(patches.begin(), patches.end(), PatchId{0});
+  return patches;
+}
+
+/// The worst patches, as many as make no more than `most` patches of all.
+std::vector<PatchId> worst(const Scene& scene, const std::vector<double>& squares,
+                           std::int64_t most) {
+  std::vector<PatchId> order = all_patches(scene);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](PatchId a, PatchId b) { return at(squares, a) > at(squares, b); });
+  std::int64_t count = scene.patch_count();
+  std::vector<PatchId> chosen;
+  for (const PatchId i : order) {
+    const int more = division_count(scene, i) - 1;
+    if (!(at(squares, i) > 0) || count + more > most) {
+      break;
+    }
+    count += more;
+    chosen.push_back(i);
+  }
+  return chosen;
+}
+
+/// The scene divided at its worst patches, with no more than `most`; null where nothing is left.
+/// Patches on the same points are divided together: fewer are chosen where that makes too many.
+std::shared_ptr<const Scene> divide_worst(const Scene& scene, const std::vector<double>& squares,
+                                          std::int64_t most, const Cancellation& cancellation) {
+  std::vector<PatchId> chosen = worst(scene, squares, most);
+  while (!chosen.empty()) {
+    const DividedScene divided = divide(scene, chosen, cancellation);
+    if (divided.scene->patch_count() <= most) {
+      return divided.scene->patch_count() > scene.patch_count() ? divided.scene : nullptr;
+    }
+    chosen.resize(chosen.size() / 2);
+  }
+  return nullptr;
+}
+
+/// What a round finds out about a scene.
+struct Finding {
+  std::vector<double> squares;  ///< per patch
+  RefinementRound round;
+};
+
+class Rounds {
+ public:
+  Rounds(const SolveOptions& options, const RefineOptions& refine, const RoundObserver& rounds,
+         const RadiositySolver::Observer& observer, const Cancellation& cancellation)
+      : options_(options),
+        refine_(refine),
+        rounds_(rounds),
+        observer_(observer),
+        cancellation_(cancellation) {}
+
+  Finding find(const std::shared_ptr<const Scene>& scene) const {
+    const auto start = std::chrono::steady_clock::now();
+    Finding finding;
+    finding.round.patches = scene->patch_count();
+    Solution solution;
+    if (refine_.by == RefineBy::jump) {
+      solution = solved(scene);
+      finding.squares = squares_by_jump(solution, cancellation_);
+    } else {
+      const DividedScene divided = divide(*scene, all_patches(*scene), cancellation_);
+      solution = solved(divided.scene);
+      finding.squares = squares_by_error(*scene, divided, solution);
+    }
+    const double sum = std::accumulate(finding.squares.begin(), finding.squares.end(), 0.0);
+    finding.round.figure = sum > 0 ? std::sqrt(sum / square_integral(solution)) : 0;
+    finding.round.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (rounds_) {
+      rounds_(finding.round, solution);
+    }
+    return finding;
+  }
+
+ private:
+  Solution solved(const std::shared_ptr<const Scene>& scene) const {
+    check_memory(scene->name(), scene->patch_count(), options_.replicas);
+    Solution solution = solve(scene, options_, observer_, cancellation_);
+    // Patches divided by half a solve would not be the worst.
+    cancellation_.throw_if_canceled();
+    return solution;
+  }
+
+  const SolveOptions& options_;
+  const RefineOptions& refine_;
+  const RoundObserver& rounds_;
+  const RadiositySolver::Observer& observer_;
+  const Cancellation& cancellation_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& refine_by_names() {
+  static const std::vector<std::string> names{"jump", "error"};
+  return names;
+}
+
+RefineBy refine_by_from_name(const std::string& name) {
+  return choice_from_name<RefineBy>(refine_by_names(), "criterion of refinement", name);
+}
+
+const std::string& name_of(RefineBy by) { return at(refine_by_names(), by); }
+
+void RefineOptions::validate() const {
+  if (patches < 1) {
+    throw InputError(fmt::format("refinement: {} patches; at least 1 is required", patches));
+  }
+  if (!(until >= 0 && until < 1)) {
+    throw InputError(
+        fmt::format("refinement: the figure to reach is {}, but must be >= 0 and < 1", until));
+  }
+}
+
+Refinement refine(std::shared_ptr<const Scene> scene, const SolveOptions& options,
+                  const RefineOptions& refine, const RoundObserver& rounds,
+                  const RadiositySolver::Observer& observer, const Cancellation& cancellation) {
+  refine.validate();
+  options.validate();
+  if (!takes_directions(options.engine)) {
+    throw InputError(fmt::format("refinement: not available with engine {}, which makes no passes",
+                                 name_of(options.engine)));
+  }
+  const Rounds solves(options, refine, rounds, observer, cancellation);
+  Refinement result{std::move(scene), {}};
+  while (result.scene->patch_count() < refine.patches || refine.by == RefineBy::error) {
+    const Finding finding = solves.find(result.scene);
+    result.rounds.push_back(finding.round);
+    // What is smaller than the tolerance is left over by the iteration.
+    if (finding.round.figure <= std::max(refine.until, options.tolerance)) {
+      break;
+    }
+    const auto most =
+        std::min(refine.patches,
+                 static_cast<std::int64_t>(std::ceil(growth * result.scene->patch_count())) + 3);
+    const auto finer = divide_worst(*result.scene, finding.squares, most, cancellation);
+    if (!finer) {
+      break;
+    }
+    result.scene = finer;
+  }
+  return result;
+}
+
+}  // namespace transillum

@@ -1,0 +1,237 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Division of chosen patches of a scene. Input: a Scene, whose patches are planar and whose pieces
+// are convex; output: another with the same faces.
+#include "transillum/division.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "geometry/convex_partition.h"
+#include "scene/build/patch_builder.h"
+#include "scene/build/refinement.h"
+#include "transillum/errors.h"
+
+namespace transillum {
+namespace {
+
+using Outline = std::vector<PointId>;
+
+/// Quadrilaterals longer than this, relative to their width, are divided in a row.
+constexpr double long_shape = 2;
+
+double mean_length(const Scene& scene, std::span<const PointId> o, std::size_t edge) {
+  const auto length = [&](std::size_t k) {
+    return norm(scene.point(o[k]) - scene.point(o[(k + 1) % 4]));
+  };
+  return length(edge) + length(edge + 2);
+}
+
+/// The grid that divides a triangle or a convex quadrilateral into four.
+CellGrid grid_of_four(const Scene& scene, Outline outline) {
+  CellGrid grid{std::move(outline), 2, 2};
+  if (grid.outline.size() == 3) {
+    grid.rows = 1;
+    return grid;
+  }
+  const double width = mean_length(scene, grid.outline, 0),
+               height = mean_length(scene, grid.outline, 1);
+  if (width > long_shape * height) {
+    grid.columns = 4;
+    grid.rows = 1;
+  } else if (height > long_shape * width) {
+    grid.columns = 1;
+    grid.rows = 4;
+  }
+  return grid;
+}
+
+/// The pieces of a patch, by their numbers in Scene::pieces().
+struct PieceRange {
+  std::size_t begin = 0, end = 0;
+  std::size_t size() const { return end - begin; }
+};
+
+PieceRange pieces_of(const Scene& scene, PatchId i) {
+  const auto& pieces = scene.pieces();
+  const auto [first, last] =
+      std::equal_range(pieces.begin(), pieces.end(), Piece{i, 0, 0},
+                       [](const Piece& a, const Piece& b) { return a.patch < b.patch; });
+  return {static_cast<std::size_t>(first - pieces.begin()),
+          static_cast<std::size_t>(last - pieces.begin())};
+}
+
+Outline as_vector(std::span<const PointId> corners) { return {corners.begin(), corners.end()}; }
+
+/// Triangles of a convex polygon.
+std::vector<Outline> triangles_of(const Scene& scene, const Outline& corners, const Vec3& normal) {
+  std::vector<Outline> triangles;
+  for (const auto& t : triangulate(drop_axis(scene.points(), corners, normal))) {
+    Outline& triangle = triangles.emplace_back();
+    for (const std::uint32_t c : t) {
+      triangle.push_back(corners[c]);
+    }
+  }
+  return triangles;
+}
+
+}  // namespace
+
+/// Makes the scene of divide().
+class PatchDivision {
+ public:
+  PatchDivision(const Scene& scene, const Cancellation& cancellation)
+      : whole_(scene), cancellation_(cancellation) {
+    for (const Vec3& point : scene.points()) {
+      table_.id_of(point);
+    }
+  }
+
+  DividedScene make(std::span<const PatchId> patches) {
+    const std::vector<bool> divided = with_coincident(patches);
+    auto scene = std::shared_ptr<Scene>(new Scene(whole_, Scene::WithoutPatches{}));
+    scene_ = scene.get();
+    for (PatchId i = 0; i < whole_.patch_count(); ++i) {
+      if (i % patches_between_checks == 0) {
+        cancellation_.throw_if_canceled();
+      }
+      const bool two = are_sides(i);
+      const std::vector<Outline> cells = at(divided, i) ? cells_of(i) : std::vector<Outline>();
+      if (cells.empty()) {
+        copy(i);
+        if (two) {
+          copy(i + 1);
+        }
+      }
+      for (const Outline& cell : cells) {
+        add(i, cell, scene_->patches_.size());
+        if (two) {
+          add(i + 1, Outline(cell.rbegin(), cell.rend()), scene_->patches_.size());
+        }
+      }
+      i += two ? 1 : 0;
+    }
+    scene->points_ = table_.take();
+    return {std::move(scene), std::move(parent_)};
+  }
+
+  /// Outlines of what patch i is divided into; empty where it cannot be divided.
+  std::vector<Outline> cells_of(PatchId i) {
+    const auto outline = whole_.outline(i);
+    const PieceRange range = pieces_of(whole_, i);
+    const bool is_quadrilateral = outline.size() == 4 && range.size() == 1 &&
+                                  whole_.corners(whole_.pieces()[range.begin]).size() == 4;
+    std::vector<Outline> cells;
+    if (outline.size() == 3 || is_quadrilateral) {
+      cells = make_cells(table_, grid_of_four(whole_, as_vector(outline)));
+    } else if (range.size() == 1) {
+      cells = triangles_of(whole_, as_vector(whole_.corners(whole_.pieces()[range.begin])),
+                           whole_.patch(i).normal);
+    } else {
+      for (std::size_t k = range.begin; k < range.end; ++k) {
+        cells.push_back(as_vector(whole_.corners(whole_.pieces()[k])));
+      }
+    }
+    const bool too_small = std::any_of(cells.begin(), cells.end(), [&](const Outline& cell) {
+      return measure(table_.points(), cell).degenerate;
+    });
+    return too_small ? std::vector<Outline>() : cells;
+  }
+
+ private:
+  static constexpr PatchId patches_between_checks = 256;
+
+  bool are_sides(PatchId i) const {
+    if (i + 1 >= whole_.patch_count()) {
+      return false;
+    }
+    const Patch &front = whole_.patch(i), &back = whole_.patch(i + 1);
+    const auto a = whole_.outline(i), b = whole_.outline(i + 1);
+    return front.face == back.face && front.normal == -back.normal && a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.rbegin());
+  }
+
+  /// Which patches are divided: those asked for, and all on the same points as one of them.
+  std::vector<bool> with_coincident(std::span<const PatchId> patches) const {
+    std::vector<bool> divided(whole_.patches().size(), false);
+    std::map<Outline, bool> by_points;
+    const auto key = [this](PatchId i) {
+      Outline points = as_vector(whole_.outline(i));
+      std::sort(points.begin(), points.end());
+      return points;
+    };
+    for (const PatchId i : patches) {
+      by_points[key(i)] = true;
+    }
+    for (PatchId i = 0; i < whole_.patch_count(); ++i) {
+      divided[static_cast<std::size_t>(i)] = by_points.count(key(i)) > 0;
+    }
+    return divided;
+  }
+
+  void copy(PatchId i) {
+    start(i, whole_.patch(i), as_vector(whole_.outline(i)));
+    const PieceRange range = pieces_of(whole_, i);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+      add_piece(whole_.corners(whole_.pieces()[k]));
+    }
+  }
+
+  /// A cell of patch i: a convex polygon.
+  void add(PatchId i, const Outline& cell, std::size_t count) {
+    if (static_cast<std::int64_t>(count) >= PatchBuilder::max_patches) {
+      throw InputError(
+          fmt::format("{}: more than {} patches", whole_.name(), PatchBuilder::max_patches));
+    }
+    const PolygonShape shape = measure(table_.points(), cell);
+    Patch patch = whole_.patch(i);
+    patch.area = shape.area;
+    patch.center = shape.center;
+    start(i, patch, cell);
+    add_piece(cell);
+  }
+
+  void start(PatchId parent, Patch patch, const Outline& outline) {
+    std::vector<PointId>& corners = scene_->outline_corners_;
+    patch.outline_begin = static_cast<std::uint32_t>(corners.size());
+    corners.insert(corners.end(), outline.begin(), outline.end());
+    patch.outline_end = static_cast<std::uint32_t>(corners.size());
+    scene_->patches_.push_back(patch);
+    parent_.push_back(parent);
+  }
+
+  void add_piece(std::span<const PointId> piece) {
+    std::vector<PointId>& corners = scene_->piece_corners_;
+    const auto begin = static_cast<std::uint32_t>(corners.size());
+    corners.insert(corners.end(), piece.begin(), piece.end());
+    scene_->pieces_.push_back({static_cast<PatchId>(scene_->patches_.size()) - 1, begin,
+                               static_cast<std::uint32_t>(corners.size())});
+  }
+
+  const Scene& whole_;
+  const Cancellation& cancellation_;
+  PointTable table_;
+  Scene* scene_ = nullptr;
+  std::vector<PatchId> parent_;
+};
+
+int division_count(const Scene& scene, PatchId i) {
+  const auto outline = scene.outline(i);
+  const PieceRange range = pieces_of(scene, i);
+  const std::size_t corners = scene.corners(scene.pieces()[range.begin]).size();
+  if (outline.size() == 3 || (outline.size() == 4 && range.size() == 1 && corners == 4)) {
+    return 4;
+  }
+  return static_cast<int>(range.size() > 1 ? range.size() : corners - 2);
+}
+
+DividedScene divide(const Scene& scene, std::span<const PatchId> patches,
+                    const Cancellation& cancellation) {
+  return PatchDivision(scene, cancellation).make(patches);
+}
+
+}  // namespace transillum

@@ -1,0 +1,81 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// `solve --refine-by` as a program: its rounds, files and refusals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program_run.h"
+#include "transillum/files.h"
+
+namespace transillum::testing {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const Arguments box{"solve", "cornell-box", "-m", "64"};
+
+TEST(CliRefine, RefusesInOneLineWhatItCannotDo) {
+  const std::pair<Arguments, const char*> calls[] = {
+      {{"--refine-by", "jump"}, "--refine-by: requires --patches N"},
+      {{"--refine-by", "edge", "--patches", "60"}, "choose one of jump, error"},
+      {{"--refine-by", "jump", "--max-patch-area", "1"}, "--refine-by: requires --patches N"},
+      {{"--refine-until", "1%"}, "--refine-by"},
+      {{"--refine-by", "jump", "--patches", "60", "--refine-until", "2"}, "--refine-until"},
+      {{"--refine-by", "jump", "--patches", "60", "--seconds", "9"}, "--seconds"},
+      {{"--refine-by", "jump", "--patches", "60", "--shard", "1/2", "-o", "a.tsh"}, "--shard"},
+      {{"--refine-by", "jump", "--patches", "60", "--factors", "f.npz"}, "--factors"},
+      {{"--refine-by", "jump", "--patches", "60", "--engine", "hemicube"}, "engine hemicube"},
+  };
+  for (const auto& [options, message] : calls) {
+    SCOPED_TRACE(::testing::PrintToString(options));
+    const ProgramResult result = run_program(box + options);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(line_count(result.err), 1U) << result.err;
+  }
+}
+
+TEST(CliRefine, PrintsItsRoundsAndKeepsThemInTheStatistics) {
+  const TemporaryFolder folder;
+  const std::string stats = folder / "stats.json", out = folder / "out.vtp";
+  for (const char* by : {"jump", "error"}) {
+    const ProgramResult result = run_program(
+        box + Arguments{"--refine-by", by, "--patches", "100", "--stats", stats, "-o", out});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err,
+                ContainsRegex("round 1: 27 patches, (RMS jump|L2 error) [0-9.]+ % of B"));
+    const auto json = nlohmann::json::parse(std::ifstream(stats));
+    EXPECT_LE(json["patches"], 100);
+    EXPECT_GE(json["patches"], 97);
+    ASSERT_GE(json["refinement"].size(), 2U);
+    EXPECT_EQ(json["refinement"][0]["patches"], 27);
+    EXPECT_GT(json["refinement"][0]["figure"], 0.1);
+    EXPECT_EQ(read_result(out).scene->patch_count(), json["patches"]);
+  }
+}
+
+/// The last solve is of an ordinary scene: its result is too, and its checkpoint goes on.
+TEST(CliRefine, GoesOnFromItsCheckpoint) {
+  const TemporaryFolder folder;
+  const std::string whole = folder / "whole.csv", resumed = folder / "resumed.csv",
+                    checkpoint = folder / "run.tck";
+  const Arguments refined = box + Arguments{"-q", "--refine-by", "jump", "--patches", "60"};
+  ASSERT_EQ(run_program(refined + Arguments{"-o", whole, "--checkpoint", checkpoint}).status, 0);
+  ASSERT_EQ(run_program(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"})
+                .status,
+            0);
+  EXPECT_EQ(read_file(whole), read_file(resumed));
+}
+
+}  // namespace
+}  // namespace transillum::testing
