@@ -18,12 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Arguments = std::vector<std::string>;
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 const Arguments box{"solve", "cornell-box", "-q", "--basis", "linear"};
 

@@ -15,14 +15,8 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
-using Arguments = std::vector<std::string>;
 
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-const Arguments box{"solve", "cornell-box", "-m", "64"};
+const Arguments whole_box{"solve", "cornell-box", "-m", "64"};
 
 TEST(CliRefine, RefusesInOneLineWhatItCannotDo) {
   const std::pair<Arguments, const char*> calls[] = {
@@ -38,7 +32,7 @@ TEST(CliRefine, RefusesInOneLineWhatItCannotDo) {
   };
   for (const auto& [options, message] : calls) {
     SCOPED_TRACE(::testing::PrintToString(options));
-    const ProgramResult result = run_program(box + options);
+    const ProgramResult result = run_program(whole_box + options);
     EXPECT_EQ(result.status, 2);
     EXPECT_THAT(result.err, HasSubstr(message));
     EXPECT_EQ(line_count(result.err), 1U) << result.err;
@@ -50,7 +44,7 @@ TEST(CliRefine, PrintsItsRoundsAndKeepsThemInTheStatistics) {
   const std::string stats = folder / "stats.json", out = folder / "out.vtp";
   for (const char* by : {"jump", "error"}) {
     const ProgramResult result = run_program(
-        box + Arguments{"--refine-by", by, "--patches", "100", "--stats", stats, "-o", out});
+        whole_box + Arguments{"--refine-by", by, "--patches", "100", "--stats", stats, "-o", out});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err,
                 ContainsRegex("round 1: 27 patches, (RMS jump|L2 error) [0-9.]+ % of B"));
@@ -69,7 +63,7 @@ TEST(CliRefine, GoesOnFromItsCheckpoint) {
   const TemporaryFolder folder;
   const std::string whole = folder / "whole.csv", resumed = folder / "resumed.csv",
                     checkpoint = folder / "run.tck";
-  const Arguments refined = box + Arguments{"-q", "--refine-by", "jump", "--patches", "60"};
+  const Arguments refined = whole_box + Arguments{"-q", "--refine-by", "jump", "--patches", "60"};
   ASSERT_EQ(run_program(refined + Arguments{"-o", whole, "--checkpoint", checkpoint}).status, 0);
   ASSERT_EQ(run_program(refined + Arguments{"-o", resumed, "--checkpoint", checkpoint, "--resume"})
                 .status,

@@ -23,13 +23,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-using Arguments = std::vector<std::string>;
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// A solve of about a second, unless the options choose the directions.
 Arguments solve(const std::string& out, const Arguments& options = {}) {
   const bool chosen = std::any_of(options.begin(), options.end(), [](const std::string& option) {

@@ -19,7 +19,7 @@ using ::testing::StartsWith;
 const std::string corpus = std::string(TRANSILLUM_DATA_DIR) + "/corpus/";
 
 /// Status 2 and one line; warnings may come before it.
-void expect_refused(const std::vector<std::string>& arguments, const std::string& expected) {
+void expect_scene_refused(const std::vector<std::string>& arguments, const std::string& expected) {
   SCOPED_TRACE(::testing::PrintToString(arguments));
   const ProgramResult result = run_program(arguments);
   EXPECT_EQ(result.status, 2);
@@ -50,9 +50,9 @@ TEST(CliSceneOptions, WithoutLightSolveNamesTheRemedy) {
       "no-materials.obj: nothing emits light, so B would be 0 everywhere; "
       "give a material, a group or a face an exitance in W/m2, such as "
       "--emission 'light=10'";
-  expect_refused({"solve", corpus + "no-materials.obj", "-m", "8"}, remedy);
-  expect_refused({"study", corpus + "no-materials.obj", "-m", "8", "--no-cache"}, remedy);
-  expect_refused({"solve", corpus + "no-materials.obj", "--engine", "hemicube"}, remedy);
+  expect_scene_refused({"solve", corpus + "no-materials.obj", "-m", "8"}, remedy);
+  expect_scene_refused({"study", corpus + "no-materials.obj", "-m", "8", "--no-cache"}, remedy);
+  expect_scene_refused({"solve", corpus + "no-materials.obj", "--engine", "hemicube"}, remedy);
   const std::string scene = corpus + "no-materials.obj";
   for (const std::vector<std::string>& call : std::vector<std::vector<std::string>>{
            {"info", scene},
@@ -91,20 +91,23 @@ TEST(CliSceneOptions, LightsAndReflectancesAreGivenSeveralTimes) {
 }
 
 TEST(CliSceneOptions, UnknownNamesAreRefused) {
-  expect_refused({"solve", "cornell-box", "--emission", "ligh=1"}, "did you mean \"light\"?");
-  expect_refused({"info", "furnace", "--emission", "face:99=1"}, "there is no face 99");
-  expect_refused({"scene", "furnace", "--out", "x.obj", "--reflectance", "1"},
-                 "--reflectance: `1` is not NAME=VALUE or NAME=RED,GREEN,BLUE");
-  expect_refused({"solve", "furnace", "--reflectance", "face:0=1"}, "must be >= 0 and < 1");
-  expect_refused({"solve", "furnace", "--default-reflectance", "1"},
-                 "--default-reflectance: \"1\" is not at least 0 and below 1");
-  expect_refused({"solve", "furnace", "--max-reflectance", "-1"}, "--max-reflectance: \"-1\"");
-  expect_refused({"solve", "furnace", "--scale", "0"}, "--scale: \"0\" is not greater than 0");
-  expect_refused({"solve", "furnace", "--units", "yd"}, "choose one of mm, cm, m, in, ft");
-  expect_refused({"solve", "furnace", "--units", "mm", "--scale", "2"}, "excludes");
-  expect_refused({"solve", "furnace", "--patches", "20", "--max-patch-area", "2"}, "excludes");
-  expect_refused({"solve", "furnace", "--patches", "0"}, "--patches: \"0\"");
-  expect_refused({"bounds", "--patches", "10"}, "--patches: used only with a SCENE");
+  expect_scene_refused({"solve", "cornell-box", "--emission", "ligh=1"}, "did you mean \"light\"?");
+  expect_scene_refused({"info", "furnace", "--emission", "face:99=1"}, "there is no face 99");
+  expect_scene_refused({"scene", "furnace", "--out", "x.obj", "--reflectance", "1"},
+                       "--reflectance: `1` is not NAME=VALUE or NAME=RED,GREEN,BLUE");
+  expect_scene_refused({"solve", "furnace", "--reflectance", "face:0=1"}, "must be >= 0 and < 1");
+  expect_scene_refused({"solve", "furnace", "--default-reflectance", "1"},
+                       "--default-reflectance: \"1\" is not at least 0 and below 1");
+  expect_scene_refused({"solve", "furnace", "--max-reflectance", "-1"},
+                       "--max-reflectance: \"-1\"");
+  expect_scene_refused({"solve", "furnace", "--scale", "0"},
+                       "--scale: \"0\" is not greater than 0");
+  expect_scene_refused({"solve", "furnace", "--units", "yd"}, "choose one of mm, cm, m, in, ft");
+  expect_scene_refused({"solve", "furnace", "--units", "mm", "--scale", "2"}, "excludes");
+  expect_scene_refused({"solve", "furnace", "--patches", "20", "--max-patch-area", "2"},
+                       "excludes");
+  expect_scene_refused({"solve", "furnace", "--patches", "0"}, "--patches: \"0\"");
+  expect_scene_refused({"bounds", "--patches", "10"}, "--patches: used only with a SCENE");
 }
 
 TEST(CliSceneOptions, LengthsAreScaled) {
@@ -188,13 +191,14 @@ TEST(CliStandardOutput, TakesTheCsvOfOut) {
 }
 
 TEST(CliStandardOutput, IsRefusedWhereTextsWouldMix) {
-  expect_refused({"solve", "furnace", "-m", "8", "--stats", "-"},
-                 "--stats: standard output (-) takes only the CSV of --out");
-  expect_refused({"solve", "furnace", "-m", "8", "-o", "-", "-o", "-"},
-                 "--out: standard output (-) is given twice");
-  expect_refused({"directions", "-m", "8", "-o", "-", "--stats"}, "--out: standard output takes");
-  expect_refused({"scene", "furnace", "--out", "-"}, "must end in .obj");
-  expect_refused({"map", "furnace", "--direction", "0,0,1", "--out", "-"}, "must end in");
+  expect_scene_refused({"solve", "furnace", "-m", "8", "--stats", "-"},
+                       "--stats: standard output (-) takes only the CSV of --out");
+  expect_scene_refused({"solve", "furnace", "-m", "8", "-o", "-", "-o", "-"},
+                       "--out: standard output (-) is given twice");
+  expect_scene_refused({"directions", "-m", "8", "-o", "-", "--stats"},
+                       "--out: standard output takes");
+  expect_scene_refused({"scene", "furnace", "--out", "-"}, "must end in .obj");
+  expect_scene_refused({"map", "furnace", "--direction", "0,0,1", "--out", "-"}, "must end in");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Call joined(Call first, const Call& second) {
   return first;
 }
 
-const Call solve{"solve", "furnace", "-q", "-m", "8"};
+const Call by_directions{"solve", "furnace", "-q", "-m", "8"};
 const Call by_hemicubes{"solve", "furnace", "-q", "--engine", "hemicube"};
 const Call transfers{"transfers", "furnace", "--direction", "1,2,3"};
 const Call map{"map", "furnace", "--direction", "1,2,3"};
@@ -36,17 +36,21 @@ struct Unused {
 };
 
 const Unused unused[] = {
-    {solve, {"--resolution", "64"}, "--resolution: used only with engine zbuffer, painter"},
-    {solve, {"--order", "newell"}, "--order: used only with engine painter"},
-    {solve, {"--engine", "zbuffer", "--order", "bsp"}, "--order: used only with engine painter"},
-    {solve, {"--lines", "10"}, "--lines: used only with engine rays"},
-    {solve, {"--engine", "rays", "--resolution", "64", "--lines", "10"}, "without a resolution"},
-    {solve, {"--random-lines"}, "--random-lines: used only with engine rays"},
-    {solve, {"--burn-in", "2"}, "--burn-in: used only with scheme semi-iterative"},
-    {solve, {"--seed", "2"}, "--seed: used only with sampling random"},
-    {solve, {"--seed", "1"}, "--seed: used only with"},
-    {solve, {"--replicas", "2", "--rotate", "3", "--seed", "2"}, "--seed: used only with"},
-    {solve,
+    {by_directions, {"--resolution", "64"}, "--resolution: used only with engine zbuffer, painter"},
+    {by_directions, {"--order", "newell"}, "--order: used only with engine painter"},
+    {by_directions,
+     {"--engine", "zbuffer", "--order", "bsp"},
+     "--order: used only with engine painter"},
+    {by_directions, {"--lines", "10"}, "--lines: used only with engine rays"},
+    {by_directions,
+     {"--engine", "rays", "--resolution", "64", "--lines", "10"},
+     "without a resolution"},
+    {by_directions, {"--random-lines"}, "--random-lines: used only with engine rays"},
+    {by_directions, {"--burn-in", "2"}, "--burn-in: used only with scheme semi-iterative"},
+    {by_directions, {"--seed", "2"}, "--seed: used only with sampling random"},
+    {by_directions, {"--seed", "1"}, "--seed: used only with"},
+    {by_directions, {"--replicas", "2", "--rotate", "3", "--seed", "2"}, "--seed: used only with"},
+    {by_directions,
      {"--scheme", "semi-iterative", "--sampling", "hammersley", "--seed", "2"},
      "--seed: used only with"},
     {by_hemicubes, {"--sampling", "fibonacci"}, "--sampling: not used with engine hemicube"},
@@ -58,7 +62,7 @@ const Unused unused[] = {
     {by_pairs, {"-m", "64"}, "--directions: not used with engine hemicube or pairs"},
     {by_pairs, {"--resolution", "64"}, "--resolution: used only with"},
     {by_hemicubes, {"--points", "8"}, "--points: used only with engine pairs"},
-    {solve, {"--points", "8"}, "--points: used only with engine pairs"},
+    {by_directions, {"--points", "8"}, "--points: used only with engine pairs"},
     {factors, {"--points", "8"}, "--points: used only with engine pairs"},
     {factors, {"--engine", "rays", "--points", "8"}, "--points: not used with engine rays"},
     {transfers, {"--resolution", "64"}, "--resolution: used only with"},
@@ -116,12 +120,13 @@ TEST(CliUnusedOptions, AreRefused) {
 
 TEST(CliUnusedOptions, AreAcceptedWhereTheyHaveAnEffect) {
   const Call calls[] = {
-      joined(solve, {"--engine", "rays", "--resolution", "64", "--seed", "2", "--random-lines"}),
-      joined(solve, {"--engine", "rays", "--lines", "10"}),
-      joined(solve, {"--engine", "painter", "--order", "newell", "--resolution", "64"}),
-      joined(solve, {"--sampling", "sobol", "--seed", "2", "--one-way"}),
-      joined(solve, {"--replicas", "2", "--seed", "2"}),
-      joined(solve,
+      joined(by_directions,
+             {"--engine", "rays", "--resolution", "64", "--seed", "2", "--random-lines"}),
+      joined(by_directions, {"--engine", "rays", "--lines", "10"}),
+      joined(by_directions, {"--engine", "painter", "--order", "newell", "--resolution", "64"}),
+      joined(by_directions, {"--sampling", "sobol", "--seed", "2", "--one-way"}),
+      joined(by_directions, {"--replicas", "2", "--seed", "2"}),
+      joined(by_directions,
              {"--scheme", "semi-iterative", "--iterations", "9", "--burn-in", "2", "--seed", "2"}),
       joined(by_hemicubes, {"--resolution", "16", "--iterations", "3", "--scheme", "fixed"}),
       joined(factors, {"--engine", "zbuffer", "-m", "8", "--resolution", "64"}),

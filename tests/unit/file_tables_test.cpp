@@ -162,7 +162,9 @@ TEST_F(FileTables, Results) {
 
 TEST_F(FileTables, Statistics) {
   options_.goal.accuracy = 0.5;
-  write_statistics(folder_ / "s.json", options_, solve(scene_, options_));
+  Solution solution = solve(scene_, options_);
+  solution.statistics.refinement = {{6, 0.5, 1}};
+  write_statistics(folder_ / "s.json", options_, solution);
   EXPECT_THAT(keys_of(folder_ / "s.json"), ::testing::ContainerEq(leaf_keys("Statistics JSON")));
 }
 

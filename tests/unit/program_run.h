@@ -29,6 +29,13 @@ class TemporaryFolder {
 std::string read_file(const std::string& path);
 void write_text(const std::string& path, const std::string& text);
 
+/// Arguments of the program, without its name.
+using Arguments = std::vector<std::string>;
+inline Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 /// The result of a run of the program `transillum`.
 struct ProgramResult {
   int status = -1;  ///< exit status; 128 + signal number if a signal ended it
