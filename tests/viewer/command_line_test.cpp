@@ -151,6 +151,12 @@ class CommandLineTest : public QObject {
     QTest::newRow("emission in a result") << QStringList{"r.vtp", "--emission", "lamp=1"};
     QTest::newRow("patches and area")
         << QStringList{"a.obj", "--patches", "5", "--max-patch-area", "1"};
+    QTest::newRow("no lesson to export") << QStringList{"--export-lesson", "a.html"};
+    QTest::newRow("no page") << QStringList{"--lesson", "1", "--export-lesson", "a.png"};
+    QTest::newRow("no folder of the page")
+        << QStringList{"--lesson", "1", "--export-lesson", "no/such/a.html"};
+    QTest::newRow("two files") << QStringList{"--lesson",     "1",    "--export-lesson", "a.html",
+                                              "--screenshot", "a.png"};
     QTest::newRow("after without screenshot") << QStringList{"furnace", "--after", "3"};
   }
   void wrong_calls_are_reported_in_one_line() {

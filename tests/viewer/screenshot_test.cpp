@@ -1,5 +1,6 @@
 // transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 #include <QDir>
+#include <QFile>
 #include <QImage>
 #include <QProcess>
 #include <QTemporaryDir>
@@ -71,6 +72,32 @@ class ScreenshotTest : public QObject {
     }
     const double share = static_cast<double>(black) / (scene.width() * scene.height());
     QVERIFY2(share < 0.01, qPrintable(QString::number(share)));
+  }
+
+  void exports_a_lesson() {
+    const QTemporaryDir folder;
+    QFile lesson(folder.filePath("mine.json"));
+    QVERIFY(lesson.open(QIODevice::WriteOnly));
+    lesson.write(R"({"title": "T", "pages": [
+      {"title": "One", "text": "a", "show": {"scene": "furnace", "focus": {"direction": 1}}},
+      {"title": "Two", "text": "b"}]})");
+    lesson.close();
+    const auto export_to = [&](const QString& path) {
+      return run({"--lesson", lesson.fileName(), "--export-lesson", path});
+    };
+    const QString path = folder.filePath("lesson.html");
+    const Outcome outcome = export_to(path);
+    QCOMPARE(outcome.error, QByteArray());
+    QCOMPARE(outcome.status, 0);
+    QFile page(path);
+    QVERIFY(page.open(QIODevice::ReadOnly));
+    QCOMPARE(page.readAll().count("<section>"), 2);
+    // A folder in its place.
+    QVERIFY(QDir(folder.path()).mkdir("b.html"));
+    const Outcome refused = export_to(folder.filePath("b.html"));
+    QCOMPARE(refused.status, 1);
+    QCOMPARE(refused.error.count('\n'), 1);
+    QVERIFY2(refused.error.contains("b.html"), refused.error.constData());
   }
 
   void bad_input_gives_one_line_and_no_file() {

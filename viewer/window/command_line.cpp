@@ -176,6 +176,18 @@ void add_scene_options(CLI::App& app, CommandLine& line) {
       ->excludes(area);
 }
 
+/// @throws InputError where the file has another ending, or no folder
+void check_output(const std::string& option, const std::string& file, const std::string& ending) {
+  const std::filesystem::path path(file);
+  if (path.extension() != ending) {
+    throw InputError(option + ": \"" + file + "\" does not end in " + ending);
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(option + ": there is no folder \"" + folder.string() + "\"");
+  }
+}
+
 void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   SolveOptions& solve = line.solve_options;
   solve.engine = engine_from_name(names.engine);
@@ -217,18 +229,14 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
     if (line.scene.empty() && line.lesson.empty()) {
       throw InputError("--screenshot needs a SCENE or a --lesson");
     }
-    const std::filesystem::path path(line.screenshot);
-    if (path.extension() != ".png") {
-      throw InputError("--screenshot: \"" + line.screenshot + "\" does not end in .png");
-    }
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
-      throw InputError("--screenshot: there is no folder \"" + folder.string() + "\"");
-    }
+    check_output("--screenshot", line.screenshot, ".png");
+  }
+  if (app.count("--export-lesson") > 0) {
+    check_output("--export-lesson", line.lesson_file, ".html");
   }
 }
 
-/// The lesson and the screenshot.
+/// The lesson, its export, and the screenshot.
 void add_window_options(CLI::App& app, CommandLine& line) {
   auto* lesson =
       app.add_option("--lesson", line.lesson, "a lesson file, or the number of a built-in lesson")
@@ -239,6 +247,10 @@ void add_window_options(CLI::App& app, CommandLine& line) {
   auto* screenshot =
       app.add_option("--screenshot", line.screenshot, "write the whole window as PNG, then exit")
           ->type_name("FILE.png");
+  app.add_option("--export-lesson", line.lesson_file, "write the lesson as HTML, then exit")
+      ->type_name("FILE.html")
+      ->needs(lesson)
+      ->excludes(screenshot);
   app.add_option(
          "--after", line.after,
          "number of directions before the screenshot (default: until the solve has converged, "

@@ -22,10 +22,11 @@ struct CommandLine {
   SceneInput input;            ///< how the scene is read
   bool reading_given = false;  ///< whether the arguments say so, were it as is usual
   SolveOptions solve_options;
-  std::string lesson;      ///< number of a built-in lesson, or a file; empty: none
-  int page = 1;            ///< of the lesson, from 1
-  std::string screenshot;  ///< path of a PNG; empty: none
-  int after = 0;           ///< directions before the screenshot; 0: a converged solve
+  std::string lesson;       ///< number of a built-in lesson, or a file; empty: none
+  int page = 1;             ///< of the lesson, from 1
+  std::string screenshot;   ///< path of a PNG; empty: none
+  int after = 0;            ///< directions before the screenshot; 0: a converged solve
+  std::string lesson_file;  ///< path of an HTML file for the lesson; empty: none
 };
 
 /// Either a command line to run, or the status to exit with at once.

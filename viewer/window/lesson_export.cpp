@@ -42,7 +42,7 @@ LessonExport::LessonExport(const WindowParts& parts, std::function<bool()> settl
           return;
         }
         end();
-        parts_.notifier.show_failure(error);
+        fail(error);
       }) {
   action_->setObjectName("lesson_export");
   action_->setToolTip(tr("Write text, pictures and maps of all pages as one HTML file"));
@@ -130,10 +130,16 @@ void LessonExport::finish() {
   end();
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly) || file.write(html) < 0 || !file.commit()) {
-    parts_.notifier.show_failure(path + ": " + file.errorString());
+    fail(path + ": " + file.errorString());
     return;
   }
   parts_.notifier.show_written(path);
+  emit written(path);
+}
+
+void LessonExport::fail(const QString& message) {
+  parts_.notifier.show_failure(message);
+  emit failed(message);
 }
 
 void LessonExport::end() {

@@ -26,9 +26,14 @@ class LessonExport : public QObject {
   LessonExport(const WindowParts& parts, std::function<bool()> settled);
 
   QAction* action() const { return action_; }
-  /// Writes the file whole, or not at all; errors are shown in the window.
+  /// Writes the file whole, or not at all; errors are shown in the window, too.
   void export_to(const QString& path);
   bool busy() const { return !path_.isEmpty(); }
+
+ signals:
+  void written(const QString& path);
+  /// Nothing has been written.
+  void failed(const QString& message);
 
  private:
   void choose();
@@ -36,6 +41,7 @@ class LessonExport : public QObject {
   void take_when_settled();
   void take_page();
   void finish();
+  void fail(const QString& message);
   void end();
 
   WindowParts parts_;

@@ -5,9 +5,11 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -25,6 +27,7 @@
 #include "window/command_line.h"
 #include "window/ending_signals.h"
 #include "window/file_actions.h"
+#include "window/lesson_export.h"
 #include "window/main_window.h"
 #include "window/screenshot.h"
 #include "window/view_state_applier.h"
@@ -112,11 +115,10 @@ std::optional<Goal> goal_of(const CommandLine& command_line) {
   return std::nullopt;
 }
 
-/// Writes a screenshot once the window is settled; that, or a failure, ends the event loop.
-std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunner& runner,
-                                            const std::string& path) {
-  auto screenshot = std::make_unique<Screenshot>(
-      window, [&window] { return window.settled(); }, QString::fromStdString(path));
+/// For a program that is to write one file and exit: what prevents that is printed, and ends the
+/// event loop. @returns what to call with other failures and the exit status for them
+std::function<void(const QString&, int)> exit_on_failure(MainWindow& window,
+                                                         const SolveRunner& runner) {
   const auto fail = [failed = std::make_shared<bool>(false)](const QString& message,
                                                              int exit_status) {
     if (!std::exchange(*failed, true)) {
@@ -124,9 +126,6 @@ std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunne
       QApplication::exit(exit_status);
     }
   };
-  QObject::connect(screenshot.get(), &Screenshot::done, qApp, &QApplication::quit);
-  QObject::connect(screenshot.get(), &Screenshot::failed, qApp,
-                   [fail](const QString& message) { fail(message, 1); });
   QObject::connect(
       &runner, &SolveRunner::failed, qApp,
       [fail](const QString& message, bool bad_input) { fail(message, bad_input ? 2 : 1); });
@@ -134,7 +133,29 @@ std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const SolveRunne
   QObject::connect(
       &window.applier(), &ViewStateApplier::unreachable, qApp,
       [fail](const QString& message) { fail(message, 2); }, Qt::QueuedConnection);
+  return fail;
+}
+
+/// Writes a screenshot once the window is settled; that ends the event loop.
+std::unique_ptr<Screenshot> take_screenshot(MainWindow& window, const std::string& path,
+                                            const std::function<void(const QString&, int)>& fail) {
+  auto screenshot = std::make_unique<Screenshot>(
+      window, [&window] { return window.settled(); }, QString::fromStdString(path));
+  QObject::connect(screenshot.get(), &Screenshot::done, qApp, &QApplication::quit);
+  QObject::connect(screenshot.get(), &Screenshot::failed, qApp,
+                   [fail](const QString& message) { fail(message, 1); });
   return screenshot;
+}
+
+/// Writes the lesson that is open, from within the event loop; that ends it.
+void export_lesson(MainWindow& window, const std::string& path,
+                   const std::function<void(const QString&, int)>& fail) {
+  auto* exporter = window.findChild<LessonExport*>();
+  QObject::connect(exporter, &LessonExport::written, qApp, &QApplication::quit);
+  QObject::connect(exporter, &LessonExport::failed, qApp,
+                   [fail](const QString& message) { fail(message, 1); });
+  QTimer::singleShot(0, exporter,
+                     [exporter, path] { exporter->export_to(QString::fromStdString(path)); });
 }
 
 /// @throws InputError where a session or a lesson cannot be read
@@ -165,24 +186,32 @@ void end_by_signal(MainWindow& window, int number) {
 int run(Application& application, const CommandLine& command_line) {
   EndingSignals signals_of_user;
   const bool for_screenshot = !command_line.screenshot.empty();
+  const bool for_file = for_screenshot || !command_line.lesson_file.empty();
   SharedState state;
-  MainWindow window(state, !for_screenshot);
+  MainWindow window(state, !for_file);
   window.parts().settings.set_options(command_line.solve_options, command_line.scene_options);
   QObject::connect(&signals_of_user, &EndingSignals::received, &window,
                    [&window](int number) { end_by_signal(window, number); });
   std::unique_ptr<Screenshot> screenshot;
+  std::function<void(const QString&, int)> fail;
+  if (for_file) {
+    fail = exit_on_failure(window, state.runner);
+  }
   if (for_screenshot) {
-    screenshot = take_screenshot(window, state.runner, command_line.screenshot);
+    screenshot = take_screenshot(window, command_line.screenshot, fail);
   }
   window.show();
   try {
     open_arguments(window, command_line);
+    if (!command_line.lesson_file.empty()) {
+      export_lesson(window, command_line.lesson_file, fail);
+    }
   } catch (const transillum::InputError& error) {
     print_error(QString::fromStdString(error.what()));
     return 2;
   }
   application.on_failure = [&](const QString& message) {
-    if (for_screenshot) {
+    if (for_file) {
       print_error(message);
       std::_Exit(1);
     }
