@@ -139,7 +139,7 @@ def main() -> None:
     reference.write_library(tree, library[""])
     reference.write_api(tree, Path(given.api))
     reference.write_python(tree, library["Python"].partition("\n")[2])
-    reference.write_notebook(tree, notebook_map(given.program))
+    reference.write_notebook(tree, plots.notebook_plot(tree.source), notebook_map(given.program))
     reference.write_sources(tree)
     plots.write(tree)
     write_static(tree, Path(given.katex))

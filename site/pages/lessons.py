@@ -38,7 +38,7 @@ def page_of(tree: Tree, page: str, lesson: dict, exported: str, file: Path) -> s
         def as_file(match: re.Match, k=k, title=title) -> str:
             name = f"{page}-{k}.png"
             write_changed(tree.out / "_extra" / name, base64.b64decode(match[1]))
-            return f'<img class="scene" loading="lazy" alt="The scene: {title}" src="{Path(name).name}">'
+            return f'<img class="scene" alt="The scene: {title}" src="{Path(name).name}">'
 
         parts += [f"## {html.unescape(title)}", "", raw(PICTURE.sub(as_file, body)), ""]
     style = re.search(r"<style>(.*?)</style>", exported, re.DOTALL)[1]
@@ -56,7 +56,7 @@ def raw(text: str) -> str:
 
 def card(stem: str, number: str, title: str, lesson: dict) -> str:
     count, questions = len(lesson["pages"]), sum("question" in p for p in lesson["pages"])
-    return (f'<a class="card" href="{stem}.html"><img loading="lazy" alt="" src="{stem}-1.png">'
+    return (f'<a class="card" href="{stem}.html"><img alt="" src="{stem}-1.png">'
             f"<strong>{number}. {html.escape(title)}</strong>"
             f"<span>{count} pages, {questions} questions</span></a>")
 

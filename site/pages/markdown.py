@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*)\]\(([^()\s]+)\)")
 COMMANDS = ("transillum", "./demo", "./check", "apt ", "cmake ", "ctest ", "mpirun ", "srun ",
             "pip ", "#!/bin/bash", "E=", "S=", "build/")
+WIDEST = 84  # characters of a line of code that a page shows
 SYMBOL = r"(?<![\w`\\/.])([A-Za-zρφωψδεθ])"
 SUBSCRIPT = re.compile(SYMBOL + r"_(\{[^{}]*\}|[a-z0-9]{1,3})(?![\w.(])")
 SUPERSCRIPT = re.compile(r"(?<![\w`\\/.])([A-Za-z0-9]{1,2})\^(\([^()]*\)|[a-z0-9]+(?:\.[0-9]+)?)")
@@ -125,7 +126,18 @@ def fenced(block: list[str]) -> list[str]:
         language = "bash"
     elif first.startswith("import "):
         language = "python"
+    if language != "text" and max(map(len, code)) > WIDEST:
+        code = with_comments_above(code)
     return [f"```{language}", *code, "```"]
+
+
+def with_comments_above(code: list[str]) -> list[str]:
+    """What stands at the ends of wide lines would be scrolled out of sight."""
+    lines = []
+    for line in code:
+        command, _, comment = re.sub(r" {2,}# ", "\n", line).partition("\n")
+        lines += ([f"# {comment}"] if comment else []) + [command.rstrip()]
+    return lines
 
 
 def prose(tree: Tree, document: str, line: str, page: str, symbols: bool) -> str:

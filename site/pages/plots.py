@@ -34,7 +34,7 @@ def write(tree: Tree) -> None:
     parts = ["# Plots of the studies", "",
              "Drawn from the files of [data/studies](README.md), which has the commands and the tables. "
              "RMS error of B over its RMS; both axes are logarithmic. Point at a mark for its values.", ""]
-    files = sorted((tree.source / "data/studies").glob("*.csv"))
+    files = sorted((tree.source / "data/studies").glob("*.csv"), key=lambda f: f.stem)
     for kind, title in KINDS.items():
         parts += [f"## {title}", ""]
         for file in files:
@@ -51,6 +51,13 @@ def section(file: Path, kind: str) -> list[str]:
         parts += [f"**{title}**", ""] if title else []
         parts += [raw(plot(series, bound, against, f"{kind}, {scene} {title}")), ""]
     return parts
+
+
+def notebook_plot(source: Path) -> str:
+    """What the notebook plots, of the whole sphere-flake."""
+    ((_, series, _),) = plots(source / "data/studies/sphere-flake.csv", "passes")
+    shown = {name: series[f"{name}/two-way"] for name in ("random", "hammersley", "fibonacci")}
+    return plot(shown, [], "passes", "Error of the whole sphere-flake")
 
 
 def plots(file: Path, against: str) -> list[tuple[str, Series, list]]:
@@ -121,7 +128,7 @@ def plot(series: Series, bound: list, against: str, title: str) -> str:
             value = f"{name}: {p[0]:g} {against}, {100 * p[1]:.3g} %"
             svg.append(f'<circle cx="{x.place(p[0]):.1f}" cy="{y.place(p[1]):.1f}" r="2.6"><title>{html.escape(value)}</title></circle>')
         svg.append("</g>")
-        legend.append(key(color, dash, name))
+        legend.append(key(color, dash, name.replace("/", ", ")))
     return "".join(svg) + f'</svg><div class="legend">{"".join(legend)}</div></div>'
 
 

@@ -146,16 +146,18 @@ def docstring(text: str) -> list[str]:
     return lines + ["```"] * in_code
 
 
-def write_notebook(tree: Tree, plot: str) -> None:
-    """The notebook's cells; its results are those of the studies."""
+def write_notebook(tree: Tree, plot: str, map_svg: str) -> None:
+    """The notebook's cells with a plot of the studies, and a map that the program has drawn."""
     file = "libtransillum/python/notebooks/figure_5.ipynb"
     cells = json.loads((tree.source / file).read_text())["cells"]
     parts = []
     for cell in cells:
         text = "".join(cell["source"])
         parts += [text if cell["cell_type"] == "markdown" else f"```python\n{text}\n```", ""]
-    parts += ["The last cell draws:", "", raw(f'<div class="map">{plot}</div>'), "",
-              "[Plots of the studies](data/studies/plots.md) has the same curves for more samplings and the whole sphere-flake.", ""]
+        if "plt.subplots" in text:
+            parts += ["For the whole sphere-flake, from the [studies](data/studies/plots.md):", "",
+                      raw(plot), ""]
+    parts += [raw(f'<div class="map">{map_svg}</div>'), ""]
     tree.write(tree.pages[file], "\n".join(parts))
 
 
