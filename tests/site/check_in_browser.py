@@ -2,8 +2,8 @@
 # transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
 """check_in_browser.py SITE BROWSER: opens every page of the site from the file system in a headless
 Chromium, at the widths of a desktop and of a phone. Fails on an error in the console, a formula that
-was not typeset, a picture that is not shown, and a page that is wider than its window. Of the API,
-which Doxygen makes, only errors count, and of some pages."""
+was not typeset, a picture that is not shown, and what is cut off at the edge of the window. Of the
+API, which Doxygen makes, only errors count, and of some pages."""
 
 import json
 import re
@@ -25,9 +25,17 @@ document.body.append(frame);
 const load = url => new Promise(done => { frame.onload = done; frame.src = url; });
 const wait = ms => new Promise(done => setTimeout(done, ms));
 function look(page, width) {
-  const inner = frame.contentDocument, root = inner.documentElement;
-  if (root.scrollWidth > root.clientWidth + 1)
-    found.push(page + ': ' + root.scrollWidth + ' wide in a window of ' + width);
+  const inner = frame.contentDocument, view = frame.contentWindow;
+  for (const part of inner.querySelectorAll('article *')) {
+    if (part.getBoundingClientRect().right <= width + 1 || part.closest('.katex-mathml')) continue;
+    let box = part.parentElement;
+    while (box.tagName !== 'ARTICLE' && !/auto|scroll/.test(view.getComputedStyle(box).overflowX))
+      box = box.parentElement;
+    if (box.tagName === 'ARTICLE') {
+      found.push(page + ': ' + part.tagName + ' is cut off in a window of ' + width);
+      break;
+    }
+  }
   for (const formula of inner.querySelectorAll('.math')) {
     ++formulas;
     if (!formula.querySelector('.katex') || formula.querySelector('.katex-error'))

@@ -23,7 +23,7 @@ using namespace transillum::viewer::test;
 namespace {
 
 const char* const lesson_text = R"({"title": "Two <pages>", "pages": [
-  {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ.",
+  {"title": "One", "text": "With *A*(i, j, ω) and {M} directions, *B*ᵢ: press `,`.",
    "show": {"scene": "furnace", "layout": "teach", "options": {"directions": 16},
             "focus": {"direction": 3, "step": 4}},
    "controls": {"M": {"option": "directions", "values": [8, 16]}},
@@ -127,6 +127,7 @@ class LessonHtmlTest : public QObject {
     QCOMPARE(count(html, "(src|href)=\"(?!data:)"), 0);
     QVERIFY(!html.contains("symbol:") && !html.contains("{M}") && html.contains("16"));
     QVERIFY(count(html, "vertical-align:sub") > 0);
+    QVERIFY(html.contains("press <code>,</code>."));
     QCOMPARE(count(html, "<details>.*computed: 12.*That is all.*</details>"), 1);
     // The pictures are of the scene.
     static const QRegularExpression png(QStringLiteral("base64,([^\"]*)\""));

@@ -77,7 +77,11 @@ QString html_of(const QString& markdown) {
   static const QRegularExpression look(
       QStringLiteral("(font-family|font-size|color|background-color|-qt-[a-z-]+|margin[a-z-]*|"
                      "text-indent):[^;\"]*;?"));
+  static const QRegularExpression code(
+      QStringLiteral("<span style=\"[^\"]*font-family:[^;\"]*mono[^\"]*\">([^<]*)</span>"),
+      QRegularExpression::CaseInsensitiveOption);
   html = body.match(html).captured(1);
+  html.replace(code, QStringLiteral("<code>\\1</code>"));
   while (html.contains(link)) {
     html.replace(link, QStringLiteral("\\1"));
   }
