@@ -65,6 +65,7 @@ function look(page, width) {
 def run(browser: str, page: Path, folder: str, options: list[str]) -> tuple[str, list[str]]:
     """@returns the document after its scripts, and the lines of the console"""
     command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
+               "--host-resolver-rules=MAP * ~NOTFOUND",  # no network
                "--virtual-time-budget=3600000", f"--user-data-dir={folder}/profile", *options,
                "--dump-dom", page.as_uri()]
     done = subprocess.run(command, capture_output=True, text=True, timeout=1500)
