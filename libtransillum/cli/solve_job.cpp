@@ -182,7 +182,8 @@ Prepared prepare(const SolveJob& job) {
   const auto start = WallClock::now();
   Prepared prepared;
   const auto make = [&] {
-    check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas);
+    check_memory(job.scene->name(), job.scene->patch_count(), job.options.replicas,
+                 job.options.basis == Basis::linear ? 3 : 1);
     prepared.tree = build_tree(*job.scene, job.cancellation, job.display, job.options.threads);
     prepared.seconds_bsp = seconds_since(start);
     prepared.shot = shoot_first(job);

@@ -43,6 +43,12 @@ TEST(PatchCount, OfAnyLimitIsFinite) {
   EXPECT_EQ(count_patches(*scene, HUGE_VAL), scene->patch_count());
   EXPECT_GE(count_patches(*scene, 1e-300), std::int64_t{1} << 50);
   EXPECT_GT(expected_memory(2000), expected_memory(1000));
+  EXPECT_GT(expected_memory(1000, 1, 3), expected_memory(1000));
+  // The three unknowns of a patch are in each replica.
+  const auto of_replica = [](int unknowns) {
+    return expected_memory(1000, 2, unknowns) - expected_memory(1000, 1, unknowns);
+  };
+  EXPECT_EQ(of_replica(3), 3 * of_replica(1));
 }
 
 TEST(MaxPatchAreaFor, ComesWithinATwofoldOfTheNumberOfTrianglesAndQuadrilaterals) {

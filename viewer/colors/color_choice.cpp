@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "colors/neutral_light.h"
+#include "model/linear_values.h"
 
 namespace transillum::viewer {
 
@@ -143,6 +144,13 @@ void ColorChoice::set_automatic_exposure(bool automatic) {
   change();
 }
 
+Rgb ColorChoice::value_at(PatchId i, const Vec3& point) const {
+  const Rgb& mean = at(values_.values, i);
+  return linear()
+             ? viewer::value_at(mean, at(values_.linear_parts, i), at(*values_.bases, i), point)
+             : mean;
+}
+
 bool ColorChoice::keep_run() { return !snapshot_ || kept_runs_.keep(*snapshot_); }
 
 std::shared_ptr<const SolverSnapshot> ColorChoice::run_a() const {
@@ -275,6 +283,17 @@ void ColorChoice::fit_range() {
   }
   scale_.repair_range();
   scale_.find_out_of_range(values_.values);
+  if (!linear()) {
+    return;
+  }
+  // By the means, as of constant functions: one corner that overshoots does not set the range.
+  std::vector<Rgb> corners;
+  for (const double sign : {1.0, -1.0}) {
+    const auto size = [this, sign](const Rgb& rgb) { return sign * scale_.value(rgb); };
+    const std::vector<Rgb> ends = largest_corners(values_, scene, size);
+    corners.insert(corners.end(), ends.begin(), ends.end());
+  }
+  scale_.find_out_of_range(corners);
 }
 
 void ColorChoice::color() {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace transillum::viewer {
 
@@ -31,6 +30,8 @@ constexpr Color8 diverging[] = {{0x05, 0x30, 0x61}, {0x21, 0x66, 0xac}, {0x43, 0
                                 {0xfe, 0xe0, 0xb6}, {0xfd, 0xb8, 0x63}, {0xe0, 0x82, 0x14},
                                 {0xb3, 0x58, 0x06}, {0x7f, 0x3b, 0x08}};
 
+}  // namespace
+
 std::span<const Color8> samples_of(ColorMap map) {
   switch (map) {
     case ColorMap::cividis:
@@ -44,8 +45,6 @@ std::span<const Color8> samples_of(ColorMap map) {
   }
   return viridis;
 }
-
-}  // namespace
 
 const std::vector<std::string>& color_map_names() {
   static const std::vector<std::string> names{"Viridis", "Cividis", "Inferno"};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ enum class ColorMap { viridis, cividis, inferno, diverging };
 const std::vector<std::string>& color_map_names();
 /// For values of 0 where they are marked; in no color map.
 inline constexpr Color8 zero_color{0xbf, 0xc9, 0xd6};
+/// Evenly spaced colors of a map, 2 to 16; linear interpolation between them.
+std::span<const Color8> samples_of(ColorMap map);
 /// @param t  clamped to [0,1]; 0 if not finite
 Color8 color_of(ColorMap map, double t);
 

@@ -31,8 +31,11 @@ class GammaTable {
 };
 
 Color8 expose(const Rgb& radiosity, double factor, const GammaTable& gamma) {
-  // A patch that is too bright is scaled down, which keeps its hue.
-  const Rgb exposed = factor * radiosity;
+  // A patch that is too bright is scaled down, which keeps its hue. Linear functions may be below
+  // 0.
+  const auto exposed_channel = [factor](double b) { return std::max(factor * b, 0.0); };
+  const Rgb exposed{exposed_channel(radiosity.r), exposed_channel(radiosity.g),
+                    exposed_channel(radiosity.b)};
   const double largest = max_abs(exposed);
   if (!std::isfinite(largest)) {
     return {255, 255, 255};

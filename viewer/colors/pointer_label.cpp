@@ -21,14 +21,24 @@ namespace {
 // From the pointer's tip to the plate, logical pixels: past the arrow.
 constexpr QPoint offset{14, 18};
 
-QString value_text(const ColorChoice& colors, PatchId patch) {
+QString value_text(const ColorChoice& colors, const QString& symbol, const Rgb& value) {
   const QuantityTraits& traits = traits_of(colors.quantity());
-  const Rgb& value = at(colors.values(), patch);
   const bool channels = colors.scale().mode == ColorMode::true_color;
   const QString number = channels ? rgb_text(value) : number_text(colors.scale().value(value));
-  return QStringLiteral("%1  %2 %3")
-      .arg(QString::fromUtf8(traits.symbol), number, QString::fromUtf8(traits.unit))
-      .trimmed();
+  return QStringLiteral("%1  %2 %3").arg(symbol, number, QString::fromUtf8(traits.unit)).trimmed();
+}
+
+// The value of the quantity: one line, or of a linear one at a known point three.
+QStringList value_lines(const ColorChoice& colors, const PointedPatch& pointed) {
+  const QString symbol = QString::fromUtf8(traits_of(colors.quantity()).symbol);
+  const Rgb& mean = at(colors.values(), pointed.patch);
+  if (!colors.linear() || !pointed.point) {
+    return {value_text(colors, symbol, mean)};
+  }
+  return {PointerLabel::tr("x  %1 m").arg(vector_text(*pointed.point)),
+          value_text(colors, PointerLabel::tr("%1 at x").arg(symbol),
+                     colors.value_at(pointed.patch, *pointed.point)),
+          value_text(colors, PointerLabel::tr("mean %1").arg(symbol), mean)};
 }
 
 QString form_factor_text(const SolverSnapshot& snapshot, PatchId from, PatchId to) {
@@ -49,14 +59,15 @@ PatchId target_of(const ColorChoice& colors, PatchId patch) {
 
 }  // namespace
 
-QString pointer_text(const ColorChoice& colors, PatchId patch) {
+QString pointer_text(const ColorChoice& colors, const PointedPatch& pointed) {
+  const PatchId patch = pointed.patch;
   const auto snapshot = colors.snapshot();
   if (!snapshot || patch < 0 || patch >= snapshot->loaded->scene->patch_count()) {
     return {};
   }
   QStringList lines{PointerLabel::tr("Patch %1").arg(patch)};
   if (has_index(colors.values(), patch)) {
-    lines << value_text(colors, patch);
+    lines << value_lines(colors, pointed);
   }
   if (const PatchId target = target_of(colors, patch); target != no_patch) {
     lines << form_factor_text(*snapshot, patch, target);
@@ -65,7 +76,7 @@ QString pointer_text(const ColorChoice& colors, PatchId patch) {
 }
 
 PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
-                           std::function<PatchId(const QPoint&)> patch_at)
+                           std::function<PointedPatch(const QPoint&)> patch_at)
     : Plate(&canvas), colors_(colors), canvas_(canvas), patch_at_(std::move(patch_at)) {
   setObjectName("pointer_label");
   rest_.setSingleShot(true);
@@ -75,7 +86,7 @@ PointerLabel::PointerLabel(const ColorChoice& colors, QWidget& canvas,
   canvas_.installEventFilter(this);
   const auto update_text = [this] {
     if (isVisible()) {
-      show_patch(patch_);
+      show_patch(pointed_);
     }
   };
   connect(&colors_, &ColorChoice::changed, this, update_text);
@@ -101,7 +112,7 @@ void PointerLabel::show_details() {
     return;
   }
   detailed_ = true;
-  setText(pointer_text(colors_, patch_) + QLatin1Char('\n') + details);
+  setText(pointer_text(colors_, pointed_) + QLatin1Char('\n') + details);
   place();
   emit rested(pointer_);
 }
@@ -119,7 +130,7 @@ bool PointerLabel::eventFilter(QObject* watched, QEvent* event) {
     rest_.start();
     const auto* mouse = static_cast<QMouseEvent*>(event);
     pointer_ = mouse->pos();
-    show_patch(mouse->buttons() == Qt::NoButton ? patch_at_(pointer_) : no_patch);
+    show_patch(mouse->buttons() == Qt::NoButton ? patch_at_(pointer_) : PointedPatch{});
   } else if (event->type() == QEvent::Leave || event->type() == QEvent::Wheel ||
              event->type() == QEvent::MouseButtonPress) {
     end_rest();
@@ -128,9 +139,9 @@ bool PointerLabel::eventFilter(QObject* watched, QEvent* event) {
   return Plate::eventFilter(watched, event);
 }
 
-void PointerLabel::show_patch(PatchId patch) {
-  patch_ = patch;
-  const QString text = pointer_text(colors_, patch);
+void PointerLabel::show_patch(const PointedPatch& pointed) {
+  pointed_ = pointed;
+  const QString text = pointer_text(colors_, pointed_);
   setVisible(!text.isEmpty());
   if (text.isEmpty()) {
     return;
@@ -138,7 +149,7 @@ void PointerLabel::show_patch(PatchId patch) {
   setText(text);
   place();
   const auto snapshot = colors_.snapshot();
-  if (!snapshot->form_factors && target_of(colors_, patch) != no_patch) {
+  if (!snapshot->form_factors && target_of(colors_, pointed_.patch) != no_patch) {
     emit form_factors_requested();
   }
 }

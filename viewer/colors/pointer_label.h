@@ -3,15 +3,23 @@
 
 #include <QTimer>
 #include <functional>
+#include <optional>
 
 #include "colors/color_choice.h"
 #include "widgets/plate.h"
 
 namespace transillum::viewer {
 
-/// What is known about a patch in a few lines: its number, the shown quantity with its unit, and
-/// its form factor to the selected patch, or why there is none yet.
-QString pointer_text(const ColorChoice& colors, PatchId patch);
+/// A patch under the pointer, and the point of it, if that is known, m.
+struct PointedPatch {
+  PatchId patch = no_patch;
+  std::optional<Vec3> point = std::nullopt;
+};
+
+/// What is known about a patch in a few lines: its number, the shown quantity with its unit, of one
+/// that is linear on the patch the point, the value there and the mean; and its form factor to the
+/// selected patch, or why there is none yet.
+QString pointer_text(const ColorChoice& colors, const PointedPatch& pointed);
 
 /// A plate beside the mouse pointer with pointer_text() of the patch under it, without delay.
 /// Hidden while a button is pressed.
@@ -22,7 +30,7 @@ class PointerLabel : public Plate {
   /// @param canvas over which it is shown; becomes the parent
   /// @param patch_at the patch drawn at a point of the canvas, logical pixels
   PointerLabel(const ColorChoice& colors, QWidget& canvas,
-               std::function<PatchId(const QPoint&)> patch_at);
+               std::function<PointedPatch(const QPoint&)> patch_at);
   /// More lines, shown once the pointer has rested.
   void set_details(std::function<QString(const QPoint&)> details);
   /// To be called when the canvas shows something else.
@@ -39,19 +47,19 @@ class PointerLabel : public Plate {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void show_patch(PatchId patch);
+  void show_patch(const PointedPatch& pointed);
   void show_details();
   void end_rest();
   void place();
 
   const ColorChoice& colors_;
   QWidget& canvas_;
-  std::function<PatchId(const QPoint&)> patch_at_;
+  std::function<PointedPatch(const QPoint&)> patch_at_;
   std::function<QString(const QPoint&)> details_;
   QTimer rest_;
   bool detailed_ = false;
   QPoint pointer_;
-  PatchId patch_ = no_patch;
+  PointedPatch pointed_;
 };
 
 }  // namespace transillum::viewer

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "model/form_factor_views.h"
+#include "model/linear_values.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
 #include "widgets/symbol_tip.h"
@@ -80,6 +81,16 @@ PatchValues difference(const SolverSnapshot& snapshot, const SolverSnapshot* oth
   PatchValues result;
   for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
     result.values.push_back(snapshot.radiosity[i] - other->radiosity[i]);
+  }
+  result.bases = snapshot.bases ? snapshot.bases : other->bases;
+  if (result.bases) {
+    const auto part_of = [](const SolverSnapshot& one, std::size_t i) {
+      return one.linear_parts.empty() ? LinearPart{} : one.linear_parts[i];
+    };
+    for (std::size_t i = 0; i < snapshot.radiosity.size(); ++i) {
+      const LinearPart b = part_of(snapshot, i), a = part_of(*other, i);
+      result.linear_parts.push_back({b.first - a.first, b.second - a.second});
+    }
   }
   return result;
 }
@@ -303,7 +314,23 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
     case Quantity::radiosity:
       break;
   }
-  return {snapshot.radiosity, {}};
+  return {snapshot.radiosity, {}, snapshot.linear_parts, snapshot.bases};
+}
+
+std::vector<Rgb> largest_corners(const PatchValues& values, const Scene& scene,
+                                 const std::function<double(const Rgb&)>& size) {
+  std::vector<Rgb> largest = values.values;
+  for (PatchId i = 0; i < std::ssize(values.linear_parts); ++i) {
+    const Rgb mean = at(largest, i);
+    for (const PointId corner : scene.outline(i)) {
+      const Rgb value =
+          value_at(mean, at(values.linear_parts, i), at(*values.bases, i), scene.point(corner));
+      if (size(value) > size(at(largest, i))) {
+        at(largest, i) = value;
+      }
+    }
+  }
+  return largest;
 }
 
 }  // namespace transillum::viewer

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QString>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "model/response_solver.h"
@@ -52,9 +54,17 @@ QString tip_of(Quantity quantity);
 
 /// A quantity of all patches of a snapshot.
 struct PatchValues {
-  std::vector<Rgb> values;  ///< one per patch, or empty
-  QString missing;          ///< the reason for the user if they are empty
+  std::vector<Rgb> values;  ///< one per patch, or empty; means where the quantity is linear
+  QString missing = {};     ///< the reason for the user if they are empty
+  /// Of the quantity, one per patch, where it is linear on patches; empty: it is constant.
+  std::vector<LinearPart> linear_parts = {};
+  /// With linear_parts; else null.
+  std::shared_ptr<const std::vector<LinearBasis>> bases = nullptr;
 };
+/// Of each patch, the value at its corner where `size` of it is largest; without linear parts the
+/// values themselves.
+std::vector<Rgb> largest_corners(const PatchValues& values, const Scene& scene,
+                                 const std::function<double(const Rgb&)>& size);
 
 /// @param selected  patch of the form factors; may be no_patch
 /// @param other  snapshot of the same patches to subtract for Quantity::difference; may be null

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "map/pixel_view.h"
+#include "model/linear_values.h"
 #include "state/callout_place.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
@@ -202,6 +203,16 @@ PatchId MapCanvas::patch_at(const QPointF& position) const {
   const std::int32_t row =
       viewer::row_at(record, picture_->rows, picture_->request.transform.to_meters(position));
   return row == MapRecord::no_row ? no_patch : at(record.rows, row).patch;
+}
+
+std::optional<Vec3> MapCanvas::patch_point_at(const QPointF& position) const {
+  const PatchId patch = patch_at(position);
+  if (patch == no_patch) {
+    return std::nullopt;
+  }
+  const RecordedMap& map = *picture_->request.map;
+  return point_of_patch(map.record().frame, picture_->request.transform.to_meters(position),
+                        map.loaded->scene->patch(patch));
 }
 
 std::int32_t MapCanvas::row_at(const QPointF& position) const {

@@ -70,6 +70,8 @@ class MapCanvas : public QWidget {
   bool up_to_date() const { return painted_ == sent_.number; }
   /// The patch drawn at a point in logical pixels; no_patch if none.
   PatchId patch_at(const QPointF& position) const;
+  /// The point of that patch, m; none without a patch.
+  std::optional<Vec3> patch_point_at(const QPointF& position) const;
   /// The row of the record whose polygon is drawn at a point; MapRecord::no_row if none, or if V
   /// is not drawn exactly.
   std::int32_t row_at(const QPointF& position) const;

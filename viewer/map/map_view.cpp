@@ -102,8 +102,9 @@ MapView::MapView(Focus& focus, Selection& selection, const ColorChoice& colors, 
 MapCanvas* MapView::make_canvas(Selection& selection, const char* name) {
   auto* canvas = new MapCanvas(selection);
   canvas->setObjectName(QString::fromLatin1(name));
-  auto* pointer = new PointerLabel(
-      colors_, *canvas, [canvas](const QPoint& position) { return canvas->patch_at(position); });
+  auto* pointer = new PointerLabel(colors_, *canvas, [canvas](const QPoint& position) {
+    return PointedPatch{canvas->patch_at(position), canvas->patch_point_at(position)};
+  });
   connect(pointer, &PointerLabel::form_factors_requested, &colors_,
           &ColorChoice::form_factors_requested);
   pointer->set_details([this, canvas](const QPoint& position) {

@@ -47,6 +47,11 @@ QString Relighting::method_note() const {
   if (!snapshot_) {
     return {};
   }
+  if (snapshot_->options.basis == Basis::linear) {
+    return tr(
+        "Changed light is constant on each patch: the form factors kept are those of constant "
+        "functions.");
+  }
   if (snapshot_->options.scheme == Scheme::semi_iterative) {
     return tr(
         "Changed light uses the form factors of all iterations; B of the scheme is a mean over "
@@ -89,6 +94,9 @@ std::shared_ptr<const SolverSnapshot> Relighting::lit(
   }
   auto lit = std::make_shared<SolverSnapshot>(*snapshot_);
   lit->radiosity = light_->radiosity;
+  lit->linear_parts.clear();  // form factors are those of constant functions
+  lit->bases = nullptr;
+  lit->kept_linear_parts.clear();
   lit->irradiance = light_->irradiance;
   lit->materials = materials_;
   return lit;

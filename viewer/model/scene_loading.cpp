@@ -22,8 +22,9 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
                                         const RunOptions& options,
                                         const Cancellation& cancellation) {
   SceneOptions scene_options = options.scene;
+  const int unknowns = options.solve.basis == Basis::linear ? 3 : 1;
   check_memory(description.name, static_cast<std::int64_t>(description.face_count()),
-               options.solve.replicas);
+               options.solve.replicas, unknowns);
   if (options.input.patches > 0 || scene_options.max_patch_area > 0) {
     SceneOptions undivided = scene_options;
     undivided.max_patch_area = 0;
@@ -33,7 +34,7 @@ std::shared_ptr<const Scene> make_scene(const SceneDescription& description,
     }
     if (scene_options.max_patch_area > 0) {
       check_memory(description.name, count_patches(whole, scene_options.max_patch_area),
-                   options.solve.replicas);
+                   options.solve.replicas, unknowns);
     }
   }
   return std::make_shared<const Scene>(description, scene_options, cancellation);

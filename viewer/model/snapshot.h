@@ -65,7 +65,11 @@ struct SolverSnapshot {
   /// M of each iteration that has begun; smaller in the first ones of the growing scheme.
   std::vector<int> kept_passes;
   SolveStatistics statistics;
-  std::vector<Rgb> radiosity;   ///< B, running estimate, W/m², one per patch
+  std::vector<Rgb> radiosity;  ///< B, running estimate, W/m², one per patch; its mean
+  /// Of B, one per patch, where it is linear on patches; empty: it is constant.
+  std::vector<LinearPart> linear_parts;
+  /// Of the scene's patches, with linear_parts; else null.
+  std::shared_ptr<const std::vector<LinearBasis>> bases;
   std::vector<Rgb> irradiance;  ///< H of the last finished iteration, W/m², one per patch
   /// Of all passes so far; null until SolveRunner::include_form_factors() was called and they are
   /// assembled.
@@ -79,6 +83,8 @@ struct SolverSnapshot {
   /// B(n), one per patch, for each iteration n that has begun; null if the memory limit was
   /// exceeded.
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity;
+  /// The linear parts of B(n) likewise; empty where B is constant on patches.
+  std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts;
   std::vector<double> form_factor_sums;   ///< one per patch; 0 before the first pass
   std::vector<double> sky_shares;         ///< Solution::sky_shares; 0 before the first pass
   std::vector<Rgb> sky_irradiance;        ///< Solution::sky_irradiance; empty without a sky

@@ -7,6 +7,7 @@ Solution solution_of(const SolverSnapshot& snapshot, bool complete) {
   Solution solution;
   solution.scene = snapshot.loaded->scene;
   solution.radiosity = snapshot.radiosity;
+  solution.linear_parts = snapshot.linear_parts;
   solution.irradiance = snapshot.irradiance;
   solution.error = snapshot.error;
   solution.statistics = snapshot.statistics;

@@ -19,9 +19,6 @@ namespace transillum::viewer {
 
 namespace {
 
-// Limit for all B(n) together, and for all directions; later ones are not stored.
-constexpr std::size_t most_kept_bytes = std::size_t{256} << 20;
-
 // Limit for the form factors in addition to the solver's sums.
 constexpr std::int64_t most_form_factor_bytes = std::int64_t{1} << 30;
 
@@ -218,59 +215,12 @@ void SolveRunner::replace_solver(PlannedSolver made) {
   solver_->keep_form_factors();
   restore_history();
   kept_radiosity_.clear();
+  kept_linear_parts_.clear();
   form_factors_ = nullptr;
   form_factors_passes_ = 0;
   form_factors_fit_ = true;
   more_to_do_ = true;
   failed_start_.reset();
-}
-
-/// Directions and numbers of passes of the iterations that the solver has begun.
-void SolveRunner::restore_history() {
-  kept_directions_ = {std::make_shared<const std::vector<Vec3>>(solver_->directions_of(0))};
-  kept_passes_ = {solver_->passes_of(0)};
-  store_directions();
-}
-
-void SolveRunner::store_radiosity() {
-  const auto iteration = static_cast<std::size_t>(solver_->progress().iteration);
-  if (iteration < kept_radiosity_.size()) {
-    return;
-  }
-  const std::vector<Rgb>& radiosity = solver_->radiosity();
-  kept_radiosity_.resize(iteration + 1);
-  if (radiosity.size() * (iteration + 1) * sizeof(Rgb) <= most_kept_bytes) {
-    kept_radiosity_[iteration] = std::make_shared<const std::vector<Rgb>>(radiosity);
-  }
-}
-
-void SolveRunner::store_errors() {
-  const auto iterations = static_cast<std::size_t>(solver_->progress().iteration);
-  if (solver_->options().replicas < 2 || errors_.size() >= iterations ||
-      solver_->progress().direction > 0) {
-    return;
-  }
-  const ErrorEstimate error = solver_->error_estimate();
-  errors_.resize(iterations);  // those of iterations that were not observed are 0
-  errors_.back() = {error.rms_lowest, error.rms, error.rms_limit};
-}
-
-void SolveRunner::store_directions() {
-  const SolveProgress progress = solver_->progress();
-  const std::size_t begun =
-      static_cast<std::size_t>(progress.iteration) + (progress.direction > 0 ? 1 : 0);
-  while (kept_directions_.size() < begun) {
-    const auto iteration = static_cast<int>(kept_directions_.size());
-    if (solver_->options().scheme != Scheme::semi_iterative) {
-      kept_directions_.push_back(kept_directions_.front());
-    } else if (solver_->directions().size() * begun * sizeof(Vec3) <= most_kept_bytes) {
-      kept_directions_.push_back(
-          std::make_shared<const std::vector<Vec3>>(solver_->directions_of(iteration)));
-    } else {
-      kept_directions_.push_back(nullptr);
-    }
-    kept_passes_.push_back(solver_->passes_of(iteration));
-  }
 }
 
 std::int64_t SolveRunner::passes_so_far() const {
@@ -474,11 +424,13 @@ void SolveRunner::post_snapshot() {
                              : std::make_shared<const std::vector<Vec3>>(solver_->directions());
   snapshot->statistics = solver_->statistics();
   snapshot->radiosity = solver_->running_estimate();
+  snapshot->linear_parts = solver_->linear_parts();
   snapshot->irradiance = solver_->irradiance();
   snapshot->form_factors = form_factors_;
   snapshot->shot = solver_->direct_light();
   snapshot->form_factors_fit = form_factors_fit_;
   snapshot->kept_radiosity = kept_radiosity_;
+  snapshot->kept_linear_parts = kept_linear_parts_;
   snapshot->form_factor_sums = solver_->form_factor_sums();
   snapshot->sky_shares = solver_->sky_shares();
   snapshot->sky_irradiance = solver_->sky_irradiance();
@@ -496,6 +448,7 @@ void SolveRunner::post_snapshot() {
     snapshot->estimate_iteration = changes_iteration_;
   }
   use_stored_result(*snapshot);
+  show_linear_parts(*snapshot);
   since_snapshot_.start();
   snapshot_cost_ms_ = static_cast<double>(cost.nsecsElapsed()) * 1e-6;
   const std::lock_guard lock(mutex_);
@@ -515,6 +468,7 @@ void SolveRunner::use_stored_result(SolverSnapshot& snapshot) const {
     return;
   }
   snapshot.radiosity = stored->radiosity;
+  snapshot.linear_parts = stored->linear_parts;
   snapshot.irradiance = stored->irradiance;
   if (!stored->form_factor_sums.empty()) {
     snapshot.form_factor_sums = stored->form_factor_sums;

@@ -120,6 +120,7 @@ class SolveRunner : public QObject {
   void on_pass(const RadiositySolver& solver);
   void restore_history();
   void store_radiosity();
+  void show_linear_parts(SolverSnapshot& snapshot);
   void store_directions();
   void store_errors();
   void post(std::function<void()> message);
@@ -167,6 +168,9 @@ class SolveRunner : public QObject {
   std::vector<std::shared_ptr<const std::vector<Vec3>>> kept_directions_;
   std::vector<int> kept_passes_;
   std::vector<std::shared_ptr<const std::vector<Rgb>>> kept_radiosity_;
+  std::vector<std::shared_ptr<const std::vector<LinearPart>>> kept_linear_parts_;
+  std::shared_ptr<const std::vector<LinearBasis>> bases_;  // of loaded_; null: not needed yet
+  std::shared_ptr<const Scene> scene_of_bases_;
   std::shared_ptr<const FormFactors> form_factors_;
   std::int64_t form_factors_passes_ = 0;  // number of passes in form_factors_
   bool form_factors_fit_ = true;

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "model/linear_values.h"
 #include "model/snapshot_solution.h"
 #include "transillum/files.h"
 
@@ -26,7 +27,7 @@ int srgb_byte(double linear) {
 }
 
 UnlitView view_of(const UnlitPreview::Request& request, const Cancellation& cancellation) {
-  UnlitView view{request.snapshot, request.size, {}, 1};
+  UnlitView view{request.snapshot, request.size, {}};
   view.automatic_exposure = automatic_exposure(solution_of(*request.snapshot));
   const Vec3 back = normalized(request.eye - request.target);
   const Vec3 right = normalized(cross(request.up, back));
@@ -42,6 +43,9 @@ UnlitView view_of(const UnlitPreview::Request& request, const Cancellation& canc
           pixel * (x + 0.5 - 0.5 * width) * right + pixel * (0.5 * height - y - 0.5) * above - back;
       const auto hit = request.snapshot->loaded->picker->first_lit_hit(request.eye, ray);
       view.patches.push_back(hit ? hit->patch : no_patch);
+      if (!request.snapshot->linear_parts.empty()) {
+        view.points.push_back(hit ? hit->point : Vec3{});
+      }
     }
   }
   return view;
@@ -50,19 +54,24 @@ UnlitView view_of(const UnlitPreview::Request& request, const Cancellation& canc
 }  // namespace
 
 QImage UnlitView::picture(double exposure, QRgb background) const {
+  const auto color_of = [exposure](const Rgb& b) {
+    return qRgb(srgb_byte(exposure * b.r), srgb_byte(exposure * b.g), srgb_byte(exposure * b.b));
+  };
   std::vector<QRgb> colors;
   colors.reserve(snapshot->radiosity.size());
   for (const Rgb& b : snapshot->radiosity) {
-    colors.push_back(
-        qRgb(srgb_byte(exposure * b.r), srgb_byte(exposure * b.g), srgb_byte(exposure * b.b)));
+    colors.push_back(color_of(b));
   }
   QImage image(size, QImage::Format_RGB32);
   std::size_t next = 0;
   for (int y = 0; y < size.height(); ++y) {
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     for (int x = 0; x < size.width(); ++x) {
-      const PatchId patch = patches[next++];
-      line[x] = patch == no_patch ? background : at(colors, patch);
+      const PatchId patch = patches[next];
+      line[x] = patch == no_patch ? background
+                : points.empty()  ? at(colors, patch)
+                                  : color_of(radiosity_at(*snapshot, patch, points[next]));
+      ++next;
     }
   }
   return image;

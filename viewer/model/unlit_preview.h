@@ -18,10 +18,13 @@ struct UnlitView {
   QSize size;
   std::vector<PatchId> patches;   ///< per pixel, rows from the top; no_patch: background
   double automatic_exposure = 1;  ///< of the snapshot's radiosity
+  std::vector<Vec3> points =
+      {};  ///< per pixel, of its patch, where B is linear on patches; else empty
 
   /// The picture without lighting: a pixel is `exposure` times B, clipped to 1, as sRGB.
   QImage picture(double exposure, QRgb background) const;
-  /// The share of the area, of patches that do not emit, that is clipped to white in a channel.
+  /// The share of the area, of patches that do not emit, whose mean is clipped to white in a
+  /// channel.
   double white_share(double exposure) const;
 };
 

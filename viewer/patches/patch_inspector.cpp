@@ -3,8 +3,10 @@
 
 #include <QLabel>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
+#include "model/linear_values.h"
 #include "support/number_text.h"
 #include "transillum/at.h"
 #include "widgets/symbol_tip.h"
@@ -18,6 +20,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   hint_->setForegroundRole(QPalette::PlaceholderText);
   hint_->setWordWrap(true);
   make_sums();
+  make_coefficients();
   values_ = new ValueGrid;
   id_ = values_->add_row(tr("Patch"), {});
   id_->setObjectName("patch_id");
@@ -43,6 +46,7 @@ PatchInspector::PatchInspector(Selection& selection, const ColorChoice& colors, 
   layout->addWidget(hint_);
   layout->addWidget(sums_);
   layout->addWidget(values_);
+  layout->addWidget(coefficients_);
   layout->addStretch(1);
   connect(&selection_, &Selection::patches_changed, this, &PatchInspector::show_patch);
   connect(&colors_, &ColorChoice::changed, this, &PatchInspector::show_patch);
@@ -87,6 +91,66 @@ void PatchInspector::make_sums() {
               symbol_tip(tr("Mean radiosity by area: red, green, blue"), "2"));
 }
 
+void PatchInspector::make_coefficients() {
+  coefficients_ = new ValueGrid;
+  auto* title = new QLabel(tr("B(x) = b₀ + b₁ φ₁(x) + b₂ φ₂(x)"));
+  title->setToolTip(symbol_tip(
+      tr("B is a linear function of the point x of the patch. φ₁ grows along the longest edge, φ₂ "
+         "across it;\nboth are 0 at the center, and the mean of their squares over the patch is 1"),
+      "6.12"));
+  title->setForegroundRole(QPalette::PlaceholderText);
+  title->setWordWrap(true);
+  title->setContentsMargins(0, 8, 0, 0);
+  coefficients_->add_wide(title);
+  const auto add = [this](const char* name, const QString& symbol, const QString& tip) {
+    QLabel* value = coefficients_->add_row(symbol, tr("W/m²"),
+                                           symbol_tip(tip, "6.12") + '\n' + tr("Red, green, blue"));
+    value->setObjectName(QString::fromLatin1(name));
+    return value;
+  };
+  mean_b_ = add("coefficient_0", tr("b₀"), tr("Mean of B over the patch, also B at its center"));
+  first_b_ = add("coefficient_1", tr("b₁"),
+                 tr("By how much B differs from its mean along the longest edge (root of the mean "
+                    "square);\npositive: B grows in the direction of φ₁"));
+  second_b_ =
+      add("coefficient_2", tr("b₂"),
+          tr("By how much B differs from its mean across the longest edge (root of the mean "
+             "square);\npositive: B grows in the direction of φ₂"));
+  const auto add_direction = [this](const QString& symbol) {
+    return coefficients_->add_row(symbol, {}, tr("The direction in which it grows, a unit vector"));
+  };
+  first_direction_ = add_direction(tr("φ₁ along"));
+  second_direction_ = add_direction(tr("φ₂ along"));
+  lowest_ = add("corner_lowest", tr("least"),
+                tr("Least B of a corner, in each channel. Below 0 where a patch lies across the "
+                   "edge of a shadow:\nit is kept in results, and drawn as 0"));
+  highest_ = add("corner_highest", tr("largest"), tr("Largest B of a corner, in each channel"));
+}
+
+void PatchInspector::show_coefficients(PatchId patch) {
+  const bool linear = !snapshot_->linear_parts.empty();
+  coefficients_->setVisible(linear && selection_.patches().size() == 1);
+  if (!linear) {
+    return;
+  }
+  const LinearPart& part = at(snapshot_->linear_parts, patch);
+  const Scene& scene = *snapshot_->loaded->scene;
+  Rgb lowest = at(snapshot_->radiosity, patch), highest = lowest;
+  for (const PointId corner : scene.outline(patch)) {
+    const Rgb b = radiosity_at(*snapshot_, patch, scene.point(corner));
+    lowest = {std::min(lowest.r, b.r), std::min(lowest.g, b.g), std::min(lowest.b, b.b)};
+    highest = {std::max(highest.r, b.r), std::max(highest.g, b.g), std::max(highest.b, b.b)};
+  }
+  mean_b_->setText(rgb_text(at(snapshot_->radiosity, patch)));
+  first_b_->setText(rgb_text(part.first));
+  second_b_->setText(rgb_text(part.second));
+  lowest_->setText(rgb_text(lowest));
+  highest_->setText(rgb_text(highest));
+  const LinearBasis& basis = at(*snapshot_->bases, patch);
+  first_direction_->setText(vector_text(normalized(basis.gradient[0])));
+  second_direction_->setText(vector_text(normalized(basis.gradient[1])));
+}
+
 void PatchInspector::show_sums() {
   const std::vector<PatchId>& patches = selection_.patches();
   const bool several =
@@ -122,8 +186,10 @@ void PatchInspector::show_patch() {
   hint_->setVisible(!any);
   values_->setVisible(any && selection_.patches().size() == 1);
   if (!any) {
+    coefficients_->hide();
     return;
   }
+  show_coefficients(patch);
   const Scene& scene = *snapshot_->loaded->scene;
   const Patch& p = scene.patch(patch);
   // Written as in files, without group separators.

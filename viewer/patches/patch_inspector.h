@@ -27,6 +27,8 @@ class PatchInspector : public QWidget {
   /// Adds a row whose symbol, unit and tip are those of the quantity.
   QLabel* add_quantity(Quantity quantity, const char* name);
   void make_sums();
+  void make_coefficients();
+  void show_coefficients(PatchId patch);
   void show_patch();
   void show_sums();
 
@@ -35,6 +37,9 @@ class PatchInspector : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   QLabel* hint_;
   ValueGrid *sums_, *values_;
+  ValueGrid* coefficients_;  ///< of B, where it is linear on patches
+  QLabel *mean_b_, *first_b_, *second_b_, *first_direction_, *second_direction_, *lowest_,
+      *highest_;
   QLabel *count_, *total_area_, *emitted_, *leaving_, *received_, *mean_;  ///< of several patches
   QLabel *id_, *face_, *material_, *group_, *area_, *center_, *normal_, *exitance_, *reflectance_,
       *radiosity_, *irradiance_, *form_factor_sum_, *sky_share_, *swatch_;

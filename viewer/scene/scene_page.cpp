@@ -53,8 +53,10 @@ ScenePage::ScenePage(const Focus& focus, Selection& selection, ColorChoice& colo
   connect(show, &ShowMenu::smooth_toggled, scene_view_, &SceneView::set_smooth_shading);
   new KeptRunLabel(colors, scene_view_->canvas());
   const auto* pointer =
-      new PointerLabel(colors, *scene_view_->canvas(),
-                       [this](const QPoint& position) { return scene_view_->patch_at(position); });
+      new PointerLabel(colors, *scene_view_->canvas(), [this](const QPoint& position) {
+        const auto hit = scene_view_->hit_at(position);
+        return hit ? PointedPatch{hit->patch, hit->point} : PointedPatch{};
+      });
   connect(pointer, &PointerLabel::form_factors_requested, &colors,
           &ColorChoice::form_factors_requested);
   camera_ = new CameraMenu(*scene_view_, bookmarks_);

@@ -137,6 +137,7 @@ void SceneView::make_surface() {
   surface_->GetProperty()->SetEdgeColor(0.1, 0.11, 0.13);
   surface_->VisibilityOff();
   renderer_->AddActor(surface_);
+  linear_surface_ = std::make_unique<LinearSurface>(*renderer_, *surface_->GetProperty());
 }
 
 SceneView::~SceneView() = default;
@@ -149,6 +150,8 @@ void SceneView::show_scene(std::shared_ptr<const LoadedScene> loaded) {
   mesh_ = std::make_unique<SceneMesh>(loaded_->scene);
   mesh_->leave_out(hidden_.flags());
   smooth_mesh_ = nullptr;
+  linear_surface_->show_scene(loaded_->scene);
+  linear_surface_->leave_out(hidden_.flags());
   set_clip(clip_);
   show_surface();
   surface_->VisibilityOn();
@@ -231,6 +234,7 @@ void SceneView::leave_out_hidden() {
     return;
   }
   mesh_->leave_out(hidden_.flags());
+  linear_surface_->leave_out(hidden_.flags());
   if (smooth_mesh_) {
     smooth_mesh_->leave_out(*loaded_->scene, hidden_.flags());
   }
@@ -251,8 +255,8 @@ void SceneView::set_clip(const std::optional<ClipPlane>& clip) {
     clip_plane_->SetOrigin(place.x, place.y, place.z);
   }
   std::vector<vtkActor*> actors = overlays_->actors();
-  actors.insert(actors.end(),
-                {surface_.Get(), halo_.Get(), outline_.Get(), feature_edges_->actor()});
+  actors.insert(actors.end(), {surface_.Get(), linear_surface_->actor(), halo_.Get(),
+                               outline_.Get(), feature_edges_->actor()});
   for (vtkActor* actor : actors) {
     actor->GetMapper()->RemoveAllClippingPlanes();
     if (clip_ && loaded_) {
@@ -378,9 +382,18 @@ void SceneView::recolor() {
     return;
   }
   patch_colors_ = colors_.patch_colors();
+  std::vector<bool> dimmed;
   if (stepping()) {
-    dim_later_patches(*focus_.map(), focus_.position().step, patch_colors_);
+    dimmed = later_patches(*focus_.map(), focus_.position().step);
+    dim_patches(dimmed, patch_colors_);
   }
+  surface_->SetVisibility(!colors_.linear());
+  if (colors_.linear()) {
+    linear_surface_->show(colors_, dimmed);
+    show_edges();
+    return;
+  }
+  linear_surface_->hide();
   if (smooth_shading_) {
     smooth_mesh_->color(patch_colors_);
   } else {
@@ -396,7 +409,8 @@ void SceneView::show_edges() {
       colors_.quantity() == Quantity::exitance || colors_.quantity() == Quantity::reflectance;
   glyph_->set_filled(!mapped);
   const bool drawn_already = surface_->GetProperty()->GetEdgeVisibility() != 0;
-  if ((mapped || of_material) && !drawn_already && !smooth_shading_) {
+  const bool smooth = smooth_shading_ && !colors_.linear();
+  if ((mapped || of_material) && !drawn_already && !smooth) {
     feature_edges_->show(patch_colors_, hidden_.flags());
   } else {
     feature_edges_->hide();
@@ -560,8 +574,13 @@ QImage SceneView::picture(int scale) const {
 }
 
 PatchId SceneView::patch_at(const QPoint& position) const {
+  const auto hit = hit_at(position);
+  return hit ? hit->patch : no_patch;
+}
+
+std::optional<PickedPoint> SceneView::hit_at(const QPoint& position) const {
   if (!loaded_) {
-    return no_patch;
+    return std::nullopt;
   }
   // VTK counts device pixels from the bottom.
   const double scale = canvas_->devicePixelRatioF();
@@ -582,7 +601,7 @@ PatchId SceneView::patch_at(const QPoint& position) const {
     begin = hit->point + past * direction;
     hit = loaded_->picker->first_lit_hit(begin, direction);
   }
-  return hit ? hit->patch : no_patch;
+  return hit;
 }
 
 bool SceneView::eventFilter(QObject* watched, QEvent* event) {

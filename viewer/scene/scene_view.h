@@ -22,6 +22,7 @@
 #include "model/snapshot.h"
 #include "scene/direction_glyph.h"
 #include "scene/feature_edges.h"
+#include "scene/linear_surface.h"
 #include "scene/path_glyph.h"
 #include "scene/scene_mesh.h"
 #include "scene/scene_overlays.h"
@@ -60,7 +61,8 @@ class SceneView : public QWidget {
   void set_outlines_shown(bool shown);
   void set_overlay_shown(SceneOverlays::Kind kind, bool shown);
   void set_wireframe(bool wireframe);
-  /// Interpolates colors across patches, instead of one color per patch.
+  /// Interpolates colors across patches, instead of one color per patch. Of quantities that are
+  /// linear on patches, it changes nothing.
   void set_smooth_shading(bool smooth);
   /// Antialiases edges while the scene is at rest; doubles the time per picture without a GPU.
   void set_antialiased(bool antialiased);
@@ -100,6 +102,8 @@ class SceneView : public QWidget {
   QImage picture(int scale) const;
   /// The patch drawn at a point of canvas(), in logical pixels; no_patch if none.
   PatchId patch_at(const QPoint& position) const;
+  /// That patch with the point of it.
+  std::optional<PickedPoint> hit_at(const QPoint& position) const;
   QWidget* canvas() const;
 
  protected:
@@ -131,6 +135,7 @@ class SceneView : public QWidget {
   std::shared_ptr<const SolverSnapshot> snapshot_;
   std::unique_ptr<SceneMesh> mesh_;
   std::unique_ptr<SmoothMesh> smooth_mesh_;  ///< made when first shown
+  std::unique_ptr<LinearSurface> linear_surface_;
   bool smooth_shading_ = false;
   bool turntable_ = false;
   std::vector<Color8> patch_colors_;

@@ -47,9 +47,9 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
   connect(add_overlay(Overlay::wireframe, "show_wireframe", tr("Wireframe"),
                       tr("Draw edges instead of surfaces")),
           &QAction::toggled, this, &ShowMenu::wireframe_toggled);
-  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"),
-                      tr("Interpolate colors across patches; the solution is constant on each")),
+  connect(add_overlay(Overlay::smooth, "show_smooth", tr("Smooth shading"), QString()),
           &QAction::toggled, this, &ShowMenu::smooth_toggled);
+  set_linear(false);
   menu->addSeparator();
   clip_ = new ClipControls;
   auto* clip = new QWidgetAction(menu);
@@ -59,6 +59,14 @@ ShowMenu::ShowMenu(QWidget* parent) : QToolButton(parent) {
       menu->addAction(tr("Clip across the next axis"), clip_, &ClipControls::next_axis, Qt::Key_X);
   next_clip_axis_->setObjectName("clip_next");
   setMenu(menu);
+}
+
+void ShowMenu::set_linear(bool linear) {
+  QAction* smooth = at(overlays_, Overlay::smooth);
+  smooth->setEnabled(!linear);
+  smooth->setToolTip(
+      linear ? tr("The quantity shown is linear on each patch: nothing is left to interpolate")
+             : tr("Interpolate colors across patches; the solution is constant on each"));
 }
 
 }  // namespace transillum::viewer

@@ -88,16 +88,20 @@ Vec3 center_of_step(const RecordedMap& map, std::int32_t step) {
   return (1.0 / static_cast<double>(corners.size())) * sum;
 }
 
-void dim_later_patches(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors) {
+std::vector<bool> later_patches(const RecordedMap& map, std::int32_t step) {
   const auto& patches = map.record().step_patch;
-  std::vector<bool> is_later(colors.size(), false);
+  std::vector<bool> is_later(map.loaded->scene->patches().size(), false);
   for (std::int32_t k = step + 1; k < std::ssize(patches); ++k) {
     at(is_later, at(patches, k)) = true;
   }
+  return is_later;
+}
+
+void dim_patches(const std::vector<bool>& dimmed, std::vector<Color8>& colors) {
   const int background[3] = {theme::scene_background.red(), theme::scene_background.green(),
                              theme::scene_background.blue()};
   for (std::size_t p = 0; p < colors.size(); ++p) {
-    if (!is_later[p]) {
+    if (!dimmed[p]) {
       continue;
     }
     Color8& color = colors[p];

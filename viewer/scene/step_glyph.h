@@ -30,7 +30,10 @@ class StepGlyph {
 /// The mean of the corners of a step's fragment.
 Vec3 center_of_step(const RecordedMap& map, std::int32_t step);
 
-/// Dims the colors of the patches with fragments in steps after `step`.
-void dim_later_patches(const RecordedMap& map, std::int32_t step, std::vector<Color8>& colors);
+/// Which patches have fragments in steps after `step`, one per patch.
+std::vector<bool> later_patches(const RecordedMap& map, std::int32_t step);
+/// Makes the colors of patches dark and nearly gray.
+/// @param dimmed  one per color
+void dim_patches(const std::vector<bool>& dimmed, std::vector<Color8>& colors);
 
 }  // namespace transillum::viewer

@@ -179,6 +179,23 @@ void SettingsPanel::add_estimator_rows(QFormLayout& form) {
   replicas_->setRange(1, 64);
   replicas_->setSpecialValueText(tr("None"));
   replicas_->setToolTip(tip("replicas"));
+  basis_ = new QComboBox;
+  basis_->setObjectName("basis");
+  // In the order of Basis.
+  basis_->addItems({tr("Constant"), tr("Linear")});
+  basis_->setToolTip(tr(
+      "Constant: one value of B per patch\n"
+      "Linear: a linear function on each patch, with engines Fast, Local map and Exact numbers;\n"
+      "a pass takes about one and a half times as long, form factors take nine times the memory"));
+  basis_note_ = new QLabel;
+  basis_note_->setObjectName("basis_note");
+  basis_note_->setForegroundRole(QPalette::PlaceholderText);
+  basis_note_->hide();
+  auto* basis_column = new QVBoxLayout;
+  basis_column->setSpacing(2);
+  basis_column->addWidget(basis_);
+  basis_column->addWidget(basis_note_);
+  form.addRow(tr("B on a patch"), basis_column);
   form.addRow(tr("Each pass"), pass_serves_);
   form.addRow(tr("Normalize"), normalize_);
   form.addRow(tr("Scheme"), scheme_);
@@ -337,9 +354,22 @@ void SettingsPanel::show_sky_state() {
   sky_up_label_->setEnabled(sky_up_->isEnabled());
 }
 
+void SettingsPanel::show_basis_state() {
+  const bool linear = basis_->currentIndex() == static_cast<int>(Basis::linear);
+  const QString note = !linear                             ? QString()
+                       : !has_moments(engine_of(*engine_)) ? tr("not with this engine")
+                       : normalize_->currentIndex() == static_cast<int>(Normalization::symmetric)
+                           ? tr("not with Symmetric")
+                       : scheme_->currentIndex() == static_cast<int>(Scheme::semi_iterative)
+                           ? tr("not with Semi-iterative")
+                           : QString();
+  basis_note_->setText(note);
+  basis_note_->setVisible(!note.isEmpty());
+}
+
 void SettingsPanel::connect_solve_rows() {
-  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, stop_at_,
-                         accuracy_of_, sky_model_, sky_up_}) {
+  for (QComboBox* box : {sampling_, engine_, order_, pass_serves_, normalize_, scheme_, basis_,
+                         stop_at_, accuracy_of_, sky_model_, sky_up_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
     connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &SettingsPanel::show_state);
@@ -401,7 +431,10 @@ AccuracyGoal SettingsPanel::goal() const {
 SolveOptions SettingsPanel::solve_options() const {
   SolveOptions options = base_;
   options.goal = goal();
-  if (options.goal.set() && !options.first_shot) {
+  options.basis = static_cast<Basis>(basis_->currentIndex());
+  if (options.basis == Basis::linear) {
+    options.first_shot.reset();  // is not available, and has no control here
+  } else if (options.goal.set() && !options.first_shot) {
     options.first_shot = first_shot_where_it_pays;
   }
   options.directions = directions_->value();
@@ -448,6 +481,7 @@ void SettingsPanel::set_options(const SolveOptions& solve, const SceneOptions& s
   sampling_->setCurrentIndex(static_cast<int>(solve.used_sampling()));
   normalize_->setCurrentIndex(static_cast<int>(solve.normalize));
   scheme_->setCurrentIndex(static_cast<int>(solve.scheme));
+  basis_->setCurrentIndex(static_cast<int>(solve.basis));
   replicas_->setValue(solve.replicas);
   stop_at_->setCurrentIndex(solve.iterations > 0 ? 1 : 0);
   iterations_->setValue(std::max(solve.iterations, 1));
@@ -522,6 +556,7 @@ void SettingsPanel::show_state() {
   const Engine engine = engine_of(*engine_);
   engine_->setToolTip(engine_sentence(engine));
   show_sky_state();
+  show_basis_state();
   show_row(order_label_, order_, engine == Engine::painter);
   show_row(resolution_label_, resolution_, takes_resolution(engine));
   const bool rays = engine == Engine::rays;

@@ -63,6 +63,7 @@ class SettingsPanel : public QWidget {
   void set_sky(const Sky& sky);
   void choose_up(const Vec3& up);
   void show_sky_state();
+  void show_basis_state();
   void add_stop_row(QFormLayout& form);
   void connect_solve_rows();
   void add_scene_rows(QFormLayout& form);
@@ -87,6 +88,8 @@ class SettingsPanel : public QWidget {
   QLabel *resolution_label_, *order_label_;
   QComboBox* pass_serves_;  ///< SolveOptions::two_way
   QComboBox* normalize_;
+  QComboBox* basis_;
+  QLabel* basis_note_;  ///< what it cannot be combined with, if that is chosen
   QComboBox* stop_at_;
   QStackedWidget* stop_value_;
   Rgb sky_color_{1, 1, 1};  ///< of the sky; its largest channel is 1

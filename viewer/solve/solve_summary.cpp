@@ -28,6 +28,12 @@ SolveSummary::SolveSummary(QWidget* parent) : QWidget(parent) {
   escaped_ =
       grid->add_row(tr("Open to the sky"), {},
                     tr("Share of all projected area with nothing above it; 0 in a closed scene"));
+  negative_ = grid->add_row(
+      tr("Corners below 0"), {},
+      symbol_tip(tr("Corners of patches at which B, linear on the patch, is below 0 in a channel; "
+                    "they are drawn as 0"),
+                 "6.12"));
+  negative_->setObjectName("summary_negative");
   energy_ =
       grid->add_row(tr("Energy defect"), {},
                     tr("Difference between power received and power sent, relative to the latter"));
@@ -73,6 +79,8 @@ void SolveSummary::show_snapshot(const SolverSnapshot& snapshot) {
   escaped_->setText(!any_pass              ? none
                     : s.escaped < rounding ? tr("0: closed scene")
                                            : tr("%1 %").arg(number_text(100 * s.escaped)));
+  negative_->setText(snapshot.linear_parts.empty() ? tr("B is constant on patches")
+                                                   : count_text(s.negative_corners));
   error_->setText(snapshot.error.replicas > 0
                       ? tr("%1 %, at most %2 %")
                             .arg(number_text(100 * snapshot.error.rms),

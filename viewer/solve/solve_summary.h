@@ -21,8 +21,8 @@ class SolveSummary : public QWidget {
  private:
   void show_directions_needed(const SolverSnapshot& snapshot);
 
-  QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *energy_,
-      *contraction_, *error_, *bound_, *estimate_;
+  QLabel *patches_, *fragments_, *transfers_, *form_factors_, *closure_, *escaped_, *negative_,
+      *energy_, *contraction_, *error_, *bound_, *estimate_;
 };
 
 }  // namespace transillum::viewer

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "state/step_events.h"
+#include "state/step_moments.h"
 #include "support/has_index.h"
 #include "transillum/at.h"
 
@@ -111,6 +112,14 @@ std::optional<Rgb> kept_radiosity(const SolverSnapshot& snapshot, int iteration,
   return at(*at(kept, iteration), patch);
 }
 
+using LinearParts = std::shared_ptr<const std::vector<LinearPart>>;
+
+/// The linear parts of B(n); null if they were not stored.
+LinearParts kept_linear_parts(const SolverSnapshot& snapshot, int iteration) {
+  const auto& kept = snapshot.kept_linear_parts;
+  return has_index(kept, iteration) ? at(kept, iteration) : nullptr;
+}
+
 }  // namespace
 
 std::vector<CodeLine> current_lines(const Focus& focus, MapKind kind) {
@@ -203,6 +212,18 @@ std::optional<AlgorithmState> algorithm_state(const Focus& focus, const SolverSn
   Rgb sum;
   for (const auto& [source, area] : areas) {
     sum += (share * area) * *kept_radiosity(snapshot, focus.position().iteration, source);
+  }
+  if (snapshot.options.basis == Basis::linear) {
+    const auto moments = moments_of_step(history, scene, k);
+    state.moments = moments.at(state.j);
+    const LinearParts parts = kept_linear_parts(snapshot, focus.position().iteration);
+    if (!parts) {
+      return state;
+    }
+    for (const auto& [source, moment] : moments) {
+      const LinearPart& part = at(*parts, source);
+      sum += share * (moment.of(0, 1) * part.first + moment.of(0, 2) * part.second);
+    }
   }
   state.gathered = scene.reflectance(step.patch) * sum;
   return state;

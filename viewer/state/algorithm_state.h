@@ -8,6 +8,7 @@
 #include "model/snapshot.h"
 #include "state/focus.h"
 #include "transillum/map_region.h"
+#include "transillum/transfers.h"
 
 namespace transillum::viewer {
 
@@ -62,6 +63,8 @@ struct AlgorithmState {
   int directions = 0;              ///< M; a two-way pass counts as two
   std::optional<Rgb> radiosity_j;  ///< B_j(n), W/m²; none if it was not stored
   std::optional<Rgb> gathered;     ///< summand of line `gather` to B_i(n+1), W/m²
+  /// T^ab of i and j, where B is linear on patches; radiosity_j and gathered are means then.
+  std::optional<TransferMoments> moments = {};
 };
 /// None before the first step.
 /// @param selected  the patch j, if it is in the inside list

@@ -28,6 +28,8 @@ std::shared_ptr<const SolverSnapshot> part_to_keep(const SolverSnapshot& snapsho
   kept->progress = snapshot.progress;
   kept->statistics = snapshot.statistics;
   kept->radiosity = snapshot.radiosity;
+  kept->linear_parts = snapshot.linear_parts;
+  kept->bases = snapshot.bases;
   kept->irradiance = snapshot.irradiance;
   kept->materials = snapshot.materials;
   kept->of_file = snapshot.of_file;
@@ -60,6 +62,8 @@ std::int64_t bytes_of(const Scene& scene) {
 
 std::int64_t bytes_of(const SolverSnapshot& snapshot) {
   std::int64_t bytes = bytes_of(snapshot.radiosity) + bytes_of(snapshot.irradiance) +
+                       bytes_of(snapshot.linear_parts) +
+                       (snapshot.bases ? bytes_of(*snapshot.bases) : 0) +
                        bytes_of(snapshot.form_factor_sums) + bytes_of(snapshot.sky_shares) +
                        bytes_of(snapshot.sky_irradiance) + bytes_of(snapshot.error.standard_error);
   for (const auto& radiosity : snapshot.kept_radiosity) {

@@ -45,6 +45,19 @@ bool names(const QString& line, const QString& symbol) {
                                               .arg(QRegularExpression::escape(symbol))));
 }
 
+// A table of three by three numbers.
+QString moments_text(const TransferMoments& moments) {
+  QString rows;
+  for (std::size_t a = 0; a < 3; ++a) {
+    QString cells;
+    for (std::size_t b = 0; b < 3; ++b) {
+      cells += QStringLiteral("<td align=right>%1</td>").arg(number_text(moments.of(a, b)));
+    }
+    rows += QStringLiteral("<tr>%1</tr>").arg(cells);
+  }
+  return QStringLiteral("<table cellspacing=6>%1</table>").arg(rows);
+}
+
 QString role_text(bool front_facing) {
   return front_facing ? AlgorithmView::tr("receiver") : AlgorithmView::tr("source");
 }
@@ -137,6 +150,17 @@ QWidget* AlgorithmView::make_local_values() {
   for (QLabel* value : {i_, radiosity_, gathered_}) {
     value->setWordWrap(true);
   }
+  moments_grid_ = new ValueGrid;
+  moments_ = moments_grid_->add_row(
+      tr("T^ab"), tr("m²"),
+      symbol_tip(
+          tr("Moments of what i sees of j: ∫ φ_a(x) φ_b(y) dp over A(j), x and y being the "
+             "points of i and j.\nRows: function a of i; columns: function b of j. The first "
+             "is A(j); the rest of its row weighs the linear part of j\nin the mean of "
+             "i, the rest of its column the mean of j in the linear part of i"),
+          "6.12"));
+  moments_->setObjectName("value_moments");
+  values_->add_wide(moments_grid_);
   return values_;
 }
 
@@ -297,6 +321,8 @@ void AlgorithmView::show_values(const AlgorithmState& state) {
   weight_->setText(has_i ? tr("4π, %1").arg(count_text(state.directions)) : none);
   radiosity_->setText(state.radiosity_j ? rgb_text(*state.radiosity_j) : none);
   gathered_->setText(state.gathered ? rgb_text(*state.gathered) : none);
+  moments_grid_->setVisible(state.moments.has_value());
+  moments_->setText(state.moments ? moments_text(*state.moments) : none);
 }
 
 }  // namespace transillum::viewer

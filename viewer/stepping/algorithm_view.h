@@ -56,6 +56,8 @@ class AlgorithmView : public QWidget {
   std::vector<QWidget*> local_parts_, global_parts_;  ///< shown with the local or the global map
   ValueGrid *values_, *region_values_;
   QLabel *position_, *i_, *map_, *lists_, *j_, *weight_, *radiosity_, *gathered_;
+  ValueGrid* moments_grid_;  ///< shown where B is linear on patches
+  QLabel* moments_;
   QLabel *region_, *region_area_, *region_list_, *region_i_, *region_j_, *region_radiosity_,
       *region_gathered_, *region_hint_;
 };

@@ -20,7 +20,7 @@ constexpr int screenshot_directions = 128;
 
 // As the command line keeps them, before names become enumerators.
 struct Names {
-  std::string sampling, engine, normalize, scheme, first_shot, burn_in = "auto";
+  std::string sampling, engine, normalize, scheme, basis, first_shot, burn_in = "auto";
   std::string accuracy, accuracy_of = "rms";
   bool one_way = false, two_way = false;
 };
@@ -97,6 +97,7 @@ void add_solve_options(CLI::App& app, CommandLine& line, Names& names) {
       ->capture_default_str();
   app.add_option("--scheme", names.scheme, described("scheme", scheme_names()))
       ->capture_default_str();
+  app.add_option("--basis", names.basis, described("basis", basis_names()))->capture_default_str();
   app.add_option("--first-shot", names.first_shot,
                  described("first-shot", {"none", "auto", "a number"}))
       ->default_str("none");
@@ -197,6 +198,7 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   }
   solve.normalize = normalization_from_name(names.normalize);
   solve.scheme = scheme_from_name(names.scheme);
+  solve.basis = basis_from_name(names.basis);
   if (!names.accuracy.empty()) {
     solve.goal.accuracy = accuracy_from_text(names.accuracy);
   }
@@ -205,7 +207,7 @@ void finish(CommandLine& line, const Names& names, const CLI::App& app) {
   solve.goal.patch = of.patch;
   if (!names.first_shot.empty()) {
     solve.first_shot = first_shot_from_name(names.first_shot);
-  } else if (solve.goal.set()) {
+  } else if (solve.goal.set() && solve.basis == Basis::constant) {
     solve.first_shot = first_shot_where_it_pays;
   }
   if (names.burn_in != "auto") {
@@ -270,6 +272,7 @@ struct Definitions {
     names.engine = name_of(line.solve_options.engine);
     names.normalize = name_of(line.solve_options.normalize);
     names.scheme = name_of(line.solve_options.scheme);
+    names.basis = name_of(line.solve_options.basis);
     app.set_version_flag("--version", "transillum-viewer " TRANSILLUM_VERSION);
     app.add_option("SCENE", line.scene,
                    "a scene file or a built-in scene, solved at once (default: sphere-flake); or a "

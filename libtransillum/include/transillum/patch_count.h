@@ -25,14 +25,16 @@ std::int64_t count_patches(const Scene& unrefined, double max_patch_area);
 /// trees take several times as much.
 /// @param patches of the scene.
 /// @param replicas SolveOptions::replicas.
-std::uint64_t expected_memory(std::int64_t patches, int replicas = 1);
+/// @param unknowns per patch: 1, or 3 of Basis::linear.
+std::uint64_t expected_memory(std::int64_t patches, int replicas = 1, int unknowns = 1);
 
 /// Checks, before a scene is made or solved, that its expected_memory() is free: on the machine, in
 /// the process's control group and by its own limit.
 /// @param name of the scene, for the message.
-/// @param patches, replicas as for expected_memory().
+/// @param patches, replicas, unknowns as for expected_memory().
 /// @throws std::runtime_error that tells both; not where a Scene cannot have so many patches at all
-void check_memory(const std::string& name, std::int64_t patches, int replicas = 1);
+void check_memory(const std::string& name, std::int64_t patches, int replicas = 1,
+                  int unknowns = 1);
 
 /// A limit for patch areas with which the scene has about `patches` patches (m²).
 ///

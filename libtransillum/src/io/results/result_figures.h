@@ -25,6 +25,8 @@ void visit_figures(Result& solution, Visit visit) {
   visit("converged", s.converged);
   visit("closure_defect_max", s.closure_defect_max);
   visit("closure_defect_grazing", s.closure_defect_grazing);
+  visit("closure_defect_moments", s.closure_defect_moments);
+  visit("negative_corners", s.negative_corners);
   visit("escaped", s.escaped);
   visit("energy_defect", s.energy_defect);
   visit("energy_balance", s.energy_balance);

@@ -71,7 +71,7 @@ std::vector<Setting> iteration_settings(const SolveOptions& solve) {
       {"basis", "a name",
        "constant: one value of B per patch; linear: a linear function on each patch, from engines "
        "fast, local and exact",
-       name_of(solve.basis), false},
+       name_of(solve.basis)},
       {"first-shot", "none, auto or a number",
        "treat small bright sources separately before the iteration: those with R2/A of at least "
        "this ratio, R the scene's diagonal and A the source's area; auto: those for which it takes "

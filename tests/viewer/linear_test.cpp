@@ -1,0 +1,432 @@
+// transillum: diffuse light by the transillumination method. GPL-3.0-or-later.
+//
+// Solves and results whose B is linear on patches, in the window: every pixel of the scene has the
+// color of B at its point, the plate and the inspector tell B at a point and the coefficients.
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <algorithm>
+#include <map>
+
+#include "colors/pointer_label.h"
+#include "model/linear_values.h"
+#include "model/snapshot_solution.h"
+#include "scene/color_controls.h"
+#include "scene/show_menu.h"
+#include "scene/step_glyph.h"
+#include "solved_window.h"
+#include "transillum/files.h"
+#include "window/export_actions.h"
+
+using namespace transillum;
+using namespace transillum::viewer;
+using namespace transillum::viewer::test;
+
+namespace {
+
+const SolveOptions linear_options{.directions = 64, .basis = Basis::linear};
+
+/// A window with a solve that has converged.
+struct LinearWindow : SolvedWindow {
+  explicit LinearWindow(const SolveOptions& options = linear_options)
+      : SolvedWindow("cornell-box", options) {
+    window->runner.run();
+    scene_view->set_outlines_shown(false);  // also those of the convex pieces of a patch
+    ready = ready && settles([this] { return window->runner.state() == RunState::finished; });
+  }
+
+  bool settles(const std::function<bool()>& reached) const {
+    return wait_for([&] { return reached() && window->settled(); });
+  }
+  template <class Part>
+  Part* part(const char* name) const {
+    return window->findChild<Part*>(name);
+  }
+};
+
+bool far_from_borders(const SceneView& view, const QPoint& p, PatchId patch) {
+  constexpr int margin = 7;
+  for (const QPoint offset :
+       {QPoint(margin, 0), QPoint(-margin, 0), QPoint(0, margin), QPoint(0, -margin)}) {
+    if (view.patch_at(p + offset) != patch) {
+      return false;
+    }
+  }
+  return true;
+}
+
+constexpr int most_difference = 2;  // rounding
+
+struct Compared {
+  int pixels = 0;    ///< compared
+  int largest = 0;   ///< difference of a channel, of 255
+  int others = 0;    ///< pixels of which it is more than most_difference
+  int negative = 0;  ///< where B is below 0 in a channel
+};
+
+/// Compares pixels inside patches with the colors of B at their points. The point of a pixel is
+/// known to a pixel, and near 0 a gamma is steep: a pixel may have any color of those around it.
+/// @param scale  pixels of the picture per pixel of the canvas
+/// @param dimmed  patches that are dimmed; empty: none
+Compared compare(const SceneView& view, const ColorChoice& colors, const QImage& picture,
+                 int scale = 1, const std::vector<bool>& dimmed = {}) {
+  Compared result;
+  for (int y = 8; y < view.canvas()->height() - 8; y += 9) {
+    for (int x = 8; x < view.canvas()->width() - 8; x += 9) {
+      const auto hit = view.hit_at({x, y});
+      if (!hit || !far_from_borders(view, {x, y}, hit->patch)) {
+        continue;
+      }
+      std::vector<Color8> around;
+      for (const QPoint offset :
+           {QPoint(0, 0), QPoint(1, 1), QPoint(-1, 1), QPoint(1, -1), QPoint(-1, -1)}) {
+        const auto near = view.hit_at(QPoint(x, y) + offset);
+        if (near && near->patch == hit->patch) {
+          around.push_back(colors.scale().color(colors.value_at(near->patch, near->point)));
+        }
+      }
+      if (!dimmed.empty()) {
+        const bool dim = dimmed.at(std::size_t(hit->patch));
+        dim_patches(std::vector<bool>(around.size(), dim), around);
+      }
+      const QRgb pixel = picture.pixel(scale * x + scale / 2, scale * y + scale / 2);
+      const int channels[] = {qRed(pixel), qGreen(pixel), qBlue(pixel)};
+      int difference = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        int low = 255, high = 0;
+        for (const Color8& color : around) {
+          low = std::min<int>(low, color[c]);
+          high = std::max<int>(high, color[c]);
+        }
+        difference = std::max({difference, low - channels[c], channels[c] - high});
+      }
+      result.largest = std::max(result.largest, difference);
+      result.others += difference > most_difference ? 1 : 0;
+      const Rgb b = colors.value_at(hit->patch, hit->point);
+      ++result.pixels;
+      result.negative += std::min({b.r, b.g, b.b}) < 0 ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+QString text_of(const Compared& c) {
+  return QStringLiteral("%1 pixels, %2 below 0, difference %3, %4 differ")
+      .arg(c.pixels)
+      .arg(c.negative)
+      .arg(c.largest)
+      .arg(c.others);
+}
+
+/// The patch whose colors in the picture differ most, at least by this.
+int spread_within_a_patch(const SceneView& view, const QImage& picture) {
+  std::map<PatchId, std::pair<int, int>> range;
+  for (int y = 8; y < view.canvas()->height() - 8; y += 9) {
+    for (int x = 8; x < view.canvas()->width() - 8; x += 9) {
+      const PatchId patch = view.patch_at({x, y});
+      if (patch == no_patch || !far_from_borders(view, {x, y}, patch)) {
+        continue;
+      }
+      const int gray = qGray(picture.pixel(x, y));
+      auto& [low, high] = range.try_emplace(patch, gray, gray).first->second;
+      low = std::min(low, gray);
+      high = std::max(high, gray);
+    }
+  }
+  int spread = 0;
+  for (const auto& [patch, ends] : range) {
+    spread = std::max(spread, ends.second - ends.first);
+  }
+  return spread;
+}
+
+}  // namespace
+
+class LinearTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void every_pixel_has_the_color_of_its_point_data() {
+    QTest::addColumn<int>("mode");
+    QTest::addColumn<int>("map");
+    QTest::addColumn<bool>("logarithmic");
+    const auto row = [](const char* name, ColorMode mode, ColorMap map, bool logarithmic) {
+      QTest::newRow(name) << static_cast<int>(mode) << static_cast<int>(map) << logarithmic;
+    };
+    row("true color", ColorMode::true_color, ColorMap::viridis, false);
+    row("viridis", ColorMode::luminance, ColorMap::viridis, false);
+    row("cividis", ColorMode::red, ColorMap::cividis, false);
+    row("inferno, logarithmic", ColorMode::blue, ColorMap::inferno, true);
+  }
+
+  void every_pixel_has_the_color_of_its_point() {
+    QFETCH(const int, mode);
+    QFETCH(const int, map);
+    QFETCH(const bool, logarithmic);
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    ColorChoice& colors = shown.window->colors;
+    QVERIFY(colors.linear());
+    shown.scene_view->set_direction_shown(false);
+    colors.set_mode(static_cast<ColorMode>(mode));
+    colors.set_map(static_cast<ColorMap>(map));
+    colors.set_logarithmic(logarithmic);
+    QTest::qWait(50);
+    const QImage picture = shown.scene_view->picture(1);
+    const Compared all = compare(*shown.scene_view, colors, picture);
+    QVERIFY2(all.pixels > 500 && all.negative > 0, qPrintable(text_of(all)));
+    QVERIFY2(all.largest <= most_difference, qPrintable(text_of(all)));
+    QVERIFY(spread_within_a_patch(*shown.scene_view, picture) > 30);
+    save_picture(*shown.window, QStringLiteral("linear-%1").arg(QTest::currentDataTag()));
+    if (mode != 0 && !logarithmic) {
+      QVERIFY(colors.scale().below);
+    }
+  }
+
+  // With edges, VTK adds a geometry shader; a clipping plane and larger pictures have other code.
+  void outlines_clipping_and_larger_pictures_change_no_color() {
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    SceneView& view = *shown.scene_view;
+    view.set_direction_shown(false);
+    view.set_outlines_shown(true);
+    QTest::qWait(50);
+    const Compared outlined = compare(view, shown.window->colors, view.picture(1));
+    // A patch that is not convex has edges within.
+    QVERIFY2(outlined.pixels > 500 && 100 * outlined.others < outlined.pixels,
+             qPrintable(text_of(outlined)));
+    view.set_outlines_shown(false);
+    view.set_clip(ClipPlane{.axis = ClipPlane::Axis::z, .place = 0.4});
+    QTest::qWait(50);
+    const Compared clipped = compare(view, shown.window->colors, view.picture(1));
+    QVERIFY2(clipped.pixels > 200 && clipped.largest <= most_difference,
+             qPrintable(text_of(clipped)));
+    view.set_clip({});
+    const Compared large = compare(view, shown.window->colors, view.picture(2), 2);
+    QVERIFY2(large.pixels > 500 && large.largest <= most_difference, qPrintable(text_of(large)));
+    view.set_wireframe(true);
+    QVERIFY(color_count(view.picture(1)) > 5);
+  }
+
+  void hidden_patches_are_left_out_and_later_ones_dimmed() {
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    SceneView& view = *shown.scene_view;
+    view.set_direction_shown(false);
+    const QPoint middle = view.canvas()->rect().center();
+    const PatchId patch = view.patch_at(middle);
+    QVERIFY(patch != no_patch);
+    shown.window->selection.select(patch);
+    shown.trigger("hide_selection");
+    QVERIFY(view.patch_at(middle) != patch);
+    shown.window->selection.select(no_patch);
+    const Compared rest = compare(view, shown.window->colors, view.picture(1));
+    QVERIFY2(rest.pixels > 300 && rest.largest <= most_difference, qPrintable(text_of(rest)));
+    shown.trigger("show_all");
+
+    Focus& focus = shown.window->focus;
+    focus.go_to({0, 0, 12});
+    QVERIFY(wait_for([&] { return focus.map() && focus.arrived(); }));
+    QTest::qWait(50);
+    const std::vector<bool> dimmed = later_patches(*focus.map(), focus.position().step);
+    const auto later = std::count(dimmed.begin(), dimmed.end(), true);
+    QVERIFY(later > 5 && later < shown.window->snapshot()->loaded->scene->patch_count());
+    const Compared dim = compare(view, shown.window->colors, view.picture(1), 1, dimmed);
+    QVERIFY2(dim.pixels > 500 && dim.largest <= most_difference, qPrintable(text_of(dim)));
+  }
+
+  void a_linear_result_is_shown_as_it_was_solved() {
+    QTemporaryDir folder;
+    const QString path = folder.filePath("linear.vtp");
+    const Solution solution = solve(load_scene("cornell-box"), linear_options);
+    QVERIFY(solution.statistics.negative_corners > 0);
+    QVERIFY(solution.statistics.closure_defect_moments > 0);
+    write_result(path.toStdString(), solution);
+    const auto window = make_window();
+    window->files().open(path);
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    const auto snapshot = window->snapshot();
+    QVERIFY(snapshot->of_file && snapshot->linear_parts.size() == solution.linear_parts.size());
+    QCOMPARE(snapshot->statistics.negative_corners, solution.statistics.negative_corners);
+    QCOMPARE(snapshot->statistics.closure_defect_moments,
+             solution.statistics.closure_defect_moments);
+    QVERIFY(window->colors.linear());
+    auto* view = window->findChild<SceneView*>();
+    view->set_outlines_shown(false);
+    QTest::qWait(50);
+    const Compared all = compare(*view, window->colors, view->picture(1));
+    QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));
+
+    // Written again, it is the same.
+    const QString again = folder.filePath("again.vtp");
+    window->findChild<ExportActions*>()->write_result(again);
+    QVERIFY(wait_for([&] { return !window->findChild<ExportActions*>()->writing(); }));
+    const Solution back = read_result(again.toStdString());
+    for (std::size_t i = 0; i < back.linear_parts.size(); ++i) {
+      QVERIFY(back.linear_parts[i].first == solution.linear_parts[i].first);
+      QVERIFY(back.linear_parts[i].second == solution.linear_parts[i].second);
+    }
+    QCOMPARE(back.statistics.negative_corners, solution.statistics.negative_corners);
+  }
+
+  void smooth_shading_is_for_constant_functions() {
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    auto* smooth = shown.part<QAction>("show_smooth");
+    QVERIFY(!smooth->isEnabled() && smooth->toolTip().contains("linear"));
+    // Of the same solve, form factors and H are constant on patches.
+    shown.window->colors.set_quantity(Quantity::irradiance);
+    QVERIFY(smooth->isEnabled() && !shown.window->colors.linear());
+    shown.scene_view->set_direction_shown(false);
+    const QImage flat = shown.scene_view->picture(1);
+    save_picture(*shown.window, "linear-irradiance");
+    QVERIFY2(spread_within_a_patch(*shown.scene_view, flat) < 3,
+             qPrintable(QString::number(spread_within_a_patch(*shown.scene_view, flat))));
+    smooth->trigger();
+    QTest::qWait(50);
+    QVERIFY(spread_within_a_patch(*shown.scene_view, shown.scene_view->picture(1)) > 30);
+    // Linear again: as without it.
+    shown.window->colors.set_quantity(Quantity::radiosity);
+    const Compared all =
+        compare(*shown.scene_view, shown.window->colors, shown.scene_view->picture(1));
+    QVERIFY2(all.largest <= most_difference, qPrintable(text_of(all)));
+  }
+
+  void the_pointer_tells_B_at_the_point_data() {
+    QTest::addColumn<bool>("over_map");
+    QTest::newRow("scene") << false;
+    QTest::newRow("map") << true;
+  }
+
+  void the_pointer_tells_B_at_the_point() {
+    QFETCH(const bool, over_map);
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    MapCanvas& map = *shown.map_view->canvas();
+    QVERIFY(wait_for([&] { return map.up_to_date(); }));
+    QWidget& canvas = over_map ? map : *shown.scene_view->canvas();
+    const auto pointed_at = [&](const QPoint& p) -> PointedPatch {
+      if (over_map) {
+        return {map.patch_at(p), map.patch_point_at(p)};
+      }
+      const auto hit = shown.scene_view->hit_at(p);
+      return hit ? PointedPatch{hit->patch, hit->point} : PointedPatch{};
+    };
+    QPoint place = canvas.rect().center();
+    while (place.x() > 0 && pointed_at(place).patch == no_patch) {
+      place.rx() -= 3;
+    }
+    const PointedPatch pointed = pointed_at(place);
+    QVERIFY(pointed.patch != no_patch && pointed.point);
+    const auto snapshot = shown.window->snapshot();
+    const Patch& patch = snapshot->loaded->scene->patch(pointed.patch);
+    QVERIFY(std::abs(dot(patch.normal, *pointed.point - patch.center)) < 1e-4);
+    QTest::mouseMove(&canvas, place + QPoint(1, 0));
+    QTest::mouseMove(&canvas, place);
+    const auto* label = canvas.findChild<PointerLabel*>();
+    QTRY_VERIFY(label->isVisible());
+    const QStringList lines = label->text().split('\n');
+    QCOMPARE(lines.size(), 4);
+    QCOMPARE(lines[1], QString("x  %1 m").arg(vector_text(*pointed.point)));
+    QCOMPARE(lines[2], QString("B at x  %1 W/m²")
+                           .arg(rgb_text(radiosity_at(*snapshot, pointed.patch, *pointed.point))));
+    QCOMPARE(
+        lines[3],
+        QString("mean B  %1 W/m²").arg(rgb_text(snapshot->radiosity[std::size_t(pointed.patch)])));
+    save_picture(*shown.window, QStringLiteral("linear-pointer-%1").arg(QTest::currentDataTag()));
+  }
+
+  void the_inspector_has_the_coefficients() {
+    const LinearWindow shown;
+    QVERIFY(shown.ready);
+    shown.window->selection.select(4);
+    const auto snapshot = shown.window->snapshot();
+    QVERIFY(!shown.part<QLabel>("coefficient_0")->isHidden());
+    QCOMPARE(shown.text("coefficient_0"), rgb_text(snapshot->radiosity[4]));
+    QCOMPARE(shown.text("coefficient_1"), rgb_text(snapshot->linear_parts[4].first));
+    QCOMPARE(shown.text("coefficient_2"), rgb_text(snapshot->linear_parts[4].second));
+    const Solution solution = solution_of(*snapshot);
+    Rgb highest{-1e9, -1e9, -1e9};
+    for (const Rgb& b : corner_radiosity(solution, 4)) {
+      highest = {std::max(highest.r, b.r), std::max(highest.g, b.g), std::max(highest.b, b.b)};
+    }
+    QCOMPARE(shown.text("corner_highest"), rgb_text(highest));
+    QVERIFY(shown.text("summary_negative") ==
+            count_text(shown.window->snapshot()->statistics.negative_corners));
+    QTest::qWait(100);
+    save_picture(*shown.window, "linear-inspector");
+  }
+
+  void the_settings_solve_with_linear_functions() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready && !shown.window->colors.linear());
+    auto* basis = shown.window->findChild<QComboBox*>("basis");
+    auto* note = shown.window->findChild<QLabel*>("basis_note");
+    basis->setCurrentIndex(1);
+    QVERIFY(note->isHidden());
+    QVERIFY(shown.window->parts().settings.solve_options().basis == Basis::linear);
+    auto* engine = shown.window->findChild<QComboBox*>("engine");
+    const int usual = engine->currentIndex();
+    engine->setCurrentIndex(engine->findText("Z-buffer"));
+    QCOMPARE(note->text(), QString("not with this engine"));
+    QVERIFY(!note->isHidden());
+    engine->setCurrentIndex(usual);
+    QVERIFY(note->isHidden());
+    shown.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] {
+      return shown.window->runner.state() == RunState::finished && shown.window->settled();
+    }));
+    QVERIFY(shown.window->snapshot()->options.basis == Basis::linear);
+    QVERIFY(shown.window->colors.linear());
+  }
+
+  void a_session_keeps_the_basis_and_the_shading() {
+    QTemporaryDir folder;
+    const QString session = folder.filePath("s.json");
+    Rgb slope;
+    {
+      const LinearWindow shown;
+      QVERIFY(shown.ready);
+      slope = shown.window->snapshot()->linear_parts[4].first;
+      shown.window->files().save_session(session);
+    }
+    const auto window = make_window();
+    window->files().open(session);
+    QVERIFY(wait_for([&] { return window->settled() && window->snapshot(); }));
+    QVERIFY(wait_for([&] { return window->runner.state() == RunState::finished; }));
+    QVERIFY(wait_for([&] { return window->settled(); }));
+    QVERIFY(window->colors.linear());
+    QVERIFY(window->snapshot()->linear_parts[4].first == slope);
+  }
+
+  void a_kept_constant_run_is_compared_as_a_function() {
+    const SolvedWindow shown("cornell-box");
+    QVERIFY(shown.ready);
+    shown.trigger("keep_run");
+    const std::vector<Rgb> constant = shown.window->snapshot()->radiosity;
+    shown.window->findChild<QComboBox*>("basis")->setCurrentIndex(1);
+    shown.window->findChild<QPushButton*>("restart")->click();
+    QVERIFY(wait_for([&] {
+      return shown.window->runner.state() == RunState::finished && shown.window->settled();
+    }));
+    ColorChoice& colors = shown.window->colors;
+    colors.set_quantity(Quantity::difference);
+    QVERIFY(colors.linear());
+    const auto snapshot = shown.window->snapshot();
+    const Vec3 corner = snapshot->loaded->scene->point(snapshot->loaded->scene->outline(3)[0]);
+    const Rgb expected = radiosity_at(*snapshot, 3, corner) - constant[3];
+    QVERIFY(max_abs(colors.value_at(3, corner) - expected) <= 1e-12 * max_abs(expected));
+    shown.scene_view->set_direction_shown(false);
+    shown.scene_view->set_outlines_shown(false);
+    QTest::qWait(50);
+    // Colors of edges between patches of about the same color cover some pixels.
+    const Compared all = compare(*shown.scene_view, colors, shown.scene_view->picture(1));
+    QVERIFY2(all.pixels > 500 && all.largest <= most_difference, qPrintable(text_of(all)));
+    save_picture(*shown.window, "linear-difference");
+  }
+};
+
+TRANSILLUM_VIEWER_TEST_MAIN(LinearTest)
+#include "linear_test.moc"
