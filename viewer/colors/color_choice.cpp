@@ -29,7 +29,7 @@ void shade_gray(const Scene& scene, std::span<const Rgb> radiosity, std::vector<
 bool needs_light(Quantity quantity) {
   return quantity == Quantity::radiosity || quantity == Quantity::exitance ||
          quantity == Quantity::irradiance || quantity == Quantity::error ||
-         quantity == Quantity::last_change;
+         quantity == Quantity::last_change || quantity == Quantity::jump;
 }
 
 }  // namespace
@@ -43,6 +43,11 @@ ColorChoice::ColorChoice(const Selection& selection, QObject* parent)
   });
   connect(&response_solver_, &ResponseSolver::changed, this, [this] {
     if (traits_of(quantity_).by_response) {
+      change();
+    }
+  });
+  connect(&jump_finder_, &JumpFinder::changed, this, [this] {
+    if (traits_of(quantity_).by_jumps) {
       change();
     }
   });
@@ -218,22 +223,43 @@ void ColorChoice::refit() {
     return;
   }
   if (show_kept) {
-    values_ = values_of_kept(*kept);
+    values_ = values_of_kept(kept);
   } else {
     const auto& shown = quantity_ == Quantity::difference ? run_b() : snapshot_;
     values_ = traits.by_response ? values_by_response(*shown)
+              : traits.by_jumps  ? values_by_jumps(shown)
                                  : values_of(quantity_, *shown, selection_.patch(), kept.get());
     fit_range();
   }
   color();
 }
 
-PatchValues ColorChoice::values_of_kept(const SolverSnapshot& kept) const {
+PatchValues ColorChoice::values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot) {
+  jump_finder_.request(snapshot);
+  const auto jumps = jump_finder_.jumps();
+  if (!jumps || jumps->scene != snapshot->loaded->scene) {
+    PatchValues result = values_of(quantity_, *snapshot, no_patch, nullptr);
+    if (!jump_finder_.error().isEmpty() && !jump_finder_.busy()) {
+      result.missing = jump_finder_.error();
+    }
+    return result;
+  }
+  PatchValues result;
+  for (const double jump : jumps->values) {
+    result.values.push_back({jump, jump, jump});
+  }
+  return result;
+}
+
+PatchValues ColorChoice::values_of_kept(const std::shared_ptr<const SolverSnapshot>& kept) {
   if (traits_of(quantity_).of_selection) {
     return {{}, tr("Kept runs have no form factors.")};
   }
+  if (traits_of(quantity_).by_jumps) {
+    return values_by_jumps(kept);
+  }
   // The tree is that of the open scene.
-  const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : kept;
+  const SolverSnapshot& shown = quantity_ == Quantity::fragments ? *snapshot_ : *kept;
   return values_of(quantity_, shown, selection_.patch(), nullptr);
 }
 

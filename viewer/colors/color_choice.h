@@ -10,6 +10,7 @@
 
 #include "colors/color_scale.h"
 #include "colors/quantity.h"
+#include "model/jump_finder.h"
 #include "model/snapshot.h"
 #include "state/kept_runs.h"
 #include "state/selection.h"
@@ -89,7 +90,7 @@ class ColorChoice : public QObject {
   const QString& missing() const { return values_.missing; }
   std::shared_ptr<const SolverSnapshot> snapshot() const { return snapshot_; }
   /// Whether values() waits for a solve.
-  bool busy() const { return response_solver_.busy(); }
+  bool busy() const { return response_solver_.busy() || jump_finder_.busy(); }
 
  signals:
   void changed();  ///< all pictures must be recolored
@@ -99,7 +100,8 @@ class ColorChoice : public QObject {
  private:
   bool& logarithmic_choice();
   PatchValues values_by_response(const SolverSnapshot& snapshot);
-  PatchValues values_of_kept(const SolverSnapshot& kept) const;
+  PatchValues values_by_jumps(const std::shared_ptr<const SolverSnapshot>& snapshot);
+  PatchValues values_of_kept(const std::shared_ptr<const SolverSnapshot>& kept);
   void refit();
   void fit_range();
   void color();
@@ -123,6 +125,7 @@ class ColorChoice : public QObject {
   PatchValues values_;
   std::vector<Color8> patch_colors_;
   ResponseSolver response_solver_;
+  JumpFinder jump_finder_;
 };
 
 }  // namespace transillum::viewer

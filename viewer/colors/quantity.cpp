@@ -209,6 +209,17 @@ constexpr QuantityTraits all_traits[] = {
      .meaning = QT_TRANSLATE_NOOP("Quantity", "Absolute change of B since the previous iteration"),
      .section = "6",
      .has_channels = true},
+    {.quantity = Quantity::jump,
+     .name = QT_TRANSLATE_NOOP("Quantity", "Jump to neighbors"),
+     .symbol = "jump",
+     .unit = "W/m²",
+     .meaning = QT_TRANSLATE_NOOP(
+         "Quantity",
+         "By how much B of each patch differs from that of its neighbors along its edges (root of "
+         "the mean square; paint and lamps do not count): where it is large, patches are too "
+         "large"),
+     .section = "6.13",
+     .by_jumps = true},
     {.quantity = Quantity::difference,
      .name = QT_TRANSLATE_NOOP("Quantity", "Difference from A"),
      .symbol = "B − A",
@@ -309,6 +320,8 @@ PatchValues values_of(Quantity quantity, const SolverSnapshot& snapshot, PatchId
       }
       return result;
     }
+    case Quantity::jump:
+      return {{}, tr("Comparing neighbors…")};
     case Quantity::difference:
       return difference(snapshot, other);
     case Quantity::radiosity:

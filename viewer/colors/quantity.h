@@ -26,6 +26,7 @@ enum class Quantity {
   fragments,
   error,
   last_change,
+  jump,
   difference
 };
 
@@ -45,6 +46,7 @@ struct QuantityTraits {
   /// logarithmic scale unless the user chooses otherwise, 0 in zero_color.
   bool spans_decades = false;
   bool by_response = false;  ///< computed from a PatchResponse
+  bool by_jumps = false;     ///< computed by a JumpFinder
 };
 /// In the order of the enumeration.
 const std::vector<QuantityTraits>& quantity_traits();

@@ -44,7 +44,8 @@ constexpr Name<Quantity> quantities[] = {{"radiosity", Quantity::radiosity},
                                          {"response", Quantity::response},
                                          {"fragments", Quantity::fragments},
                                          {"error", Quantity::error},
-                                         {"last-change", Quantity::last_change}};
+                                         {"last-change", Quantity::last_change},
+                                         {"jump", Quantity::jump}};
 constexpr Name<ColorMap> color_maps[] = {
     {"viridis", ColorMap::viridis}, {"cividis", ColorMap::cividis}, {"inferno", ColorMap::inferno}};
 constexpr Name<RangeRule> range_rules[] = {{"automatic", RangeRule::automatic},
