@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "colors/color_scale.h"
 #include "lessons/lesson.h"
@@ -23,7 +24,9 @@
 #include "transillum/bounds.h"
 #include "transillum/discrepancy.h"
 #include "transillum/engine.h"
+#include "transillum/function_comparison.h"
 #include "transillum/radiosity.h"
+#include "transillum/refinement.h"
 #include "transillum/study.h"
 #include "widgets/theme.h"
 
@@ -322,6 +325,14 @@ void add_trust_lesson(std::vector<Statement>& all) {
   all.push_back({9, 3, QString("with %1 passes: eight for each").arg(few.samples.size())});
 }
 
+void add_linear_lesson(std::vector<Statement>& all) {
+  const Shown fine(10, 4), coarse(10, 5);
+  all.push_back({10, 5,
+                 QString("%1 patches with linear functions are better here than %2 constant ones")
+                     .arg(coarse.scene->patch_count())
+                     .arg(fine.scene->patch_count())});
+}
+
 const std::vector<Statement>& statements() {
   static const std::vector<Statement> all = [] {
     std::vector<Statement> list;
@@ -331,6 +342,7 @@ const std::vector<Statement>& statements() {
     add_stars_lesson(list);
     add_flatland_lesson(list);
     add_trust_lesson(list);
+    add_linear_lesson(list);
     return list;
   }();
   return all;
@@ -382,6 +394,7 @@ const std::vector<ColorWord>& color_words() {
       {4, 4, "the orange parts", theme::inside},
       {5, 3, "The blue lines in the scene", theme::outside},
       {7, 2, "outlined in pink", theme::selection},
+      {10, 6, "draws them as black", Qt::black},
   };
   return all;
 }
@@ -728,6 +741,42 @@ class LessonPagesTest : public QObject {
     QVERIFY(why.contains("fewer than three"));
     QCOMPARE(least_light_directions, 3.0);
     QVERIFY(few.solution().statistics.light_directions < 3 * 8);
+  }
+
+  void from_steps_to_slopes() {
+    const Shown steps(10, 1), linear(10, 2), jumps(10, 3), shadows(10, 6);
+    QVERIFY(linear.contains("are those of the page before"));
+    QCOMPARE(linear.scene->patch_count(), steps.scene->patch_count());
+    QVERIFY(linear.page.state.options.solve.basis == Basis::linear);
+    SolveOptions constant = linear.page.state.options.solve;
+    constant.basis = Basis::constant;
+    QVERIFY(constant == steps.page.state.options.solve);
+    QVERIFY(linear.page.state.quantity == Quantity::radiosity &&
+            jumps.page.state.quantity == Quantity::jump);
+    // "Where they do meet, a linear function describes the light well": jumps become smaller.
+    const Solution flat = steps.solution(), tilted = jumps.solution();
+    const auto mean_jump = [](const Solution& solution) {
+      const std::vector<double> values = radiosity_jumps(solution);
+      return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    };
+    QVERIFY2(mean_jump(tilted) < 0.7 * mean_jump(flat),
+             qPrintable(QString("%1, %2").arg(mean_jump(tilted)).arg(mean_jump(flat))));
+    // "In the dark it goes below zero".
+    QVERIFY(shadows.solution().statistics.negative_corners > 0);
+    // Page 5: fewer patches with linear functions are better than more constant ones.
+    const Shown fine(10, 4), coarse(10, 5);
+    QVERIFY(fine.page.state.options.solve.basis == Basis::constant);
+    SolveOptions options = coarse.page.state.options.solve;
+    const auto solved = [&options](double area, Basis basis) {
+      options.basis = basis;
+      return solve(load_scene("rooms:n=0,rooms=1", {.max_patch_area = area}), options);
+    };
+    QCOMPARE(coarse.page.state.scene, std::string("rooms:n=0,rooms=1"));
+    const Solution reference = solved(0.16, Basis::linear);
+    const double few = compare_functions(reference, solved(1, Basis::linear)).l2_without_sources;
+    const double many =
+        compare_functions(reference, solved(0.25, Basis::constant)).l2_without_sources;
+    QVERIFY2(few < 0.5 * many, qPrintable(QString("%1, %2").arg(few).arg(many)));
   }
 
   void stars_and_the_first_shot() {

@@ -31,7 +31,9 @@ namespace {
 
 std::shared_ptr<const LoadedScene> loaded_for(const ViewState& page) {
   auto loaded = std::make_shared<LoadedScene>();
-  loaded->scene = load_scene(page.scene, page.options.scene);
+  const SceneDescription description = describe_scene(page.scene, page.options.input.read);
+  loaded->description = std::make_shared<const SceneDescription>(description);
+  loaded->scene = std::make_shared<const Scene>(description, page.options.scene);
   loaded->tree = std::make_shared<const BspTree>(*loaded->scene);
   return loaded;
 }
@@ -238,6 +240,13 @@ class QuestionsTest : public QObject {
     QVERIFY(value_of(R"({"figure": "rms-error"})") <
             value_of(R"({"figure": "rms-error", "with": {"sampling": "random"}})"));
     QCOMPARE(value_of(R"({"figure": "ratio", "of": [3, {"figure": "patches"}]})"), 0.25);
+    // Against itself, and against other patches.
+    QCOMPARE(value_of(R"({"figure": "function-error", "with": {"basis": "linear"},
+        "patch-area": 1, "reference-area": 1})"),
+             0.0);
+    const double error = value_of(R"({"figure": "function-error", "reference-area": 1})");
+    QVERIFY2(error > 1e-6 && error < 0.2, qPrintable(QString::number(error)));
+    QVERIFY(value_of(R"({"figure": "jump", "patch": 3})") >= 0);
   }
 
   void overlap_is_the_common_part_over_the_union() {
@@ -482,6 +491,8 @@ class QuestionsTest : public QObject {
     row("scene option", R"({"kind": "number", "ask": "?", "answer":
         {"figure": "iterations", "with": {"max-patch-area": 3}}})",
         "not those of the scene");
+    row("reference", R"({"kind": "number", "ask": "?", "answer": {"figure": "function-error"}})",
+        "reference-area");
     row("within", R"({"kind": "number", "ask": "?", "within": 0, "answer": {"figure": "steps"}})",
         "question, within: ");
     row("show", R"({"kind": "number", "ask": "?", "answer": {"figure": "steps"},

@@ -29,7 +29,8 @@ enum Keys : unsigned {
   has_run = 8,
   has_reference = 16,
   has_material = 32,
-  has_parts = 64
+  has_parts = 64,
+  has_areas = 128
 };
 
 struct FigureName {
@@ -50,12 +51,14 @@ constexpr FigureName names[] = {
     {"reflectance", FigureKind::reflectance, has_patch},
     {"radiosity", FigureKind::radiosity, has_patch | has_run},
     {"irradiance", FigureKind::irradiance, has_patch | has_run},
+    {"jump", FigureKind::jump, has_patch | has_run},
     {"projected-area", FigureKind::projected_area, has_patch | has_direction | has_run},
     {"visible-area", FigureKind::visible_area, has_patch | has_others | has_direction | has_run},
     {"seen", FigureKind::seen, has_patch | has_direction | has_run},
     {"above", FigureKind::above, has_others | has_material | has_direction | has_run},
     {"form-factor", FigureKind::form_factor, has_patch | has_others | has_run},
     {"form-factor-sum", FigureKind::form_factor_sum, has_patch | has_run},
+    {"function-error", FigureKind::function_error, has_run | has_areas},
     {"rms-error", FigureKind::rms_error, has_run | has_reference},
     {"estimated-error", FigureKind::estimated_error, has_run},
     {"largest-error", FigureKind::largest_error, has_run},
@@ -165,6 +168,14 @@ Figure figure_from_json(const json& value, const std::string& where, const json&
     figure.reference = 8 * page.options.solve.directions;
     object.read("reference", figure.reference, 1, most_reference_passes);
     object.read("without-sources", figure.no_sources);
+  }
+  if (name.keys & has_areas) {
+    figure.patch_area = page.options.scene.max_patch_area;
+    object.read("patch-area", figure.patch_area);
+    object.read("reference-area", figure.reference_area);
+    if (!(figure.patch_area >= 0 && figure.reference_area > 0)) {
+      object.fail_at("reference-area", "and \"patch-area\" must be areas in m²");
+    }
   }
   if (name.keys & has_parts) {
     const json* parts = object.find("of");

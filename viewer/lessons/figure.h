@@ -29,12 +29,15 @@ enum class FigureKind {
   reflectance,       ///< of patch i, luminance
   radiosity,         ///< of patch i, luminance, W/m²
   irradiance,        ///< of patch i, luminance, W/m²
+  jump,              ///< of patch i: radiosity_jumps(), W/m²
   projected_area,    ///< of patch i
   visible_area,      ///< A(i, j, omega), summed over others; those above i, front or back
   seen,              ///< number of patches j with a visible area, for patch i
   above,             ///< number of patches directly above one of Figure::others
   form_factor,       ///< F_ij, summed over others
   form_factor_sum,   ///< of patch i
+  function_error,    ///< L2 error of B as a function, over L2 of B, without sources, against linear
+                     ///< functions on patches of at most Figure::reference_area
   rms_error,         ///< of B against Figure::reference passes, over RMS of B
   estimated_error,   ///< ErrorEstimate::rms
   largest_error,     ///< ErrorEstimate::rms_limit
@@ -55,6 +58,8 @@ struct Figure {
   int direction = 0;            ///< from 0
   int reference = 0;            ///< passes of the reference of rms_error
   bool no_sources = false;      ///< rms_error over patches that do not emit
+  double patch_area = 0;        ///< of function_error: SceneOptions::max_patch_area, m²
+  double reference_area = 0;    ///< of function_error: that of the reference, m²
   SolveOptions solve;           ///< the run: that of the page, with the figure's own changes
   std::vector<Figure> parts;    ///< of a ratio
 };

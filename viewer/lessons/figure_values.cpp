@@ -11,6 +11,8 @@
 
 #include "colors/color_scale.h"
 #include "model/form_factor_views.h"
+#include "transillum/function_comparison.h"
+#include "transillum/refinement.h"
 #include "transillum/study.h"
 
 namespace transillum::viewer {
@@ -20,6 +22,14 @@ struct FigureValues::Run {
   SolveOptions options;
   RadiositySolver solver;
   FormFactors form_factors = {};
+  std::vector<double> jumps = {};
+};
+
+/// A solve of the scene with other patches.
+struct FigureValues::Divided {
+  double patch_area;
+  SolveOptions options;
+  Solution solution;
 };
 
 namespace {
@@ -136,6 +146,33 @@ double FigureValues::error_of(const Figure& figure) {
   return radiosity_error(b, truth).rms;
 }
 
+const Solution& FigureValues::divided(double patch_area, const SolveOptions& options) {
+  for (const auto& known : divided_) {
+    if (known->patch_area == patch_area && known->options == options) {
+      return known->solution;
+    }
+  }
+  if (!loaded_->description) {
+    throw InputError("a result has the patches of its file; other patches need its scene");
+  }
+  SceneOptions scene_options = loaded_->scene->options();
+  scene_options.max_patch_area = patch_area;
+  const auto scene =
+      std::make_shared<const Scene>(*loaded_->description, scene_options, cancellation_);
+  Solution solution = solve(scene, options, {}, cancellation_);
+  cancellation_.throw_if_canceled();
+  return divided_
+      .emplace_back(std::make_unique<Divided>(Divided{patch_area, options, std::move(solution)}))
+      ->solution;
+}
+
+double FigureValues::function_error(const Figure& figure) {
+  SolveOptions options = figure.solve;
+  options.basis = Basis::linear;
+  const Solution& reference = divided(figure.reference_area, options);
+  return compare_functions(reference, divided(figure.patch_area, figure.solve)).l2_without_sources;
+}
+
 double FigureValues::of_run(const Figure& figure) {
   const RadiositySolver& solver = solved(figure.solve);
   switch (figure.kind) {
@@ -225,6 +262,15 @@ double FigureValues::form_factor(const Figure& figure) {
                          [&](double sum, PatchId j) { return sum + at(row, j); });
 }
 
+double FigureValues::jump(const Figure& figure) {
+  const RadiositySolver& solver = solved(figure.solve);
+  std::vector<double>& jumps = run_of(figure.solve).jumps;
+  if (jumps.empty()) {
+    jumps = radiosity_jumps(solver.solution(), cancellation_);
+  }
+  return at(jumps, figure.patch);
+}
+
 double FigureValues::of_patch(const Figure& figure) {
   const Scene& scene = *loaded_->scene;
   switch (figure.kind) {
@@ -236,6 +282,8 @@ double FigureValues::of_patch(const Figure& figure) {
       return luminance(scene.material(figure.patch).reflectance);
     case FigureKind::radiosity:
       return luminance(at(solved(figure.solve).radiosity(), figure.patch));
+    case FigureKind::jump:
+      return jump(figure);
     case FigureKind::irradiance:
       return luminance(at(solved(figure.solve).irradiance(), figure.patch));
     default:
@@ -261,6 +309,8 @@ double FigureValues::value(const Figure& figure) {
       return value(figure.parts.front()) / value(figure.parts.back());
     case FigureKind::rms_error:
       return error_of(figure);
+    case FigureKind::function_error:
+      return function_error(figure);
     case FigureKind::covered:
       return covered(figure);
     case FigureKind::directions:

@@ -40,10 +40,13 @@ class FigureValues {
   const std::vector<Rgb>& reference_of(const Figure& figure);
   double covered(const Figure& figure);
   double error_of(const Figure& figure);
+  double function_error(const Figure& figure);
+  const Solution& divided(double patch_area, const SolveOptions& options);
   double of_run(const Figure& figure);
   double of_direction(const Figure& figure);
   double of_patch(const Figure& figure);
   double form_factor(const Figure& figure);
+  double jump(const Figure& figure);
   std::vector<std::int32_t> rows_of(const Figure& figure);
   void check_patch(PatchId patch) const;
 
@@ -52,6 +55,8 @@ class FigureValues {
   std::vector<std::unique_ptr<Run>> runs_;
   std::vector<std::pair<Vec3, MapHistory>> histories_;
   std::map<int, std::vector<Rgb>> references_;  ///< B, by the number of passes
+  struct Divided;
+  std::vector<std::unique_ptr<Divided>> divided_;
 };
 
 }  // namespace transillum::viewer

@@ -224,7 +224,12 @@ const std::vector<Lesson>& built_in_lessons() {
     register_resources();
     std::vector<Lesson> all;
     const QDir folder(QStringLiteral(":/lessons"));
-    for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) {
+    QStringList names = folder.entryList({"*.json"}, QDir::Files, QDir::Name);
+    const auto number = [](const QString& name) { return name.section('-', 0, 0).toInt(); };
+    std::stable_sort(names.begin(), names.end(), [&](const QString& a, const QString& b) {
+      return number(a) < number(b);  // 10 after 9
+    });
+    for (const QString& name : names) {
       QFile file(folder.filePath(name));
       file.open(QIODevice::ReadOnly);
       all.push_back(lesson_from_text(file.readAll().toStdString(), name.toStdString()));
